@@ -1,0 +1,164 @@
+/* The interface of a generated model: what codegen/ writes and runtime/ calls. Nothing else connects the two.
+ *
+ * A model is one C file that exports `const mdl_descriptor *mdl_descriptor_get(void)`. It has no globals
+ * that change: everything it computes goes through the mdl_data that it is given, so many runs of one model
+ * may share it. Two independent paths lead through the same equations:
+ *
+ *   residual form   F(t, y, y') = 0 with y = [x; z]: states and the few algebraic unknowns (tearing
+ *                   variables) that remain when everything explicit is computed in sequence. For IDA.
+ *   explicit form   x' = f(t, x): matching, BLT and torn blocks solved inside. For one-step methods, for
+ *                   event iteration, and to restart IDA with known derivatives.
+ *
+ * Callbacks return 0 (done), > 0 (recoverable: try a smaller step; m->failure says why) or < 0 (give up).
+ * Booleans and Integers are stored as doubles (0/1, whole numbers). Units are SI throughout. */
+#ifndef MDL_ABI_H
+#define MDL_ABI_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define MDL_ABI_VERSION 1
+
+typedef enum {
+  MDL_FAILURE_NONE = 0,
+  MDL_FAILURE_SINGULAR,   /* a linear block of equations has no unique solution; `equation` is one of them */
+  MDL_FAILURE_NEWTON,     /* a nonlinear block did not converge */
+  MDL_FAILURE_NONFINITE,  /* an equation gave NaN or infinity */
+  MDL_FAILURE_DOMAIN,     /* argument outside a function's domain: sqrt, log, asin, division by zero ... */
+  MDL_FAILURE_ASSERT,     /* assert(..., level = error) violated; `equation` indexes `asserts` */
+  MDL_FAILURE_BOUND,      /* a parameter outside its min/max; `variable` says which */
+  MDL_FAILURE_LOOP        /* a while loop in a function ran too long */
+} mdl_failure_kind;
+
+typedef struct {
+  mdl_failure_kind kind;
+  int equation;  /* index into `equations` (or `asserts`), -1 unknown */
+  int variable;  /* index into `variables`, -1 unknown */
+  double value;  /* offending value, where there is one */
+} mdl_failure;
+
+/* All memory of one run of one model; allocated by the runtime from the counts of the descriptor. */
+typedef struct mdl_data {
+  double *p;           /* [n_p] constants and parameters */
+  double *u;           /* [n_u] inputs at the current time; the runtime keeps them up to date */
+  double *x;           /* [n_x] states, and */
+  double *xdot;        /* [n_x] their derivatives, at the last accepted point */
+  double *v;           /* [n_v] all other continuous variables there; also start values of nonlinear blocks */
+  double *d;           /* [n_d] discrete variables */
+  double *pre_d;       /* [n_d] their values before the current event */
+  unsigned char *rel;  /* [n_rel] relations, frozen between events */
+  unsigned char *tick; /* [n_sample] 1 while an event at which this sample() fires is iterated */
+  unsigned char *when; /* [n_when] pre-value of each when condition (for its rising edge) */
+  int initial;         /* initial() */
+  int terminal;        /* terminal() */
+  int reinitialised;   /* set by event(): reinit changed x */
+  int terminated;      /* set by event(): 1 + index into `messages` of the terminate() that fired; else 0 */
+  mdl_failure failure;
+} mdl_data;
+
+typedef enum {
+  MDL_STATE,      /* x[index] */
+  MDL_ALGEBRAIC,  /* v[index] */
+  MDL_DISCRETE,   /* d[index] */
+  MDL_PARAMETER,  /* p[index] */
+  MDL_INPUT,      /* u[index] */
+  MDL_DERIVATIVE  /* xdot[index]: a variable that equals the derivative of a state */
+} mdl_storage;
+
+typedef enum { MDL_REAL, MDL_INTEGER, MDL_BOOLEAN } mdl_type;
+
+/* One row for each variable of the flat model, aliases included (an alias shares the index of what it equals). */
+typedef struct {
+  const char *name;  /* full Modelica name */
+  const char *unit;
+  const char *description;
+  const char *file;
+  int line;
+  mdl_type type;
+  mdl_storage storage;
+  int index;
+  int sign;          /* -1: a negated alias */
+  int settable;      /* a parameter that may be given another value at run time (not dependent, structural or final) */
+  int is_output;
+  double start, min, max, nominal; /* min/max -/+INFINITY where not given; nominal 0 where not given */
+} mdl_variable;
+
+typedef struct {
+  const char *text;   /* as written in the model */
+  const char *file;
+  int line;
+  const char *origin; /* component path */
+} mdl_equation;
+
+typedef struct {
+  mdl_equation source;
+  int is_time; /* 1: depends on time, parameters and discretes only; switched by a time event, not a root */
+} mdl_relation;
+
+typedef struct mdl_descriptor {
+  int abi_version;
+  const char *name;
+  const char *hash; /* of everything that decides the generated code */
+  int n_p, n_u, n_x, n_z, n_v, n_d, n_rel, n_sample, n_when, n_variables, n_equations, n_asserts, n_messages;
+
+  const mdl_variable *variables;  /* [n_variables] in order of declaration */
+  const mdl_equation *equations;  /* [n_equations] */
+  const mdl_equation *asserts;    /* [n_asserts] `text` is the message */
+  const mdl_relation *relations;  /* [n_rel] */
+  const char *const *messages;    /* [n_messages] of terminate() */
+  const int *z_index;             /* [n_z] z[k] is v[z_index[k]] */
+  const int *residual_equation;   /* [n_x + n_z] which equation each residual row is */
+  const double *p_start;          /* [n_p] declared values of the settable parameters */
+  double start_time, stop_time, tolerance, interval; /* annotation(experiment); interval 0 where not given */
+
+  /* Pattern of dF/dy + cj dF/dy', compressed columns: n_x + n_z columns. */
+  int jac_nnz;
+  const int *jac_colptr; /* [n_x + n_z + 1] */
+  const int *jac_rowidx; /* [jac_nnz] */
+
+  /* Dependent parameters from the settable ones, then bounds. Call after every change of p. */
+  int (*parameters)(mdl_data *m);
+
+  /* Start times and intervals (s) of the sample() operators. */
+  int (*samples)(const mdl_data *m, double *start, double *interval);
+
+  /* Solve the initial equations at time t with the present relations: writes m->x, m->xdot, m->v, m->d. */
+  int (*initial_system)(mdl_data *m, double t);
+
+  /* Explicit form: xdot[n_x] and v[n_v] from x, inputs, discretes and frozen relations. v holds start values
+   * of nonlinear blocks on entry. */
+  int (*rhs)(mdl_data *m, double t, const double *x, double *xdot, double *v);
+
+  /* Residual form. `values` [jac_nnz] in the pattern above. */
+  int (*residual)(mdl_data *m, double t, const double *y, const double *yp, double *r);
+  int (*jacobian)(mdl_data *m, double t, const double *y, const double *yp, double cj, double *values);
+  /* v[n_v] belonging to a point (y, y') of the residual form. */
+  int (*algebraics)(mdl_data *m, double t, const double *y, const double *yp, double *v);
+
+  /* g[n_rel]: left minus right side of each relation, from a complete point (roots) or from the residual form
+   * (dae_roots, computing only what the relations need). Time relations give 0. */
+  int (*roots)(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *g);
+  int (*dae_roots)(mdl_data *m, double t, const double *y, const double *yp, double *g);
+
+  /* Set m->rel of the time relations to their value just after time t. */
+  int (*time_relations)(mdl_data *m, double t);
+  /* Next instant later than t at which a time relation switches; INFINITY if there is none. */
+  double (*next_time_event)(const mdl_data *m, double t);
+
+  /* One pass of the discrete equations, when clauses and event algorithms, in sorted order: writes m->d from
+   * m->pre_d, m->rel, m->tick and the given point; may reinit x in place. The runtime repeats
+   * rhs / relations / event with pre_d := d until nothing changes. A when fires where its condition is
+   * true and m->when (the condition before this pass) is false; event() updates m->when itself. */
+  int (*event)(mdl_data *m, double t, double *x, const double *xdot, const double *v);
+
+  /* Check asserts at an accepted point; < 0 with m->failure set where one is violated. */
+  int (*check)(mdl_data *m, double t, const double *x, const double *xdot, const double *v);
+} mdl_descriptor;
+
+typedef const mdl_descriptor *(*mdl_descriptor_fn)(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
