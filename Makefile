@@ -1,0 +1,105 @@
+# Every target brings the set-up it needs; `make` alone prints what there is.
+SHELL := /bin/bash
+.SHELLFLAGS := -eu -o pipefail -c
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+
+BUILD ?= build
+OUT ?= out
+PYTHON := .venv/bin/python
+LACUNA := .venv/bin/lacuna
+PYTEST := LACUNA_CACHE=$(abspath $(BUILD))/cache $(PYTHON) -m pytest -q -n 2
+C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp')
+
+.PHONY: help setup build test maps compare explain assess bench check fuzz prove robustness tolerance-study \
+        figures format lint sanitize ctest pytest lock clean
+
+help: ## Print this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+## --- Set-up: stamps make a second call immediate -------------------------------------------------------------------
+
+$(BUILD)/.debian: debian-packages.txt bootstrap.sh
+	@./bootstrap.sh debian
+	@mkdir -p $(BUILD) && touch $@
+
+.venv/.installed: requirements.lock pyproject.toml bootstrap.sh | $(BUILD)/.debian
+	@./bootstrap.sh python
+
+$(BUILD)/build.ninja: | $(BUILD)/.debian
+	@cmake -S . -B $(BUILD) -G Ninja --log-level=WARNING > $(BUILD)/configure.log || { cat $(BUILD)/configure.log; exit 1; }
+
+setup: .venv/.installed build ## Bring the whole environment; afterwards .venv/bin/lacuna is the command line
+
+build: $(BUILD)/build.ninja ## Compile runtime, analysis and their tests into build/
+	@ninja -C $(BUILD) --quiet
+
+## --- What users run -------------------------------------------------------------------------------------------------
+
+maps: setup ## Operating maps of the paper's actuator, into out/maps/paper/
+	@$(LACUNA) maps --out $(OUT)/maps/paper
+
+compare: setup ## Variable-step against fixed-step on all scenarios, into out/compare/
+	@$(LACUNA) compare --out $(OUT)/compare
+
+explain: setup ## CASE=folder: what a recording knows and the model does not, into out/explain/
+	@[[ -n "$(CASE)" ]] || { echo "usage: make explain CASE=path/to/case" >&2; exit 2; }
+	@$(LACUNA) explain "$(CASE)" --out "$(OUT)/explain/$(notdir $(CASE:/=))"
+
+assess: setup ## RECORDING=file [MAP=folder]: severity of a recorded pre-flight test, into out/assess/
+	@[[ -n "$(RECORDING)" ]] || { echo "usage: make assess RECORDING=file.csv [MAP=out/maps/paper]" >&2; exit 2; }
+	@$(LACUNA) assess "$(RECORDING)" --map "$(or $(MAP),$(OUT)/maps/paper)" --out $(OUT)/assess
+
+robustness: setup ## Thousands of simulated pre-flight tests over nuisances (long), writes docs/robustness.md
+	@$(PYTHON) -m analysis.robustness --out $(OUT)/robustness
+
+prove: setup ## The blind proof of the diagnosis (long, resumes), writes docs/proof.md
+	@$(PYTHON) -m discovery.proof --out $(OUT)/prove
+
+bench: setup ## Times and errors against hand-written programs, into out/bench/
+	@$(PYTHON) -m bench --out $(OUT)/bench
+
+tolerance-study: setup ## Justify the map's tolerance, writes docs/tolerance.md
+	@$(PYTHON) -m bench.tolerance
+
+figures: setup ## Remake the figures that the documentation shows, in docs/figures/
+	@$(PYTHON) -m bench.figures
+
+## --- Tests and checks -----------------------------------------------------------------------------------------------
+
+test: ctest pytest ## Pass the tests: C, C++ and Python
+
+ctest: setup
+	@ctest --test-dir $(BUILD) --output-on-failure -j 2 | tail -n 12
+
+pytest: setup
+	@$(PYTEST) -m "not slow"
+
+check: lint sanitize ctest ## All checks: format, lint, warnings as errors, sanitizers, every test
+	@$(PYTEST)
+
+lint: setup
+	@$(PYTHON) -m ruff format --check .
+	@$(PYTHON) -m ruff check .
+	@clang-format --dry-run -Werror $(C_SOURCES)
+	@clang-tidy -p $(BUILD) --quiet $(filter %.c %.cpp,$(C_SOURCES)) 2>&1 | { grep -vE '^[0-9]+ warnings? (generated|treated)' || true; }
+
+sanitize: $(BUILD)/.debian
+	@cmake -S . -B $(BUILD)/sanitize -G Ninja -DCMAKE_BUILD_TYPE=Debug -DLACUNA_SANITIZE=ON > $(BUILD)/sanitize.log
+	@ninja -C $(BUILD)/sanitize --quiet
+	@ASAN_OPTIONS=detect_leaks=1 ctest --test-dir $(BUILD)/sanitize --output-on-failure -j 2 | tail -n 6
+
+fuzz: setup ## [FUZZ_SECONDS=180] random and mutated models through the parser, for a traceback
+	@$(PYTHON) -m tests.codegen.fuzz --seconds $(or $(FUZZ_SECONDS),180)
+
+format: setup ## Format all sources
+	@$(PYTHON) -m ruff format .
+	@$(PYTHON) -m ruff check --fix --quiet .
+	@clang-format -i $(C_SOURCES)
+
+lock: ## Write the versions now in .venv to requirements.lock
+	@{ echo "# Exact versions of every Python package in .venv, written by 'make lock'; Python 3.11 and later."; \
+	   $(PYTHON) -m pip freeze --all --exclude-editable --exclude pip | LC_ALL=C sort -f; } > requirements.lock
+
+clean: ## Remove what was built (keeps .venv and out/)
+	@rm -rf $(BUILD)
