@@ -123,7 +123,12 @@ typedef struct mdl_descriptor {
   /* Start times and intervals (s) of the sample() operators. */
   int (*samples)(const mdl_data *m, double *start, double *interval);
 
-  /* Solve the initial equations at time t with the present relations: writes m->x, m->xdot, m->v, m->d. */
+  /* Start attributes, which may depend on parameters: writes m->x, m->v, m->d and m->pre_d. Call once before
+   * initial_system; event() then gives m->d its initial values, iterated as at any event with m->initial set. */
+  int (*starts)(mdl_data *m);
+
+  /* Solve the initial equations at time t with the present relations and discretes: writes m->x, m->xdot, m->v
+   * (entry values are start values of nonlinear blocks). */
   int (*initial_system)(mdl_data *m, double t);
 
   /* Explicit form: xdot[n_x] and v[n_v] from x, inputs, discretes and frozen relations. v holds start values
@@ -136,7 +141,8 @@ typedef struct mdl_descriptor {
   /* v[n_v] belonging to a point (y, y') of the residual form. */
   int (*algebraics)(mdl_data *m, double t, const double *y, const double *yp, double *v);
 
-  /* g[n_rel]: left minus right side of each relation, from a complete point (roots) or from the residual form
+  /* g[n_rel]: left minus right side of each relation, which is true exactly where g > 0 (a >= b is kept as the
+   * negation of b > a), from a complete point (roots) or from the residual form
    * (dae_roots, computing only what the relations need). Time relations give 0. */
   int (*roots)(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *g);
   int (*dae_roots)(mdl_data *m, double t, const double *y, const double *yp, double *g);
