@@ -1,0 +1,170 @@
+"""The C++ spectral chain (liblacuna_analysis.so) on NumPy arrays. Calls release the GIL: use threads."""
+
+from __future__ import annotations
+
+import ctypes
+from dataclasses import dataclass
+from functools import lru_cache
+import os
+from pathlib import Path
+import weakref
+
+import numpy as np
+
+from analysis.errors import AnalysisError
+
+_MESSAGE_SIZE = 500
+_DOUBLES = ctypes.POINTER(ctypes.c_double)
+
+
+class _Channel(ctypes.Structure):
+    _fields_ = [
+        ("rms", ctypes.c_double),
+        ("peak_hz", ctypes.c_double),
+        ("peak_amplitude", ctypes.c_double),
+        ("peak_bin", ctypes.c_longlong),
+    ]
+
+
+class _Summary(ctypes.Structure):
+    _fields_ = [("rms_mean", ctypes.c_double), ("speed_mean", ctypes.c_double), ("turns", ctypes.c_int)]
+
+
+@dataclass(frozen=True)
+class Features:
+    """What the chain finds in one recording; one entry a channel in the arrays."""
+
+    rms: np.ndarray  # A
+    rms_mean: float  # A
+    peak_bin: np.ndarray  # first peak of the peak-hold spectrum; -1: none
+    peak_hz: np.ndarray  # NaN: none
+    peak_amplitude: np.ndarray  # A; NaN: none
+    speed_mean: float  # rad/s over whole turns after the start-up; NaN: not one whole turn, or no angle
+    turns: int
+    held: np.ndarray  # A, [channels, lines] peak-hold amplitude spectra
+
+
+def library_path() -> Path:
+    """Where the build put liblacuna_analysis.so ($LACUNA_BUILD, default build/ beside this package)."""
+    build = os.environ.get("LACUNA_BUILD") or Path(__file__).resolve().parent.parent / "build"
+    return Path(build) / "lib" / "liblacuna_analysis.so"
+
+
+@lru_cache(maxsize=1)
+def _library() -> ctypes.CDLL:
+    path = library_path()
+    if not path.exists():
+        raise AnalysisError(f"{path} is missing: run `make build`")
+    lib = ctypes.CDLL(str(path))
+    lib.lacuna_chain_new.restype = ctypes.c_void_p
+    lib.lacuna_chain_new.argtypes = [ctypes.c_char_p, ctypes.c_char_p, ctypes.c_size_t]
+    lib.lacuna_chain_free.argtypes = [ctypes.c_void_p]
+    lib.lacuna_chain_free.restype = None
+    for count in ("channels", "samples", "sections", "section_length", "lines"):
+        function = getattr(lib, f"lacuna_chain_{count}")
+        function.argtypes, function.restype = [ctypes.c_void_p], ctypes.c_size_t
+    lib.lacuna_chain_section_start.argtypes = [ctypes.c_void_p, ctypes.c_size_t]
+    lib.lacuna_chain_section_start.restype = ctypes.c_size_t
+    lib.lacuna_chain_resolution.argtypes = [ctypes.c_void_p]
+    lib.lacuna_chain_resolution.restype = ctypes.c_double
+    lib.lacuna_chain_analyse.argtypes = [
+        ctypes.c_void_p,
+        ctypes.POINTER(_DOUBLES),
+        _DOUBLES,
+        ctypes.c_size_t,
+        ctypes.POINTER(_Channel),
+        ctypes.POINTER(_Summary),
+        _DOUBLES,
+        ctypes.c_char_p,
+        ctypes.c_size_t,
+    ]
+    lib.lacuna_chain_section_spectrum.argtypes = [
+        ctypes.c_void_p,
+        _DOUBLES,
+        _DOUBLES,
+        _DOUBLES,
+        ctypes.c_char_p,
+        ctypes.c_size_t,
+    ]
+    return lib
+
+
+def _pointer(array: np.ndarray):
+    return array.ctypes.data_as(_DOUBLES)
+
+
+class Chain:
+    """Sections, Hann window, padded transform, peak hold, first peak, RMS and speed, for the text of a settings file.
+
+    Built once (window, FFT plan); then any number of threads may use it.
+    Raises AnalysisError for settings or recordings that it cannot use.
+    """
+
+    def __init__(self, settings: str):
+        self._lib = _library()
+        message = ctypes.create_string_buffer(_MESSAGE_SIZE)
+        self._chain = self._lib.lacuna_chain_new(settings.encode(), message, _MESSAGE_SIZE)
+        if not self._chain:
+            raise AnalysisError(message.value.decode(errors="replace"))
+        weakref.finalize(self, self._lib.lacuna_chain_free, self._chain)
+        self.channels: int = self._lib.lacuna_chain_channels(self._chain)
+        self.samples: int = self._lib.lacuna_chain_samples(self._chain)
+        self.lines: int = self._lib.lacuna_chain_lines(self._chain)
+        self.section_length: int = self._lib.lacuna_chain_section_length(self._chain)
+        self.resolution: float = self._lib.lacuna_chain_resolution(self._chain)  # Hz between lines
+        sections = self._lib.lacuna_chain_sections(self._chain)
+        self.section_starts = [self._lib.lacuna_chain_section_start(self._chain, k) for k in range(sections)]
+
+    def analyse(self, currents, angle=None) -> Features:
+        """Features of one recording: `currents` (A) [channels, samples], `angle` (rad, not wrapped) [samples]."""
+        rows = [np.ascontiguousarray(current, dtype=float) for current in currents]
+        if angle is not None:
+            angle = np.ascontiguousarray(angle, dtype=float)
+        if len(rows) != self.channels:
+            raise AnalysisError(f"{len(rows)} currents given where the settings name {self.channels}")
+        lengths = {len(row) for row in rows} | ({len(angle)} if angle is not None else set())
+        if len(lengths) > 1:
+            raise AnalysisError(f"the signals of a recording differ in length: {sorted(lengths)} samples")
+        channels, summary = (_Channel * self.channels)(), _Summary()
+        held = np.empty((self.channels, self.lines))
+        message = ctypes.create_string_buffer(_MESSAGE_SIZE)
+        failed = self._lib.lacuna_chain_analyse(
+            self._chain,
+            (_DOUBLES * len(rows))(*map(_pointer, rows)),
+            _pointer(angle) if angle is not None else None,
+            lengths.pop(),
+            channels,
+            ctypes.byref(summary),
+            _pointer(held),
+            message,
+            _MESSAGE_SIZE,
+        )
+        if failed:
+            raise AnalysisError(message.value.decode(errors="replace"))
+        return Features(
+            rms=np.array([channel.rms for channel in channels]),
+            rms_mean=summary.rms_mean,
+            peak_bin=np.array([channel.peak_bin for channel in channels]),
+            peak_hz=np.array([channel.peak_hz for channel in channels]),
+            peak_amplitude=np.array([channel.peak_amplitude for channel in channels]),
+            speed_mean=summary.speed_mean,
+            turns=summary.turns,
+            held=held,
+        )
+
+    def section_spectrum(self, section) -> tuple[np.ndarray, np.ndarray]:
+        """Single-sided (amplitude, power) [lines] of one section of `section_length` samples.
+
+        A tone on a line reads its peak value in the amplitude; the powers add up to the windowed mean square,
+        sum((w x)^2) / sum(w^2).
+        """
+        section = np.ascontiguousarray(section, dtype=float)
+        if section.shape != (self.section_length,):
+            raise AnalysisError(f"a section has {self.section_length} samples, not {section.shape}")
+        amplitude, power = np.empty(self.lines), np.empty(self.lines)
+        message = ctypes.create_string_buffer(_MESSAGE_SIZE)
+        if self._lib.lacuna_chain_section_spectrum(
+            self._chain, _pointer(section), _pointer(amplitude), _pointer(power), message, _MESSAGE_SIZE
+        ):
+            raise AnalysisError(message.value.decode(errors="replace"))
+        return amplitude, power

@@ -1,0 +1,101 @@
+"""How far two trajectories of the same model lie apart, in signals and in event times."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class SignalDeviation:
+    """Candidate minus reference of one signal, in its own unit; `scale` is the largest reference magnitude."""
+
+    name: str
+    maximum: float
+    rms: float
+    scale: float
+    at_time: float
+
+    @property
+    def relative(self) -> float:
+        """Maximum deviation over the largest magnitude of the reference (the deviation itself for a zero signal)."""
+        return self.maximum / self.scale if self.scale > 0 else self.maximum
+
+
+@dataclass(frozen=True)
+class EventDeviation:
+    """Matched events: their number, the largest time difference (s), and how many have no partner."""
+
+    matched: int
+    maximum: float
+    unmatched: int
+
+
+Events = Sequence[tuple[float, str]]  # time (s) and what happened: the k-th of one kind matches the k-th
+
+
+def signal_deviation(name: str, time: Array, reference: Array, candidate: Array, use: Array) -> SignalDeviation:
+    """Maximum and RMS of the difference over the samples marked in `use` (all arrays [n])."""
+    scale = float(np.max(np.abs(reference))) if reference.size else 0.0
+    if not use.any():
+        return SignalDeviation(name, np.nan, np.nan, scale, np.nan)
+    difference = np.abs(candidate - reference)[use]
+    worst = int(np.argmax(np.where(np.isnan(difference), np.inf, difference)))
+    return SignalDeviation(
+        name, float(difference[worst]), float(np.sqrt(np.mean(difference**2))), scale, float(time[use][worst])
+    )
+
+
+def event_pairs(reference: Events, candidate: Events) -> tuple[list[tuple[float, float]], int]:
+    """Times of the events both runs have, kind by kind in order, and the number left without a partner."""
+    pairs: list[tuple[float, float]] = []
+    unmatched = 0
+    first, second = _by_kind(reference), _by_kind(candidate)
+    for kind in sorted(first.keys() | second.keys()):
+        ours, theirs = first.get(kind, []), second.get(kind, [])
+        pairs += zip(ours, theirs, strict=False)
+        unmatched += abs(len(ours) - len(theirs))
+    return sorted(pairs), unmatched
+
+
+def _by_kind(events: Events) -> Mapping[str, list[float]]:
+    grouped: dict[str, list[float]] = defaultdict(list)
+    for time, kind in events:
+        grouped[kind].append(time)
+    return grouped
+
+
+def event_deviation(reference: Events, candidate: Events) -> EventDeviation:
+    """Event times against event times (see `event_pairs`)."""
+    pairs, unmatched = event_pairs(reference, candidate)
+    return EventDeviation(len(pairs), max((abs(a - b) for a, b in pairs), default=0.0), unmatched)
+
+
+def outside_event_gaps(time: Array, pairs: Sequence[tuple[float, float]]) -> Array:
+    """True for samples at which both runs are on the same side of every matched event.
+
+    A signal that jumps at an event differs by the whole jump between the two event times, however small that gap;
+    this difference is an event-time deviation, reported as such, and not a deviation of the signal.
+    """
+    use = np.ones(time.shape, dtype=bool)
+    resolution = 4 * np.finfo(float).eps * max(1.0, float(np.max(np.abs(time), initial=0.0)))
+    for a, b in pairs:
+        low, high = np.searchsorted(time, [min(a, b) - resolution, max(a, b) + resolution])
+        use[low:high] = False
+    return use
+
+
+def observed_order(steps: Array, errors: Array, floor: float) -> float:
+    """Slope of log error over log step by least squares, over the steps whose error is above `floor`.
+
+    NaN where fewer than two steps are left: a slope through rounding errors says nothing.
+    """
+    keep = np.isfinite(errors) & (errors > floor)
+    if np.count_nonzero(keep) < 2:
+        return float("nan")
+    return float(np.polyfit(np.log(np.asarray(steps)[keep]), np.log(np.asarray(errors)[keep]), 1)[0])

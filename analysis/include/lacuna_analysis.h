@@ -1,0 +1,53 @@
+/* C interface of the analysis library, for Python and other languages. Functions that can fail return NULL or a
+ * non-zero value and write a message, always terminated, into `message`. A chain may be used by several threads. */
+#ifndef LACUNA_ANALYSIS_H
+#define LACUNA_ANALYSIS_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct lacuna_chain lacuna_chain;
+
+typedef struct {
+  double rms;            /* A, of the whole record */
+  double peak_hz;        /* first peak of the peak-hold spectrum; NaN: none */
+  double peak_amplitude; /* A; NaN: none */
+  long long peak_bin;    /* -1: none */
+} lacuna_channel;
+
+typedef struct {
+  double rms_mean;   /* A */
+  double speed_mean; /* rad/s, over whole turns after the start-up; NaN: not a whole turn, or no angle given */
+  int turns;
+} lacuna_summary;
+
+/* Build a chain from the text of a settings file. */
+lacuna_chain *lacuna_chain_new(const char *settings, char *message, size_t message_size);
+void lacuna_chain_free(lacuna_chain *chain);
+
+size_t lacuna_chain_channels(const lacuna_chain *chain);
+size_t lacuna_chain_samples(const lacuna_chain *chain);  /* of a record */
+size_t lacuna_chain_sections(const lacuna_chain *chain);
+size_t lacuna_chain_section_length(const lacuna_chain *chain);
+size_t lacuna_chain_section_start(const lacuna_chain *chain, size_t section);
+size_t lacuna_chain_lines(const lacuna_chain *chain);    /* of a single-sided spectrum */
+double lacuna_chain_resolution(const lacuna_chain *chain); /* Hz between lines */
+
+/* Analyse one recording: `currents` points to one array of `samples` values for each channel; `angle` (rad) may be
+ * NULL. Writes `channels` [channels], `summary`, and where `held` is not NULL the peak-hold amplitude spectra
+ * [channels][lines]. */
+int lacuna_chain_analyse(const lacuna_chain *chain, const double *const *currents, const double *angle, size_t samples,
+                         lacuna_channel *channels, lacuna_summary *summary, double *held, char *message,
+                         size_t message_size);
+
+/* Single-sided spectra of one section of `section_length` samples: amplitude (A) and power (A^2), [lines] each. */
+int lacuna_chain_section_spectrum(const lacuna_chain *chain, const double *section, double *amplitude, double *power,
+                                  char *message, size_t message_size);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
