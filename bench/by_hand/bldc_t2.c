@@ -3,8 +3,8 @@
  *   L i_k' = v_k - vn - R i_k - e_k,  e_k = Ke w f_k,  v_k = V | 0 | vn + e_k (floating)
  *   ia + ib + ic = 0                  J w' = Ke sum f_k i_k - B w,  th' = w
  *
- * States [ia A, ib A, w rad/s, th rad], then the algebraic unknowns [ic A, vn V]. Differentiating the current
- * balance and inserting the phase equations gives vn: the mean of v_k - e_k over the two driven legs. */
+ * The ODE form has the states [ia A, ib A, w rad/s, th rad]; the DAE form adds ic, by its own phase equation, and
+ * the algebraic vn: the mean of v_k - e_k over the two driven legs, which is the current balance differentiated. */
 #include "problem.h"
 #include <math.h>
 
@@ -76,18 +76,17 @@ static void residual(const problem_mode *m, const double *y, const double *yp, d
   r[IB] = L * yp[IB] - phase_voltage(&s, 1, y[VN]) + R * y[IB];
   r[W] = J * yp[W] - torque(&s, y[IA], y[IB], y[IC]) + B * y[W];
   r[TH] = yp[TH] - y[W];
-  r[IC] = y[IA] + y[IB] + y[IC];
+  r[IC] = L * yp[IC] - phase_voltage(&s, 2, y[VN]) + R * y[IC];
   r[VN] = 2.0 * y[VN] - s.drop[0] - s.drop[1] - s.drop[2];
 }
 
 static void jacobian(const problem_mode *m, const double *y, double cj, double *const *columns) {
   const sector s = at(m, y[W], y[TH]);
   const double current[3] = {y[IA], y[IB], y[IC]};
-  columns[IA][IA] = columns[IB][IB] = L * cj + R;
+  columns[IA][IA] = columns[IB][IB] = columns[IC][IC] = L * cj + R;
   columns[W][W] = J * cj + B;
   columns[TH][TH] = cj;
   columns[W][TH] = -1.0;
-  columns[IA][IC] = columns[IB][IC] = columns[IC][IC] = 1.0;
   columns[VN][VN] = 2.0;
   for (int phase = 0; phase < 3; phase++) {
     const int column = phase == 2 ? IC : phase; /* of this phase's current */
@@ -95,10 +94,8 @@ static void jacobian(const problem_mode *m, const double *y, double cj, double *
     columns[TH][W] -= Ke * s.slope[phase] * current[phase];
     if (s.leg[phase] >= 0) {
       columns[W][VN] += Ke * s.f[phase];
-      if (phase < 2) {
-        columns[VN][phase] = 1.0;
-        columns[W][phase] = Ke * s.f[phase];
-      }
+      columns[VN][column] = 1.0;
+      columns[W][column] = Ke * s.f[phase];
     }
   }
 }
@@ -122,4 +119,5 @@ static void guard_event(problem_mode *m, const double *x) {
 }
 
 const problem bldc_t2 = {
-    "T2", 4, 6, 1, 1.0, 1e-4, start, derivatives, residual, jacobian, guards, next_time_event, time_event, guard_event};
+    "T2",       4,          5, 6, 1, 1.0, 1e-4, start, derivatives, residual, jacobian, guards, next_time_event,
+    time_event, guard_event};

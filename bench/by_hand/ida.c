@@ -54,7 +54,7 @@ static int set_up(solver *s, double rtol, double atol) {
   s->linear = SUNLinSol_Dense(s->y, s->matrix, s->context);
   s->ida = IDACreate(s->context);
   for (int i = 0; i < n; i++) {
-    NV_Ith_S(s->id, i) = i < s->p->n_x;
+    NV_Ith_S(s->id, i) = i < s->p->n_differential;
     NV_Ith_S(s->yp, i) = 0.0;
   }
   s->p->start(&s->mode, N_VGetArrayPointer(s->y));

@@ -1,7 +1,8 @@
 /* A hybrid problem written out by hand: what a careful engineer would program without a generator.
  *
- * `y` is [states; algebraic unknowns]; the ODE form sees the states alone. `mode` holds the discrete
- * variables of the problem. Guards are strictly positive inside a mode and fall through zero at its end. */
+ * The ODE form has the first n_x unknowns, the DAE form n_y of them: the differential ones, then the algebraic.
+ * `mode` holds the discrete variables of the problem. Guards are strictly positive inside a mode and fall
+ * through zero at its end. */
 #ifndef LACUNA_BENCH_PROBLEM_H
 #define LACUNA_BENCH_PROBLEM_H
 
@@ -15,8 +16,9 @@ typedef struct {
 
 typedef struct {
   const char *name;
-  int n_x; /* states */
-  int n_y; /* states and algebraic unknowns */
+  int n_x;            /* states of the ODE form */
+  int n_differential; /* unknowns of the DAE form whose derivative occurs */
+  int n_y;            /* unknowns of the DAE form */
   int n_guards;
   double stop;     /* s */
   double interval; /* of the output grid, s */

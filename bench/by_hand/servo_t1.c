@@ -57,6 +57,6 @@ static void guard_event(problem_mode *m, const double *x) {
   }
 }
 
-const problem servo_t1 = {"T1",       2,           2,        2,        10.0,   1e-3,
-                          start,      derivatives, residual, jacobian, guards, next_time_event,
-                          time_event, guard_event};
+const problem servo_t1 = {
+    "T1",       2,          2, 2, 2, 10.0, 1e-3, start, derivatives, residual, jacobian, guards, next_time_event,
+    time_event, guard_event};
