@@ -1,0 +1,30 @@
+"""`lacuna check`: the front end alone."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import typer
+
+from cli.errors import reported
+from cli.options import Model
+
+Units = Annotated[
+    Literal["error", "warn"], typer.Option(help="What a dimensionally inconsistent equation is: an error or a warning")
+]
+
+
+@reported
+def check(model: Model, units: Units = "error") -> None:
+    """Parse, resolve, flatten and check the units of MODEL; print every finding with file, line and a hint."""
+    from codegen.flatten import flatten
+    from codegen.library import Library
+
+    flat = flatten(Library.default(), model, units=units)
+    for warning in flat.warnings:
+        typer.echo(str(warning), err=True)
+    states = sum(1 for v in flat.variables.values() if v.variability == "continuous")
+    typer.echo(
+        f"{flat.name}: {len(flat.variables)} variables ({states} continuous), {len(flat.equations)} equations, "
+        f"{len(flat.warnings)} warnings; no errors"
+    )

@@ -1,0 +1,89 @@
+"""Dependencies point one way: discovery -> (codegen, runtime, analysis); analysis -> runtime; runtime -> the ABI;
+codegen -> nothing. The command line and the bench stand on top, and nobody stands on them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.architecture.sources import ROOT, files, imports, includes
+
+STAGES = ("codegen", "runtime", "analysis", "discovery")
+PYTHON_MAY_IMPORT = {
+    "codegen": set(),
+    "runtime": set(),
+    "analysis": {"runtime"},
+    "discovery": {"codegen", "runtime", "analysis"},
+    "cli": set(STAGES),
+    "bench": set(STAGES),
+    # The proof conceals physics with code of its own; it shares none with what it judges.
+    "tests/proof/kernel": set(),
+}
+PROJECT = {*STAGES, "cli", "bench", "tests"}
+
+C_MAY_INCLUDE = {
+    "runtime": ("runtime", ("ida/", "nvector/", "sunmatrix/", "sunlinsol/", "sundials/")),
+    "analysis": ("analysis", ("Eigen/", "fftw3.h")),
+    "bench": ("bench", ("ida/", "nvector/", "sunmatrix/", "sunlinsol/", "sundials/")),
+    "tests/proof": ("tests/proof", ()),
+}
+C_SUFFIXES = (".c", ".h", ".cpp", ".hpp")
+
+
+def forbidden_imports(folder: str) -> list[str]:
+    allowed = PYTHON_MAY_IMPORT[folder] | {folder.split("/")[0]}
+    return [
+        f"{path.relative_to(ROOT)}:{line}: imports {module}"
+        for path in files(folder, ".py")
+        for line, module in imports(path)
+        if (package := module.split(".")[0]) in PROJECT and package not in allowed
+    ]
+
+
+@pytest.mark.parametrize("folder", PYTHON_MAY_IMPORT)
+def test_python_imports_point_one_way(folder: str) -> None:
+    assert forbidden_imports(folder) == []
+
+
+def own_headers(folder: str) -> set[str]:
+    return {path.name for path in files(folder, ".h", ".hpp")}
+
+
+def is_standard(header: str) -> bool:
+    """<math.h>, <vector>, <sys/stat.h>: nothing of ours and no third-party library."""
+    return "/" not in header.removeprefix("sys/") and header not in ALL_OWN_HEADERS and header != "fftw3.h"
+
+
+ALL_OWN_HEADERS = {name for folder in ("runtime", "analysis", "bench", "tests") for name in own_headers(folder)}
+
+
+@pytest.mark.parametrize("folder", C_MAY_INCLUDE)
+def test_c_includes_point_one_way(folder: str) -> None:
+    home, libraries = C_MAY_INCLUDE[folder]
+    own = own_headers(home)
+    found = [
+        f"{path.relative_to(ROOT)}: includes {header}"
+        for path in files(folder, *C_SUFFIXES)
+        for header in includes(path)
+        if not (Path(header).name in own or header.startswith(libraries) or is_standard(header))
+    ]
+    assert found == []
+
+
+def test_generator_knows_the_runtime_only_as_the_abi_header() -> None:
+    text = {path: path.read_text(encoding="utf-8") for path in files("codegen", ".py")}
+    assert [str(p.relative_to(ROOT)) for p, source in text.items() if "lacuna_runtime" in source] == []
+    assert any("mdl_abi.h" in source for source in text.values())
+
+
+def test_abi_header_stands_alone() -> None:
+    assert includes(ROOT / "runtime/include/mdl_abi.h") == []
+
+
+def test_top_level_folders_are_those_that_were_decided() -> None:
+    decided = {"model", "codegen", "runtime", "analysis", "discovery", "tests", "docs", "cli", "bench"}
+    made = {"build", "out"}
+    present = {p.name for p in ROOT.iterdir() if p.is_dir() and not p.name.startswith((".", "__"))}
+    unexpected = {name for name in present - decided - made if not name.endswith(".egg-info")}
+    assert unexpected == set(), "a new top-level folder needs a reason in docs/decisions/"

@@ -1,0 +1,61 @@
+"""Small files and small functions; where one is longer, the reason stands here.
+
+The limits are for readers, so nothing is split at a number: an exception is fine when it can be argued."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+import re
+
+from tests.architecture.sources import FOLDERS, ROOT, files
+
+FILE_LIMIT, FUNCTION_LIMIT = 300, 50
+
+LONG_FILES = {
+    "codegen/expr.py": "one table of node types with their builders, folding rules and printer: they change together",
+}
+LONG_FUNCTIONS: dict[str, str] = {}
+
+_C_FUNCTION = re.compile(r"^(?!typedef|enum|struct|static const|namespace|extern|class|TEST)[A-Za-z].*\b(\w+)\(.*")
+
+
+def test_files_are_small() -> None:
+    long = {
+        str(path.relative_to(ROOT)): lines
+        for folder in FOLDERS
+        for path in files(folder, ".py", ".c", ".h", ".cpp", ".hpp", ".mo")
+        if (lines := len(path.read_text(encoding="utf-8").splitlines())) > FILE_LIMIT
+    }
+    assert {name: lines for name, lines in long.items() if name not in LONG_FILES} == {}
+    assert set(LONG_FILES) <= set(long), "an exception that is no longer needed"
+
+
+def python_functions(path: Path) -> Iterator[tuple[str, int]]:
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            yield node.name, node.end_lineno - node.lineno + 1
+
+
+def c_functions(path: Path) -> Iterator[tuple[str, int]]:
+    """A function of clang-formatted C or C++ begins at the margin and ends with a brace at the margin."""
+    name, begin = "", 0
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        if match := _C_FUNCTION.match(line):
+            name, begin = match[1], number
+        if line.startswith("}") and name:
+            yield name, number - begin + 1
+            name = ""
+
+
+def test_functions_are_short() -> None:
+    long = {
+        f"{path.relative_to(ROOT)}:{name}": lines
+        for folder in FOLDERS
+        for path in files(folder, ".py", ".c", ".cpp")
+        for name, lines in (python_functions(path) if path.suffix == ".py" else c_functions(path))
+        if lines > FUNCTION_LIMIT
+    }
+    assert {name: lines for name, lines in long.items() if name not in LONG_FUNCTIONS} == {}
+    assert set(LONG_FUNCTIONS) <= set(long), "an exception that is no longer needed"
