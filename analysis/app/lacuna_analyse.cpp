@@ -18,17 +18,18 @@ namespace {
 
 using lacuna::Error;
 
-constexpr const char* usage = "usage: lacuna-analyse RECORDING.csv --settings FILE [--out FILE.json] [--spectrum FILE.csv]";
+constexpr const char *usage =
+    "usage: lacuna-analyse RECORDING.csv --settings FILE [--out FILE.json] [--spectrum FILE.csv]";
 
 struct Arguments {
   std::string recording, settings, out, spectrum;
 };
 
-Arguments parse(int argc, char** argv) {
+Arguments parse(int argc, char **argv) {
   Arguments arguments;
   for (int k = 1; k < argc; ++k) {
     const std::string word = argv[k];
-    std::string* target = word == "--settings"   ? &arguments.settings
+    std::string *target = word == "--settings"   ? &arguments.settings
                           : word == "--out"      ? &arguments.out
                           : word == "--spectrum" ? &arguments.spectrum
                                                  : &arguments.recording;
@@ -41,13 +42,13 @@ Arguments parse(int argc, char** argv) {
   return arguments;
 }
 
-std::ifstream open(const std::string& path) {
+std::ifstream open(const std::string &path) {
   std::ifstream file(path);
   if (!file) throw Error("cannot read " + path);
   return file;
 }
 
-std::string contents(const std::string& path) {
+std::string contents(const std::string &path) {
   std::ostringstream text;
   text << open(path).rdbuf();
   return text.str();
@@ -60,7 +61,7 @@ std::string json(double x) {
   return {text, std::to_chars(text, text + sizeof text, x).ptr};
 }
 
-std::string quoted(const std::string& text) {
+std::string quoted(const std::string &text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -69,13 +70,13 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-std::string features_json(const lacuna::Chain& chain, const lacuna::Features& features) {
+std::string features_json(const lacuna::Chain &chain, const lacuna::Features &features) {
   std::ostringstream out;
   out << "{\n  \"rms_mean\": " << json(features.rms_mean) << ",\n  \"speed_mean\": " << json(features.speed.value)
       << ",\n  \"turns\": " << features.speed.turns << ",\n  \"resolution_hz\": " << json(chain.resolution_hz())
       << ",\n  \"channels\": [";
   for (std::size_t c = 0; c < features.channels.size(); ++c) {
-    const lacuna::ChannelFeatures& channel = features.channels[c];
+    const lacuna::ChannelFeatures &channel = features.channels[c];
     out << (c ? ",\n" : "\n") << "    {\"signal\": " << quoted(chain.settings().currents[c])
         << ", \"rms\": " << json(channel.rms) << ", \"peak_hz\": " << json(channel.peak_hz)
         << ", \"peak_bin\": " << (channel.peak_bin < 0 ? "null" : std::to_string(channel.peak_bin))
@@ -85,13 +86,14 @@ std::string features_json(const lacuna::Chain& chain, const lacuna::Features& fe
   return out.str();
 }
 
-std::string spectrum_csv(const lacuna::Chain& chain, const lacuna::Features& features) {
+std::string spectrum_csv(const lacuna::Chain &chain, const lacuna::Features &features) {
   std::ostringstream out;
   out << "frequency";
-  for (const std::string& name : chain.settings().currents) out << ',' << quoted(name);
+  for (const std::string &name : chain.settings().currents)
+    out << ',' << quoted(name);
   for (std::size_t k = 0; k < chain.spectrum().lines(); ++k) {
     out << '\n' << json(static_cast<double>(k) * chain.resolution_hz());
-    for (const lacuna::ChannelFeatures& channel : features.channels)
+    for (const lacuna::ChannelFeatures &channel : features.channels)
       out << ',' << json(channel.held[static_cast<Eigen::Index>(k)]);
   }
   out << '\n';
@@ -99,7 +101,7 @@ std::string spectrum_csv(const lacuna::Chain& chain, const lacuna::Features& fea
 }
 
 /// Complete or not at all: written beside its place and renamed.
-void write_file(const std::string& path, const std::string& text) {
+void write_file(const std::string &path, const std::string &text) {
   const std::string partial = path + ".partial";
   std::ofstream file(partial, std::ios::binary);
   file << text;
@@ -110,29 +112,32 @@ void write_file(const std::string& path, const std::string& text) {
   }
 }
 
-void run(const Arguments& arguments) {
+void run(const Arguments &arguments) {
   const lacuna::Chain chain(lacuna::Settings::parse(contents(arguments.settings)));
-  const lacuna::Settings& settings = chain.settings();
+  const lacuna::Settings &settings = chain.settings();
   std::vector<std::string> columns = settings.currents;
   if (!settings.angle.empty()) columns.push_back(settings.angle);
   std::ifstream csv = open(arguments.recording);
   const auto recording = lacuna::Recording::read(csv, columns, settings.sampling_rate, settings.samples());
   std::vector<std::span<const double>> currents;
-  for (std::size_t c = 0; c < settings.currents.size(); ++c) currents.push_back(recording.column(c));
+  for (std::size_t c = 0; c < settings.currents.size(); ++c)
+    currents.push_back(recording.column(c));
   const auto angle = settings.angle.empty() ? std::span<const double>() : recording.column(currents.size());
   const lacuna::Features features = chain.analyse(currents, angle);
   if (!arguments.spectrum.empty()) write_file(arguments.spectrum, spectrum_csv(chain, features));
-  if (arguments.out.empty()) std::cout << features_json(chain, features);
-  else write_file(arguments.out, features_json(chain, features));
+  if (arguments.out.empty())
+    std::cout << features_json(chain, features);
+  else
+    write_file(arguments.out, features_json(chain, features));
 }
 
-}  // namespace
+} // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char **argv) {
   try {
     run(parse(argc, argv));
     return 0;
-  } catch (const std::exception& error) {
+  } catch (const std::exception &error) {
     std::cerr << "lacuna-analyse: " << error.what() << '\n';
     return 1;
   }

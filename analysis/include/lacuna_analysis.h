@@ -29,11 +29,11 @@ lacuna_chain *lacuna_chain_new(const char *settings, char *message, size_t messa
 void lacuna_chain_free(lacuna_chain *chain);
 
 size_t lacuna_chain_channels(const lacuna_chain *chain);
-size_t lacuna_chain_samples(const lacuna_chain *chain);  /* of a record */
+size_t lacuna_chain_samples(const lacuna_chain *chain); /* of a record */
 size_t lacuna_chain_sections(const lacuna_chain *chain);
 size_t lacuna_chain_section_length(const lacuna_chain *chain);
 size_t lacuna_chain_section_start(const lacuna_chain *chain, size_t section);
-size_t lacuna_chain_lines(const lacuna_chain *chain);    /* of a single-sided spectrum */
+size_t lacuna_chain_lines(const lacuna_chain *chain);      /* of a single-sided spectrum */
 double lacuna_chain_resolution(const lacuna_chain *chain); /* Hz between lines */
 
 /* Analyse one recording: `currents` points to one array of `samples` values for each channel; `angle` (rad) may be

@@ -12,7 +12,7 @@ struct lacuna_chain {
 
 namespace {
 
-void write(const char* text, char* message, size_t size) {
+void write(const char *text, char *message, size_t size) {
   if (!message || size == 0) return;
   const size_t n = std::min(size - 1, std::strlen(text));
   std::memcpy(message, text, n);
@@ -20,46 +20,60 @@ void write(const char* text, char* message, size_t size) {
 }
 
 /// Runs `action`, turning an exception, which must not cross into C, into a message and a failure.
-template <typename Action>
-int guarded(char* message, size_t size, Action action) {
+template <typename Action> int guarded(char *message, size_t size, Action action) {
   try {
     action();
     return 0;
-  } catch (const std::exception& error) {
+  } catch (const std::exception &error) {
     write(error.what(), message, size);
     return -1;
   }
 }
 
-}  // namespace
+} // namespace
 
-lacuna_chain* lacuna_chain_new(const char* settings, char* message, size_t message_size) {
-  lacuna_chain* chain = nullptr;
+lacuna_chain *lacuna_chain_new(const char *settings, char *message, size_t message_size) {
+  lacuna_chain *chain = nullptr;
   guarded(message, message_size, [&] { chain = new lacuna_chain{lacuna::Chain(lacuna::Settings::parse(settings))}; });
   return chain;
 }
 
-void lacuna_chain_free(lacuna_chain* chain) { delete chain; }
+void lacuna_chain_free(lacuna_chain *chain) {
+  delete chain;
+}
 
-size_t lacuna_chain_channels(const lacuna_chain* chain) { return chain->chain.settings().currents.size(); }
-size_t lacuna_chain_samples(const lacuna_chain* chain) { return chain->chain.settings().samples(); }
-size_t lacuna_chain_sections(const lacuna_chain* chain) { return chain->chain.sections().count(); }
-size_t lacuna_chain_section_length(const lacuna_chain* chain) { return chain->chain.sections().length(); }
-size_t lacuna_chain_section_start(const lacuna_chain* chain, size_t section) {
+size_t lacuna_chain_channels(const lacuna_chain *chain) {
+  return chain->chain.settings().currents.size();
+}
+size_t lacuna_chain_samples(const lacuna_chain *chain) {
+  return chain->chain.settings().samples();
+}
+size_t lacuna_chain_sections(const lacuna_chain *chain) {
+  return chain->chain.sections().count();
+}
+size_t lacuna_chain_section_length(const lacuna_chain *chain) {
+  return chain->chain.sections().length();
+}
+size_t lacuna_chain_section_start(const lacuna_chain *chain, size_t section) {
   return chain->chain.sections().start(section);
 }
-size_t lacuna_chain_lines(const lacuna_chain* chain) { return chain->chain.spectrum().lines(); }
-double lacuna_chain_resolution(const lacuna_chain* chain) { return chain->chain.resolution_hz(); }
+size_t lacuna_chain_lines(const lacuna_chain *chain) {
+  return chain->chain.spectrum().lines();
+}
+double lacuna_chain_resolution(const lacuna_chain *chain) {
+  return chain->chain.resolution_hz();
+}
 
-int lacuna_chain_analyse(const lacuna_chain* chain, const double* const* currents, const double* angle, size_t samples,
-                         lacuna_channel* channels, lacuna_summary* summary, double* held, char* message,
+int lacuna_chain_analyse(const lacuna_chain *chain, const double *const *currents, const double *angle, size_t samples,
+                         lacuna_channel *channels, lacuna_summary *summary, double *held, char *message,
                          size_t message_size) {
   return guarded(message, message_size, [&] {
     std::vector<std::span<const double>> records;
-    for (size_t c = 0; c < lacuna_chain_channels(chain); ++c) records.emplace_back(currents[c], samples);
+    for (size_t c = 0; c < lacuna_chain_channels(chain); ++c)
+      records.emplace_back(currents[c], samples);
     const std::span<const double> turned(angle, angle ? samples : 0);
     const lacuna::Features features = chain->chain.analyse(records, turned);
-    for (const lacuna::ChannelFeatures& channel : features.channels) {
+    for (const lacuna::ChannelFeatures &channel : features.channels) {
       *channels++ = {channel.rms, channel.peak_hz, channel.peak_amplitude, channel.peak_bin};
       if (held) held = std::copy(channel.held.begin(), channel.held.end(), held);
     }
@@ -67,10 +81,10 @@ int lacuna_chain_analyse(const lacuna_chain* chain, const double* const* current
   });
 }
 
-int lacuna_chain_section_spectrum(const lacuna_chain* chain, const double* section, double* amplitude, double* power,
-                                  char* message, size_t message_size) {
+int lacuna_chain_section_spectrum(const lacuna_chain *chain, const double *section, double *amplitude, double *power,
+                                  char *message, size_t message_size) {
   return guarded(message, message_size, [&] {
-    const lacuna::SectionSpectrum& spectrum = chain->chain.spectrum();
+    const lacuna::SectionSpectrum &spectrum = chain->chain.spectrum();
     lacuna::RealTransform::Buffers work = spectrum.buffers();
     Eigen::ArrayXd squared;
     spectrum.squared_magnitude({section, spectrum.window().length()}, work, squared);

@@ -8,21 +8,21 @@
 
 namespace lacuna {
 
-Chain::Chain(const Settings& settings)
-    : settings_(settings),
-      sections_(settings.samples(), settings.section, settings.overlap),
+Chain::Chain(const Settings &settings)
+    : settings_(settings), sections_(settings.samples(), settings.section, settings.overlap),
       spectrum_(HannWindow(sections_.length()), settings.padded_length(sections_.length())) {}
 
-void Chain::require_record(std::span<const double> record, const std::string& name) const {
+void Chain::require_record(std::span<const double> record, const std::string &name) const {
   if (record.size() != settings_.samples())
     throw Error(name + " has " + std::to_string(record.size()) + " samples where the settings ask for " +
                 std::to_string(settings_.samples()));
   for (std::size_t k = 0; k < record.size(); ++k)
     if (!std::isfinite(record[k]))
-      throw Error(name + " is not a finite number at " + std::to_string(static_cast<double>(k) / settings_.sampling_rate) + " s");
+      throw Error(name + " is not a finite number at " +
+                  std::to_string(static_cast<double>(k) / settings_.sampling_rate) + " s");
 }
 
-ChannelFeatures Chain::analyse_channel(std::span<const double> record, RealTransform::Buffers& work) const {
+ChannelFeatures Chain::analyse_channel(std::span<const double> record, RealTransform::Buffers &work) const {
   PeakHold hold(spectrum_.lines());
   Eigen::ArrayXd squared;
   for (std::size_t k = 0; k < sections_.count(); ++k) {
@@ -39,7 +39,7 @@ ChannelFeatures Chain::analyse_channel(std::span<const double> record, RealTrans
   return channel;
 }
 
-Features Chain::analyse(const std::vector<std::span<const double>>& currents, std::span<const double> angle) const {
+Features Chain::analyse(const std::vector<std::span<const double>> &currents, std::span<const double> angle) const {
   if (currents.size() != settings_.currents.size())
     throw Error(std::to_string(currents.size()) + " currents given where the settings name " +
                 std::to_string(settings_.currents.size()));
@@ -57,4 +57,4 @@ Features Chain::analyse(const std::vector<std::span<const double>>& currents, st
   return features;
 }
 
-}  // namespace lacuna
+} // namespace lacuna

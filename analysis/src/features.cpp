@@ -11,7 +11,7 @@ double rms(std::span<const double> x) {
   return std::sqrt(samples.square().mean());
 }
 
-std::optional<std::size_t> first_peak(const Eigen::ArrayXd& amplitude, double resolution_hz, double above_hz,
+std::optional<std::size_t> first_peak(const Eigen::ArrayXd &amplitude, double resolution_hz, double above_hz,
                                       double threshold) {
   const double floor = threshold * amplitude.maxCoeff();
   for (Eigen::Index k = 1; k + 1 < amplitude.size(); ++k) {
@@ -31,10 +31,11 @@ MeanSpeed mean_speed(std::span<const double> angle, double period, double after)
   if (turns == 0) return none;
   const double goal = turns * turn, sign = travel < 0 ? -1 : 1;
   std::size_t k = first;
-  while (k + 2 < angle.size() && sign * (angle[k + 1] - angle[first]) < goal) ++k;
+  while (k + 2 < angle.size() && sign * (angle[k + 1] - angle[first]) < goal)
+    ++k;
   const double before = sign * (angle[k] - angle[first]), past = sign * (angle[k + 1] - angle[first]);
   const double duration = period * (static_cast<double>(k - first) + (goal - before) / (past - before));
   return {turns, sign * goal / duration};
 }
 
-}  // namespace lacuna
+} // namespace lacuna

@@ -17,4 +17,4 @@ Sections::Sections(std::size_t samples, double share, double overlap) {
   count_ = 1 + (samples - length_) / hop_;
 }
 
-}  // namespace lacuna
+} // namespace lacuna

@@ -10,33 +10,33 @@ namespace lacuna {
 
 namespace {
 
-double positive(const toml::Table& table, const std::string& name, const std::string& key) {
+double positive(const toml::Table &table, const std::string &name, const std::string &key) {
   const double value = table.number(key);
   if (!(value > 0 && std::isfinite(value))) throw Error("settings: " + name + "." + key + " must be above zero");
   return value;
 }
 
-double share(const toml::Table& table, const std::string& name, const std::string& key) {
+double share(const toml::Table &table, const std::string &name, const std::string &key) {
   const double value = table.number(key);
   if (!(value >= 0 && value <= 1)) throw Error("settings: " + name + "." + key + " must be between 0 and 1");
   return value;
 }
 
-Settings::Padding parse_padding(const std::string& text) {
+Settings::Padding parse_padding(const std::string &text) {
   if (text == "record") return Settings::Padding::record;
   if (text == "section") return Settings::Padding::section;
   if (text == "none") return Settings::Padding::none;
   throw Error("settings: spectrum.padding must be \"record\", \"section\" or \"none\", not \"" + text + "\"");
 }
 
-std::vector<Band> parse_bands(const toml::Document& document) {
+std::vector<Band> parse_bands(const toml::Document &document) {
   std::vector<Band> result;
-  for (const toml::Table& table : document.tables("bands"))
+  for (const toml::Table &table : document.tables("bands"))
     result.push_back({table.text("name"), table.text("mode"), table.number("first"), table.number("last")});
   return SeverityBands(result).bands();
 }
 
-}  // namespace
+} // namespace
 
 Settings Settings::parse(std::string_view text) {
   const toml::Document document(text);
@@ -60,7 +60,9 @@ Settings Settings::parse(std::string_view text) {
   return s;
 }
 
-std::size_t Settings::samples() const { return static_cast<std::size_t>(std::llround(sampling_rate * duration)); }
+std::size_t Settings::samples() const {
+  return static_cast<std::size_t>(std::llround(sampling_rate * duration));
+}
 
 std::size_t Settings::padded_length(std::size_t section_length) const {
   if (padding == Padding::record) return next_power_of_two(samples());
@@ -68,4 +70,4 @@ std::size_t Settings::padded_length(std::size_t section_length) const {
   return section_length + section_length % 2;
 }
 
-}  // namespace lacuna
+} // namespace lacuna

@@ -12,7 +12,7 @@ namespace {
 // Severities come from decimal text and from sums of steps; this is far below any step and above their rounding.
 constexpr double rounding = 1e-9;
 
-}  // namespace
+} // namespace
 
 SeverityBands::SeverityBands(std::vector<Band> bands) : bands_(std::move(bands)) {
   if (bands_.empty()) throw Error("at least one severity band is needed");
@@ -23,13 +23,13 @@ SeverityBands::SeverityBands(std::vector<Band> bands) : bands_(std::move(bands))
   }
 }
 
-const Band& SeverityBands::of(double severity) const {
-  const auto reaches = [&](const Band& band) { return severity <= band.last + rounding; };
+const Band &SeverityBands::of(double severity) const {
+  const auto reaches = [&](const Band &band) { return severity <= band.last + rounding; };
   const auto found = std::find_if(bands_.begin(), bands_.end(), reaches);
   return found == bands_.end() ? bands_.back() : *found;
 }
 
-double SeverityBands::rise(const Band& band, std::span<const double> severity, std::span<const double> value) {
+double SeverityBands::rise(const Band &band, std::span<const double> severity, std::span<const double> value) {
   return interpolate(severity, value, band.last) - interpolate(severity, value, band.first);
 }
 
@@ -42,4 +42,4 @@ double interpolate(std::span<const double> x, std::span<const double> y, double 
   return y[k - 1] + (y[k] - y[k - 1]) * (at - x[k - 1]) / (x[k] - x[k - 1]);
 }
 
-}  // namespace lacuna
+} // namespace lacuna

@@ -14,15 +14,16 @@ Eigen::ArrayXd single_sided(Eigen::ArrayXd lines) {
   return lines;
 }
 
-}  // namespace
+} // namespace
 
-SectionSpectrum::SectionSpectrum(HannWindow window, std::size_t padded) : window_(std::move(window)), transform_(padded) {
+SectionSpectrum::SectionSpectrum(HannWindow window, std::size_t padded)
+    : window_(std::move(window)), transform_(padded) {
   if (padded < window_.length() || padded % 2 != 0)
     throw Error("the padded length must be even and not below that of a section");
 }
 
-void SectionSpectrum::squared_magnitude(std::span<const double> section, RealTransform::Buffers& work,
-                                        Eigen::ArrayXd& out) const {
+void SectionSpectrum::squared_magnitude(std::span<const double> section, RealTransform::Buffers &work,
+                                        Eigen::ArrayXd &out) const {
   const auto n = static_cast<Eigen::Index>(window_.length());
   Eigen::Map<Eigen::ArrayXd>(work.input.data(), n) =
       window_.values() * Eigen::Map<const Eigen::ArrayXd>(section.data(), n);
@@ -30,12 +31,12 @@ void SectionSpectrum::squared_magnitude(std::span<const double> section, RealTra
   out = Eigen::Map<const Eigen::ArrayXcd>(work.spectrum.data(), static_cast<Eigen::Index>(lines())).abs2();
 }
 
-Eigen::ArrayXd SectionSpectrum::amplitude(const Eigen::ArrayXd& squared_magnitude) const {
+Eigen::ArrayXd SectionSpectrum::amplitude(const Eigen::ArrayXd &squared_magnitude) const {
   return single_sided(squared_magnitude.sqrt() / window_.sum());
 }
 
-Eigen::ArrayXd SectionSpectrum::power(const Eigen::ArrayXd& squared_magnitude) const {
+Eigen::ArrayXd SectionSpectrum::power(const Eigen::ArrayXd &squared_magnitude) const {
   return single_sided(squared_magnitude / (static_cast<double>(padded()) * window_.energy()));
 }
 
-}  // namespace lacuna
+} // namespace lacuna

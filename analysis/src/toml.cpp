@@ -12,15 +12,16 @@ namespace {
 
 /// Reads one line of a document; `number` is for messages.
 class Line {
- public:
+public:
   Line(std::string_view text, int number) : rest_(text), number_(number) {}
 
-  [[noreturn]] void refuse(const std::string& why) const {
+  [[noreturn]] void refuse(const std::string &why) const {
     throw Error("settings, line " + std::to_string(number_) + ": " + why);
   }
 
   void skip_blanks() {
-    while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t' || rest_.front() == '\r')) rest_.remove_prefix(1);
+    while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\t' || rest_.front() == '\r'))
+      rest_.remove_prefix(1);
   }
 
   bool at_end() {
@@ -46,7 +47,9 @@ class Line {
   std::string bare_key() {
     skip_blanks();
     std::size_t n = 0;
-    while (n < rest_.size() && (std::isalnum(static_cast<unsigned char>(rest_[n])) || rest_[n] == '_' || rest_[n] == '-')) ++n;
+    while (n < rest_.size() &&
+           (std::isalnum(static_cast<unsigned char>(rest_[n])) || rest_[n] == '_' || rest_[n] == '-'))
+      ++n;
     if (n == 0) refuse("a key of letters, digits, _ and - expected");
     return take(n);
   }
@@ -59,7 +62,7 @@ class Line {
     return {number()};
   }
 
- private:
+private:
   std::string take(std::size_t n) {
     std::string taken(rest_.substr(0, n));
     rest_.remove_prefix(n);
@@ -78,7 +81,8 @@ class Line {
   Value::Array array_tail() {
     Value::Array items;
     if (accept("]")) return items;
-    do items.push_back(value());
+    do
+      items.push_back(value());
     while (accept(","));
     expect("]");
     return items;
@@ -88,7 +92,8 @@ class Line {
     double result = 0;
     accept("+");
     const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), result);
-    if (error != std::errc() || end == rest_.data()) refuse("a number, a string in quotes, true, false or an array expected");
+    if (error != std::errc() || end == rest_.data())
+      refuse("a number, a string in quotes, true, false or an array expected");
     rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
     return result;
   }
@@ -97,41 +102,44 @@ class Line {
   int number_;
 };
 
-[[noreturn]] void refuse(const std::string& table, const std::string& key, const char* why) {
+[[noreturn]] void refuse(const std::string &table, const std::string &key, const char *why) {
   std::string text("settings: ");
   if (!table.empty()) text.append(table).append(".");
   throw Error(text.append(key).append(" ").append(why));
 }
 
-}  // namespace
+} // namespace
 
-const Value& Table::at(const std::string& key) const {
+const Value &Table::at(const std::string &key) const {
   const auto found = values_.find(key);
   if (found == values_.end()) refuse(name_, key, "is missing");
   return found->second;
 }
 
-double Table::number(const std::string& key) const {
-  if (const auto* number = std::get_if<double>(&at(key).data)) return *number;
+double Table::number(const std::string &key) const {
+  if (const auto *number = std::get_if<double>(&at(key).data)) return *number;
   refuse(name_, key, "must be a number");
 }
 
-std::string Table::text(const std::string& key) const {
-  if (const auto* text = std::get_if<std::string>(&at(key).data)) return *text;
+std::string Table::text(const std::string &key) const {
+  if (const auto *text = std::get_if<std::string>(&at(key).data)) return *text;
   refuse(name_, key, "must be a string");
 }
 
-std::vector<std::string> Table::texts(const std::string& key) const {
+std::vector<std::string> Table::texts(const std::string &key) const {
   std::vector<std::string> result;
-  if (const auto* array = std::get_if<Value::Array>(&at(key).data))
-    for (const Value& item : *array)
-      if (const auto* text = std::get_if<std::string>(&item.data)) result.push_back(*text);
-      else refuse(name_, key, "must hold strings only");
-  else refuse(name_, key, "must be an array of strings");
+  if (const auto *array = std::get_if<Value::Array>(&at(key).data))
+    for (const Value &item : *array)
+      if (const auto *text = std::get_if<std::string>(&item.data))
+        result.push_back(*text);
+      else
+        refuse(name_, key, "must hold strings only");
+  else
+    refuse(name_, key, "must be an array of strings");
   return result;
 }
 
-void Table::set(const std::string& key, Value value) {
+void Table::set(const std::string &key, Value value) {
   if (!values_.emplace(key, std::move(value)).second) refuse(name_, key, "is given twice");
 }
 
@@ -160,17 +168,18 @@ Document::Document(std::string_view text) {
   }
 }
 
-const Table& Document::table(const std::string& name) const {
+const Table &Document::table(const std::string &name) const {
   const std::size_t count = tables_.count(name);
   if (count != 1) refuse("", name, count == 0 ? "is missing (a table)" : "is given more than once");
   return tables_.find(name)->second;
 }
 
-std::vector<Table> Document::tables(const std::string& name) const {
+std::vector<Table> Document::tables(const std::string &name) const {
   std::vector<Table> result;
   const auto [first, last] = tables_.equal_range(name);
-  for (auto it = first; it != last; ++it) result.push_back(it->second);
+  for (auto it = first; it != last; ++it)
+    result.push_back(it->second);
   return result;
 }
 
-}  // namespace lacuna::toml
+} // namespace lacuna::toml

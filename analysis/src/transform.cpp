@@ -13,23 +13,27 @@ namespace lacuna {
 namespace {
 
 // FFTW's planner shares tables between plans; only execution is safe in several threads.
-std::mutex& planner() {
+std::mutex &planner() {
   static std::mutex mutex;
   return mutex;
 }
 
-fftw_complex* as_fftw(std::complex<double>* z) { return reinterpret_cast<fftw_complex*>(z); }
+fftw_complex *as_fftw(std::complex<double> *z) {
+  return reinterpret_cast<fftw_complex *>(z);
+}
 
-}  // namespace
+} // namespace
 
-std::size_t next_power_of_two(std::size_t n) { return std::bit_ceil(n); }
+std::size_t next_power_of_two(std::size_t n) {
+  return std::bit_ceil(n);
+}
 
-RealTransform::Buffers::Buffers(const RealTransform& transform)
+RealTransform::Buffers::Buffers(const RealTransform &transform)
     : input_memory_(fftw_malloc(transform.length() * sizeof(double))),
       spectrum_memory_(fftw_malloc(transform.lines() * sizeof(std::complex<double>))) {
   if (!input_memory_ || !spectrum_memory_) throw std::bad_alloc();
-  input = {static_cast<double*>(input_memory_.get()), transform.length()};
-  spectrum = {static_cast<std::complex<double>*>(spectrum_memory_.get()), transform.lines()};
+  input = {static_cast<double *>(input_memory_.get()), transform.length()};
+  spectrum = {static_cast<std::complex<double> *>(spectrum_memory_.get()), transform.lines()};
   std::fill(input.begin(), input.end(), 0.0);
 }
 
@@ -43,7 +47,7 @@ RealTransform::RealTransform(std::size_t length) : length_(length) {
   if (!plan_) throw Error("FFTW has no plan for " + std::to_string(length) + " points");
 }
 
-void RealTransform::run(Buffers& buffers) const {
+void RealTransform::run(Buffers &buffers) const {
   fftw_execute_dft_r2c(plan_.get(), buffers.input.data(), as_fftw(buffers.spectrum.data()));
 }
 
@@ -52,4 +56,4 @@ void RealTransform::Destroy::operator()(fftw_plan plan) const {
   fftw_destroy_plan(plan);
 }
 
-}  // namespace lacuna
+} // namespace lacuna

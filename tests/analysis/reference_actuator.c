@@ -14,16 +14,18 @@ static const int HIGH[6] = {A, A, B, B, C, C}, FLOAT[6] = {C, B, A, C, B, A};
 typedef enum { DIODE_LOW, DIODE_HIGH, OPEN } float_mode;
 
 typedef struct {
-  int sector;       /* not wrapped: sector k spans 30 + 60 k ... 90 + 60 k degrees */
-  float_mode leg;   /* how the floating leg conducts */
-  int stuck;        /* dry friction holds the rotor */
+  int sector;     /* not wrapped: sector k spans 30 + 60 k ... 90 + 60 k degrees */
+  float_mode leg; /* how the floating leg conducts */
+  int stuck;      /* dry friction holds the rotor */
 } mode;
 
 typedef struct {
   double i_dot[3], torque, v_float;
 } electrical;
 
-static int wrapped(int sector) { return ((sector % 6) + 6) % 6; }
+static int wrapped(int sector) {
+  return ((sector % 6) + 6) % 6;
+}
 
 static double trapezoid(double angle) {
   double turn = angle / (2 * PI);
@@ -77,11 +79,14 @@ static void rk4(const reference_parameters *p, const mode *m, const double *y, d
   static const double weight[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6}, stage[4] = {0, 0.5, 0.5, 1};
   double k[N_STATES] = {0}, at[N_STATES], sum[N_STATES] = {0};
   for (int s = 0; s < 4; s++) {
-    for (int n = 0; n < N_STATES; n++) at[n] = y[n] + h * stage[s] * k[n];
+    for (int n = 0; n < N_STATES; n++)
+      at[n] = y[n] + h * stage[s] * k[n];
     derivative(p, m, at, k);
-    for (int n = 0; n < N_STATES; n++) sum[n] += weight[s] * k[n];
+    for (int n = 0; n < N_STATES; n++)
+      sum[n] += weight[s] * k[n];
   }
-  for (int n = 0; n < N_STATES; n++) out[n] = y[n] + h * sum[n];
+  for (int n = 0; n < N_STATES; n++)
+    out[n] = y[n] + h * sum[n];
 }
 
 enum { COMMUTATE, LEG, BREAK_AWAY, N_GUARDS };
@@ -91,9 +96,12 @@ static void guards(const reference_parameters *p, const mode *m, const double *y
   electrical el = circuit(p, m, y);
   double current = y[FLOAT[wrapped(m->sector)]];
   g[COMMUTATE] = p->pp * y[TH] - (PI / 6 + PI / 3 * (m->sector + 1));
-  if (m->leg == DIODE_LOW) g[LEG] = -current;
-  else if (m->leg == DIODE_HIGH) g[LEG] = current;
-  else g[LEG] = fmax(el.v_float - p->V, -el.v_float);
+  if (m->leg == DIODE_LOW)
+    g[LEG] = -current;
+  else if (m->leg == DIODE_HIGH)
+    g[LEG] = current;
+  else
+    g[LEG] = fmax(el.v_float - p->V, -el.v_float);
   g[BREAK_AWAY] = m->stuck ? el.torque - p->tau_c : -1;
 }
 
@@ -127,8 +135,10 @@ static double locate(const reference_parameters *p, const mode *m, const double 
     double middle = 0.5 * (low + high);
     rk4(p, m, y, h * middle, at);
     guards(p, m, at, g);
-    if (g[guard] > 0) high = middle;
-    else low = middle;
+    if (g[guard] > 0)
+      high = middle;
+    else
+      low = middle;
   }
   return high;
 }
@@ -161,8 +171,16 @@ static int step_with_events(const reference_parameters *p, mode *m, double *y, d
 }
 
 reference_parameters reference_defaults(void) {
-  return (reference_parameters){.V = 28, .R = 2.13, .L = 720e-6, .Ke = 0.12476, .pp = 2, .J = 2.5e-5, .d = 3e-5,
-                                .tau_c = 0.09357, .f_cut = 129.7, .zeta = 0};
+  return (reference_parameters){.V = 28,
+                                .R = 2.13,
+                                .L = 720e-6,
+                                .Ke = 0.12476,
+                                .pp = 2,
+                                .J = 2.5e-5,
+                                .d = 3e-5,
+                                .tau_c = 0.09357,
+                                .f_cut = 129.7,
+                                .zeta = 0};
 }
 
 int reference_simulate(const reference_parameters *p, double step, int rows, double (*out)[5]) {

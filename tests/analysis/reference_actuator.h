@@ -9,14 +9,14 @@ extern "C" {
 #endif
 
 typedef struct {
-  double V;      /* V, supply */
-  double R, L;   /* ohm, H, per phase */
-  double Ke;     /* V.s/rad, peak, per phase */
-  double pp;     /* pole pairs */
-  double J, d;   /* kg.m2, N.m.s/rad */
-  double tau_c;  /* N.m, dry friction */
-  double f_cut;  /* Hz, corner of each low-pass section */
-  double zeta;   /* relative static eccentricity, 0..1 */
+  double V;     /* V, supply */
+  double R, L;  /* ohm, H, per phase */
+  double Ke;    /* V.s/rad, peak, per phase */
+  double pp;    /* pole pairs */
+  double J, d;  /* kg.m2, N.m.s/rad */
+  double tau_c; /* N.m, dry friction */
+  double f_cut; /* Hz, corner of each low-pass section */
+  double zeta;  /* relative static eccentricity, 0..1 */
 } reference_parameters;
 
 /* The consistent parameter set, healthy rotor. */

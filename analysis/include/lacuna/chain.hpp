@@ -13,11 +13,11 @@
 namespace lacuna {
 
 struct ChannelFeatures {
-  double rms;             ///< of the whole record
-  std::ptrdiff_t peak_bin;  ///< first peak of the peak-hold spectrum; -1: there is none
-  double peak_hz;         ///< its frequency; NaN without a peak
-  double peak_amplitude;  ///< its amplitude; NaN without a peak
-  Eigen::ArrayXd held;    ///< [lines] peak-hold amplitude spectrum
+  double rms;              ///< of the whole record
+  std::ptrdiff_t peak_bin; ///< first peak of the peak-hold spectrum; -1: there is none
+  double peak_hz;          ///< its frequency; NaN without a peak
+  double peak_amplitude;   ///< its amplitude; NaN without a peak
+  Eigen::ArrayXd held;     ///< [lines] peak-hold amplitude spectrum
 };
 
 struct Features {
@@ -28,25 +28,25 @@ struct Features {
 
 /// Built once for its settings (window, plan); then any number of threads may analyse with it.
 class Chain {
- public:
-  explicit Chain(const Settings& settings);
+public:
+  explicit Chain(const Settings &settings);
 
-  const Settings& settings() const { return settings_; }
-  const Sections& sections() const { return sections_; }
-  const SectionSpectrum& spectrum() const { return spectrum_; }
+  const Settings &settings() const { return settings_; }
+  const Sections &sections() const { return sections_; }
+  const SectionSpectrum &spectrum() const { return spectrum_; }
   double resolution_hz() const { return settings_.sampling_rate / static_cast<double>(spectrum_.padded()); }
 
   /// `currents` as many as in the settings, each a whole record; `angle` a whole record or empty (no speed).
   /// Throws Error where a record has another length or a value that is not finite, naming channel and time.
-  Features analyse(const std::vector<std::span<const double>>& currents, std::span<const double> angle) const;
+  Features analyse(const std::vector<std::span<const double>> &currents, std::span<const double> angle) const;
 
- private:
-  void require_record(std::span<const double> record, const std::string& name) const;
-  ChannelFeatures analyse_channel(std::span<const double> record, RealTransform::Buffers& work) const;
+private:
+  void require_record(std::span<const double> record, const std::string &name) const;
+  ChannelFeatures analyse_channel(std::span<const double> record, RealTransform::Buffers &work) const;
 
   Settings settings_;
   Sections sections_;
   SectionSpectrum spectrum_;
 };
 
-}  // namespace lacuna
+} // namespace lacuna

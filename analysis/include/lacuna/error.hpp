@@ -6,8 +6,8 @@
 namespace lacuna {
 
 class Error : public std::runtime_error {
- public:
+public:
   using std::runtime_error::runtime_error;
 };
 
-}  // namespace lacuna
+} // namespace lacuna

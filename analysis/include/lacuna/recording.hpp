@@ -10,16 +10,16 @@
 namespace lacuna {
 
 class Recording {
- public:
+public:
   /// Reads the named columns at `sampling_rate`, `samples` rows at most. Throws Error naming the column or the line:
   /// missing column, a field that is not a number, a time that is not on the sampling grid, too few samples.
-  static Recording read(std::istream& csv, const std::vector<std::string>& columns, double sampling_rate,
+  static Recording read(std::istream &csv, const std::vector<std::string> &columns, double sampling_rate,
                         std::size_t samples);
 
   std::span<const double> column(std::size_t k) const { return columns_[k]; }
 
- private:
+private:
   std::vector<std::vector<double>> columns_;
 };
 
-}  // namespace lacuna
+} // namespace lacuna

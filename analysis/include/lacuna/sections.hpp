@@ -6,7 +6,7 @@
 namespace lacuna {
 
 class Sections {
- public:
+public:
   /// Cut a record of `samples` into sections of `share` of it, each overlapping the one before by `overlap` of a
   /// section. Only whole sections count. Throws Error where no section fits or the hop is zero.
   Sections(std::size_t samples, double share, double overlap);
@@ -16,8 +16,8 @@ class Sections {
   std::size_t hop() const { return hop_; }
   std::size_t start(std::size_t section) const { return section * hop_; }
 
- private:
+private:
   std::size_t length_, hop_, count_;
 };
 
-}  // namespace lacuna
+} // namespace lacuna

@@ -11,13 +11,13 @@
 namespace lacuna {
 
 struct Settings {
-  double sampling_rate, duration;                   // Hz, s
-  std::vector<std::string> currents;                // column names
-  std::string angle;                                // column name, empty: no speed feature
-  double section, overlap;                          // of the record, of a section
+  double sampling_rate, duration;    // Hz, s
+  std::vector<std::string> currents; // column names
+  std::string angle;                 // column name, empty: no speed feature
+  double section, overlap;           // of the record, of a section
   enum class Padding { record, section, none } padding;
-  double peak_above, peak_threshold;                // Hz, of the largest line
-  double speed_after;                               // s
+  double peak_above, peak_threshold; // Hz, of the largest line
+  double speed_after;                // s
   std::vector<Band> bands;
 
   /// From the text of a settings file; throws Error naming the entry that is missing or impossible.
@@ -27,4 +27,4 @@ struct Settings {
   std::size_t padded_length(std::size_t section_length) const;
 };
 
-}  // namespace lacuna
+} // namespace lacuna

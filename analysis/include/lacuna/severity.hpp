@@ -10,25 +10,25 @@ namespace lacuna {
 
 struct Band {
   std::string name, mode;
-  double first, last;  ///< severities, both included
+  double first, last; ///< severities, both included
 };
 
 class SeverityBands {
- public:
+public:
   /// In rising order, not overlapping; throws Error otherwise. Gaps between them are allowed, the paper has some.
   explicit SeverityBands(std::vector<Band> bands);
 
-  const std::vector<Band>& bands() const { return bands_; }
+  const std::vector<Band> &bands() const { return bands_; }
   /// The band of a severity. In a gap, and beyond the last band, the worse side counts.
-  const Band& of(double severity) const;
+  const Band &of(double severity) const;
   /// Rise of a quantity over `band`, from its values at rising severities (linear between them).
-  static double rise(const Band& band, std::span<const double> severity, std::span<const double> value);
+  static double rise(const Band &band, std::span<const double> severity, std::span<const double> value);
 
- private:
+private:
   std::vector<Band> bands_;
 };
 
 /// y(x) of a table of rising x, linear between its rows, constant outside.
 double interpolate(std::span<const double> x, std::span<const double> y, double at);
 
-}  // namespace lacuna
+} // namespace lacuna

@@ -19,35 +19,35 @@
 namespace lacuna {
 
 class SectionSpectrum {
- public:
+public:
   /// `padded` >= the window's length and even.
   SectionSpectrum(HannWindow window, std::size_t padded);
 
-  const HannWindow& window() const { return window_; }
+  const HannWindow &window() const { return window_; }
   std::size_t padded() const { return transform_.length(); }
   std::size_t lines() const { return transform_.lines(); }
   RealTransform::Buffers buffers() const { return RealTransform::Buffers(transform_); }
 
   /// |F[k]|^2 of `section` (as long as the window), into `out` [lines].
-  void squared_magnitude(std::span<const double> section, RealTransform::Buffers& work, Eigen::ArrayXd& out) const;
+  void squared_magnitude(std::span<const double> section, RealTransform::Buffers &work, Eigen::ArrayXd &out) const;
 
-  Eigen::ArrayXd amplitude(const Eigen::ArrayXd& squared_magnitude) const;
-  Eigen::ArrayXd power(const Eigen::ArrayXd& squared_magnitude) const;
+  Eigen::ArrayXd amplitude(const Eigen::ArrayXd &squared_magnitude) const;
+  Eigen::ArrayXd power(const Eigen::ArrayXd &squared_magnitude) const;
 
- private:
+private:
   HannWindow window_;
   RealTransform transform_;
 };
 
 /// For each line the largest value of all spectra that were added: the paper's peak hold.
 class PeakHold {
- public:
+public:
   explicit PeakHold(std::size_t lines) : held_(Eigen::ArrayXd::Zero(static_cast<Eigen::Index>(lines))) {}
-  void add(const Eigen::ArrayXd& spectrum) { held_ = held_.max(spectrum); }
-  const Eigen::ArrayXd& value() const { return held_; }
+  void add(const Eigen::ArrayXd &spectrum) { held_ = held_.max(spectrum); }
+  const Eigen::ArrayXd &value() const { return held_; }
 
- private:
+private:
   Eigen::ArrayXd held_;
 };
 
-}  // namespace lacuna
+} // namespace lacuna

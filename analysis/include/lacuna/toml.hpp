@@ -17,31 +17,31 @@ struct Value {
 
 /// One table; its getters throw Error, naming table and key, where the key is missing or of another type.
 class Table {
- public:
+public:
   explicit Table(std::string name = "") : name_(std::move(name)) {}
-  bool has(const std::string& key) const { return values_.contains(key); }
-  double number(const std::string& key) const;
-  std::string text(const std::string& key) const;
-  std::vector<std::string> texts(const std::string& key) const;
-  void set(const std::string& key, Value value);
+  bool has(const std::string &key) const { return values_.contains(key); }
+  double number(const std::string &key) const;
+  std::string text(const std::string &key) const;
+  std::vector<std::string> texts(const std::string &key) const;
+  void set(const std::string &key, Value value);
 
- private:
-  const Value& at(const std::string& key) const;
+private:
+  const Value &at(const std::string &key) const;
   std::string name_;
   std::map<std::string, Value> values_;
 };
 
 class Document {
- public:
+public:
   /// Throws Error with the line number where the text is not in this part of TOML.
   explicit Document(std::string_view text);
   /// The table of that name; an Error if there is none or several.
-  const Table& table(const std::string& name) const;
+  const Table &table(const std::string &name) const;
   /// All tables of that name, in order.
-  std::vector<Table> tables(const std::string& name) const;
+  std::vector<Table> tables(const std::string &name) const;
 
- private:
+private:
   std::multimap<std::string, Table> tables_;
 };
 
-}  // namespace lacuna::toml
+} // namespace lacuna::toml

@@ -14,16 +14,16 @@ std::size_t next_power_of_two(std::size_t n);
 
 /// One plan, made once; any number of threads may run it, each with its own buffers.
 class RealTransform {
- public:
+public:
   class Buffers {
-   public:
-    explicit Buffers(const RealTransform& transform);
-    std::span<double> input;                   ///< N samples, zero at first
-    std::span<std::complex<double>> spectrum;  ///< N/2 + 1 lines
+  public:
+    explicit Buffers(const RealTransform &transform);
+    std::span<double> input;                  ///< N samples, zero at first
+    std::span<std::complex<double>> spectrum; ///< N/2 + 1 lines
 
-   private:
+  private:
     struct Free {
-      void operator()(void* memory) const { fftw_free(memory); }
+      void operator()(void *memory) const { fftw_free(memory); }
     };
     std::unique_ptr<void, Free> input_memory_, spectrum_memory_;
   };
@@ -34,9 +34,9 @@ class RealTransform {
   std::size_t lines() const { return length_ / 2 + 1; }
 
   /// Fills `spectrum` from `input`, which keeps its contents.
-  void run(Buffers& buffers) const;
+  void run(Buffers &buffers) const;
 
- private:
+private:
   struct Destroy {
     void operator()(fftw_plan plan) const;
   };
@@ -44,4 +44,4 @@ class RealTransform {
   std::unique_ptr<std::remove_pointer_t<fftw_plan>, Destroy> plan_;
 };
 
-}  // namespace lacuna
+} // namespace lacuna

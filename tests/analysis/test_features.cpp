@@ -1,0 +1,103 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "lacuna/error.hpp"
+#include "lacuna/features.hpp"
+#include "lacuna/severity.hpp"
+
+using lacuna::first_peak;
+using lacuna::mean_speed;
+using lacuna::SeverityBands;
+
+namespace {
+
+Eigen::ArrayXd lines(std::initializer_list<double> values) {
+  Eigen::ArrayXd result(static_cast<Eigen::Index>(values.size()));
+  std::copy(values.begin(), values.end(), result.begin());
+  return result;
+}
+
+std::vector<double> angle(double start, double speed, double acceleration, std::size_t samples = 10001) {
+  std::vector<double> phi(samples);
+  for (std::size_t k = 0; k < samples; ++k) {
+    const double t = 1e-4 * static_cast<double>(k);
+    phi[k] = start + speed * t + 0.5 * acceleration * t * t;
+  }
+  return phi;
+}
+
+} // namespace
+
+TEST(Rms, IsEquationSeven) {
+  const std::vector<double> x{1, -2, 3, -4};
+  EXPECT_DOUBLE_EQ(lacuna::rms(x), std::sqrt(30.0 / 4));
+}
+
+TEST(FirstPeak, IsTheFirstLargeEnoughAndNotTheLargest) {
+  EXPECT_EQ(first_peak(lines({9, 0, 3, 0, 1.5, 0, 10, 0}), 1, 0.5, 0.1), 2u);
+}
+
+TEST(FirstPeak, MustLieAboveTheFrequency) {
+  EXPECT_EQ(first_peak(lines({0, 5, 0, 6, 0}), 2.0, 2.0, 0.1), 3u);
+}
+
+TEST(FirstPeak, MustExceedTheShareOfTheLargestLineEvenIfThatIsDirect) {
+  EXPECT_EQ(first_peak(lines({30, 0, 2, 0, 4, 0}), 1, 0.5, 0.1), 4u);
+}
+
+TEST(FirstPeak, OfAPlateauIsItsFirstLine) {
+  EXPECT_EQ(first_peak(lines({0, 1, 3, 3, 1}), 1, 0.5, 0.1), 2u);
+}
+
+TEST(FirstPeak, ThereMayBeNone) {
+  EXPECT_FALSE(first_peak(lines({5, 4, 3, 2, 1}), 1, 0.5, 0.1));
+  EXPECT_FALSE(first_peak(lines({0, 0, 0, 0}), 1, 0.5, 0.1));
+}
+
+TEST(MeanSpeed, OfUniformRotationIsItsSpeed) {
+  const auto speed = mean_speed(angle(1.0, 105.0, 0), 1e-4, 0.3);
+  EXPECT_EQ(speed.turns, 11);
+  EXPECT_NEAR(speed.value, 105.0, 1e-9);
+}
+
+TEST(MeanSpeed, OfAnAcceleratingRotorIsTheMeanOverWholeTurns) {
+  const auto speed = mean_speed(angle(0, 50.0, 30.0), 1e-4, 0.3);
+  const double w = 50 + 30 * 0.3001; // at the first sample later than 0.3 s
+  const double travel = 2 * std::numbers::pi * speed.turns;
+  const double duration = (-w + std::sqrt(w * w + 2 * 30 * travel)) / 30;
+  EXPECT_NEAR(speed.value, travel / duration, 1e-6);
+}
+
+TEST(MeanSpeed, KeepsItsSign) {
+  EXPECT_NEAR(mean_speed(angle(0, -105.0, 0), 1e-4, 0.3).value, -105.0, 1e-9);
+}
+
+TEST(MeanSpeed, NeedsAWholeTurn) {
+  const auto speed = mean_speed(angle(0, 5.0, 0), 1e-4, 0.3);
+  EXPECT_EQ(speed.turns, 0);
+  EXPECT_TRUE(std::isnan(speed.value));
+  EXPECT_EQ(mean_speed(angle(0, 5.0, 0, 10), 1e-4, 0.3).turns, 0);
+}
+
+TEST(SeverityBands, GapsBelongToTheWorseSide) {
+  const SeverityBands bands({{"green", "", 0, 0.10}, {"orange", "", 0.11, 0.26}});
+  EXPECT_EQ(bands.of(0.0).name, "green");
+  EXPECT_EQ(bands.of(0.10).name, "green");
+  EXPECT_EQ(bands.of(0.105).name, "orange");
+  EXPECT_EQ(bands.of(0.9).name, "orange");
+}
+
+TEST(SeverityBands, RiseIsBetweenTheEdges) {
+  const std::vector<double> severity{0, 0.1, 0.2}, value{1, 2, 5};
+  EXPECT_DOUBLE_EQ(SeverityBands::rise({"", "", 0, 0.2}, severity, value), 4.0);
+  EXPECT_NEAR(SeverityBands::rise({"", "", 0.05, 0.15}, severity, value), 2.0, 1e-12);
+}
+
+TEST(SeverityBands, RefuseDisorder) {
+  EXPECT_THROW(SeverityBands({}), lacuna::Error);
+  EXPECT_THROW(SeverityBands({{"a", "", 0.2, 0.1}}), lacuna::Error);
+  EXPECT_THROW(SeverityBands({{"a", "", 0, 0.1}, {"b", "", 0.1, 0.2}}), lacuna::Error);
+}
