@@ -1,0 +1,3 @@
+within Lacuna;
+package Actuators "Whole actuators"
+end Actuators;

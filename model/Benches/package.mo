@@ -1,0 +1,3 @@
+within Lacuna;
+package Benches "Small reference machines, as recorded on laboratory benches"
+end Benches;

@@ -1,0 +1,31 @@
+within Lacuna.Components.Control;
+block ServoController "Cascade of a position loop and a speed loop that commands a voltage"
+  parameter Types.PerUnit N = 1 "Turns of the motor for one turn of the output";
+  parameter Real Kp(final unit="1/s", start=10) "Gain of the position loop";
+  parameter Types.AngularVelocity wmax(final min=0, start=500) "Largest reference speed";
+  parameter Types.BackEmfConstant Kw(start=0.1) "Proportional gain of the speed loop";
+  parameter Real Ki(final unit="V/rad", start=1) "Integral gain of the speed loop";
+  parameter Types.Voltage Vdc(final min=0, start=28) "Largest voltage";
+  Interfaces.RealInput command(unit="rad") "Commanded position";
+  Interfaces.RealInput position(unit="rad") "Measured position";
+  Interfaces.RealInput speed(unit="rad/s") "Measured speed of the motor";
+  Interfaces.RealOutput u(unit="V") "Voltage command";
+  Types.AngularVelocity wref "Reference speed";
+  Types.Angle xi(start=0, fixed=true) "Integral of the speed error";
+  Types.Voltage u_free "Voltage command before the limit";
+protected
+  Types.AngularVelocity w_free "Reference speed before the limit";
+  Types.AngularVelocity error "Speed error";
+equation
+  w_free = Kp*N*(command - position);
+  wref = if w_free > wmax then wmax elseif w_free < -wmax then -wmax else w_free;
+  error = wref - speed;
+  u_free = Kw*error + Ki*xi;
+  u = if u_free > Vdc then Vdc elseif u_free < -Vdc then -Vdc else u_free;
+  der(xi) = if u_free > Vdc and error > 0 or u_free < -Vdc and error < 0 then 0 else error;
+  annotation(Documentation(info="<html>
+<p>Proportional position loop with a limited speed reference, and a proportional-integral speed loop whose integral is held
+while the voltage is at its limit and the error would drive it further in. On <code>N</code>: the position is that of the
+output, the speed that of the motor.</p>
+</html>"));
+end ServoController;

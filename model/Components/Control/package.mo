@@ -1,0 +1,3 @@
+within Lacuna.Components;
+package Control "Controllers, filters and regulators, continuous and sampled"
+end Control;

@@ -1,0 +1,3 @@
+within Lacuna.Components;
+package Drives "Brushless machine, inverter and commutation"
+end Drives;

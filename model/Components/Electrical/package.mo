@@ -1,0 +1,3 @@
+within Lacuna.Components;
+package Electrical "Sources, passive elements and ideal diodes"
+end Electrical;

@@ -1,0 +1,3 @@
+within Lacuna.Components;
+package Monitors "Supervision with confirmation times"
+end Monitors;

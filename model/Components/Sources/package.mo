@@ -1,0 +1,3 @@
+within Lacuna.Components;
+package Sources "Command signals"
+end Sources;

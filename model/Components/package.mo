@@ -1,0 +1,3 @@
+within Lacuna;
+package Components "Components, by physical domain"
+end Components;

@@ -1,0 +1,2 @@
+within Lacuna.Interfaces;
+connector BooleanInput = input Boolean "Boolean signal into a block";

@@ -1,0 +1,2 @@
+within Lacuna.Interfaces;
+connector BooleanOutput = output Boolean "Boolean signal out of a block";

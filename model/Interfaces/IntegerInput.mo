@@ -1,0 +1,2 @@
+within Lacuna.Interfaces;
+connector IntegerInput = input Integer "Integer signal into a block";

@@ -1,0 +1,45 @@
+within Lacuna.Interfaces;
+partial model PartialFriction "Dry friction that sticks: mode, path variable and events"
+  constant Integer Forward = 1 "Slides with positive speed";
+  constant Integer Stuck = 0 "At rest, held by friction";
+  constant Integer Backward = -1 "Slides with negative speed";
+  Integer mode(start=0, fixed=true) "Forward, Stuck or Backward";
+  Types.AngularVelocity w_fric(stateSelect=StateSelect.prefer) "Sliding speed";
+  Types.Torque tau_fric "Friction torque against the speed";
+  Types.Torque tau_slide "Level while it slides, not negative";
+  Types.Torque tau_break "Level at which it breaks away, not below tau_slide";
+  Types.Power loss "Heat";
+protected
+  constant Types.Torque unitTorque = 1;
+  constant Types.AngularAcceleration unitAcceleration = 1;
+  constant Types.AngularVelocity w_small = 1e-10 "Slower than this is at rest";
+  Real sa(start=0) "Path variable: torque while stuck, acceleration while sliding";
+  Types.Torque tau_hold "Torque that keeps it at rest; zero while it slides";
+  Types.AngularVelocity w_stuck "Speed while stuck: zero unless something else sets it";
+equation
+  tau_fric = if mode == Stuck then sa*unitTorque else mode*tau_slide;
+  der(w_fric) = if mode == Stuck then 0 else sa*unitAcceleration;
+  tau_hold = if mode == Stuck then sa*unitTorque else 0;
+  w_stuck = if mode == Stuck then w_fric else 0;
+  mode = if pre(mode) == Stuck then
+      (if tau_hold > tau_break or w_stuck > w_small then Forward
+       elseif tau_hold < -tau_break or w_stuck < -w_small then Backward else Stuck)
+    elseif pre(mode)*w_fric < 0 then Stuck else pre(mode);
+  when mode == Stuck then
+    reinit(w_fric, 0);
+  end when;
+  loss = tau_fric*w_fric;
+  annotation(Documentation(info="<html>
+<p>Dry friction opposes motion with <code>tau_slide</code>; at rest it takes whatever value keeps the body at rest, up to
+<code>tau_break</code>. Torque is thus no function of speed: the relation is traversed by the path variable <code>sa</code>,
+which is the torque while stuck and the acceleration while sliding, and <code>mode</code> says which branch holds.</p>
+<p>Sliding ends when the speed passes zero; the speed is then set to exactly zero and its derivative is zero, so a stuck
+element never creeps. In the same event the torque needed to hold it becomes known: if it exceeds <code>tau_break</code> the
+element slides on at once in the sense of that torque. All conditions are strict, so none is exactly on its switching
+point when the integration goes on.</p>
+<p>Why not a smooth law such as <code>tanh(w/w0)</code>: it creeps under a constant load and is stiff near rest. Two stuck
+elements on one rigid shaft share their load in no unique way; such a model is refused.</p>
+<p>Reference: M. Otter, H. Elmqvist, S. E. Mattsson: Hybrid modeling in Modelica based on the synchronous data flow
+principle, CACSD 1999.</p>
+</html>"));
+end PartialFriction;

@@ -1,0 +1,2 @@
+within Lacuna.Interfaces;
+connector RealInput = input Real "Real signal into a block";

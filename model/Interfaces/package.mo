@@ -1,0 +1,3 @@
+within Lacuna;
+package Interfaces "Connectors and partial models"
+end Interfaces;
