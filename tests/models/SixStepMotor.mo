@@ -1,0 +1,42 @@
+model SixStepMotor "Three-phase motor from rest at full voltage, six-step commutation, the floating leg ideal"
+  parameter Real R(unit="Ohm") = 2.1 "Resistance of a phase";
+  parameter Real L(unit="H") = 7e-4 "Inductance of a phase";
+  parameter Real Ke(unit="V.s/rad") = 0.075 "Back-EMF constant of a phase";
+  parameter Integer pp = 2 "Pole pairs";
+  parameter Real J(unit="kg.m2") = 6e-5 "Inertia";
+  parameter Real B(unit="N.m.s/rad") = 2e-4 "Viscous friction";
+  parameter Real V(unit="V") = 48 "Supply";
+  constant Real sector(unit="rad") = 3.141592653589793/3 "Electrical width of a sector";
+  Real ia(unit="A", start=0, fixed=true), ib(unit="A", start=0, fixed=true), ic(unit="A") "Phase currents";
+  Real w(unit="rad/s", start=0, fixed=true) "Speed";
+  Real th(unit="rad", start=0, fixed=true) "Angle";
+  Real vn(unit="V") "Star point";
+  Real va(unit="V"), vb(unit="V"), vc(unit="V") "Terminals";
+  Real ea(unit="V"), eb(unit="V"), ec(unit="V") "Back-EMF";
+  Real s "Position in the sector, from -1 to 1";
+  Real fa, fb, fc "Shapes of the back-EMF";
+  Integer n(start=-1, fixed=true) "Commutations so far";
+  Integer k "Sector, 0 to 5";
+equation
+  k = mod(n, 6);
+  s = 2*(pp*th - n*sector)/sector - 2;
+  fa = if k < 2 then 1 elseif k == 2 then -s elseif k < 5 then -1 else s;
+  fb = if k == 2 or k == 3 then 1 elseif k == 4 then -s elseif k == 1 then s else -1;
+  fc = if k > 3 then 1 elseif k == 0 then -s elseif k == 3 then s else -1;
+  ea = Ke*w*fa;
+  eb = Ke*w*fb;
+  ec = Ke*w*fc;
+  va = if k < 2 then V elseif k == 3 or k == 4 then 0 else vn + ea;
+  vb = if k == 2 or k == 3 then V elseif k == 5 or k == 0 then 0 else vn + eb;
+  vc = if k > 3 then V elseif k == 1 or k == 2 then 0 else vn + ec;
+  L*der(ia) = va - vn - R*ia - ea;
+  L*der(ib) = vb - vn - R*ib - eb;
+  L*der(ic) = vc - vn - R*ic - ec;
+  ia + ib + ic = 0;
+  J*der(w) = Ke*(fa*ia + fb*ib + fc*ic) - B*w;
+  der(th) = w;
+  when pp*th > (pre(n) + 1.5)*sector then
+    n = pre(n) + 1;
+  end when;
+  annotation(experiment(StopTime=1, Interval=1e-4));
+end SixStepMotor;
