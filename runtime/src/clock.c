@@ -1,0 +1,80 @@
+/* Time events: sample() ticks, time relations, jumps of inputs, and the grid of a fixed step. */
+#include <math.h>
+
+#include "session.h"
+
+static double tick_time(const rt_clock *c, int i) { return c->first[i] + (double)c->next[i] * c->interval[i]; }
+
+rt_status rt_clock_begin(rt_session *s) {
+  rt_clock *c = &s->clock;
+  c->tolerance = 1e-13 * (fabs(s->start) + fabs(s->stop));
+  c->step = 1;
+  if (s->d->n_sample && s->d->samples(&s->data, c->first, c->interval)) return rt_fail_model(s, s->start, "computing sample times");
+  for (int i = 0; i < s->d->n_sample; i++) {
+    if (!(c->interval[i] > 0)) return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "sample() number %d has interval %.9g s", i + 1, c->interval[i]);
+    c->next[i] = (long)fmax(0, ceil((s->start - c->tolerance - c->first[i]) / c->interval[i]));
+  }
+  if (s->d->time_relations(&s->data, s->start)) return rt_fail_model(s, s->start, "evaluating time relations");
+  c->next_relation = s->d->next_time_event(&s->data, s->start);
+  return RT_OK;
+}
+
+static double next_event(const rt_session *s) {
+  double next = s->clock.next_relation;
+  for (int i = 0; i < s->d->n_sample; i++) next = fmin(next, tick_time(&s->clock, i));
+  return next;
+}
+
+/* The next instant that the step may not pass: where something happens at a known time. */
+double rt_clock_limit(rt_session *s) {
+  double limit = s->stop;
+  if (s->options.step > 0) {
+    rt_clock *c = &s->clock;
+    while (s->start + (double)c->step * s->options.step <= s->t + c->tolerance) c->step++;
+    limit = fmin(limit, s->start + (double)c->step * s->options.step);
+    if (!s->options.locate_events) return limit;
+  }
+  limit = fmin(limit, next_event(s));
+  return fmin(limit, rt_inputs_next_break(s, s->method->lands_on_kinks));
+}
+
+/* What has become due at the present time, as RT_PENDING flags. */
+int rt_clock_due(rt_session *s) {
+  double now = s->t + s->clock.tolerance;
+  int pending = s->clock.next_relation <= now ? RT_PENDING_TIME : 0;
+  for (int i = 0; i < s->d->n_sample; i++)
+    if (tick_time(&s->clock, i) <= now) pending |= RT_PENDING_SAMPLE;
+  for (int i = 0; i < s->d->n_u; i++) {
+    rt_input *in = &s->inputs[i];
+    if (!in->n || in->interpolation != RT_HOLD) continue;
+    while (in->cursor + 1 < in->n && in->time[in->cursor + 1] <= now && in->values[in->cursor + 1] == in->values[in->cursor]) in->cursor++;
+    if (in->cursor + 1 < in->n && in->time[in->cursor + 1] <= now) pending |= RT_PENDING_INPUT;
+  }
+  return pending;
+}
+
+static void log_time_relations(rt_session *s) {
+  for (int r = 0; r < s->d->n_rel; r++)
+    if (s->d->relations[r].is_time && s->data.rel[r] != s->rel_before[r])
+      rt_result_log(s->result, s->t, RT_EVENT_TIME, r, s->data.rel[r] ? 1 : -1);
+}
+
+/* Switch the time relations and raise the ticks that are due. */
+void rt_clock_tick(rt_session *s) {
+  rt_clock *c = &s->clock;
+  double now = s->t + c->tolerance;
+  if (s->pending & RT_PENDING_TIME) {
+    double at = fmax(s->t, c->next_relation);
+    s->d->time_relations(&s->data, at);
+    log_time_relations(s);
+    c->next_relation = s->d->next_time_event(&s->data, at);
+    s->result->counters.time_events++;
+  }
+  for (int i = 0; i < s->d->n_sample; i++) {
+    if (tick_time(c, i) > now) continue;
+    s->data.tick[i] = 1;
+    rt_result_log(s->result, s->t, RT_EVENT_SAMPLE, i, 1);
+    s->result->counters.sample_events++;
+    while (tick_time(c, i) <= now) c->next[i]++;
+  }
+}

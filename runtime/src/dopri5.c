@@ -1,0 +1,62 @@
+/* Dormand & Prince 5(4): J. R. Dormand, P. J. Prince, J. Comp. Appl. Math. 6 (1980) 19-26. The seventh stage is the first of the next
+ * step. Dense output of order 4: Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, II.6. */
+#include <string.h>
+
+#include "onestep.h"
+
+enum { STAGES = 7 };
+
+static const double c[STAGES] = {0, 1. / 5, 3. / 10, 4. / 5, 8. / 9, 1, 1};
+static const double a[STAGES][STAGES - 1] = {{0},
+                                             {1. / 5},
+                                             {3. / 40, 9. / 40},
+                                             {44. / 45, -56. / 15, 32. / 9},
+                                             {19372. / 6561, -25360. / 2187, 64448. / 6561, -212. / 729},
+                                             {9017. / 3168, -355. / 33, 46732. / 5247, 49. / 176, -5103. / 18656},
+                                             {35. / 384, 0, 500. / 1113, 125. / 192, -2187. / 6784, 11. / 84}};
+/* fifth-order minus fourth-order weights */
+static const double e[STAGES] = {71. / 57600, 0, -71. / 16695, 71. / 1920, -17253. / 339200, 22. / 525, -1. / 40};
+static const double d[STAGES] = {-12715105075. / 11282082432.,  0, 87487479700. / 32700410799., -10690763975. / 1880347072.,
+                                 701980252875. / 199316789632., -1453857185. / 822651844., 69997945. / 29380423.};
+
+static int attempt(rt_session *s, rt_onestep *o, double h, double *error) {
+  int n = s->d->n_x;
+  memcpy(o->k, o->f0, (size_t)n * sizeof *o->k);
+  for (int j = 1; j < STAGES; j++) {
+    int status = rt_rhs(s, o->t0 + c[j] * h, rt_stage(s, o, h, j, a[j]), o->k + j * n, s->data.v);
+    if (status) return status;
+  }
+  memcpy(o->x1, o->x_stage, (size_t)n * sizeof *o->x1);
+  memcpy(o->f1, o->k + (STAGES - 1) * n, (size_t)n * sizeof *o->f1);
+  for (int i = 0; i < n; i++) {
+    double sum = 0;
+    for (int j = 0; j < STAGES; j++) sum += e[j] * o->k[j * n + i];
+    o->x_stage[i] = h * sum;
+  }
+  *error = rt_error_norm(s, o, o->x_stage);
+  return 0;
+}
+
+/* x0 + s (r1 + (1 - s) (r2 + s (r3 + (1 - s) r4))), expanded in powers of s. */
+static void dense(const rt_session *s, const rt_onestep *o, rt_dense *out) {
+  int n = s->d->n_x;
+  out->degree = 4;
+  for (int i = 0; i < n; i++) {
+    double r1 = o->x1[i] - o->x0[i], r2 = o->h * o->f0[i] - r1, r3 = r1 - o->h * o->f1[i] - r2, r4 = 0;
+    for (int j = 0; j < STAGES; j++) r4 += d[j] * o->k[j * n + i];
+    r4 *= o->h;
+    out->c[i] = o->x0[i];
+    out->c[n + i] = r1 + r2;
+    out->c[2 * n + i] = r3 + r4 - r2;
+    out->c[3 * n + i] = -r3 - 2 * r4;
+    out->c[4 * n + i] = r4;
+  }
+}
+
+static const rt_scheme scheme = {
+    .stages = STAGES, .order = 5, .damping = 0.04, .min_factor = 0.2, .max_factor = 10, .attempt = attempt, .dense = dense};
+
+static void *create(rt_session *s) { return rt_onestep_create(s, &scheme); }
+
+const rt_method rt_method_dopri5 = {"dopri5", false, true, create, rt_onestep_destroy, rt_onestep_begin, rt_onestep_restart,
+                                    rt_onestep_step, rt_onestep_dense, rt_onestep_count};

@@ -1,0 +1,80 @@
+/* The model's functions as the runtime calls them: inputs brought up to date, calls counted, results guarded. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "session.h"
+
+int rt_state_variable(const rt_session *s, int state) {
+  for (int i = 0; i < s->d->n_variables; i++)
+    if (s->d->variables[i].storage == MDL_STATE && s->d->variables[i].index == state) return i;
+  return -1;
+}
+
+static int report_nonfinite(rt_session *s, const double *xdot) {
+  int state = 0;
+  while (state < s->d->n_x - 1 && isfinite(xdot[state])) state++;
+  s->data.failure =
+      (mdl_failure){.kind = MDL_FAILURE_NONFINITE, .equation = -1, .variable = rt_state_variable(s, state), .value = xdot[state]};
+  return 1;
+}
+
+/* Explicit form: x' [n_x] and v [n_v] at (t, x). `v` holds start values of nonlinear blocks on entry. */
+int rt_rhs(rt_session *s, double t, const double *x, double *xdot, double *v) {
+  rt_inputs_at(s, t);
+  s->result->counters.rhs++;
+  int status = s->d->rhs(&s->data, t, x, xdot, v);
+  if (status) return status;
+  double sum = 0;
+  for (int i = 0; i < s->d->n_x; i++) sum += xdot[i];
+  return isfinite(sum) ? 0 : report_nonfinite(s, xdot);
+}
+
+/* x', v and the guards at the present point. */
+int rt_evaluate(rt_session *s) {
+  mdl_data *m = &s->data;
+  int status = rt_rhs(s, s->t, m->x, m->xdot, m->v);
+  if (status || !s->d->n_rel) return status;
+  s->result->counters.root_evaluations++;
+  return s->d->roots(m, s->t, m->x, m->xdot, m->v, s->g);
+}
+
+/* The point (y, y') of the residual form that belongs to the present x, x', v; z' is left at zero. */
+void rt_residual_point(rt_session *s) {
+  const mdl_descriptor *d = s->d;
+  memcpy(s->y, s->data.x, (size_t)d->n_x * sizeof *s->y);
+  memcpy(s->yp, s->data.xdot, (size_t)d->n_x * sizeof *s->yp);
+  for (int k = 0; k < d->n_z; k++) {
+    s->y[d->n_x + k] = s->data.v[d->z_index[k]];
+    s->yp[d->n_x + k] = 0;
+  }
+}
+
+/* |F| against the size of what is added up in each row of F, estimated by sum_j |dF/dy_j y_j| + |dF/dy'_j y'_j|. */
+static rt_status compare(rt_session *s, double *r, double *scale, double *fy, double *fyp) {
+  const mdl_descriptor *d = s->d;
+  mdl_data *m = &s->data;
+  if (d->residual(m, s->t, s->y, s->yp, r) || d->jacobian(m, s->t, s->y, s->yp, 0, fy) || d->jacobian(m, s->t, s->y, s->yp, 1, fyp))
+    return rt_fail_model(s, s->t, "evaluating the residual form");
+  int n = d->n_x + d->n_z;
+  for (int i = 0; i < n; i++) scale[i] = 0;
+  for (int j = 0; j < n; j++)
+    for (int k = d->jac_colptr[j]; k < d->jac_colptr[j + 1]; k++)
+      scale[d->jac_rowidx[k]] += fabs(fy[k] * s->y[j]) + fabs((fyp[k] - fy[k]) * s->yp[j]);
+  for (int i = 0; i < n; i++)
+    if (!(fabs(r[i]) <= 1e-6 * scale[i] + 1e-9))
+      return rt_fail(s, RT_INCONSISTENT, s->t, -1, &d->equations[d->residual_equation[i]],
+                     "the residual form of the model disagrees with its explicit form at time %.9g s (residual %.3g)", s->t, r[i]);
+  return RT_OK;
+}
+
+/* The two generated forms of the model must agree at the start: a guard against errors in the translation. */
+rt_status rt_check_forms(rt_session *s) {
+  size_t n = (size_t)(s->d->n_x + s->d->n_z), nnz = (size_t)s->d->jac_nnz;
+  double *work = calloc(2 * n + 2 * nnz + 1, sizeof *work);
+  if (!work) return rt_fail(s, RT_MEMORY, s->t, -1, NULL, "out of memory");
+  rt_residual_point(s);
+  rt_status status = compare(s, work, work + n, work + 2 * n, work + 2 * n + nnz);
+  free(work);
+  return status;
+}

@@ -1,0 +1,136 @@
+/* Events: everything that changes at one instant, iterated until nothing changes any more. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "session.h"
+
+enum { MAX_PASSES = 100, WATCHED_PASSES = 12, MAX_FUTILE_EVENTS = 100 };
+
+/* Relations with hysteresis: a true one stays true until its guard is below -eps. Whether any changed. */
+static bool update_relations(rt_session *s) {
+  bool changed = false;
+  for (int r = 0; r < s->d->n_rel; r++) {
+    if (s->d->relations[r].is_time) continue;
+    unsigned char *rel = &s->data.rel[r];
+    double eps = rt_hysteresis(s, r);
+    unsigned char now = *rel ? s->g[r] >= -eps : s->g[r] > eps;
+    changed |= now != *rel;
+    *rel = now;
+  }
+  return changed;
+}
+
+static void append_name(char *text, size_t size, const char *name) {
+  size_t used = strlen(text);
+  if (strstr(text, name) || used + 3 >= size) return;
+  snprintf(text + used, size - used, "%s%s", used ? ", " : "", name);
+}
+
+/* Add the discrete variables that the last pass changed to the list in `text`. */
+static void append_changed(const rt_session *s, char *text, size_t size) {
+  for (int i = 0; i < s->d->n_variables; i++) {
+    const mdl_variable *v = &s->d->variables[i];
+    if (v->storage == MDL_DISCRETE && s->data.d[v->index] != s->data.pre_d[v->index]) append_name(text, size, v->name);
+  }
+}
+
+static bool clear_ticks(rt_session *s) {
+  bool any = false;
+  for (int i = 0; i < s->d->n_sample; i++) {
+    any |= s->data.tick[i];
+    s->data.tick[i] = 0;
+  }
+  return any;
+}
+
+/* One pass: point, relations, discrete equations. 1 something changed, 0 nothing did, -1 failed. */
+static int pass(rt_session *s) {
+  mdl_data *m = &s->data;
+  s->result->counters.event_passes++;
+  if (rt_evaluate(s)) return -1;
+  bool changed = update_relations(s);
+  m->reinitialised = 0;
+  if (s->d->event(m, s->t, m->x, m->xdot, m->v)) return -1;
+  return changed || m->reinitialised || memcmp(m->d, m->pre_d, (size_t)s->d->n_d * sizeof *m->d) != 0;
+}
+
+/* Repeat passes at the present instant until relations, discrete variables and states agree. Ticks last until then. */
+rt_status rt_iterate_event(rt_session *s) {
+  mdl_data *m = &s->data;
+  char names[400] = "";
+  memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
+  for (int i = 0; i < MAX_PASSES; i++) {
+    int changed = pass(s);
+    if (changed < 0) return rt_fail_model(s, s->t, "iterating an event");
+    if (!changed && !clear_ticks(s)) return RT_OK;
+    if (i >= MAX_PASSES - WATCHED_PASSES) append_changed(s, names, sizeof names);
+    memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
+  }
+  return rt_fail(s, RT_EVENT_CYCLE, s->t, -1, NULL, "the event at time %.9g s does not settle in %d passes; these keep changing: %s", s->t,
+                 MAX_PASSES, names[0] ? names : "relations between continuous variables");
+}
+
+/* An event is futile if its guards have hardly moved since they last switched, or time has not. Many in a row are chattering. */
+static rt_status check_chattering(rt_session *s, double since) {
+  bool futile = s->pending == RT_PENDING_STATE;
+  int flipped = 0;
+  for (int r = 0; r < s->d->n_rel; r++) {
+    if (!s->flip[r]) continue;
+    flipped = r;
+    if (s->g_travel[r] > 100 * rt_hysteresis(s, r) && since > s->clock.tolerance) futile = false;
+    s->g_travel[r] = 0;
+  }
+  s->futile_events = futile ? s->futile_events + 1 : 0;
+  if (s->futile_events <= MAX_FUTILE_EVENTS) return RT_OK;
+  return rt_fail(s, RT_CHATTERING, s->t, -1, &s->d->relations[flipped].source,
+                 "chattering: this relation switches to and fro at time %.9g s without getting anywhere (%d events)", s->t, MAX_FUTILE_EVENTS);
+}
+
+static void switch_relations(rt_session *s) {
+  for (int r = 0; r < s->d->n_rel; r++) {
+    if (!s->flip[r]) continue;
+    s->data.rel[r] = !s->data.rel[r];
+    s->result->counters.state_events++;
+    rt_result_log(s->result, s->t, RT_EVENT_STATE, r, s->data.rel[r] ? 1 : -1);
+  }
+}
+
+static void remember(rt_session *s) {
+  const mdl_descriptor *d = s->d;
+  memcpy(s->x_before, s->data.x, (size_t)d->n_x * sizeof(double));
+  memcpy(s->xdot_before, s->data.xdot, (size_t)d->n_x * sizeof(double));
+  memcpy(s->v_before, s->data.v, (size_t)d->n_v * sizeof(double));
+  memcpy(s->rel_before, s->data.rel, (size_t)d->n_rel);
+}
+
+/* Has the event changed what is integrated? If not, the method may go on with the history that it has. */
+static bool has_changed(const rt_session *s) {
+  const mdl_descriptor *d = s->d;
+  const mdl_data *m = &s->data;
+  for (int k = 0; k < d->n_z; k++)
+    if (m->v[d->z_index[k]] != s->v_before[d->z_index[k]]) return true;
+  return s->pending & RT_PENDING_STATE || memcmp(m->x, s->x_before, (size_t)d->n_x * sizeof(double)) ||
+         memcmp(m->xdot, s->xdot_before, (size_t)d->n_x * sizeof(double)) || memcmp(m->rel, s->rel_before, (size_t)d->n_rel);
+}
+
+/* What is pending at the present time happens: two rows in the result, and the method restarts where something changed. */
+rt_status rt_event(rt_session *s) {
+  bool record = s->options.record_events && s->pending != RT_PENDING_INPUT;
+  rt_status status = record ? rt_record_event_row(s) : RT_OK;
+  if (status) return status;
+  double since = s->t - s->last_event;
+  s->last_event = s->t;
+  remember(s);
+  if (s->pending & RT_PENDING_INPUT) s->result->counters.input_jumps++;
+  rt_inputs_begin(s, s->t);
+  if (s->pending & RT_PENDING_STATE) switch_relations(s);
+  if (s->pending & (RT_PENDING_TIME | RT_PENDING_SAMPLE)) rt_clock_tick(s);
+  if ((status = rt_iterate_event(s)) || (status = check_chattering(s, since))) return status;
+  memset(s->flip, 0, (size_t)s->d->n_rel);
+  if (record && (status = rt_record_event_row(s))) return status;
+  if (s->data.terminated) rt_result_log(s->result, s->t, RT_EVENT_TERMINATE, s->data.terminated - 1, 1);
+  if (!has_changed(s)) return RT_OK;
+  s->result->counters.restarts++;
+  return s->method->restart(s, s->memory);
+}

@@ -1,0 +1,228 @@
+/* SUNDIALS IDA (variable-order BDF) on the residual form, with the model's analytic Jacobian.
+ *
+ * Events are located by the runtime on IDA's own interpolating polynomial, so IDA has no root functions. After an event x' and z are
+ * known exactly from the explicit form: IDA restarts from them without solving for consistent values. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "session.h"
+#include "sundials_compat.h"
+
+enum { DENSE_LIMIT = 40 }; /* unknowns up to which a dense matrix is faster than KLU */
+
+typedef struct {
+  SUNContext context;
+  void *ida;
+  N_Vector y, yp, atol, work;
+  SUNMatrix matrix;
+  SUNLinearSolver solver;
+  double *values; /* [jac_nnz] */
+  bool started;   /* IDA holds counters of this run that are not in the result yet */
+  double limit;
+} memory;
+
+static int residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user) {
+  rt_session *s = user;
+  rt_inputs_at(s, t);
+  double *values = N_VGetArrayPointer(r), sum = 0;
+  int status = s->d->residual(&s->data, t, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), values);
+  if (status) return status;
+  int n = s->d->n_x + s->d->n_z;
+  for (int i = 0; i < n; i++) sum += values[i];
+  if (isfinite(sum)) return 0;
+  int row = 0;
+  while (row < n - 1 && isfinite(values[row])) row++;
+  s->data.failure = (mdl_failure){MDL_FAILURE_NONFINITE, s->d->residual_equation[row], -1, values[row]};
+  return 1;
+}
+
+static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix matrix, void *user, N_Vector t1,
+                    N_Vector t2, N_Vector t3) {
+  (void)r, (void)t1, (void)t2, (void)t3;
+  rt_session *s = user;
+  const mdl_descriptor *d = s->d;
+  double *values = ((memory *)s->memory)->values;
+  rt_inputs_at(s, t);
+  int status = d->jacobian(&s->data, t, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), cj, values);
+  if (status) return status;
+  int n = d->n_x + d->n_z;
+  if (SUNMatGetID(matrix) == SUNMATRIX_SPARSE) {
+    for (int j = 0; j <= n; j++) SUNSparseMatrix_IndexPointers(matrix)[j] = d->jac_colptr[j];
+    for (int k = 0; k < d->jac_nnz; k++) SUNSparseMatrix_IndexValues(matrix)[k] = d->jac_rowidx[k];
+    memcpy(SUNSparseMatrix_Data(matrix), values, (size_t)d->jac_nnz * sizeof *values);
+    return 0;
+  }
+  for (int j = 0; j < n; j++)
+    for (int k = d->jac_colptr[j]; k < d->jac_colptr[j + 1]; k++) SUNDenseMatrix_Column(matrix, j)[d->jac_rowidx[k]] = values[k];
+  return 0;
+}
+
+static void destroy(void *p) {
+  memory *m = p;
+  if (m->ida) IDAFree(&m->ida);
+  if (m->solver) SUNLinSolFree(m->solver);
+  if (m->matrix) SUNMatDestroy(m->matrix);
+  N_Vector vectors[] = {m->y, m->yp, m->atol, m->work};
+  for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+    if (vectors[i]) N_VDestroy(vectors[i]);
+  if (m->context) SUNContext_Free(&m->context);
+  free(m->values);
+  free(m);
+}
+
+static bool create_vectors(rt_session *s, memory *m) {
+  sunindextype n = s->d->n_x + s->d->n_z;
+  N_Vector *vectors[] = {&m->y, &m->yp, &m->atol, &m->work};
+  for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
+    if (!(*vectors[i] = N_VNew_Serial(n, m->context))) return false;
+    N_VConst(0, *vectors[i]);
+    N_VEnableFusedOps_Serial(*vectors[i], SUNTRUE);
+  }
+  memcpy(N_VGetArrayPointer(m->atol), s->atol, (size_t)n * sizeof *s->atol);
+  return true;
+}
+
+static bool create_linear_solver(rt_session *s, memory *m) {
+  sunindextype n = s->d->n_x + s->d->n_z;
+  if (n > DENSE_LIMIT) {
+    m->matrix = SUNSparseMatrix(n, n, s->d->jac_nnz, CSC_MAT, m->context);
+    m->solver = m->matrix ? SUNLinSol_KLU(m->y, m->matrix, m->context) : NULL;
+  } else {
+    m->matrix = SUNDenseMatrix(n, n, m->context);
+    m->solver = m->matrix ? SUNLinSol_Dense(m->y, m->matrix, m->context) : NULL;
+  }
+  return m->solver && IDASetLinearSolver(m->ida, m->solver, m->matrix) == IDA_SUCCESS && IDASetJacFn(m->ida, jacobian) == IDA_SUCCESS;
+}
+
+/* Algebraic unknowns are left out of the error test: their z' at a restart is only a difference quotient. */
+static bool set_options(rt_session *s, memory *m) {
+  for (int i = 0; i < s->d->n_x; i++) N_VGetArrayPointer(m->work)[i] = 1;
+  return rt_silence(m->context, m->ida) == 0 && IDASetUserData(m->ida, s) == IDA_SUCCESS &&
+         IDASVtolerances(m->ida, s->options.rtol, m->atol) == IDA_SUCCESS && IDASetId(m->ida, m->work) == IDA_SUCCESS &&
+         IDASetSuppressAlg(m->ida, SUNTRUE) == IDA_SUCCESS && IDASetMaxNumSteps(m->ida, -1) == IDA_SUCCESS &&
+         (!(s->options.max_step > 0) || IDASetMaxStep(m->ida, s->options.max_step) == IDA_SUCCESS);
+}
+
+static void *create(rt_session *s) {
+  memory *m = calloc(1, sizeof *m);
+  if (!m) return NULL;
+  m->values = calloc((size_t)s->d->jac_nnz + 1, sizeof *m->values);
+  if (m->values && SUNContext_Create(SUN_COMM_NULL, &m->context) == 0 && create_vectors(s, m) && (m->ida = IDACreate(m->context)) &&
+      IDAInit(m->ida, residual, 0, m->y, m->yp) == IDA_SUCCESS && set_options(s, m) && create_linear_solver(s, m))
+    return m;
+  destroy(m);
+  return NULL;
+}
+
+static void count(rt_session *s, void *p) {
+  memory *m = p;
+  if (!m->started) return;
+  m->started = false;
+  long steps = 0, residuals = 0, setups = 0, fails = 0, jacobians = 0, iterations = 0, newton_fails = 0;
+  int order, next_order;
+  sunrealtype h0, h, h_next, t;
+  IDAGetIntegratorStats(m->ida, &steps, &residuals, &setups, &fails, &order, &next_order, &h0, &h, &h_next, &t);
+  IDAGetNumJacEvals(m->ida, &jacobians);
+  IDAGetNonlinSolvStats(m->ida, &iterations, &newton_fails);
+  rt_counters *c = &s->result->counters;
+  c->steps += steps;
+  c->residuals += residuals;
+  c->error_test_fails += fails;
+  c->jacobians += jacobians;
+  c->newton_iterations += iterations;
+  c->newton_fails += newton_fails;
+}
+
+static double weighted_norm(const rt_session *s, const double *e) {
+  double sum = 0;
+  for (int i = 0; i < s->d->n_x; i++) {
+    double weighted = e[i] / (s->atol[i] + s->options.rtol * fabs(s->data.x[i]));
+    sum += weighted * weighted;
+  }
+  return sqrt(sum / s->d->n_x);
+}
+
+/* A short explicit step gives x'' and z'. The first BDF step, of order 1, errs by h^2/2 x'': the largest h within tolerance follows. */
+static double first_step(rt_session *s, double *zdot) {
+  const mdl_descriptor *d = s->d;
+  double speed = weighted_norm(s, s->data.xdot), span = s->stop - s->start;
+  double delta = fmin(1e-6 * span, speed > 0 ? 0.01 / speed : INFINITY);
+  memcpy(s->v_trial, s->data.v, (size_t)d->n_v * sizeof *s->v_trial);
+  for (int i = 0; i < d->n_x; i++) s->x_trial[i] = s->data.x[i] + delta * s->data.xdot[i];
+  if (rt_rhs(s, s->t + delta, s->x_trial, s->xdot_trial, s->v_trial)) return fmin(1e-3 * span, speed > 0 ? 0.5 / speed : INFINITY);
+  for (int k = 0; k < d->n_z; k++) zdot[k] = (s->v_trial[d->z_index[k]] - s->data.v[d->z_index[k]]) / delta;
+  for (int i = 0; i < d->n_x; i++) s->xdot_trial[i] = (s->xdot_trial[i] - s->data.xdot[i]) / delta;
+  double curvature = weighted_norm(s, s->xdot_trial);
+  return fmin(1e-3 * span, curvature > 0 ? sqrt(0.5 / curvature) : INFINITY);
+}
+
+static rt_status restart(rt_session *s, void *p) {
+  memory *m = p;
+  size_t n = (size_t)(s->d->n_x + s->d->n_z);
+  count(s, m);
+  rt_residual_point(s);
+  double h = first_step(s, s->yp + s->d->n_x);
+  memcpy(N_VGetArrayPointer(m->y), s->y, n * sizeof *s->y);
+  memcpy(N_VGetArrayPointer(m->yp), s->yp, n * sizeof *s->yp);
+  if (IDAReInit(m->ida, s->t, m->y, m->yp) != IDA_SUCCESS || IDASetInitStep(m->ida, h) != IDA_SUCCESS)
+    return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "IDA refuses to restart at time %.9g s", s->t);
+  m->started = true;
+  return RT_OK;
+}
+
+static rt_status begin(rt_session *s, void *p) {
+  rt_status status = rt_check_forms(s);
+  return status ? status : restart(s, p);
+}
+
+static rt_status fail(rt_session *s, memory *m, int flag) {
+  if (s->data.failure.kind != MDL_FAILURE_NONE) return rt_fail_model(s, s->t, "integrating");
+  int worst = 0;
+  N_Vector weight = m->atol;
+  double *error = N_VGetArrayPointer(m->work);
+  if (IDAGetEstLocalErrors(m->ida, m->work) == IDA_SUCCESS)
+    for (int i = 1; i < s->d->n_x; i++)
+      if (fabs(error[i]) / NV_Ith_S(weight, i) > fabs(error[worst]) / NV_Ith_S(weight, worst)) worst = i;
+  int variable = rt_state_variable(s, worst);
+  sunrealtype h = 0;
+  IDAGetCurrentStep(m->ida, &h);
+  return rt_fail(s, RT_STEP_COLLAPSE, s->t, variable, NULL, "IDA makes no progress at time %.9g s: %s (step %.3g s); largest error in %s", s->t,
+                 flag == IDA_ERR_FAIL ? "the error test fails" : flag == IDA_CONV_FAIL ? "Newton's method does not converge" : "it gave up",
+                 h, variable >= 0 ? s->d->variables[variable].name : "a state");
+}
+
+static rt_status step(rt_session *s, void *p, double limit) {
+  memory *m = p;
+  sunrealtype t = s->t;
+  s->data.failure.kind = MDL_FAILURE_NONE;
+  IDASetStopTime(m->ida, limit);
+  int flag = IDASolve(m->ida, limit, &t, m->y, m->yp, IDA_ONE_STEP);
+  if (flag < 0) return fail(s, m, flag);
+  const double *y = N_VGetArrayPointer(m->y);
+  memcpy(s->data.x, y, (size_t)s->d->n_x * sizeof *y);
+  for (int k = 0; k < s->d->n_z; k++) s->data.v[s->d->z_index[k]] = y[s->d->n_x + k];
+  s->t = flag == IDA_TSTOP_RETURN ? limit : t;
+  if (rt_rhs(s, s->t, s->data.x, s->data.xdot, s->data.v)) return rt_fail_model(s, s->t, "evaluating the explicit form");
+  return RT_OK;
+}
+
+/* IDA's polynomial through its last points, as derivatives at the end of the step: s = (t - t_end) / h. */
+static void dense(rt_session *s, void *p, rt_dense *out) {
+  memory *m = p;
+  int n = s->d->n_x;
+  sunrealtype h = 1;
+  IDAGetLastOrder(m->ida, &out->degree);
+  IDAGetLastStep(m->ida, &h);
+  IDAGetCurrentTime(m->ida, &out->t0);
+  out->h = h;
+  double factor = 1;
+  for (int k = 0; k <= out->degree; k++) {
+    IDAGetDky(m->ida, out->t0, k, m->work);
+    for (int i = 0; i < n; i++) out->c[k * n + i] = factor * NV_Ith_S(m->work, i);
+    factor *= h / (k + 1);
+  }
+}
+
+const rt_method rt_method_ida = {"ida", false, false, create, destroy, begin, restart, step, dense, count};

@@ -1,0 +1,92 @@
+/* The start of a run: start values, parameters, initial equations, first events. */
+#include <string.h>
+
+#include "session.h"
+
+enum { MAX_ITERATIONS = 50 };
+
+static void clear(rt_session *s) {
+  const mdl_descriptor *d = s->d;
+  mdl_data *m = &s->data;
+  memset(m->x, 0, (size_t)d->n_x * sizeof *m->x);
+  memset(m->xdot, 0, (size_t)d->n_x * sizeof *m->xdot);
+  memset(m->v, 0, (size_t)d->n_v * sizeof *m->v);
+  memset(m->d, 0, (size_t)d->n_d * sizeof *m->d);
+  memset(m->pre_d, 0, (size_t)d->n_d * sizeof *m->pre_d);
+  memset(m->rel, 0, (size_t)d->n_rel);
+  memset(m->tick, 0, (size_t)d->n_sample);
+  memset(m->when, 0, (size_t)d->n_when);
+  for (int i = 0; i < d->n_variables; i++)
+    if (d->variables[i].storage == MDL_INPUT) m->u[d->variables[i].index] = d->variables[i].sign * d->variables[i].start;
+  m->initial = 1;
+  m->terminal = m->reinitialised = m->terminated = 0;
+  m->failure = (mdl_failure){.equation = -1, .variable = -1};
+  memset(s->flip, 0, (size_t)d->n_rel);
+  memset(s->g_span, 0, (size_t)d->n_rel * sizeof *s->g_span);
+  memset(s->g_travel, 0, (size_t)d->n_rel * sizeof *s->g_travel);
+  s->t = s->t_previous = s->last_event = s->start;
+  s->dense.valid = false;
+  s->futile_events = s->pending = 0;
+}
+
+static rt_status set_parameters_and_starts(rt_session *s) {
+  memcpy(s->data.p, s->p_run, (size_t)s->d->n_p * sizeof *s->p_run);
+  if (s->d->parameters(&s->data)) return rt_fail_model(s, s->start, "computing parameters");
+  if (s->d->starts(&s->data)) return rt_fail_model(s, s->start, "computing start values");
+  return RT_OK;
+}
+
+/* At the start there is no history: a relation is exactly what its guard says. */
+static bool settle_relations(rt_session *s) {
+  bool changed = false;
+  for (int r = 0; r < s->d->n_rel; r++) {
+    if (s->d->relations[r].is_time) continue;
+    unsigned char now = s->g[r] > 0;
+    changed |= now != s->data.rel[r];
+    s->data.rel[r] = now;
+  }
+  return changed;
+}
+
+static rt_status fail_initialisation(rt_session *s) {
+  rt_fail_model(s, s->t, "solving the initial equations");
+  return s->failure.status = RT_INITIALISATION;
+}
+
+/* Initial equations, relations and discrete equations with initial() true, until they agree. States given by the caller replace what
+ * the initial equations say. */
+static rt_status solve_initial_equations(rt_session *s) {
+  mdl_data *m = &s->data;
+  for (int i = 0; i < MAX_ITERATIONS; i++) {
+    rt_inputs_at(s, s->t);
+    if (s->d->initial_system(m, s->t)) return fail_initialisation(s);
+    for (int k = 0; k < s->n_initial; k++) m->x[s->initial_index[k]] = s->initial_value[k];
+    if (rt_evaluate(s)) return fail_initialisation(s);
+    bool changed = settle_relations(s);
+    if (s->d->event(m, s->t, m->x, m->xdot, m->v)) return fail_initialisation(s);
+    changed |= memcmp(m->d, m->pre_d, (size_t)s->d->n_d * sizeof *m->d) != 0;
+    memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
+    if (!changed) return RT_OK;
+  }
+  return rt_fail(s, RT_INITIALISATION, s->t, -1, NULL, "initial equations and relations do not settle at time %.9g s", s->t);
+}
+
+/* Events at the start: with initial() no longer true, then the ticks that fall on it. */
+static rt_status first_events(rt_session *s) {
+  s->data.initial = 0;
+  rt_status status = rt_iterate_event(s);
+  s->pending = status ? 0 : rt_clock_due(s) & RT_PENDING_SAMPLE;
+  if (!s->pending) return status;
+  rt_clock_tick(s);
+  return rt_iterate_event(s);
+}
+
+rt_status rt_initialise(rt_session *s) {
+  clear(s);
+  rt_status status = set_parameters_and_starts(s);
+  if (!status) status = rt_clock_begin(s);
+  if (status) return status;
+  rt_inputs_begin(s, s->start);
+  if ((status = solve_initial_equations(s))) return status;
+  return first_events(s);
+}

@@ -1,0 +1,60 @@
+/* Recorded inputs: linear or held between samples, constant outside.
+ *
+ * A held input jumps at its samples. Its value is frozen while a step is computed, so that the end of a step that lands on a
+ * jump sees the value before it; rt_inputs_begin then moves on to the value after it. */
+#include <math.h>
+
+#include "session.h"
+
+static int sample_at(const rt_input *in, int guess, double t) {
+  int k = guess;
+  while (k > 0 && in->time[k] > t) k--;
+  while (k + 1 < in->n && in->time[k + 1] <= t) k++;
+  return k;
+}
+
+static double linear(rt_input *in, double t) {
+  int k = in->cursor = sample_at(in, in->cursor, t);
+  if (k + 1 == in->n || t <= in->time[k]) return in->values[k];
+  double fraction = (t - in->time[k]) / (in->time[k + 1] - in->time[k]);
+  return in->values[k] + fraction * (in->values[k + 1] - in->values[k]);
+}
+
+/* Inputs from t on: samples at t itself have been reached. */
+void rt_inputs_begin(rt_session *s, double t) {
+  for (int i = 0; i < s->d->n_u; i++)
+    if (s->inputs[i].n) s->inputs[i].cursor = sample_at(&s->inputs[i], s->inputs[i].cursor, t + s->clock.tolerance);
+  s->input_time = NAN;
+}
+
+void rt_inputs_at(rt_session *s, double t) {
+  if (t == s->input_time) return;
+  for (int i = 0; i < s->d->n_u; i++) {
+    rt_input *in = &s->inputs[i];
+    if (in->n) s->data.u[i] = in->interpolation == RT_HOLD ? in->values[in->cursor] : linear(in, t);
+  }
+  s->input_time = t;
+}
+
+/* Does the slope change at sample k by more than rounding? */
+static bool is_kink(const rt_input *in, int k) {
+  if (k == 0 || k + 1 >= in->n) return true;
+  const double *t = in->time, *v = in->values;
+  double expected = v[k] + (v[k] - v[k - 1]) / (t[k] - t[k - 1]) * (t[k + 1] - t[k]);
+  return fabs(v[k + 1] - expected) > 1e-9 * (fabs(v[k - 1]) + fabs(v[k]) + fabs(v[k + 1]));
+}
+
+/* The next sample after the present time at which a held input jumps or, with `kinks`, a linear one changes slope. */
+double rt_inputs_next_break(const rt_session *s, bool kinks) {
+  double next = INFINITY;
+  for (int i = 0; i < s->d->n_u; i++) {
+    const rt_input *in = &s->inputs[i];
+    bool hold = in->interpolation == RT_HOLD;
+    if (!in->n || !(hold || kinks)) continue;
+    int k = sample_at(in, in->cursor, s->t + s->clock.tolerance);
+    if (in->time[k] <= s->t + s->clock.tolerance) k++;
+    while (k < in->n && in->time[k] < next && (hold ? k > 0 && in->values[k] == in->values[k - 1] : !is_kink(in, k))) k++;
+    if (k < in->n) next = fmin(next, in->time[k]);
+  }
+  return next;
+}

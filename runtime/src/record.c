@@ -1,0 +1,88 @@
+/* Recording: rows of the chosen variables on the output grid and at events. */
+#include <math.h>
+#include <string.h>
+
+#include "session.h"
+
+static bool on_grid(const rt_recorder *r) { return r->n_grid > 0 || r->interval > 0; }
+
+/* Time of grid point `i`; infinite after the last. */
+static double grid_time(const rt_session *s, long i) {
+  const rt_recorder *r = &s->recorder;
+  if (r->n_grid > 0) return i < r->n_grid ? r->grid[i] : INFINITY;
+  double t = s->start + (double)i * r->interval;
+  return t <= s->stop + s->clock.tolerance ? t : INFINITY;
+}
+
+void rt_record_begin(rt_session *s) {
+  s->recorder.next = 0;
+  while (on_grid(&s->recorder) && grid_time(s, s->recorder.next) < s->start - s->clock.tolerance) s->recorder.next++;
+}
+
+static rt_status reserve_row(rt_session *s) {
+  if (rt_result_reserve(s->result, s->result->rows + 1)) return RT_OK;
+  return rt_fail(s, RT_MEMORY, s->t, -1, NULL, "out of memory for results");
+}
+
+/* A row from the complete point (t, x, xdot, v). */
+static rt_status write_row(rt_session *s, double t, const double *x, const double *xdot, const double *v, unsigned char event) {
+  const mdl_data *m = &s->data;
+  const double *storage[] = {[MDL_STATE] = x, [MDL_ALGEBRAIC] = v, [MDL_DISCRETE] = m->d, [MDL_PARAMETER] = m->p, [MDL_INPUT] = m->u,
+                             [MDL_DERIVATIVE] = xdot};
+  rt_status status = reserve_row(s);
+  if (status) return status;
+  rt_result *result = s->result;
+  result->time[result->rows] = t;
+  result->event[result->rows] = event;
+  for (int j = 0; j < s->recorder.n; j++) {
+    const rt_output *o = &s->recorder.outputs[j];
+    result->columns[j][result->rows] = o->sign * storage[o->storage][o->index];
+  }
+  result->rows++;
+  return RT_OK;
+}
+
+/* A row inside the last step. States come from its polynomial alone; the rest is computed from them by the explicit form. */
+static rt_status write_interpolated(rt_session *s, double t) {
+  rt_recorder *r = &s->recorder;
+  int n = s->d->n_x;
+  if (!r->needs_rhs) {
+    for (int j = 0; j < r->n; j++)
+      if (r->outputs[j].storage == MDL_STATE) r->x[r->outputs[j].index] = rt_dense_eval_one(&s->dense, n, r->outputs[j].index, t);
+    rt_inputs_at(s, t);
+  } else {
+    rt_dense_eval(&s->dense, n, t, r->x);
+    memcpy(r->v, s->data.v, (size_t)s->d->n_v * sizeof *r->v);
+    if (rt_rhs(s, t, r->x, r->xdot, r->v)) return rt_fail_model(s, t, "evaluating outputs");
+  }
+  return write_row(s, t, r->x, r->xdot, r->v, 0);
+}
+
+/* Grid points of the last step: those before its end, or with `closed` up to its end. */
+rt_status rt_record_step(rt_session *s, bool closed) {
+  rt_recorder *r = &s->recorder;
+  rt_status status = RT_OK;
+  if (!on_grid(r)) {
+    bool event_rows_follow = s->options.record_events && s->pending & ~RT_PENDING_INPUT;
+    return event_rows_follow ? RT_OK : write_row(s, s->t, s->data.x, s->data.xdot, s->data.v, 0);
+  }
+  double end = s->t + (closed ? s->clock.tolerance : -s->clock.tolerance);
+  for (; !status && grid_time(s, r->next) <= end; r->next++) {
+    double t = grid_time(s, r->next);
+    if (fabs(t - s->t) <= s->clock.tolerance) {
+      rt_inputs_at(s, s->t);
+      status = write_row(s, t, s->data.x, s->data.xdot, s->data.v, 0);
+    } else {
+      rt_dense_prepare(s);
+      status = write_interpolated(s, t);
+    }
+  }
+  return status;
+}
+
+/* A row at an event, before or after it; after it, it stands for a grid point at the same instant too. */
+rt_status rt_record_event_row(rt_session *s) {
+  while (on_grid(&s->recorder) && grid_time(s, s->recorder.next) <= s->t + s->clock.tolerance) s->recorder.next++;
+  rt_inputs_at(s, s->t);
+  return write_row(s, s->t, s->data.x, s->data.xdot, s->data.v, 1);
+}

@@ -1,0 +1,63 @@
+/* Results: one array for each column, grown by doubling; the event log; counters. */
+#include <stdlib.h>
+
+#include "session.h"
+
+rt_result *rt_result_new(int columns, size_t capacity) {
+  rt_result *r = calloc(1, sizeof *r);
+  if (!r) return NULL;
+  r->n = columns;
+  r->columns = calloc((size_t)columns + 1, sizeof *r->columns);
+  if (r->columns && rt_result_reserve(r, capacity)) return r;
+  rt_result_free(r);
+  return NULL;
+}
+
+void rt_result_free(rt_result *r) {
+  if (!r) return;
+  for (int j = 0; r->columns && j < r->n; j++) free(r->columns[j]);
+  free(r->columns);
+  free(r->time);
+  free(r->event);
+  free(r->events);
+  free(r);
+}
+
+static bool grow(void *array, size_t bytes) {
+  void **place = array, *larger = realloc(*place, bytes);
+  if (larger) *place = larger;
+  return larger != NULL;
+}
+
+/* Room for `rows` rows in all; false without memory. */
+bool rt_result_reserve(rt_result *r, size_t rows) {
+  if (rows <= r->capacity) return true;
+  size_t capacity = rows > 2 * r->capacity ? rows : 2 * r->capacity;
+  bool done = grow(&r->time, capacity * sizeof *r->time) && grow(&r->event, capacity);
+  for (int j = 0; done && j < r->n; j++) done = grow(&r->columns[j], capacity * sizeof **r->columns);
+  if (done) r->capacity = capacity;
+  return done;
+}
+
+bool rt_result_log(rt_result *r, double time, int kind, int index, int direction) {
+  if (r->n_events == r->events_capacity) {
+    size_t capacity = r->events_capacity ? 2 * r->events_capacity : 64;
+    if (!grow(&r->events, capacity * sizeof *r->events)) return false;
+    r->events_capacity = capacity;
+  }
+  r->events[r->n_events++] = (rt_event_entry){.time = time, .kind = kind, .index = index, .direction = direction};
+  return true;
+}
+
+const rt_failure *rt_result_failure(const rt_result *r) { return &r->failure; }
+const char *rt_result_terminated(const rt_result *r) { return r->terminated; }
+const rt_counters *rt_result_counters(const rt_result *r) { return &r->counters; }
+size_t rt_result_rows(const rt_result *r) { return r->rows; }
+const double *rt_result_time(const rt_result *r) { return r->time; }
+const unsigned char *rt_result_event_flags(const rt_result *r) { return r->event; }
+const double *rt_result_column(const rt_result *r, int column) { return column >= 0 && column < r->n ? r->columns[column] : NULL; }
+
+const rt_event_entry *rt_result_events(const rt_result *r, size_t *count) {
+  *count = r->n_events;
+  return r->events;
+}

@@ -1,0 +1,172 @@
+/* RODAS: a stiffly accurate, L-stable Rosenbrock method of order 4(3) with six stages, for stiff models.
+ * Hairer & Wanner, Solving Ordinary Differential Equations II, IV.7 and VI.4; dense output of order 3 from there.
+ *
+ * Its Jacobian J = df/dx of the explicit form comes from the analytic Jacobian of the residual form F(t, [x; z], x') = 0 by the
+ * implicit function theorem: [F_x' F_z] [J; dz/dx] = -F_x. */
+#include <math.h>
+#include <string.h>
+
+#include "onestep.h"
+
+enum { STAGES = 6 };
+
+static const double gamma_ = 0.25;
+static const double alpha[STAGES] = {0, 0.386, 0.21, 0.63, 1, 1};
+static const double d[STAGES] = {0.25, -0.1043, 0.1035, -0.3620000000000023e-01, 0, 0};
+static const double a[STAGES][STAGES - 1] = {
+    {0},
+    {0.1544000000000000e+01},
+    {0.9466785280815826e+00, 0.2557011698983284e+00},
+    {0.3314825187068521e+01, 0.2896124015972201e+01, 0.9986419139977817e+00},
+    {0.1221224509226641e+01, 0.6019134481288629e+01, 0.1253708332932087e+02, -0.6878860361058950e+00},
+    {0.1221224509226641e+01, 0.6019134481288629e+01, 0.1253708332932087e+02, -0.6878860361058950e+00, 1}};
+static const double c[STAGES][STAGES - 1] = {
+    {0},
+    {-0.5668800000000000e+01},
+    {-0.2430093356833875e+01, -0.2063599157091915e+00},
+    {-0.1073529058151375e+00, -0.9594562251023355e+01, -0.2047028614809616e+02},
+    {0.7496443313967647e+01, -0.1024680431464352e+02, -0.3399990352819905e+02, 0.1170890893206160e+02},
+    {0.8083246795921522e+01, -0.7981132988064893e+01, -0.3152159432874371e+02, 0.1631930543123136e+02, -0.6058818238834054e+01}};
+static const double d2[STAGES - 1] = {0.1012623508344586e+02, -0.7487995877610167e+01, -0.3480091861555747e+02, -0.7992771707568823e+01,
+                                      0.1025137723295662e+01};
+static const double d3[STAGES - 1] = {-0.6762803392806898e+00, 0.6087714651680015e+01, 0.1643084320892478e+02, 0.2476722511418386e+02,
+                                      -0.6594389125716872e+01};
+
+typedef struct {
+  double *jacobian, *matrix; /* [n_x * n_x] df/dx, and I/(h gamma) - df/dx factored */
+  double *implicit;          /* [n * n] [F_x' F_z], n = n_x + n_z */
+  double *column;            /* [n * n_x] right sides -F_x */
+  double *fy, *fyp;          /* [jac_nnz] */
+  double *dfdt;              /* [n_x] */
+  int *pivot;                /* [n] */
+  double t;                  /* where the Jacobian was computed */
+  const rt_result *run;      /* and in which run */
+} work;
+
+static size_t work_size(const mdl_descriptor *m) {
+  size_t n_x = (size_t)m->n_x, n = n_x + (size_t)m->n_z;
+  return sizeof(work) + (2 * n_x * n_x + n * n + n * n_x + 2 * (size_t)m->jac_nnz + n_x) * sizeof(double) + n * sizeof(int);
+}
+
+static work *layout(const rt_session *s, void *memory) {
+  size_t n_x = (size_t)s->d->n_x, n = n_x + (size_t)s->d->n_z, nnz = (size_t)s->d->jac_nnz;
+  work *w = memory;
+  w->jacobian = (double *)(w + 1);
+  w->matrix = w->jacobian + n_x * n_x;
+  w->implicit = w->matrix + n_x * n_x;
+  w->column = w->implicit + n * n;
+  w->fy = w->column + n * n_x;
+  w->fyp = w->fy + nnz;
+  w->dfdt = w->fyp + nnz;
+  w->pivot = (int *)(w->dfdt + n_x);
+  return w;
+}
+
+static int fail_singular(rt_session *s, int row) {
+  s->data.failure = (mdl_failure){.kind = MDL_FAILURE_SINGULAR, .equation = s->d->residual_equation[row], .variable = -1};
+  return 1;
+}
+
+/* Scatter the two parts of the sparse Jacobian of F into [F_x' F_z] and -F_x. */
+static void scatter(const mdl_descriptor *m, work *w) {
+  int n_x = m->n_x, n = n_x + m->n_z;
+  memset(w->implicit, 0, (size_t)(n * n) * sizeof *w->implicit);
+  memset(w->column, 0, (size_t)(n * n_x) * sizeof *w->column);
+  for (int j = 0; j < n; j++)
+    for (int k = m->jac_colptr[j]; k < m->jac_colptr[j + 1]; k++) {
+      int at = j * n + m->jac_rowidx[k];
+      w->implicit[at] = j < n_x ? w->fyp[k] - w->fy[k] : w->fy[k];
+      if (j < n_x) w->column[at] = -w->fy[k];
+    }
+}
+
+static int differentiate(rt_session *s, work *w) {
+  const mdl_descriptor *m = s->d;
+  int n_x = m->n_x, n = n_x + m->n_z, status;
+  rt_residual_point(s);
+  rt_inputs_at(s, s->t);
+  if ((status = m->jacobian(&s->data, s->t, s->y, s->yp, 0, w->fy)) || (status = m->jacobian(&s->data, s->t, s->y, s->yp, 1, w->fyp)))
+    return status;
+  s->result->counters.jacobians++;
+  scatter(m, w);
+  int singular = rt_lu_factor(n, w->implicit, w->pivot);
+  if (singular) return fail_singular(s, singular - 1);
+  for (int j = 0; j < n_x; j++) {
+    rt_lu_solve(n, w->implicit, w->pivot, w->column + j * n);
+    memcpy(w->jacobian + j * n_x, w->column + j * n, (size_t)n_x * sizeof *w->jacobian);
+  }
+  return 0;
+}
+
+/* Partial derivative of f with respect to time, by a forward difference well inside the step. */
+static int differentiate_time(rt_session *s, rt_onestep *o, work *w, double h) {
+  double delta = 1e-4 * h;
+  memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
+  int status = rt_rhs(s, o->t0 + delta, o->x0, w->dfdt, s->v_trial);
+  for (int i = 0; i < s->d->n_x; i++) w->dfdt[i] = (w->dfdt[i] - o->f0[i]) / delta;
+  return status;
+}
+
+static int prepare(rt_session *s, rt_onestep *o, work *w, double h) {
+  int n = s->d->n_x, status;
+  bool known = w->t == o->t0 && w->run == s->result && s->result->counters.jacobians > 0;
+  if (!known && ((status = differentiate(s, w)) || (status = differentiate_time(s, o, w, h)))) return status;
+  w->t = o->t0;
+  w->run = s->result;
+  for (int i = 0; i < n * n; i++) w->matrix[i] = -w->jacobian[i];
+  for (int i = 0; i < n; i++) w->matrix[i * n + i] += 1 / (h * gamma_);
+  int singular = rt_lu_factor(n, w->matrix, w->pivot);
+  return singular ? fail_singular(s, singular - 1) : 0;
+}
+
+static int attempt(rt_session *s, rt_onestep *o, double h, double *error) {
+  int n = s->d->n_x;
+  work *w = layout(s, o->work);
+  int status = prepare(s, o, w, h);
+  if (status) return status;
+  for (int j = 0; j < STAGES; j++) {
+    double *k = o->k + j * n;
+    const double *x = rt_stage(s, o, 1, j, a[j]);
+    if (j == 0) memcpy(k, o->f0, (size_t)n * sizeof *k);
+    else if ((status = rt_rhs(s, o->t0 + alpha[j] * h, x, k, s->data.v))) return status;
+    for (int i = 0; i < n; i++) {
+      double sum = 0;
+      for (int l = 0; l < j; l++) sum += c[j][l] * o->k[l * n + i];
+      k[i] += sum / h + h * d[j] * w->dfdt[i];
+    }
+    rt_lu_solve(n, w->matrix, w->pivot, k);
+  }
+  for (int i = 0; i < n; i++) o->x1[i] = o->x_stage[i] + o->k[(STAGES - 1) * n + i];
+  *error = rt_error_norm(s, o, o->k + (STAGES - 1) * n);
+  return rt_rhs(s, o->t0 + h, o->x1, o->f1, s->data.v);
+}
+
+/* x0 (1 - s) + s (x1 + (1 - s) (r2 + s r3)), expanded in powers of s. */
+static void dense(const rt_session *s, const rt_onestep *o, rt_dense *out) {
+  int n = s->d->n_x;
+  out->degree = 3;
+  for (int i = 0; i < n; i++) {
+    double r2 = 0, r3 = 0;
+    for (int j = 0; j < STAGES - 1; j++) {
+      r2 += d2[j] * o->k[j * n + i];
+      r3 += d3[j] * o->k[j * n + i];
+    }
+    out->c[i] = o->x0[i];
+    out->c[n + i] = o->x1[i] - o->x0[i] + r2;
+    out->c[2 * n + i] = r3 - r2;
+    out->c[3 * n + i] = -r3;
+  }
+}
+
+static const rt_scheme scheme = {.stages = STAGES,
+                                 .order = 4,
+                                 .min_factor = 0.2,
+                                 .max_factor = 6,
+                                 .work_size = work_size,
+                                 .attempt = attempt,
+                                 .dense = dense};
+
+static void *create(rt_session *s) { return rt_onestep_create(s, &scheme); }
+
+const rt_method rt_method_rodas4 = {"rodas4", false, true, create, rt_onestep_destroy, rt_onestep_begin, rt_onestep_restart,
+                                    rt_onestep_step, rt_onestep_dense, rt_onestep_count};

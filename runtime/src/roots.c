@@ -1,0 +1,120 @@
+/* State events: which relations have changed at the end of a step, and when the first of them did.
+ *
+ * A relation that is true means g > 0. It changes only when its guard has passed zero by more than the hysteresis, so rounding
+ * noise of a guard that rests at zero cannot switch it. The instant located is the zero itself; a guard that starts inside the
+ * hysteresis on the wrong side is located where it leaves the hysteresis. So the guard used here is never zero at a restart. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "session.h"
+
+/* In the unit of the guard. 1e-10 is far above rounding of operands of 1e4 and far below any physical play; the second part
+ * covers guards that run over a larger range. */
+double rt_hysteresis(const rt_session *s, int r) { return 1e-10 + 1e-12 * s->g_span[r]; }
+
+/* Positive while relation r keeps its value. */
+static double margin(const rt_session *s, int r, double g) {
+  bool holds = s->data.rel[r];
+  double at_start = holds ? s->g_previous[r] : -s->g_previous[r];
+  return (holds ? g : -g) + (at_start > 0 ? 0 : rt_hysteresis(s, r));
+}
+
+static bool is_state_relation(const rt_session *s, int r) { return !s->d->relations[r].is_time; }
+
+static bool any_changed(const rt_session *s) {
+  for (int r = 0; r < s->d->n_rel; r++)
+    if (is_state_relation(s, r) && (s->data.rel[r] ? s->g[r] : -s->g[r]) < -rt_hysteresis(s, r)) return true;
+  return false;
+}
+
+static bool any_negative(const rt_session *s, const double *g) {
+  for (int r = 0; r < s->d->n_rel; r++)
+    if (is_state_relation(s, r) && margin(s, r, g[r]) < 0) return true;
+  return false;
+}
+
+static int guards_at(rt_session *s, double t, double *g) {
+  rt_dense_eval(&s->dense, s->d->n_x, t, s->x_trial);
+  int status = rt_rhs(s, t, s->x_trial, s->xdot_trial, s->v_trial);
+  s->result->counters.root_evaluations++;
+  return status ? status : s->d->roots(&s->data, t, s->x_trial, s->xdot_trial, s->v_trial, g);
+}
+
+/* Fraction of the bracket [a, b] at which the first guard crosses, by the secants with end values weighted by wa, wb. */
+static double first_secant(const rt_session *s, const double *ga, double wa, const double *gb, double wb) {
+  double fraction = 1;
+  for (int r = 0; r < s->d->n_rel; r++) {
+    double ma = wa * margin(s, r, ga[r]), mb = wb * margin(s, r, gb[r]);
+    if (is_state_relation(s, r) && mb < 0) fraction = fmin(fraction, fmax(0, ma) / (fmax(0, ma) - mb));
+  }
+  return fraction;
+}
+
+/* Shrink the step's interval to the first crossing: Illinois variant of regula falsi on the earliest crossing (Dowell & Jarratt
+ * 1971), with steps no closer to an end than half the tolerance, so that both ends move in. On return s->g belongs to *crossing. */
+static int locate(rt_session *s, double *crossing) {
+  double a = s->t_previous, b = s->t, wa = 1, wb = 1;
+  double tolerance = 1e-12 * (b - a) + 4 * DBL_EPSILON * fabs(b);
+  int side = 0;
+  size_t bytes = (size_t)s->d->n_rel * sizeof *s->g;
+  memcpy(s->g_low, s->g_previous, bytes);
+  memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
+  for (int i = 0; i < 100 && b - a > tolerance; i++) {
+    double t = a + (b - a) * first_secant(s, s->g_low, wa, s->g, wb);
+    t = fmin(fmax(t, a + 0.5 * tolerance), b - 0.5 * tolerance);
+    int status = guards_at(s, t, s->g_trial);
+    if (status) return status;
+    bool crossed = any_negative(s, s->g_trial);
+    if (crossed) {
+      b = t;
+      memcpy(s->g, s->g_trial, bytes);
+      wa = side == 1 ? 0.5 * wa : 1;
+      wb = 1;
+    } else {
+      a = t;
+      memcpy(s->g_low, s->g_trial, bytes);
+      wb = side == -1 ? 0.5 * wb : 1;
+      wa = 1;
+    }
+    side = crossed ? 1 : -1;
+  }
+  *crossing = b;
+  return 0;
+}
+
+static rt_status move_back(rt_session *s, double t) {
+  s->t = t;
+  rt_dense_eval(&s->dense, s->d->n_x, t, s->data.x);
+  if (rt_evaluate(s)) return rt_fail_model(s, t, "evaluating the model at an event");
+  return RT_OK;
+}
+
+static void follow(rt_session *s) {
+  for (int r = 0; r < s->d->n_rel; r++) {
+    s->g_span[r] = fmax(s->g_span[r], fabs(s->g[r]));
+    s->g_travel[r] = fmax(s->g_travel[r], fabs(s->g[r]));
+  }
+}
+
+/* Guards at the end of the step; where a relation has changed, move the end of the step back to the first change. */
+rt_status rt_find_state_event(rt_session *s) {
+  const mdl_descriptor *d = s->d;
+  if (!d->n_rel) return RT_OK;
+  mdl_data *m = &s->data;
+  memcpy(s->g_previous, s->g, (size_t)d->n_rel * sizeof *s->g);
+  s->result->counters.root_evaluations++;
+  if (d->roots(m, s->t, m->x, m->xdot, m->v, s->g)) return rt_fail_model(s, s->t, "evaluating relations");
+  if (any_changed(s)) {
+    double crossing = s->t;
+    if (s->options.locate_events) {
+      rt_dense_prepare(s);
+      if (locate(s, &crossing)) return rt_fail_model(s, s->t, "locating an event");
+    }
+    for (int r = 0; r < d->n_rel; r++) s->flip[r] = is_state_relation(s, r) && margin(s, r, s->g[r]) < 0;
+    s->pending |= RT_PENDING_STATE;
+    if (crossing < s->t && move_back(s, crossing)) return s->failure.status;
+  }
+  follow(s);
+  return RT_OK;
+}

@@ -1,0 +1,200 @@
+/* Sessions: memory for one model and one solver, and what the caller sets before a run. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "session.h"
+
+static const rt_method *const methods[] = {&rt_method_ida, &rt_method_dopri5, &rt_method_rodas4, &rt_method_rk4, &rt_method_euler};
+enum { N_METHODS = sizeof methods / sizeof *methods };
+
+static const rt_method *find_method(const char *name) {
+  for (int i = 0; i < N_METHODS; i++)
+    if (strcmp(methods[i]->name, name) == 0) return methods[i];
+  return NULL;
+}
+
+typedef struct {
+  double **place;
+  int n;
+} numbers;
+
+typedef struct {
+  unsigned char **place;
+  int n;
+} flags;
+
+/* Hand out slices of one block, so that there is one thing to check and one to free. */
+static bool allocate_numbers(rt_session *s) {
+  const mdl_descriptor *d = s->d;
+  mdl_data *m = &s->data;
+  const int n_x = d->n_x, n_v = d->n_v, n_rel = d->n_rel, n_y = d->n_x + d->n_z;
+  const numbers wanted[] = {
+      {&m->p, d->n_p}, {&m->u, d->n_u}, {&m->x, n_x}, {&m->xdot, n_x}, {&m->v, n_v}, {&m->d, d->n_d}, {&m->pre_d, d->n_d},
+      {&s->p_run, d->n_p}, {&s->initial_value, n_x}, {&s->atol, n_y}, {&s->y, n_y}, {&s->yp, n_y},
+      {&s->clock.first, d->n_sample}, {&s->clock.interval, d->n_sample}, {&s->dense.c, (RT_DENSE_DEGREE + 1) * n_x},
+      {&s->g, n_rel}, {&s->g_previous, n_rel}, {&s->g_low, n_rel}, {&s->g_trial, n_rel}, {&s->g_span, n_rel}, {&s->g_travel, n_rel},
+      {&s->x_trial, n_x}, {&s->xdot_trial, n_x}, {&s->v_trial, n_v}, {&s->x_before, n_x}, {&s->xdot_before, n_x},
+      {&s->v_before, n_v}, {&s->recorder.x, n_x}, {&s->recorder.xdot, n_x}, {&s->recorder.v, n_v}};
+  const size_t count = sizeof wanted / sizeof *wanted;
+  size_t total = 1;
+  for (size_t i = 0; i < count; i++) total += (size_t)wanted[i].n;
+  double *next = s->numbers = calloc(total, sizeof *next);
+  if (!next) return false;
+  for (size_t i = 0; i < count; i++) {
+    *wanted[i].place = next;
+    next += wanted[i].n;
+  }
+  return true;
+}
+
+static bool allocate_flags(rt_session *s) {
+  const mdl_descriptor *d = s->d;
+  mdl_data *m = &s->data;
+  const flags wanted[] = {{&m->rel, d->n_rel}, {&m->tick, d->n_sample}, {&m->when, d->n_when}, {&s->flip, d->n_rel}, {&s->rel_before, d->n_rel}};
+  const size_t count = sizeof wanted / sizeof *wanted;
+  unsigned char *next = s->flags = calloc((size_t)(3 * d->n_rel + d->n_sample + d->n_when) + 1, 1);
+  if (!next) return false;
+  for (size_t i = 0; i < count; i++) {
+    *wanted[i].place = next;
+    next += wanted[i].n;
+  }
+  return true;
+}
+
+static bool allocate_session(rt_session *s) {
+  s->inputs = calloc((size_t)s->d->n_u + 1, sizeof *s->inputs);
+  s->clock.next = calloc((size_t)s->d->n_sample + 1, sizeof *s->clock.next);
+  s->initial_index = calloc((size_t)s->d->n_x + 1, sizeof *s->initial_index);
+  return s->inputs && s->clock.next && s->initial_index && allocate_numbers(s) && allocate_flags(s);
+}
+
+/* Absolute tolerances: atol for each unit of a variable's nominal value. */
+static void set_tolerances(rt_session *s) {
+  const mdl_descriptor *d = s->d;
+  if (!(s->options.rtol > 0)) s->options.rtol = d->tolerance > 0 ? d->tolerance : 1e-6;
+  if (!(s->options.atol > 0)) s->options.atol = 0.01 * s->options.rtol;
+  for (int i = 0; i < d->n_x + d->n_z; i++) s->atol[i] = s->options.atol;
+  for (int i = 0; i < d->n_variables; i++) {
+    const mdl_variable *v = &d->variables[i];
+    if (!(v->nominal > 0)) continue;
+    if (v->storage == MDL_STATE) s->atol[v->index] = s->options.atol * v->nominal;
+    for (int k = 0; k < d->n_z && v->storage == MDL_ALGEBRAIC; k++)
+      if (d->z_index[k] == v->index) s->atol[d->n_x + k] = s->options.atol * v->nominal;
+  }
+}
+
+rt_session *rt_session_new(const rt_model *model, const rt_options *options, char *message, size_t size) {
+  const rt_method *method = find_method(options->solver);
+  if (!method) {
+    snprintf(message, size, "unknown solver \"%s\"; there are ida, dopri5, rodas4, rk4, euler", options->solver);
+    return NULL;
+  }
+  if (method->needs_step && !(options->step > 0)) {
+    snprintf(message, size, "solver %s needs a step (s) greater than zero", method->name);
+    return NULL;
+  }
+  rt_session *s = calloc(1, sizeof *s);
+  if (!s) return NULL;
+  s->model = model;
+  s->d = model->descriptor;
+  s->options = *options;
+  /* a model without states has nothing to integrate: any method with step size control only walks along its events */
+  s->method = s->d->n_x == 0 && method == &rt_method_ida ? &rt_method_dopri5 : method;
+  s->options.solver = s->method->name;
+  bool done = allocate_session(s);
+  if (done) {
+    memcpy(s->p_run, s->d->p_start, (size_t)s->d->n_p * sizeof *s->p_run);
+    set_tolerances(s);
+    s->memory = s->method->create(s);
+  }
+  if (s->memory) return s;
+  snprintf(message, size, "cannot set up solver %s: out of memory", method->name);
+  rt_session_free(s);
+  return NULL;
+}
+
+void rt_session_free(rt_session *s) {
+  if (!s) return;
+  if (s->memory) s->method->destroy(s->memory);
+  free(s->inputs);
+  free(s->clock.next);
+  free(s->initial_index);
+  free(s->recorder.outputs);
+  free(s->numbers);
+  free(s->flags);
+  free(s);
+}
+
+const rt_failure *rt_session_failure(const rt_session *s) { return &s->failure; }
+
+static rt_status refuse(rt_session *s, const char *what) { return rt_fail(s, RT_ARGUMENT, 0, -1, NULL, "%s", what); }
+
+static const mdl_variable *variable(const rt_session *s, int row) {
+  return row >= 0 && row < s->d->n_variables ? &s->d->variables[row] : NULL;
+}
+
+rt_status rt_session_parameters(rt_session *s, int n, const int *variables, const double *values) {
+  memcpy(s->p_run, s->d->p_start, (size_t)s->d->n_p * sizeof *s->p_run);
+  for (int i = 0; i < n; i++) {
+    const mdl_variable *v = variable(s, variables[i]);
+    if (!v || v->storage != MDL_PARAMETER || !v->settable) return refuse(s, "not a parameter that may be set");
+    if (!(values[i] >= v->min && values[i] <= v->max))
+      return rt_fail(s, RT_BOUND, 0, variables[i], NULL, "parameter %s = %.9g is outside its bounds [%.9g, %.9g] %s", v->name, values[i],
+                     v->min, v->max, v->unit);
+    s->p_run[v->index] = v->sign * values[i];
+  }
+  return RT_OK;
+}
+
+rt_status rt_session_initial(rt_session *s, int n, const int *variables, const double *values) {
+  s->n_initial = 0;
+  for (int i = 0; i < n; i++) {
+    const mdl_variable *v = variable(s, variables[i]);
+    if (!v || v->storage != MDL_STATE || i >= s->d->n_x) return refuse(s, "not a state: its initial value cannot be set");
+    s->initial_index[i] = v->index;
+    s->initial_value[i] = v->sign * values[i];
+    s->n_initial = i + 1;
+  }
+  return RT_OK;
+}
+
+rt_status rt_session_input(rt_session *s, int row, int n, const double *time, const double *values, rt_interpolation interpolation) {
+  const mdl_variable *v = variable(s, row);
+  if (!v || v->storage != MDL_INPUT || v->sign != 1) return refuse(s, "not an input of the model");
+  for (int k = 0; k < n; k++) {
+    if (k && !(time[k] > time[k - 1]))
+      return rt_fail(s, RT_ARGUMENT, time[k], row, NULL, "samples of input %s: time does not increase at %.9g s", v->name, time[k]);
+    if (!isfinite(time[k]) || !isfinite(values[k]))
+      return rt_fail(s, RT_ARGUMENT, time[k], row, NULL, "samples of input %s: not a finite number at %.9g s", v->name, time[k]);
+  }
+  s->inputs[v->index] = (rt_input){.time = time, .values = values, .n = n, .interpolation = interpolation};
+  return RT_OK;
+}
+
+rt_status rt_session_outputs(rt_session *s, int n, const int *variables) {
+  rt_output *outputs = calloc((size_t)n + 1, sizeof *outputs);
+  if (!outputs) return rt_fail(s, RT_MEMORY, 0, -1, NULL, "out of memory");
+  free(s->recorder.outputs);
+  s->recorder.outputs = outputs;
+  s->recorder.n = 0;
+  s->recorder.needs_rhs = false;
+  for (int i = 0; i < n; i++) {
+    const mdl_variable *v = variable(s, variables[i]);
+    if (!v) return refuse(s, "no such variable to record");
+    outputs[i] = (rt_output){.storage = v->storage, .index = v->index, .sign = v->sign};
+    s->recorder.needs_rhs |= v->storage == MDL_ALGEBRAIC || v->storage == MDL_DERIVATIVE;
+    s->recorder.n = i + 1;
+  }
+  return RT_OK;
+}
+
+rt_status rt_session_grid(rt_session *s, int n, const double *times, double interval) {
+  for (int i = 0; i < n; i++)
+    if (!(i ? times[i] >= times[i - 1] : isfinite(times[i]))) return refuse(s, "output times must not decrease");
+  s->recorder.grid = times;
+  s->recorder.n_grid = n;
+  s->recorder.interval = interval;
+  return RT_OK;
+}

@@ -1,0 +1,176 @@
+/* What the parts of the runtime share: one session and the small structures that it is made of. */
+#ifndef RT_SESSION_H
+#define RT_SESSION_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "lacuna_runtime.h"
+
+struct rt_model {
+  void *library;
+  const mdl_descriptor *descriptor;
+};
+
+/* One recorded input. `cursor` is the sample that holds from the start of the present step on. */
+typedef struct {
+  const double *time, *values;
+  int n, cursor;
+  rt_interpolation interpolation;
+} rt_input;
+
+/* Time events: the next tick of each sample(), the next time relation, and the grid of a fixed step. */
+typedef struct {
+  double *first, *interval; /* [n_sample] s */
+  long *next;               /* [n_sample] number of the next tick */
+  double next_relation;
+  double tolerance; /* instants closer than this are one (s) */
+  long step;        /* number of the next point of the fixed-step grid */
+} rt_clock;
+
+/* The last step as one polynomial for each state: x_i(t) = sum_k c[k * n_x + i] s^k, s = (t - t0) / h. */
+#define RT_DENSE_DEGREE 5
+typedef struct {
+  double t0, h;
+  int degree;
+  bool valid;
+  double *c; /* [(RT_DENSE_DEGREE + 1) * n_x] */
+} rt_dense;
+
+typedef struct {
+  mdl_storage storage;
+  int index, sign;
+} rt_output;
+
+typedef struct {
+  int n;
+  rt_output *outputs;
+  bool needs_rhs; /* some output is neither state, discrete, parameter nor input */
+  const double *grid;
+  int n_grid;
+  double interval;
+  long next; /* first grid point not yet recorded */
+  double *x, *xdot, *v;
+} rt_recorder;
+
+/* An integration method. A step starts from data.x, data.xdot at s->t and ends with x, xdot and v of the new s->t there. */
+typedef struct {
+  const char *name;
+  bool needs_step;      /* has no step size control */
+  bool lands_on_kinks;  /* loses order where a linear input changes slope inside a step */
+  void *(*create)(struct rt_session *);
+  void (*destroy)(void *memory);
+  rt_status (*begin)(struct rt_session *, void *memory);   /* a new run */
+  rt_status (*restart)(struct rt_session *, void *memory); /* x, xdot or the equations have jumped */
+  rt_status (*step)(struct rt_session *, void *memory, double limit);
+  void (*dense)(struct rt_session *, void *memory, rt_dense *dense);
+  void (*count)(struct rt_session *, void *memory); /* add the method's own counters to the result */
+} rt_method;
+
+extern const rt_method rt_method_ida, rt_method_dopri5, rt_method_rodas4, rt_method_rk4, rt_method_euler;
+
+enum { RT_PENDING_STATE = 1, RT_PENDING_TIME = 2, RT_PENDING_SAMPLE = 4, RT_PENDING_INPUT = 8 };
+
+struct rt_session {
+  const rt_model *model;
+  const mdl_descriptor *d;
+  mdl_data data;
+  rt_options options;
+  const rt_method *method;
+  void *memory;
+
+  double *numbers;                  /* the block that all arrays of doubles here and in data are slices of */
+  unsigned char *flags;             /* and that of all arrays of flags */
+  double *p_run;                    /* [n_p] parameters of the next run, before dependent ones are computed */
+  int n_initial, *initial_index;    /* states set by the caller */
+  double *initial_value;
+  rt_input *inputs;                 /* [n_u]; n = 0: constant at its start value */
+  double input_time;                /* where data.u was last computed */
+  double *atol;                     /* [n_x + n_z] */
+  double *y, *yp;                   /* [n_x + n_z] scratch for the residual form */
+
+  double start, stop;
+  double t_previous, t;             /* the last step; data belongs to t */
+  rt_clock clock;
+  rt_dense dense;
+  double *g, *g_previous;           /* [n_rel] guards at t and t_previous */
+  double *g_low, *g_trial;          /* [n_rel] while locating a crossing */
+  double *g_span, *g_travel;        /* [n_rel] largest |g| of the run, and since the relation last switched */
+  double *x_trial, *xdot_trial, *v_trial;
+  double *x_before, *xdot_before, *v_before;
+  unsigned char *flip;              /* [n_rel] relations that switch at t */
+  unsigned char *rel_before;        /* [n_rel] */
+  int pending;
+  double last_event;                /* time of the last event (s) */
+  int futile_events;                /* consecutive events that got nowhere, see check_chattering */
+  rt_recorder recorder;
+  rt_failure failure;
+  rt_result *result;
+};
+
+/* failure.c */
+rt_status rt_fail(rt_session *s, rt_status status, double time, int variable, const mdl_equation *where, const char *format, ...)
+    __attribute__((format(printf, 6, 7)));
+rt_status rt_fail_model(rt_session *s, double time, const char *doing);
+
+/* evaluate.c: the model's functions, counted and guarded; > 0 recoverable, < 0 not, m->failure says why */
+int rt_rhs(rt_session *s, double t, const double *x, double *xdot, double *v);
+int rt_evaluate(rt_session *s);
+void rt_residual_point(rt_session *s);
+rt_status rt_check_forms(rt_session *s);
+int rt_state_variable(const rt_session *s, int state);
+
+/* inputs.c */
+void rt_inputs_begin(rt_session *s, double t);
+void rt_inputs_at(rt_session *s, double t);
+double rt_inputs_next_break(const rt_session *s, bool kinks);
+
+/* clock.c */
+rt_status rt_clock_begin(rt_session *s);
+double rt_clock_limit(rt_session *s);
+int rt_clock_due(rt_session *s);
+void rt_clock_tick(rt_session *s);
+
+/* dense.c */
+void rt_dense_prepare(rt_session *s);
+void rt_dense_eval(const rt_dense *dense, int n, double t, double *x);
+double rt_dense_eval_one(const rt_dense *dense, int n, int i, double t);
+
+/* roots.c */
+double rt_hysteresis(const rt_session *s, int r);
+rt_status rt_find_state_event(rt_session *s);
+
+/* events.c */
+rt_status rt_event(rt_session *s);
+rt_status rt_iterate_event(rt_session *s);
+
+/* initialise.c */
+rt_status rt_initialise(rt_session *s);
+
+/* record.c */
+void rt_record_begin(rt_session *s);
+rt_status rt_record_step(rt_session *s, bool closed);
+rt_status rt_record_event_row(rt_session *s);
+
+/* result.c */
+struct rt_result {
+  rt_failure failure;
+  rt_counters counters;
+  const char *terminated;
+  size_t rows, capacity;
+  int n;
+  double *time;
+  double **columns;
+  unsigned char *event;
+  size_t n_events, events_capacity;
+  rt_event_entry *events;
+};
+rt_result *rt_result_new(int columns, size_t capacity);
+bool rt_result_reserve(rt_result *r, size_t rows);
+bool rt_result_log(rt_result *r, double time, int kind, int index, int direction);
+
+/* linear.c: dense n x n systems by LU with partial pivoting, column-major */
+int rt_lu_factor(int n, double *a, int *pivot);
+void rt_lu_solve(int n, const double *a, const int *pivot, double *b);
+
+#endif

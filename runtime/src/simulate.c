@@ -1,0 +1,64 @@
+/* The hybrid loop: step, look for events, record, let events happen, go on. */
+#include <math.h>
+
+#include "session.h"
+
+static rt_status check_asserts(rt_session *s) {
+  mdl_data *m = &s->data;
+  if (!s->d->n_asserts || s->d->check(m, s->t, m->x, m->xdot, m->v) >= 0) return RT_OK;
+  return rt_fail_model(s, s->t, "checking");
+}
+
+static rt_status begin(rt_session *s) {
+  if (!(s->stop > s->start) || !isfinite(s->start) || !isfinite(s->stop))
+    return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "stop time %.9g s is not later than start time %.9g s", s->stop, s->start);
+  rt_status status = rt_initialise(s);
+  if (!status) status = check_asserts(s);
+  if (!status) status = s->method->begin(s, s->memory);
+  rt_record_begin(s);
+  return status ? status : rt_record_step(s, true);
+}
+
+static rt_status advance(rt_session *s) {
+  s->t_previous = s->t;
+  s->dense.valid = false;
+  s->pending = 0;
+  rt_status status = s->method->step(s, s->memory, rt_clock_limit(s));
+  if (!status) status = rt_find_state_event(s);
+  if (!status) status = check_asserts(s);
+  if (status) return status;
+  s->pending |= rt_clock_due(s);
+  if ((status = rt_record_step(s, !s->pending))) return status;
+  return s->pending ? rt_event(s) : RT_OK;
+}
+
+static rt_status finish(rt_session *s, rt_status status) {
+  s->method->count(s, s->memory);
+  if (s->data.terminated) s->result->terminated = s->d->messages[s->data.terminated - 1];
+  if (!status) {
+    s->data.terminal = 1;
+    status = rt_iterate_event(s);
+  }
+  if (!status) status = rt_record_step(s, true);
+  s->result->failure = s->failure;
+  return status;
+}
+
+static size_t expected_rows(const rt_session *s) {
+  const rt_recorder *r = &s->recorder;
+  if (r->n_grid > 0) return (size_t)r->n_grid + 2;
+  double rows = r->interval > 0 ? (s->stop - s->start) / r->interval : 1000;
+  return rows > 0 && rows < 1e8 ? (size_t)rows + 2 : 2;
+}
+
+rt_result *rt_session_run(rt_session *s, double start, double stop) {
+  s->start = start;
+  s->stop = stop;
+  s->failure = (rt_failure){.status = RT_OK, .variable = -1};
+  s->result = rt_result_new(s->recorder.n, expected_rows(s));
+  if (!s->result) return NULL;
+  rt_status status = begin(s);
+  while (!status && s->t < s->stop && !s->data.terminated) status = advance(s);
+  finish(s, status);
+  return s->result;
+}
