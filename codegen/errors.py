@@ -51,6 +51,7 @@ class Diagnostic(Exception):
     hint: str = ""
     notes: list[tuple[Span, str]] = field(default_factory=list)
     severity: str = "error"
+    others: list[Diagnostic] = field(default_factory=list)  # further findings, independent of this one
 
     def __str__(self) -> str:
         parts = [f"{self.span}: " if self.span else "", f"{self.severity}[{self.code}]: {self.message}"]
@@ -62,6 +63,7 @@ class Diagnostic(Exception):
             text += _excerpt(span)
         if self.hint:
             text.append(f"  hint: {self.hint}")
+        text += map(str, self.others)
         return "\n".join(text)
 
 

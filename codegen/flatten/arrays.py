@@ -1,0 +1,196 @@
+"""Array functions of the language: sizes, constructors, reductions, concatenation, a little linear algebra."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import prod
+
+from .. import expr as ex
+from ..errors import Diagnostic, Span
+from ..expr import BOOLEAN, INTEGER, Expr
+from ..syntax import ast
+from .constants import evaluate
+from .lower import lower, need_numbers
+from .scope import Scope
+from .values import Array, Value, elementwise, integers, scalars, shape_of, shape_text, stack, transpose
+
+
+def _arguments(e: ast.Call, scope: Scope, least: int, most: int) -> list[Value]:
+    if e.named or not least <= len(e.args) <= most:
+        wanted = str(least) if least == most else f"{least} to {most}" if most < 99 else f"at least {least}"
+        message = f"{e.function} takes {wanted} arguments, given {len(e.args) + len(e.named)}"
+        raise Diagnostic("R050", message, e.span, "arguments of built-in functions are given by position")
+    return [lower(a, scope) for a in e.args]
+
+
+def _number(value: Value, scope: Scope, span: Span, what: str) -> int:
+    if not isinstance(value, Expr) or value.type != INTEGER:
+        raise Diagnostic("R020", f"{what} is not an Integer", span, "use a whole number or an Integer parameter")
+    number = evaluate(value, scope.context, span, what).value
+    if not 0 <= number <= 1_000_000:
+        raise Diagnostic("R043", f"{what} is {number}", span, "sizes are from 0 to 1000000")
+    return number
+
+
+def _array(value: Value, e: ast.Call, dimensions: tuple[int, ...] = ()) -> Array:
+    if not isinstance(value, Array) or (dimensions and len(value.shape) not in dimensions):
+        wanted = " or ".join({1: "a vector", 2: "a matrix"}[d] for d in dimensions) or "an array"
+        message = f"{e.function} needs {wanted}, given {shape_text(shape_of(value))}"
+        raise Diagnostic("R051", message, e.span, "see the array functions in docs/language.md")
+    return value
+
+
+def _size(e: ast.Call, scope: Scope) -> Value:
+    arguments = _arguments(e, scope, 1, 2)
+    shape = shape_of(arguments[0])
+    if len(arguments) == 1:
+        return integers(list(shape))
+    dimension = _number(arguments[1], scope, e.span, "the dimension")
+    if not 1 <= dimension <= len(shape):
+        message = f"size: dimension {dimension} of {shape_text(shape)}"
+        raise Diagnostic("R051", message, e.span, f"it has {len(shape)} dimensions")
+    return ex.const(shape[dimension - 1])
+
+
+def _ndims(e: ast.Call, scope: Scope) -> Value:
+    return ex.const(len(shape_of(_arguments(e, scope, 1, 1)[0])))
+
+
+def _filled(value: Value, sizes: list[Value], e: ast.Call, scope: Scope) -> Array:
+    shape = tuple(_number(s, scope, e.span, "a size") for s in sizes)
+    if prod(shape) > 1_000_000:
+        raise Diagnostic("R043", f"an array of {prod(shape)} elements", e.span, "at most 1000000")
+    items = scalars(value)
+    return Array(shape + shape_of(value), tuple(items) * prod(shape))
+
+
+def _fill(e: ast.Call, scope: Scope) -> Value:
+    value, *sizes = _arguments(e, scope, 2, 99)
+    return _filled(value, sizes, e, scope)
+
+
+def _constant_array(value: int) -> Callable[[ast.Call, Scope], Value]:
+    return lambda e, scope: _filled(ex.const(value), _arguments(e, scope, 1, 99), e, scope)
+
+
+def _identity(e: ast.Call, scope: Scope) -> Value:
+    n = _number(_arguments(e, scope, 1, 1)[0], scope, e.span, "a size")
+    return Array((n, n), tuple(ex.const(int(i == j)) for i in range(n) for j in range(n)))
+
+
+def _diagonal(e: ast.Call, scope: Scope) -> Value:
+    v = _array(_arguments(e, scope, 1, 1)[0], e, (1,)).items
+    n = range(len(v))
+    return Array((len(v), len(v)), tuple(v[i] if i == j else ex.const(0) for i in n for j in n))
+
+
+def _linspace(e: ast.Call, scope: Scope) -> Value:
+    first, last, count = _arguments(e, scope, 3, 3)
+    for end in (first, last):
+        need_numbers(end, e.span, "linspace")
+    n = _number(count, scope, e.span, "the count")
+    if n < 2:
+        raise Diagnostic("R051", f"linspace of {n} points", e.span, "it needs at least 2")
+    step = ex.div(ex.sub(last, first), ex.const(float(n - 1)))
+    return Array((n,), tuple(ex.add(first, ex.mul(ex.const(float(i)), step)) for i in range(n)))
+
+
+def _reduction(join: Callable[[Expr, Expr], Expr], empty: Expr | None) -> Callable[[ast.Call, Scope], Value]:
+    def build(e: ast.Call, scope: Scope) -> Value:
+        arguments = _arguments(e, scope, 1, 2 if empty is None else 1)
+        if len(arguments) == 2:
+            for a in arguments:
+                if not isinstance(a, Expr) or a.type == BOOLEAN:
+                    hint = "of an array: max(x); of two numbers: max(a, b)"
+                    raise Diagnostic("R051", f"{e.function} of two needs numbers", e.span, hint)
+            return join(*arguments)
+        values = _array(arguments[0], e)
+        need_numbers(values, e.span, str(e.function))
+        items = list(values.items)
+        if not items and empty is None:
+            raise Diagnostic("R051", f"{e.function} of an empty array", e.span, "it needs at least one element")
+        result = items.pop(0) if items else empty
+        for item in items:
+            result = join(result, item)
+        return result
+
+    return build
+
+
+def _transpose(e: ast.Call, scope: Scope) -> Value:
+    return transpose(_array(_arguments(e, scope, 1, 1)[0], e, (2,)))
+
+
+def _cross(e: ast.Call, scope: Scope) -> Value:
+    a, b = (_array(v, e, (1,)).items for v in _arguments(e, scope, 2, 2))
+    if len(a) != 3 or len(b) != 3:
+        raise Diagnostic("R051", "cross needs two vectors of 3", e.span, "a cross product lives in space")
+    pairs = ((1, 2), (2, 0), (0, 1))
+    return Array((3,), tuple(ex.sub(ex.mul(a[i], b[j]), ex.mul(a[j], b[i])) for i, j in pairs))
+
+
+def _vector(e: ast.Call, scope: Scope) -> Value:
+    value = _arguments(e, scope, 1, 1)[0]
+    items = scalars(value)
+    return Array((len(items),), tuple(items))
+
+
+def _scalar(e: ast.Call, scope: Scope) -> Value:
+    items = scalars(_arguments(e, scope, 1, 1)[0])
+    if len(items) != 1:
+        raise Diagnostic("R051", f"scalar of {len(items)} elements", e.span, "it takes an array of one")
+    return items[0]
+
+
+def promote(value: Value, dimensions: int) -> Array:
+    """`value` with sizes of 1 added on the right up to so many dimensions."""
+    shape = shape_of(value)
+    return Array(shape + (1,) * (dimensions - len(shape)), tuple(scalars(value)))
+
+
+def concatenate(along: int, parts: list[Array], span: Span) -> Array:
+    """Arrays joined along a dimension (from 1); the other sizes agree. Raises R042."""
+    if along == 1:
+        if len({p.shape[1:] for p in parts}) > 1:
+            found = " and ".join(shape_text(p.shape) for p in parts)
+            raise Diagnostic("R042", f"arrays of sizes {found} side by side", span, "their other sizes must agree")
+        items = tuple(i for p in parts for i in p.items)
+        return Array((sum(p.shape[0] for p in parts), *parts[0].shape[1:]), items)
+    if len({p.shape[0] for p in parts}) > 1:
+        found = " and ".join(shape_text(p.shape) for p in parts)
+        raise Diagnostic("R042", f"arrays of sizes {found} side by side", span, "they need equally many rows")
+    rows = zip(*(p.rows() for p in parts), strict=True)
+    joined = [concatenate(along - 1, list(row), span) for row in rows]
+    return stack(joined, span)
+
+
+def _cat(e: ast.Call, scope: Scope) -> Value:
+    along, *parts = _arguments(e, scope, 2, 99)
+    dimension = _number(along, scope, e.span, "the dimension")
+    arrays = [_array(p, e) for p in parts]
+    if not 1 <= dimension <= min(len(a.shape) for a in arrays):
+        raise Diagnostic("R051", f"cat along dimension {dimension}", e.span, "the arrays have fewer dimensions")
+    return concatenate(dimension, arrays, e.span)
+
+
+def _matrix(e: ast.Call, scope: Scope) -> Value:
+    return promote(_arguments(e, scope, 1, 1)[0], 2)
+
+
+def map_call(e: ast.Call, scope: Scope, count: int) -> Value:
+    """A scalar built-in, element by element where it is given arrays."""
+    arguments = _arguments(e, scope, count, count)
+    name = str(e.function)
+    for a, written in zip(arguments, e.args, strict=True):
+        need_numbers(a, written.span, name)
+    return elementwise(lambda *xs: ex.call(name, *xs), arguments, e.span, f"arguments of {name}")
+
+
+ARRAY_FUNCTIONS: dict[str, Callable[[ast.Call, Scope], Value]] = {
+    "size": _size, "ndims": _ndims, "fill": _fill, "zeros": _constant_array(0), "ones": _constant_array(1),
+    "identity": _identity, "diagonal": _diagonal, "linspace": _linspace, "transpose": _transpose, "cross": _cross,
+    "vector": _vector, "scalar": _scalar, "matrix": _matrix, "cat": _cat,
+    "sum": _reduction(ex.add, ex.const(0)), "product": _reduction(ex.mul, ex.const(1)),
+    "min": _reduction(ex.minimum, None), "max": _reduction(ex.maximum, None),
+}  # fmt: skip
+

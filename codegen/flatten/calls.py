@@ -1,0 +1,196 @@
+"""Calls in expressions: built-in operators, what the subset leaves out, functions and records of the model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from .. import expr as ex
+from ..errors import Diagnostic
+from ..expr import BOOLEAN, INTEGER, REAL, Expr
+from ..suggest import did_you_mean
+from ..syntax import ast
+from .arrays import ARRAY_FUNCTIONS, map_call
+from .constants import evaluate, is_known, variability
+from .lower import lower, lower_scalar
+from .references import enumeration_literals
+from .scope import Scope, find_class, visible_classes
+from .values import Value, elementwise
+
+_OUTSIDE = {
+    "homotopy": "give the actual expression, and start values where the initial problem is hard",
+    "delay": "model the transport, for example by a chain of first-order lags",
+    "spatialDistribution": "divide the length into elements",
+    "inStream": "carry the property as a variable of the connector",
+    "actualStream": "carry the property as a variable of the connector",
+    "cardinality": "use a Boolean parameter that says whether it is connected",
+    "Clock": "use when sample(start, interval) then",
+    "previous": "use pre(x) inside when sample(...)",
+    "hold": "a discrete variable holds its value",
+    "subSample": "use a second sample(...)",
+    "superSample": "use a second sample(...)",
+    "shiftSample": "use the start of sample(start, interval)",
+    "interval": "use the parameter given to sample",
+    "getInstanceName": "write the name as a String",
+    "semiLinear": "write smooth(0, if x >= 0 then k1*x else k2*x)",
+    "skew": "write the matrix out",
+    "symmetric": "write the matrix out",
+    "outerProduct": "write the matrix as a comprehension",
+    "Subtask": "clocks are left out",
+}
+
+
+def lower_call(e: ast.Call, scope: Scope) -> Value:
+    """The value of a call; of several results the first."""
+    name = str(e.function)
+    handler = _HANDLERS.get(name)
+    if handler is not None:
+        return handler(e, scope)
+    if name in ARRAY_FUNCTIONS:
+        return ARRAY_FUNCTIONS[name](e, scope)
+    if name in ex.BUILTINS:
+        return map_call(e, scope, ex.BUILTINS[name])
+    return call_of_model(e, scope)[0]
+
+
+def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
+    """All results of a function or record constructor declared in a model."""
+    from .functions import call_function, construct_record
+
+    name = str(e.function)
+    cls = find_class(scope.context.library, scope.cls, e.function)
+    if cls is not None and cls.kind == "function":
+        return call_function(cls, e, scope)
+    if cls is not None and cls.kind == "record":
+        return [construct_record(cls, e, scope)]
+    if cls is not None:
+        raise Diagnostic("R004", f"{name} is a {cls.kind} and cannot be called", e.function.span, "call a function")
+    if name in _OUTSIDE:
+        raise Diagnostic("R091", f"{name} is outside the subset", e.function.span, _OUTSIDE[name])
+    if name in ("reinit", "assert", "terminate"):
+        raise Diagnostic("R004", f"{name} has no value", e.function.span, "it stands alone, ended by ';'")
+    known = [*BUILTIN_NAMES, *visible_classes(scope.context.library, scope.cls)]
+    hint = did_you_mean(e.function.names[-1], known, "declare it, or import its package")
+    if scope.instance is not None and e.function.names[0] in scope.instance.elements:
+        hint = f"{name} is a variable: index it as {name}[i], multiply as {name}*(...)"
+    raise Diagnostic("R004", f"there is no function {name}", e.function.span, hint)
+
+
+def _take(e: ast.Call, count: int) -> list[ast.Expression]:
+    if e.named or len(e.args) != count:
+        message = f"{e.function} takes {count} argument{'s' * (count != 1)}, given {len(e.args) + len(e.named)}"
+        raise Diagnostic("R050", message, e.span, "arguments of built-in functions are given by position")
+    return e.args
+
+
+def _der(e: ast.Call, scope: Scope) -> Value:
+    from .derivative import time_derivative
+
+    (written,) = _take(e, 1)
+    value = lower(written, scope)
+    return elementwise(lambda x: time_derivative(x, scope, e.span), [value], e.span, "der")
+
+
+def _pre(e: ast.Call, scope: Scope) -> Value:
+    (written,) = _take(e, 1)
+
+    def build(x: Expr) -> Expr:
+        if x.op == "const" or (x.op == "var" and variability(x, scope.context) in ("parameter", "constant")):
+            return x
+        if x.op != "var":
+            raise Diagnostic("R052", "pre is of a variable", written.span, "give the expression a variable of its own")
+        return ex.pre(x)
+
+    return elementwise(build, [lower(written, scope)], e.span, "pre")
+
+
+def _edge(e: ast.Call, scope: Scope) -> Value:
+    (written,) = _take(e, 1)
+    x = lower_scalar(written, scope, BOOLEAN)
+    if x.op != "var":
+        hint = "give the expression a Boolean variable of its own"
+        raise Diagnostic("R052", "edge is of a Boolean variable", written.span, hint)
+    return ex.special("edge", x)
+
+
+def _change(e: ast.Call, scope: Scope) -> Value:
+    (written,) = _take(e, 1)
+
+    def build(x: Expr) -> Expr:
+        if x.op != "var":
+            hint = "give the expression a variable of its own"
+            raise Diagnostic("R052", "change is of a discrete variable", written.span, hint)
+        return ex.special("change", x)
+
+    return elementwise(build, [lower(written, scope)], e.span, "change")
+
+
+def _no_event(e: ast.Call, scope: Scope) -> Value:
+    (written,) = _take(e, 1)
+    value = lower(written, scope)
+    return elementwise(lambda x: x if x.op == "const" else _wrap("noEvent", x), [value], e.span, "noEvent")
+
+
+def _wrap(op: str, x: Expr) -> Expr:
+    return ex.special(op, x, type=x.type)
+
+
+def _smooth(e: ast.Call, scope: Scope) -> Value:
+    order, written = _take(e, 2)
+    degree = lower_scalar(order, scope, INTEGER)
+    degree = evaluate(degree, scope.context, order.span, "the order of smooth")
+    value = lower(written, scope)
+    return elementwise(lambda x: ex.special("smooth", degree, x, type=x.type), [value], e.span, "smooth")
+
+
+def _sample(e: ast.Call, scope: Scope) -> Value:
+    parts = [lower_scalar(a, scope, REAL) for a in _take(e, 2)]
+    for value, written in zip(parts, e.args, strict=True):
+        if not is_known(value, scope.context):
+            hint = "start and interval are parameters or constants"
+            raise Diagnostic("R053", "sample at times that vary", written.span, hint)
+    return ex.special("sample", *parts)
+
+
+def _phase(op: str) -> Callable[[ast.Call, Scope], Value]:
+    def build(e: ast.Call, scope: Scope) -> Value:
+        _take(e, 0)
+        return ex.special(op)
+
+    return build
+
+
+def _text_of(e: ast.Call, scope: Scope) -> Value:
+    """String(x): only messages use it, so what varies is shown as its source."""
+    if not e.args:
+        raise Diagnostic("R050", "String needs a value", e.span, "write String(x)")
+    value = lower(e.args[0], scope)
+    if isinstance(value, Expr) and value.op == "const":
+        return str(value.value).lower() if value.type == BOOLEAN else f"{value.value:g}"
+    return value if isinstance(value, str) else str(value)
+
+
+def _integer_of(e: ast.Call, scope: Scope) -> Value:
+    """Integer(e): the number of an enumeration literal, from 1."""
+    (written,) = _take(e, 1)
+    return lower_scalar(written, scope, INTEGER)
+
+
+def _size_of_enumeration(e: ast.Call, scope: Scope) -> Value | None:
+    if e.args and isinstance(e.args[0], ast.Ref):
+        literals = enumeration_literals(e.args[0], scope)
+        if literals is not None:
+            return ex.const(len(literals))
+    return None
+
+
+def _size(e: ast.Call, scope: Scope) -> Value:
+    return _size_of_enumeration(e, scope) or ARRAY_FUNCTIONS["size"](e, scope)
+
+
+_HANDLERS: dict[str, Callable[[ast.Call, Scope], Value]] = {
+    "der": _der, "pre": _pre, "edge": _edge, "change": _change, "noEvent": _no_event, "smooth": _smooth,
+    "sample": _sample, "initial": _phase("initial"), "terminal": _phase("terminal"), "String": _text_of,
+    "Integer": _integer_of, "size": _size,
+}  # fmt: skip
+
+BUILTIN_NAMES = (*_HANDLERS, *ARRAY_FUNCTIONS, *ex.BUILTINS, "reinit", "assert", "terminate")

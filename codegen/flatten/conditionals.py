@@ -1,0 +1,115 @@
+"""If-equations to if-expressions; where branches differ in structure the condition is decided at translation."""
+
+from __future__ import annotations
+
+from .. import expr as ex
+from .. import flat
+from ..errors import Diagnostic, Span
+from ..expr import BOOLEAN, TRUE, Expr
+from ..syntax import ast
+from .constants import evaluate, is_known
+from .equations import Collected, flatten_item
+from .lower import lower_scalar
+from .scope import Scope
+
+
+def flatten_if(item: ast.If, scope: Scope, out: Collected) -> None:
+    """Add the equations of an if-equation. Raises F030 where branches that change in time do not match."""
+    conditions = [TRUE if c is None else lower_scalar(c, scope, BOOLEAN) for c, _ in item.branches]
+    known = all(is_known(c, scope.context) for c in conditions)
+    if known and (all(c.op == "const" for c in conditions) or _structural(item)):
+        _decided(item, conditions, scope, out)
+        return
+    try:
+        parts = [_branch(body, scope) for _, body in item.branches]
+        merged = _merge(item, conditions, parts)
+    except Diagnostic:
+        if not known:
+            raise
+        _decided(item, conditions, scope, out)
+        return
+    out.equations += merged.equations
+    out.asserts += merged.asserts
+
+
+def _structural(item: ast.If) -> bool:
+    """Does any branch hold what only the structure can switch?"""
+    return any(_has_structure(body) for _, body in item.branches)
+
+
+def _has_structure(body: list[ast.Item]) -> bool:
+    for item in body:
+        if isinstance(item, ast.Connect | ast.When):
+            return True
+        if isinstance(item, ast.For) and _has_structure(item.body):
+            return True
+        if isinstance(item, ast.If) and any(_has_structure(b) for _, b in item.branches):
+            return True
+    return False
+
+
+def _decided(item: ast.If, conditions: list[Expr], scope: Scope, out: Collected) -> None:
+    for condition, (_, body) in zip(conditions, item.branches, strict=True):
+        if evaluate(condition, scope.context, item.span, "the condition of an if-equation").value:
+            for inner in body:
+                flatten_item(inner, scope, out)
+            return
+
+
+def _branch(body: list[ast.Item], scope: Scope) -> Collected:
+    part = Collected()
+    for item in body:
+        flatten_item(item, scope, part)
+    return part
+
+
+def _merge(item: ast.If, conditions: list[Expr], parts: list[Collected]) -> Collected:
+    for part, (_, body) in zip(parts, item.branches, strict=True):
+        if part.whens or part.connections:
+            span = body[0].span if body else item.span
+            what = "when" if part.whens else "connect"
+            hint = "its condition must depend on parameters only"
+            raise Diagnostic("F031", f"'{what}' under a condition that changes in time", span, hint)
+    if conditions[-1] is not TRUE:
+        conditions, parts = [*conditions, TRUE], [*parts, Collected()]
+    counts = [len(p.equations) for p in parts]
+    if len(set(counts)) > 1:
+        found = ", ".join(map(str, counts))
+        hint = "every branch, 'else' included, has equally many equations"
+        raise Diagnostic("F030", f"the branches have {found} equations", item.span, hint)
+    result = Collected()
+    result.equations = _merge_equations(conditions, [p.equations for p in parts])
+    guard = TRUE
+    for condition, part in zip(conditions, parts, strict=True):
+        active = ex.logical_and(guard, condition)
+        for a in part.asserts:
+            held = ex.logical_or(ex.logical_not(active), a.condition)
+            result.asserts.append(flat.Assert(held, a.message, a.span, a.level))
+        guard = ex.logical_and(guard, ex.logical_not(condition))
+    return result
+
+
+def _merge_equations(conditions: list[Expr], branches: list[list[flat.Equation]]) -> list[flat.Equation]:
+    """Equations of the same left side go together, where every branch has the same left sides; else by position."""
+    first = branches[0]
+    sides = [e.lhs for e in first]
+    if len(set(sides)) == len(sides) and all({e.lhs for e in b} == set(sides) for b in branches):
+        by_side = [{e.lhs: e for e in b} for b in branches]
+        branches = [[b[s] for s in sides] for b in by_side]
+    result = []
+    for row in zip(*branches, strict=True):
+        lhs, rhs = (choose(conditions, [getattr(e, side) for e in row], row[0].span) for side in ("lhs", "rhs"))
+        text = " | ".join(dict.fromkeys(e.text for e in row))
+        result.append(flat.Equation(lhs, rhs, row[0].span, row[0].origin, text))
+    return result
+
+
+def choose(conditions: list[Expr], values: list[Expr], span: Span) -> Expr:
+    """if c1 then v1 elseif c2 then v2 ... else vn; the last condition is true."""
+    result = values[-1]
+    for condition, value in zip(reversed(conditions[:-1]), reversed(values[:-1]), strict=True):
+        if (value.type == BOOLEAN) != (result.type == BOOLEAN):
+            message = f"one branch is {value.type}, the other {result.type}"
+            raise Diagnostic("R024", message, span, "make them alike")
+        result = ex.if_else(condition, value, result)
+    return result

@@ -1,0 +1,90 @@
+"""Values known at translation: sizes, conditions of components, ranges. What is used so becomes structural."""
+
+from __future__ import annotations
+
+from .. import expr as ex
+from ..errors import Diagnostic, Span
+from ..expr import Expr
+from .context import Context
+
+_ORDER = {"constant": 0, "parameter": 1, "discrete": 2, "continuous": 3}
+
+
+def evaluate(e: Expr, context: Context, span: Span, what: str = "this") -> Expr:
+    """`e` as a constant. Raises F021 where it depends on more than constants and parameters with a value."""
+    if e.op == "const":
+        return e
+    result = ex.transform(e, lambda n: _constant(n, context, span, what), {})
+    if result.op != "const":
+        hint = "use constants and parameters that have a value"
+        raise Diagnostic("F021", f"{what} is not known at translation: {ex.to_text(e)}", span, hint)
+    return result
+
+
+def _constant(n: Expr, context: Context, span: Span, what: str) -> Expr | None:
+    if n.op == "var":
+        return _value_of(str(n.value), context, span, what)
+    if n.op == "call" and n.value in context.functions:
+        from .functions import run
+
+        return run(str(n.value), [evaluate_argument(a, context, span, what) for a in n.args], context, span)
+    return None
+
+
+def evaluate_argument(e: Expr, context: Context, span: Span, what: str) -> Expr:
+    if e.op == "array":
+        return ex.array(*(evaluate(a, context, span, what) for a in e.args))
+    return evaluate(e, context, span, what)
+
+
+def _value_of(name: str, context: Context, span: Span, what: str) -> Expr:
+    known = context.constants.get(name)
+    if known is not None:
+        context.evaluated.add(name)
+        return known
+    leaf, position = context.scalars[name]
+    if not leaf.is_structural:
+        hint = "only parameters and constants are known then"
+        raise Diagnostic("F021", f"{what} depends on {name}, which varies in time", span, hint)
+    if name in context.evaluating:
+        circle = " -> ".join([*context.evaluating, name])
+        raise Diagnostic("F022", f"parameters depend on each other: {circle}", leaf.span, "break the circle")
+    context.evaluating.append(name)
+    try:
+        value = leaf.element(leaf.binding(), position)
+        if value is None:
+            value = leaf.element(leaf.attribute("start"), position)
+        if value is None:
+            raise Diagnostic("F023", f"{what} needs a value of {name}", leaf.span, "give it one: = ...")
+        result = evaluate(value, context, leaf.span, name)
+    finally:
+        context.evaluating.pop()
+    context.constants[name] = result
+    context.evaluated.add(name)
+    return result
+
+
+def is_known(e: Expr, context: Context) -> bool:
+    """Does `e` depend on constants and parameters only?"""
+    return variability(e, context) in ("constant", "parameter")
+
+
+def variability(e: Expr, context: Context) -> str:
+    """constant < parameter < discrete < continuous, by the variables in `e` and by the operators on them."""
+    known = context.variabilities.get(e)
+    if known is None:
+        known = context.variabilities[e] = _variability(e, context)
+    return known
+
+
+def _variability(e: Expr, context: Context) -> str:
+    if e.op == "var":
+        entry = context.scalars.get(str(e.value))
+        return entry[0].variability if entry else "continuous"
+    if e.op in ("time", "der"):
+        return "continuous"
+    if e.op in ("pre", "sample", "initial", "terminal", "edge", "change"):
+        return "discrete"
+    found = max((variability(a, context) for a in e.args), key=_ORDER.__getitem__, default="constant")
+    by_events = e.op in ex.RELATIONS or (e.op == "call" and e.value in ("floor", "ceil", "integer", "div", "sign"))
+    return "discrete" if by_events and found == "continuous" else found

@@ -1,0 +1,63 @@
+"""What one run of flattening shares: the library, the scalars by name, the findings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..errors import Diagnostic
+from ..expr import Expr
+from ..flat import Function
+from ..library import Library
+from ..syntax import ast
+
+if TYPE_CHECKING:
+    from .instance import Instance, Leaf
+
+MAX_ERRORS = 10
+
+
+@dataclass
+class Context:
+    library: Library
+    folder: Path  # of the model's file: data files are looked for here
+    scalars: dict[str, tuple[Leaf, int]] = field(default_factory=dict)
+    packages: dict[int, Instance] = field(default_factory=dict)
+    functions: dict[str, Function] = field(default_factory=dict)
+    evaluated: set[str] = field(default_factory=set)  # structural parameters: names of scalars
+    evaluating: list[str] = field(default_factory=list)
+    constants: dict[str, Expr] = field(default_factory=dict)  # values of those
+    variabilities: dict[Expr, str] = field(default_factory=dict)
+    files: dict[str, str] = field(default_factory=dict)
+    errors: list[Diagnostic] = field(default_factory=list)
+    warnings: list[Diagnostic] = field(default_factory=list)
+
+    @contextmanager
+    def attempt(self) -> Iterator[None]:
+        """Collect a Diagnostic raised inside, so that independent findings come together."""
+        try:
+            yield
+        except Diagnostic as error:
+            if all(str(error) != str(known) for known in self.errors):
+                self.errors.append(error)
+            if len(self.errors) >= MAX_ERRORS:
+                self.finish()
+
+    def finish(self) -> None:
+        """Raise the first finding, which carries the others, if there was any."""
+        if self.errors:
+            first = self.errors[0]
+            first.others = self.errors[1:]
+            raise first
+
+    def package(self, cls: ast.Class) -> Instance:
+        """The constants of a package (or of a class around the one at hand)."""
+        from .instance import Instance
+
+        found = self.packages.get(id(cls))
+        if found is None:
+            found = self.packages[id(cls)] = Instance(self, cls, cls.path, None, None)
+        return found

@@ -1,0 +1,150 @@
+"""Equation sections: equalities spread into scalars, loops unrolled, the rest handed on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from .. import flat
+from ..errors import Diagnostic, Span
+from ..expr import BOOLEAN, INTEGER, REAL, Expr
+from ..syntax import ast
+from .lower import iterate, lower, lower_scalar
+from .scope import Scope
+from .values import Record, Value, scalars, shape_of, shape_text
+
+
+@dataclass
+class Collected:
+    """What sections contribute to the flat model."""
+
+    equations: list[flat.Equation] = field(default_factory=list)
+    whens: list[flat.When] = field(default_factory=list)
+    algorithms: list[flat.Algorithm] = field(default_factory=list)
+    asserts: list[flat.Assert] = field(default_factory=list)
+    connections: list[tuple[ast.Connect, Scope]] = field(default_factory=list)
+
+
+def flatten_items(items: list[ast.Item], scope: Scope, out: Collected) -> None:
+    """Add the equations of `items`; each faulty one is reported and left out."""
+    for item in items:
+        with scope.context.attempt():
+            flatten_item(item, scope, out)
+
+
+def flatten_item(item: ast.Item, scope: Scope, out: Collected) -> None:
+    from .conditionals import flatten_if
+    from .when import flatten_when
+
+    if isinstance(item, ast.Equality):
+        out.equations += equalities(item, scope)
+    elif isinstance(item, ast.Connect):
+        out.connections.append((item, scope))
+    elif isinstance(item, ast.If):
+        flatten_if(item, scope, out)
+    elif isinstance(item, ast.For):
+        for inner in unroll(item, scope):
+            for body_item in item.body:
+                flatten_item(body_item, inner, out)
+    elif isinstance(item, ast.When):
+        out.whens.append(flatten_when(item, scope))
+    else:
+        out.asserts.append(assertion(item, scope))
+
+
+def unroll(item: ast.For, scope: Scope) -> list[Scope]:
+    """One scope for each pass of a loop, the first iterator being the outermost."""
+    scopes = [scope]
+    for iterator in item.iterators:
+        scopes = [s.with_locals(**{iterator.name: v}) for s in scopes for v in iterate(iterator, s)]
+    return scopes
+
+
+def equalities(item: ast.Equality, scope: Scope) -> list[flat.Equation]:
+    """left = right, scalar by scalar. Raises R024 for types and R042 for sizes that differ."""
+    if isinstance(item.left, ast.Tuple):
+        return _several(item, scope)
+    left, right = lower(item.left, scope), lower(item.right, scope)
+    return equate(left, right, item.span, origin_of(scope), item.text)
+
+
+def equate(left: Value, right: Value, span: Span, origin: str, text: str) -> list[flat.Equation]:
+    """The scalar equations of left = right."""
+    if isinstance(left, Record) and isinstance(right, Record):
+        if set(left.fields) != set(right.fields):
+            raise Diagnostic("R042", "records of different kind", span, "both sides need the same fields")
+        right = Record(right.name, {name: right.fields[name] for name in left.fields})
+    if shape_of(left) != shape_of(right) or isinstance(left, Record) != isinstance(right, Record):
+        message = f"{shape_text(shape_of(left))} = {shape_text(shape_of(right))}"
+        raise Diagnostic("R042", f"the sides differ in size: {message}", span, "both sides need the same size")
+    result = []
+    for a, b in zip(scalars(left), scalars(right), strict=True):
+        check_types(a, b, span)
+        result.append(flat.Equation(a, b, span, origin, text))
+    return result
+
+
+def check_types(a: Expr | str, b: Expr | str, span: Span) -> None:
+    """Both sides Boolean, both Integer, or at least one Real with numbers only."""
+    if isinstance(a, str) or isinstance(b, str):
+        raise Diagnostic("R024", "an equation between Strings", span, "Strings are parameters only")
+    kinds = {a.type, b.type}
+    if BOOLEAN in kinds and len(kinds) > 1:
+        hint = "a Boolean as a number: if b then 1 else 0"
+        raise Diagnostic("R024", f"the sides are {a.type} and {b.type}", span, hint)
+    if a.op == "var" and a.type == INTEGER and b.type == REAL:
+        hint = "integer(x) gives the whole number at or below x; or declare it Real"
+        raise Diagnostic("R024", f"the Integer {a.value} is set to a Real", span, hint)
+
+
+def _several(item: ast.Equality, scope: Scope) -> list[flat.Equation]:
+    from .calls import call_of_model
+
+    if not isinstance(item.right, ast.Call):
+        raise Diagnostic("R023", "a list on the left needs a call on the right", item.span, "(a, b) = f(x)")
+    results = call_of_model(item.right, scope)
+    if len(item.left.items) > len(results):
+        message = f"{item.right.function} has {len(results)} results, {len(item.left.items)} are wanted"
+        raise Diagnostic("R023", message, item.left.span, "leave some out")
+    equations = []
+    for target, value in zip(item.left.items, results, strict=False):
+        if target is not None:
+            equations += equate(lower(target, scope), value, item.span, origin_of(scope), item.text)
+    return equations
+
+
+def origin_of(scope: Scope) -> str:
+    return scope.instance.name if scope.instance is not None else ""
+
+
+def assertion(item: ast.Item, scope: Scope) -> flat.Assert:
+    """assert(condition, message, level) in an equation section. Raises R056 for anything else standing alone."""
+    call = item.call if isinstance(item, ast.Procedure) else None
+    name = str(call.function) if call else ""
+    if name == "assert":
+        return lower_assert(call, scope)
+    if name in ("reinit", "terminate"):
+        hint = f"put it under a condition: when ... then {name}(...); end when;"
+        raise Diagnostic("R056", f"{name} outside of when", item.span, hint)
+    if call is not None and name == "Connections.root":
+        raise Diagnostic("R091", f"{name} is outside the subset", item.span, "write the equations out")
+    hint = "an equation has two sides; assert(...) can stand alone"
+    raise Diagnostic("R056", f"a call of {name} is no equation", item.span, hint)
+
+
+def lower_assert(call: ast.Call, scope: Scope) -> flat.Assert:
+    arguments = dict(zip(("condition", "message", "level"), call.args, strict=False)) | call.named
+    if not {"condition", "message"} <= arguments.keys():
+        hint = 'assert(x > 0, "what is wrong and what to do")'
+        raise Diagnostic("R050", "assert needs a condition and a message", call.span, hint)
+    condition = lower_scalar(arguments["condition"], scope, BOOLEAN)
+    level = lower(arguments["level"], scope) if "level" in arguments else "error"
+    message = lower(arguments["message"], scope)
+    if not isinstance(message, str) or level not in ("error", "warning"):
+        hint = 'assert(x > 0, "text", AssertionLevel.warning)'
+        raise Diagnostic("R020", "the message of assert is not a String", call.span, hint)
+    return flat.Assert(condition, message, call.span, level)
+
+
+def real_or_same(kind: str, value: Expr) -> bool:
+    """May a variable of type `kind` take `value`?"""
+    return value.type == kind or (kind == REAL and value.type == INTEGER)

@@ -1,0 +1,70 @@
+"""Expressions of the source that must be known at translation."""
+
+from __future__ import annotations
+
+from ..errors import Diagnostic
+from ..expr import BOOLEAN, INTEGER
+from ..syntax import ast
+from .constants import evaluate
+from .lower import lower, modifier_value
+from .modifiers import Modifier
+from .scope import Scope
+from .values import Array, Value, shape_of
+
+MAX_SIZE = 100_000
+
+
+def evaluate_boolean(e: ast.Expression, scope: Scope, what: str = "the condition") -> bool:
+    value = lower(e, scope)
+    if isinstance(value, str | Array) or getattr(value, "type", None) != BOOLEAN:
+        raise Diagnostic("R020", f"{what} is not a Boolean", e.span, "use a comparison, or a Boolean parameter")
+    return bool(evaluate(value, scope.context, e.span, what).value)
+
+
+def evaluate_integer(e: ast.Expression, scope: Scope, what: str) -> int:
+    value = lower(e, scope)
+    if isinstance(value, str | Array) or getattr(value, "type", None) != INTEGER:
+        raise Diagnostic("R020", f"{what} is not an Integer", e.span, "use a whole number or an Integer parameter")
+    return int(evaluate(value, scope.context, e.span, what).value)
+
+
+def evaluate_text(e: ast.Expression, scope: Scope, what: str) -> str:
+    value = lower(e, scope)
+    if not isinstance(value, str):
+        raise Diagnostic("R020", f"{what} is not a String", e.span, 'write "..." or a String parameter')
+    return value
+
+
+def evaluate_dimensions(
+    dimensions: list[ast.Expression], scope: Scope, modifier: Modifier | None, name: str
+) -> list[int]:
+    """Sizes of a declaration; `:` takes the size of the binding in `modifier`."""
+    result = []
+    bound: Value | None = None
+    for position, dimension in enumerate(dimensions):
+        if isinstance(dimension, ast.Colon):
+            if bound is None:
+                if modifier is None or modifier.value is None:
+                    hint = "give a size, or bind it to an array"
+                    raise Diagnostic("R043", f"the size of {name} is unknown", dimension.span, hint)
+                bound = modifier_value(modifier)
+            shape = shape_of(bound)
+            if position >= len(shape):
+                raise Diagnostic("R043", f"{name} is bound to a scalar", dimension.span, "bind it to an array")
+            result.append(shape[position])
+            continue
+        size = _dimension(dimension, scope, name)
+        if not 0 <= size <= MAX_SIZE:
+            raise Diagnostic("R043", f"{name} has size {size}", dimension.span, f"sizes are from 0 to {MAX_SIZE}")
+        result.append(size)
+    return result
+
+
+def _dimension(e: ast.Expression, scope: Scope, name: str) -> int:
+    if isinstance(e, ast.Ref):
+        from .references import enumeration_literals
+
+        literals = enumeration_literals(e, scope)
+        if literals is not None:
+            return len(literals)
+    return evaluate_integer(e, scope, f"the size of {name}")

@@ -1,0 +1,110 @@
+"""A declared variable of a primitive type, scalar or array, with its attributes and binding."""
+
+from __future__ import annotations
+
+from math import prod
+from typing import TYPE_CHECKING
+
+from .. import expr as ex
+from ..errors import Diagnostic
+from ..expr import Expr
+from ..suggest import did_you_mean
+from ..syntax import ast
+from .lower import modifier_value
+from .modifiers import Modifier
+from .types import ATTRIBUTES, Type
+from .values import Array, Value, indices, shape_of, shape_text
+
+if TYPE_CHECKING:
+    from .instance import Instance
+
+
+class Leaf:
+    """`names` are its scalars in row-major order: x, or x[1], x[2], ... ("A[1,2]" for a matrix)."""
+
+    def __init__(
+        self,
+        instance: Instance,
+        declaration: ast.Component,
+        name: str,
+        found: Type,
+        shape: tuple[int, ...],
+        modifier: Modifier,
+    ) -> None:
+        self.instance, self.declaration, self.name, self.type = instance, declaration, name, found
+        self.shape, self.modifier = shape, modifier
+        self.span = declaration.span
+        self.primitive = found.primitive
+        self.variability = self._variability()
+        self.causality = declaration.causality or found.causality
+        if shape:
+            self.names = tuple(f"{name}[{','.join(map(str, i))}]" for i in indices(shape))
+        else:
+            self.names = (name,)
+        self._binding: Value | None = None
+        self._bound = False
+        self._check_attributes()
+        for position, scalar in enumerate(self.names):
+            instance.context.scalars[scalar] = (self, position)
+
+    def _variability(self) -> str:
+        """The stricter of the declaration's own and the surrounding component's."""
+        order = ("constant", "parameter", "discrete", "")
+        given = (self.declaration.variability, self.instance.variability)
+        if self.primitive != "Real" and not any(given):
+            return "discrete"
+        return min(given, key=order.index) or "continuous"
+
+    def _check_attributes(self) -> None:
+        for name, child in self.modifier.children.items():
+            if name not in ATTRIBUTES[self.primitive]:
+                hint = did_you_mean(name, ATTRIBUTES[self.primitive], "see the attributes in docs/language.md")
+                raise Diagnostic("R035", f"{self.primitive} has no attribute {name}", child.span, hint)
+
+    @property
+    def is_structural(self) -> bool:
+        return self.variability in ("constant", "parameter")
+
+    def value(self) -> Value:
+        """The variable(s) as expressions; a String is its text."""
+        if self.primitive == "String":
+            return self.text()
+        if not self.shape:
+            return ex.var(self.name, self.primitive)
+        return Array(self.shape, tuple(ex.var(n, self.primitive) for n in self.names))
+
+    def text(self) -> Value:
+        value = self.binding()
+        if value is None:
+            raise Diagnostic("F020", f"the String {self.name} has no value", self.span, "bind it: = \"...\"")
+        return value
+
+    def binding(self) -> Value | None:
+        """The value of its declaration equation or binding, checked for size and type; None where it has none."""
+        if not self._bound:
+            if self.modifier.value is not None:
+                value = modifier_value(self.modifier)
+                self._binding = self._fit(value, self.modifier, "the binding")
+            self._bound = True
+        return self._binding
+
+    def attribute(self, name: str) -> Value | None:
+        """One attribute of all elements (a scalar where the variable is one)."""
+        child = self.modifier.children.get(name)
+        if child is None or child.value is None:
+            return None
+        return self._fit(modifier_value(child), child, name)
+
+    def _fit(self, value: Value, modifier: Modifier, what: str) -> Value:
+        if shape_of(value) == self.shape:
+            return value
+        if not isinstance(value, Array) and modifier.each:
+            return Array(self.shape, (value,) * prod(self.shape))
+        sizes = f"{self.name} has size {shape_text(self.shape)}, {what} {shape_text(shape_of(value))}"
+        hint = f"write each {what} = ..." if what != "the binding" else "use fill(value, n)"
+        if isinstance(value, Array):
+            hint = "both need the same size"
+        raise Diagnostic("R036", sizes, modifier.span, hint)
+
+    def element(self, value: Value | None, position: int) -> Expr | str | None:
+        return value.items[position] if isinstance(value, Array) else value

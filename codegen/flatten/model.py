@@ -1,0 +1,148 @@
+"""The passes from a class to its flat model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from .. import expr as ex
+from .. import flat
+from ..errors import Diagnostic, Span
+from ..expr import Expr
+from ..library import Library
+from ..rewrite import assigned, expressions
+from ..syntax import ast
+from .algorithms import flatten_algorithm
+from .connections import connection_equations
+from .context import Context
+from .equations import Collected, flatten_items
+from .evaluate import evaluate
+from .instance import ArrayNode, Instance
+from .leaf import Leaf
+from .lower import lower_scalar
+from .modifiers import Modifier
+from .scope import Scope
+from .variables import add_used_constants, flatten_variables, mark_discrete
+
+_MODEL_KINDS = ("model", "block", "class")
+
+
+def flatten(library: Library, name: str, modifications: dict[str, Expr | float] | None = None) -> flat.FlatModel:
+    """The flat model of class `name` (see `Library.find`), every check of the front end done.
+
+    `modifications` set structural parameters by their full name. Raises Diagnostic; further independent
+    findings are in its `others`.
+    """
+    cls = library.find(name)
+    if cls.kind not in _MODEL_KINDS or cls.partial:
+        what = f"partial {cls.kind}" if cls.partial else cls.kind
+        raise Diagnostic("F003", f"{cls.path} is a {what}, not a model to simulate", cls.span, "name a complete model")
+    context = Context(library, Path(cls.span.file).resolve().parent)
+    top = Instance(context, cls, "", None, _outside_modifier(modifications or {}, cls.span))
+    leaves, sections = _instantiate(top)
+    context.finish()
+    model = flat.FlatModel(cls.path, cls.span, cls.description)
+    for leaf in leaves:
+        with context.attempt():
+            flatten_variables(leaf, model)
+    body, initial = _sections(sections)
+    model.equations += body.equations + connection_equations(body.connections, context)
+    context.finish()
+    model.whens, model.algorithms, model.asserts = body.whens, body.algorithms, body.asserts
+    model.initial_equations = initial.equations
+    model.asserts += initial.asserts
+    model.functions = context.functions
+    mark_discrete(model, assigned([*model.whens, *(s for a in model.algorithms for s in a.statements)]))
+    add_used_constants(model, context, list(_all_expressions(model)))
+    for scalar in context.evaluated & model.variables.keys():
+        model.variables[scalar].evaluated = True
+    model.experiment = _experiment(top)
+    model.files = {**library.files, **context.files}
+    model.warnings = context.warnings
+    context.finish()
+    return model
+
+
+def _outside_modifier(modifications: dict[str, Expr | float], span: Span) -> Modifier | None:
+    root = Modifier(span)
+    for name, value in modifications.items():
+        at = root
+        for part in name.split("."):
+            at = at.children.setdefault(part, Modifier(span))
+        at.value = value if isinstance(value, Expr) else _number(value)
+    return root if root.children else None
+
+
+def _number(value: float | int | bool) -> Expr:
+    whole = not isinstance(value, bool) and float(value).is_integer()
+    return ex.const(int(value) if whole else value)
+
+
+def _instantiate(top: Instance) -> tuple[list[Leaf], list[tuple[ast.Section, ast.Class, Instance]]]:
+    """Every variable and every section below `top`, in order of declaration."""
+    leaves: list[Leaf] = []
+    sections: list[tuple[ast.Section, ast.Class, Instance]] = []
+
+    def visit(instance: Instance) -> None:
+        for element in instance.elements:
+            with instance.context.attempt():
+                node = instance.child(element)
+                outer = instance.elements[element].declaration.outer
+                if isinstance(node, Leaf) and not outer:
+                    leaves.append(node)
+                elif isinstance(node, Instance) and not outer:
+                    visit(node)
+                elif isinstance(node, ArrayNode) and not outer:
+                    for item in node.items:
+                        visit(item)
+        sections.extend((section, cls, instance) for section, cls in instance.sections)
+
+    visit(top)
+    return leaves, sections
+
+
+def _sections(sections: list[tuple[ast.Section, ast.Class, Instance]]) -> tuple[Collected, Collected]:
+    body, initial = Collected(), Collected()
+    for section, cls, instance in sections:
+        context = instance.context
+        scope = Scope(context, cls, instance)
+        out = initial if section.initial else body
+        with context.attempt():
+            if section.algorithm:
+                flatten_algorithm(section, scope, out)
+            else:
+                flatten_items(section.items, scope, out)
+            if initial.whens or initial.algorithms or initial.connections:
+                hint = "write equations between initial values"
+                raise Diagnostic("F031", "'when' or 'connect' in an initial section", section.span, hint)
+    return body, initial
+
+
+def _all_expressions(model: flat.FlatModel) -> Iterator[Expr]:
+    for e in (*model.equations, *model.initial_equations):
+        yield e.lhs
+        yield e.rhs
+    for v in model.variables.values():
+        yield from (x for x in (v.binding, v.start, v.fixed, v.min, v.max, v.nominal) if x is not None)
+    yield from expressions([*model.whens, *(s for a in model.algorithms for s in a.statements), *model.asserts])
+    for f in model.functions.values():
+        yield from f.defaults.values()
+        yield from expressions(f.body)
+
+
+def _experiment(top: Instance) -> flat.Experiment:
+    """annotation(experiment(...)) of the model, or of the nearest base class that has one."""
+    result = flat.Experiment()
+    fields = {"StartTime": "start_time", "StopTime": "stop_time", "Tolerance": "tolerance", "Interval": "interval"}
+    for cls in top.classes:
+        for argument in cls.annotation.arguments if cls.annotation else ():
+            if argument.name != "experiment":
+                continue
+            scope = Scope(top.context, cls, top)
+            for entry in argument.modification.arguments:
+                if entry.name in fields and entry.modification.value is not None:
+                    value = lower_scalar(entry.modification.value, scope, ex.REAL)
+                    number = evaluate(value, top.context, entry.span, entry.name).value
+                    setattr(result, fields[entry.name], float(number))
+            return result
+    return result

@@ -1,0 +1,244 @@
+"""Names in expressions: the component, constant or enumeration literal they mean, with subscripts applied."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import prod
+
+from .. import expr as ex
+from ..errors import Diagnostic
+from ..expr import INTEGER, Expr
+from ..suggest import did_you_mean
+from ..syntax import ast
+from .constants import evaluate, is_known
+from .scope import Scope, find_class, find_first, own_or_inherited, visible_classes
+from .values import Array, Record, Value, shape_of, stack
+
+
+def read(ref: ast.Ref, scope: Scope) -> Value:
+    """The value of a name in an expression."""
+    first = ref.names[0]
+    if first in scope.locals:
+        return _read_local(ref, scope)
+    if first == "time" and len(ref.names) == 1:
+        return ex.TIME
+    node = find_node(ref, scope)
+    if node is not None:
+        return _walk(node[0], ref, node[1], scope)
+    return _from_class(ref, scope)
+
+
+def find_node(ref: ast.Ref, scope: Scope) -> tuple[object, int] | None:
+    """The component that the first name means, with its position in the name."""
+    if scope.instance is not None and not ref.absolute:
+        found = scope.instance.child(ref.names[0])
+        if found is not None:
+            return found, 0
+    return None
+
+
+def _read_local(ref: ast.Ref, scope: Scope) -> Value:
+    value = scope.locals[ref.names[0]]
+    value = apply_subscripts(value, ref.subscripts[0], scope, ref)
+    for name, subscripts in zip(ref.names[1:], ref.subscripts[1:], strict=True):
+        if not isinstance(value, Record):
+            raise Diagnostic("R003", f"{ref.names[0]} has no element {name}", ref.span, "only records have elements")
+        if name not in value.fields:
+            hint = did_you_mean(name, value.fields, f"{value.name} has {', '.join(value.fields)}")
+            raise Diagnostic("R003", f"{value.name} has no element {name}", ref.span, hint)
+        value = apply_subscripts(value.fields[name], subscripts, scope, ref)
+    return value
+
+
+def _walk(node: object, ref: ast.Ref, at: int, scope: Scope) -> Value:
+    """From `node`, which name number `at` means, to the value at the end of the name."""
+    from .instance import Absent, ArrayNode, Instance
+    from .leaf import Leaf
+
+    subscripts = ref.subscripts[at]
+    last = at == len(ref.names) - 1
+    if isinstance(node, Absent):
+        error = Diagnostic("R016", f"{node.name} does not exist here: its condition is false", ref.span)
+        error.hint = "use it under an if with the same condition"
+        error.notes.append((node.span, "declared here"))
+        raise error
+    if isinstance(node, Leaf):
+        if not last:
+            hint = f"{node.name} is a {node.primitive}"
+            raise Diagnostic("R003", f"{node.name} has no element {ref.names[at + 1]}", ref.span, hint)
+        return apply_subscripts(node.value(), subscripts, scope, ref)
+    if isinstance(node, ArrayNode):
+        return _walk_array(node, ref, at, scope)
+    assert isinstance(node, Instance)
+    if subscripts is not None:
+        raise Diagnostic("R044", f"{node.name} is no array", ref.span, "remove the subscript")
+    if last:
+        return Record(node.name, {name: _field(node.child(name), ref, scope) for name in node.elements})
+    return _walk(member(node, ref, at + 1), ref, at + 1, scope)
+
+
+def member(node: object, ref: ast.Ref, at: int) -> object:
+    """The element that name number `at` means in the component before it; it must exist and be public."""
+    name = ref.names[at]
+    found = node.child(name)
+    if found is None:
+        hint = did_you_mean(name, node.elements, f"{node.cls.name} has {', '.join(list(node.elements)[:12])}")
+        raise Diagnostic("R003", f"{node.name} has no element {name}", ref.span, hint)
+    if node.elements[name].declaration.protected:
+        error = Diagnostic("R017", f"{name} is protected in {node.cls.name}", ref.span, "make it public to use it here")
+        error.notes.append((node.elements[name].declaration.span, "declared here"))
+        raise error
+    return found
+
+
+def _field(node: object, ref: ast.Ref, scope: Scope) -> Value:
+    whole = replace(ref, names=("",), subscripts=(None,))
+    return _walk(node, whole, 0, scope)
+
+
+def _walk_array(node: object, ref: ast.Ref, at: int, scope: Scope) -> Value:
+    subscripts = ref.subscripts[at]
+    picked = apply_subscripts(element_numbers(node), subscripts, scope, ref)
+    inner = ref.subscripts[:at] + (None,) + ref.subscripts[at + 1 :]
+    plain = replace(ref, subscripts=inner)
+    if isinstance(picked, Expr):
+        if picked.op != "const":
+            raise Diagnostic("F021", f"the element of {node.name} is not known at translation", ref.span)
+        return _walk(node.items[picked.value - 1], plain, at, scope)
+    values = [_walk(node.items[p.value - 1], plain, at, scope) for p in picked.items]
+    stacked = stack(values, ref.span)
+    return Array(picked.shape + stacked.shape[1:], stacked.items)
+
+
+def element_numbers(node: object) -> Array:
+    return Array(node.shape, tuple(ex.const(i + 1) for i in range(prod(node.shape))))
+
+
+def apply_subscripts(
+    value: Value, subscripts: tuple[ast.Expression, ...] | None, scope: Scope, ref: ast.Ref
+) -> Value:
+    """value[i, :, {1, 3}]: each subscript is a number, `:` or a vector of numbers; rows come first."""
+    from .lower import lower
+
+    if subscripts is None:
+        return value
+    shape = shape_of(value)
+    if len(subscripts) > len(shape):
+        message = f"{ref} has {len(shape)} dimensions and {len(subscripts)} subscripts"
+        raise Diagnostic("R044", message, ref.span, "give one subscript for each dimension")
+    if not subscripts:
+        return value
+    first, rest = subscripts[0], subscripts[1:]
+    rows = value.rows()
+    if isinstance(first, ast.Colon):
+        return stack([apply_subscripts(r, rest, scope, ref) for r in rows], ref.span)
+    index = lower(first, replace(scope, end=len(rows)))
+    if isinstance(index, Array):
+        picked = [_row(rows, i, scope, ref, first) for i in index.items]
+        return stack([apply_subscripts(r, rest, scope, ref) for r in picked], ref.span)
+    if not isinstance(index, Expr) or index.type != INTEGER:
+        raise Diagnostic("R044", f"a subscript of {ref} is not an Integer", first.span, "use a whole number")
+    if index.op == "const" or is_known(index, scope.context) and not scope.in_function:
+        return apply_subscripts(_row(rows, index, scope, ref, first), rest, scope, ref)
+    return _choose([apply_subscripts(r, rest, scope, ref) for r in rows], index, first, scope)
+
+
+def _row(rows: list[Value], index: Expr, scope: Scope, ref: ast.Ref, written: ast.Expression) -> Value:
+    number = evaluate(index, scope.context, written.span, "the subscript").value
+    if not 1 <= number <= len(rows):
+        raise Diagnostic("R045", f"{ref}[{number}] is outside 1..{len(rows)}", written.span, "arrays start at 1")
+    return rows[number - 1]
+
+
+def _choose(rows: list[Value], index: Expr, written: ast.Expression, scope: Scope) -> Value:
+    """An element by a number known only at run time: an if-expression over all of them."""
+    from .values import elementwise
+
+    result = rows[-1]
+    for number in range(len(rows) - 1, 0, -1):
+        condition = ex.relation("==", index, ex.const(number))
+
+        def pick(a: Expr, b: Expr, condition: Expr = condition) -> Expr:
+            return ex.if_else(condition, a, b)
+
+        result = elementwise(pick, [rows[number - 1], result], written.span, "elements")
+    return result
+
+
+def _from_class(ref: ast.Ref, scope: Scope) -> Value:
+    """A constant of a package around or elsewhere, or a literal of an enumeration."""
+    library = scope.context.library
+    found = _constant_around(ref, scope)
+    if found is not None:
+        return _walk(found, ref, 0, scope)
+    cls = library.member(library.root, ref.names[0]) if ref.absolute else find_first(library, scope.cls, ref.names[0])
+    for at, name in enumerate(ref.names[1:], 1):
+        if cls is None:
+            break
+        if cls.literals is not None:
+            return _literal(cls, name, ref)
+        inner = own_or_inherited(library, cls, name)
+        if inner is None:
+            package = scope.context.package(cls)
+            if name in package.elements and package.elements[name].declaration.variability == "constant":
+                return _walk(package.child(name), ref, at, scope)
+            known = [*library.members(cls), *package.elements]
+            hint = did_you_mean(name, known, f"{cls.name} has {', '.join(known[:12])}")
+            raise Diagnostic("R002", f"{cls.path} has no constant {name}", ref.span, hint)
+        cls = inner
+    if ref.names[0] in ("StateSelect", "AssertionLevel") and len(ref.names) == 2:
+        return ref.names[1]
+    if cls is not None:
+        hint = "use one of its components or constants"
+        raise Diagnostic("R018", f"{ref} is a {cls.kind}, not a value", ref.span, hint)
+    raise unknown_name(ref, scope)
+
+
+def _constant_around(ref: ast.Ref, scope: Scope) -> object | None:
+    library, name = scope.context.library, ref.names[0]
+    current: ast.Class | None = None if ref.absolute else scope.cls
+    while current is not None and current.name:
+        for item in current.imports:
+            if not item.every and (item.alias or item.path.names[-1]) == name and len(item.path.names) > 1:
+                path = replace(item.path, names=item.path.names[:-1], subscripts=item.path.subscripts[:-1])
+                owner = find_class(library, library.root, path)
+                if owner is not None and own_or_inherited(library, owner, item.path.names[-1]) is None:
+                    return scope.context.package(owner).child(item.path.names[-1])
+            if item.every:
+                owner = find_class(library, library.root, item.path)
+                if owner is not None and name in (package := scope.context.package(owner)).elements:
+                    return package.child(name)
+        if current is not scope.cls or scope.instance is None:
+            package = scope.context.package(current)
+            if name in package.elements and package.elements[name].declaration.variability == "constant":
+                return package.child(name)
+        current = current.parent
+    return None
+
+
+def _literal(cls: ast.Class, name: str, ref: ast.Ref) -> Expr:
+    names = [n for n, _ in cls.literals]
+    if name not in names:
+        hint = did_you_mean(name, names, f"{cls.name} has {', '.join(names)}")
+        raise Diagnostic("R019", f"{name} is no literal of {cls.name}", ref.span, hint)
+    return ex.const(names.index(name) + 1)
+
+
+def enumeration_literals(ref: ast.Ref, scope: Scope) -> tuple[str, ...] | None:
+    """The literals where `ref` names an enumeration type, else None."""
+    if scope.instance is not None and ref.names[0] in scope.instance.elements:
+        return None
+    cls = find_class(scope.context.library, scope.cls, ref)
+    return tuple(n for n, _ in cls.literals) if cls is not None and cls.literals is not None else None
+
+
+def unknown_name(ref: ast.Ref, scope: Scope) -> Diagnostic:
+    """R002: nothing of this name, with the nearest that there are."""
+    from .calls import BUILTIN_NAMES
+
+    known = [*scope.locals, *(scope.instance.elements if scope.instance else ())]
+    known += visible_classes(scope.context.library, scope.cls)
+    hint = did_you_mean(ref.names[0], known)
+    if not hint:
+        hint = did_you_mean(ref.names[0], BUILTIN_NAMES, "declare it")
+    return Diagnostic("R002", f"there is no variable {ref.names[0]}", ref.span, hint)

@@ -1,0 +1,139 @@
+"""Where names are looked up: loop variables and function locals, components, then enclosing classes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+from ..errors import Diagnostic, Span
+from ..library import Library
+from ..suggest import did_you_mean
+from ..syntax import ast
+from .values import Value
+
+if TYPE_CHECKING:
+    from .context import Context
+    from .instance import Instance
+
+PRIMITIVES = ("Real", "Integer", "Boolean", "String")
+
+
+@dataclass
+class Scope:
+    context: Context
+    cls: ast.Class
+    instance: Instance | None = None
+    locals: dict[str, Value] = field(default_factory=dict)
+    end: int | None = None  # the value of `end` inside subscripts
+    in_function: bool = False
+
+    def with_locals(self, **values: Value) -> Scope:
+        return replace(self, locals={**self.locals, **values})
+
+
+def own_or_inherited(library: Library, cls: ast.Class, name: str, depth: int = 0) -> ast.Class | None:
+    """The class `name` among those declared in `cls`, its base classes and its imports."""
+    found = library.member(cls, name)
+    if found is not None or depth > 30:
+        return found
+    for base in base_classes(library, cls):
+        found = own_or_inherited(library, base, name, depth + 1)
+        if found is not None:
+            return found
+    return None
+
+
+def base_classes(library: Library, cls: ast.Class) -> list[ast.Class]:
+    """Classes that `cls` extends or is an alias of; primitive types are left out."""
+    references = [e.base for e in cls.extends] + ([cls.alias.base] if cls.alias else [])
+    found = [find_class(library, cls, r, of_base=True) for r in references if str(r) not in PRIMITIVES]
+    return [f for f in found if f is not None]
+
+
+def _imported(library: Library, cls: ast.Class, name: str) -> ast.Class | None:
+    for item in cls.imports:
+        if not item.every and (item.alias or item.path.names[-1]) == name:
+            return _full_name(library, item)
+    for item in cls.imports:
+        if item.every:
+            found = own_or_inherited(library, _full_name(library, item), name)
+            if found is not None:
+                return found
+    return None
+
+
+def _full_name(library: Library, item: ast.Import) -> ast.Class:
+    cls = library.root
+    for name in item.path.names:
+        found = own_or_inherited(library, cls, name)
+        if found is None:
+            hint = did_you_mean(name, library.members(cls), "imports are written with the full name")
+            where = f" in {cls.path}" if cls.name else ""
+            raise Diagnostic("R002", f"import: there is no class {name}{where}", item.span, hint)
+        cls = found
+    return cls
+
+
+def find_first(library: Library, cls: ast.Class, name: str, of_base: bool = False) -> ast.Class | None:
+    """The class that the single name `name` means inside `cls`, looking outwards."""
+    current: ast.Class | None = cls
+    while current is not None:
+        if current is cls and of_base:
+            found = library.member(current, name)
+        else:
+            found = own_or_inherited(library, current, name)
+        found = found or _imported(library, current, name)
+        if found is not None:
+            return found
+        if current.name == name:
+            return current
+        current = current.parent
+    return library.member(library.root, name)
+
+
+def find_class(library: Library, cls: ast.Class, ref: ast.Ref, of_base: bool = False) -> ast.Class | None:
+    """The class that `ref` means inside `cls`, or None."""
+    if ref.absolute:
+        found = library.member(library.root, ref.names[0])
+    else:
+        found = find_first(library, cls, ref.names[0], of_base)
+    for name in ref.names[1:]:
+        if found is None:
+            return None
+        found = own_or_inherited(library, found, name)
+    return found
+
+
+def visible_classes(library: Library, cls: ast.Class) -> list[str]:
+    """Names a reference inside `cls` could start with, for hints."""
+    names: list[str] = []
+    current: ast.Class | None = cls
+    while current is not None:
+        names += library.members(current)
+        for base in base_classes(library, current):
+            names += library.members(base)
+        names += [i.alias or i.path.names[-1] for i in current.imports]
+        current = current.parent
+    return names + library.members(library.root)
+
+
+def require_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str, of_base: bool = False) -> ast.Class:
+    """As `find_class`; raises R001 with the nearest names."""
+    found = find_class(library, cls, ref, of_base)
+    if found is None:
+        raise unknown_class(library, cls, ref, what)
+    return found
+
+
+def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> Diagnostic:
+    known: list[str] = [*visible_classes(library, cls), *PRIMITIVES]
+    missing = ref.names[0]
+    current = find_first(library, cls, ref.names[0])
+    for name in ref.names[1:]:
+        if current is None:
+            break
+        known, missing = library.members(current), name
+        current = own_or_inherited(library, current, name)
+    span: Span = ref.span
+    hint = did_you_mean(missing, known, "declare it, or import its package")
+    return Diagnostic("R001", f"there is no {what} {ref}", span, hint)

@@ -1,0 +1,65 @@
+"""What a type name means: a primitive type with its attributes and sizes, an enumeration, or a class."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ..errors import Diagnostic
+from ..syntax import ast
+from .evaluate import evaluate_dimensions
+from .modifiers import Modifier, from_tree, merge
+from .scope import PRIMITIVES, Scope, find_class, unknown_class
+
+ATTRIBUTES = {
+    "Real": ("value", "quantity", "unit", "displayUnit", "min", "max", "start", "fixed", "nominal", "stateSelect"),
+    "Integer": ("quantity", "min", "max", "start", "fixed"),
+    "Boolean": ("quantity", "start", "fixed"),
+    "String": ("quantity", "start", "fixed"),
+}
+
+
+@dataclass
+class Type:
+    """`primitive` is Real, Integer, Boolean or String, else None and `cls` is structured."""
+
+    primitive: str | None
+    cls: ast.Class | None = None
+    literals: tuple[str, ...] = ()
+    modifier: Modifier | None = None
+    dimensions: list[int] = field(default_factory=list)
+    causality: str = ""
+
+
+def resolve_type(reference: ast.Ref, scope: Scope, depth: int = 0) -> Type:
+    """Follow aliases down to a primitive type or a class. Raises R001 for an unknown name."""
+    if depth > 20:
+        raise Diagnostic("R011", f"the type {reference} is defined by itself", reference.span, "break the circle")
+    if str(reference) in PRIMITIVES:
+        return Type(str(reference))
+    if str(reference) == "StateSelect":
+        return Type("Integer")
+    library = scope.context.library
+    cls = find_class(library, scope.cls, reference, of_base=depth > 0)
+    if cls is None:
+        raise unknown_class(library, scope.cls, reference, "type or class")
+    if cls.literals is not None:
+        return Type("Integer", cls, tuple(name for name, _ in cls.literals))
+    inside = Scope(scope.context, cls, None)
+    if cls.alias is not None:
+        found = resolve_type(cls.alias.base, inside, depth + 1)
+        if found.primitive is None and not cls.alias.dimensions:
+            return Type(None, cls)
+        found.modifier = merge(from_tree(cls.alias.modification, inside), found.modifier)
+        found.dimensions = evaluate_dimensions(cls.alias.dimensions, inside, None, cls.name) + found.dimensions
+        found.causality = cls.alias.causality or found.causality
+        return found
+    for clause in cls.extends:
+        if str(clause.base) in PRIMITIVES or _is_primitive(clause.base, inside, depth):
+            found = resolve_type(clause.base, inside, depth + 1)
+            found.modifier = merge(from_tree(clause.modification, inside), found.modifier)
+            return found
+    return Type(None, cls)
+
+
+def _is_primitive(base: ast.Ref, scope: Scope, depth: int) -> bool:
+    return scope.cls.kind in ("type", "connector") and resolve_type(base, scope, depth + 1).primitive is not None

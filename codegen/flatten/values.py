@@ -1,0 +1,117 @@
+"""Values of expressions while flattening: a scalar `Expr`, a string, an `Array` of either, a `Record`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import product
+from math import prod
+
+from ..errors import Diagnostic, Span
+from ..expr import ZERO, Expr, add, const, mul
+
+
+@dataclass(frozen=True, slots=True)
+class Array:
+    """Elements in row-major order; `shape` has at least one dimension."""
+
+    shape: tuple[int, ...]
+    items: tuple[Expr | str, ...]
+
+    def rows(self) -> list[Value]:
+        """Along the first dimension."""
+        if len(self.shape) == 1:
+            return list(self.items)
+        step = prod(self.shape[1:])
+        return [Array(self.shape[1:], self.items[i * step : (i + 1) * step]) for i in range(self.shape[0])]
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """Fields by name, in the order of their declaration."""
+
+    name: str
+    fields: dict[str, Value]
+
+
+Value = Expr | str | Array | Record
+
+
+def shape_of(value: Value) -> tuple[int, ...]:
+    return value.shape if isinstance(value, Array) else ()
+
+
+def shape_text(shape: tuple[int, ...]) -> str:
+    return "a scalar" if not shape else "[" + ", ".join(map(str, shape)) + "]"
+
+
+def scalars(value: Value) -> list[Expr | str]:
+    """Every scalar inside, in order."""
+    if isinstance(value, Array):
+        return list(value.items)
+    if isinstance(value, Record):
+        return [s for field in value.fields.values() for s in scalars(field)]
+    return [value]
+
+
+def indices(shape: tuple[int, ...]) -> Iterator[tuple[int, ...]]:
+    """1-based index tuples in row-major order."""
+    return product(*(range(1, n + 1) for n in shape))
+
+
+def stack(rows: list[Value], span: Span) -> Array:
+    """A new first dimension over equally shaped values."""
+    shapes = {shape_of(r) for r in rows}
+    if len(shapes) > 1:
+        found = " and ".join(shape_text(s) for s in sorted(shapes))
+        hint = "every element of an array has the same size"
+        raise Diagnostic("R040", f"the elements differ in size: {found}", span, hint)
+    if any(isinstance(r, Record) for r in rows):
+        raise Diagnostic("R041", "an array of records cannot be used as a value", span, "use the fields one by one")
+    shape = shapes.pop() if shapes else ()
+    return Array((len(rows), *shape), tuple(s for r in rows for s in scalars(r)))
+
+
+def elementwise(function: Callable[..., Expr], values: list[Value], span: Span, what: str) -> Value:
+    """`function` on corresponding elements; scalars go with every element."""
+    shapes = {v.shape for v in values if isinstance(v, Array)}
+    if not shapes:
+        return function(*values)
+    if len(shapes) > 1:
+        first, second = (shape_text(shape_of(v)) for v in values[:2])
+        raise Diagnostic("R042", f"{what} of sizes {first} and {second}", span, "both sides need the same size")
+    shape = shapes.pop()
+    columns = [v.items if isinstance(v, Array) else (v,) * prod(shape) for v in values]
+    return Array(shape, tuple(function(*row) for row in zip(*columns, strict=True)))
+
+
+def multiply(a: Value, b: Value, span: Span) -> Value:
+    """a*b of linear algebra: scalar with anything, vector with vector (a scalar), matrix with vector or matrix."""
+    if not (isinstance(a, Array) and isinstance(b, Array)):
+        return elementwise(mul, [a, b], span, "a product")
+    if a.shape[-1] != b.shape[0] or max(len(a.shape), len(b.shape)) > 2:
+        message = f"a product of sizes {shape_text(a.shape)} and {shape_text(b.shape)}"
+        raise Diagnostic("R042", message, span, "inner sizes must agree; .* multiplies element by element")
+    if len(a.shape) == 1 and len(b.shape) == 1:
+        return dot(a.items, b.items)
+    rows = a.rows() if len(a.shape) == 2 else [a]
+    columns = transpose(b).rows() if len(b.shape) == 2 else [b]
+    items = tuple(dot(r.items, c.items) for r in rows for c in columns)
+    shape = tuple(n for n in (a.shape[:-1] + b.shape[1:]))
+    return Array(shape, items)
+
+
+def dot(a: tuple[Expr, ...], b: tuple[Expr, ...]) -> Expr:
+    total = ZERO
+    for x, y in zip(a, b, strict=True):
+        total = add(total, mul(x, y))
+    return total
+
+
+def transpose(a: Array) -> Array:
+    rows, columns = a.shape
+    return Array((columns, rows), tuple(a.items[i * columns + j] for j in range(columns) for i in range(rows)))
+
+
+def integers(values: list[int]) -> Array:
+    return Array((len(values),), tuple(const(v) for v in values))

@@ -1,0 +1,293 @@
+"""The syntax tree of a .mo file: what was written, with its place, and nothing resolved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ..errors import Span
+
+
+@dataclass(slots=True, eq=False)
+class Literal:
+    span: Span
+    value: float | int | bool | str
+
+
+@dataclass(slots=True, eq=False)
+class Ref:
+    """A name such as motor.phase[2].i: identifiers, each with its subscripts (None where there are none)."""
+
+    span: Span
+    names: tuple[str, ...]
+    subscripts: tuple[tuple[Expression, ...] | None, ...]
+    absolute: bool = False  # written with a leading dot
+
+    def __str__(self) -> str:
+        return ".".join(self.names)
+
+
+@dataclass(slots=True, eq=False)
+class Call:
+    span: Span
+    function: Ref
+    args: list[Expression]
+    named: dict[str, Expression] = field(default_factory=dict)
+
+
+@dataclass(slots=True, eq=False)
+class Unary:
+    span: Span
+    op: str  # - + not .- .+
+    operand: Expression
+
+
+@dataclass(slots=True, eq=False)
+class Binary:
+    span: Span  # of the operator
+    op: str
+    left: Expression
+    right: Expression
+
+
+@dataclass(slots=True, eq=False)
+class IfExpression:
+    span: Span
+    branches: list[tuple[Expression, Expression]]
+    otherwise: Expression
+
+
+@dataclass(slots=True, eq=False)
+class ArrayLiteral:
+    """{a, b, c}"""
+
+    span: Span
+    elements: list[Expression]
+
+
+@dataclass(slots=True, eq=False)
+class MatrixLiteral:
+    """[a, b; c, d]"""
+
+    span: Span
+    rows: list[list[Expression]]
+
+
+@dataclass(slots=True, eq=False)
+class Range:
+    span: Span
+    first: Expression
+    step: Expression | None
+    last: Expression
+
+
+@dataclass(slots=True, eq=False)
+class Iterator:
+    span: Span
+    name: str
+    range: Expression
+
+
+@dataclass(slots=True, eq=False)
+class Comprehension:
+    """e for i in a:b, j in c:d (the argument of a reduction, or the inside of braces)."""
+
+    span: Span
+    body: Expression
+    iterators: list[Iterator]
+
+
+@dataclass(slots=True, eq=False)
+class Colon:
+    span: Span
+
+
+@dataclass(slots=True, eq=False)
+class End:
+    span: Span
+
+
+@dataclass(slots=True, eq=False)
+class Tuple:
+    """(a, , c) on the left of a call with several results; None skips one."""
+
+    span: Span
+    items: list[Expression | None]
+
+
+Expression = (
+    Literal | Ref | Call | Unary | Binary | IfExpression | ArrayLiteral | MatrixLiteral | Range | Comprehension
+    | Colon | End | Tuple
+)  # fmt: skip
+
+
+@dataclass(slots=True, eq=False)
+class Equality:
+    span: Span
+    left: Expression
+    right: Expression
+    text: str
+
+
+@dataclass(slots=True, eq=False)
+class Connect:
+    span: Span
+    left: Ref
+    right: Ref
+
+
+@dataclass(slots=True, eq=False)
+class If:
+    """If-equation or if-statement; the condition of `else` is None."""
+
+    span: Span
+    branches: list[tuple[Expression | None, list[Item]]]
+
+
+@dataclass(slots=True, eq=False)
+class For:
+    span: Span
+    iterators: list[Iterator]
+    body: list[Item]
+
+
+@dataclass(slots=True, eq=False)
+class When:
+    span: Span
+    branches: list[tuple[Expression, list[Item]]]
+
+
+@dataclass(slots=True, eq=False)
+class Procedure:
+    """A call that stands alone: assert(...), terminate(...), reinit(...)."""
+
+    span: Span
+    call: Call
+
+
+@dataclass(slots=True, eq=False)
+class Assignment:
+    span: Span
+    target: Ref | Tuple
+    value: Expression
+    text: str
+
+
+@dataclass(slots=True, eq=False)
+class While:
+    span: Span
+    condition: Expression
+    body: list[Item]
+
+
+@dataclass(slots=True, eq=False)
+class Break:
+    span: Span
+
+
+@dataclass(slots=True, eq=False)
+class Return:
+    span: Span
+
+
+Item = Equality | Connect | If | For | When | Procedure | Assignment | While | Break | Return
+
+
+@dataclass(slots=True, eq=False)
+class Section:
+    span: Span
+    algorithm: bool
+    initial: bool
+    items: list[Item]
+
+
+@dataclass(slots=True, eq=False)
+class Argument:
+    """One entry of a modification: name(...) = value, or a redeclaration."""
+
+    span: Span
+    name: str
+    modification: Modification
+    each: bool = False
+    final: bool = False
+    redeclare: Component | None = None
+
+
+@dataclass(slots=True, eq=False)
+class Modification:
+    span: Span
+    arguments: list[Argument] = field(default_factory=list)
+    value: Expression | None = None
+    left_out: list[Ref | Connect] = field(default_factory=list)  # of an extends clause: break NAME, break connect(a, b)
+
+
+@dataclass(slots=True, eq=False)
+class Component:
+    span: Span
+    name: str
+    type: Ref
+    dimensions: list[Expression]  # Colon where the size follows from the binding
+    modification: Modification
+    condition: Expression | None = None
+    description: str = ""
+    variability: str = ""  # parameter | constant | discrete
+    causality: str = ""  # input | output
+    flow: bool = False
+    final: bool = False
+    protected: bool = False
+    inner: bool = False
+    outer: bool = False
+    replaceable: bool = False
+    constraint: Ref | None = None
+
+
+@dataclass(slots=True, eq=False)
+class Import:
+    span: Span
+    path: Ref
+    alias: str  # "" for the last name of the path
+    every: bool  # import A.B.*
+
+
+@dataclass(slots=True, eq=False)
+class Extends:
+    span: Span
+    base: Ref
+    modification: Modification
+
+
+@dataclass(slots=True, eq=False)
+class Alias:
+    """type A = B[n](...): a short class definition."""
+
+    span: Span
+    base: Ref
+    dimensions: list[Expression]
+    modification: Modification
+    causality: str = ""
+
+
+@dataclass(slots=True, eq=False)
+class Class:
+    span: Span
+    kind: str  # model block connector record type package function class
+    name: str
+    partial: bool = False
+    description: str = ""
+    components: list[Component] = field(default_factory=list)
+    extends: list[Extends] = field(default_factory=list)
+    imports: list[Import] = field(default_factory=list)
+    classes: dict[str, Class] = field(default_factory=dict)
+    sections: list[Section] = field(default_factory=list)
+    alias: Alias | None = None
+    literals: tuple[tuple[str, str], ...] | None = None  # of an enumeration: name, description
+    external: Span | None = None
+    annotation: Modification | None = None
+    parent: Class | None = None
+    within: str = ""
+
+    @property
+    def path(self) -> str:
+        """Full name, such as Lacuna.Electrical.Resistor."""
+        if self.parent is not None and self.parent.name:
+            return f"{self.parent.path}.{self.name}"
+        return f"{self.within}.{self.name}" if self.within else self.name

@@ -1,0 +1,233 @@
+"""Class definitions: declarations, imports, extends, modifications, annotations."""
+
+from __future__ import annotations
+
+from ..errors import Diagnostic
+from . import ast
+from .cursor import first_of
+from .equations import SECTION_STARTS, EquationParser
+from .lexer import tokenize
+
+_KINDS = ("model", "block", "connector", "record", "type", "package", "function", "class")
+_CLASS_STARTS = (*_KINDS, "partial", "encapsulated", "expandable", "operator", "pure", "impure")
+
+
+def parse(text: str, file: str) -> list[ast.Class]:
+    """The classes of one file, with `within` noted on each. Raises the first Diagnostic, which carries the others."""
+    return ClassParser(tokenize(text, file)).file()
+
+
+class ClassParser(EquationParser):
+    def file(self) -> list[ast.Class]:
+        within = ""
+        if self.accept("within"):
+            if self.kind != ";":
+                within = str(self.reference())
+            self.semicolon()
+        classes = []
+        while self.kind != "eof":
+            self.accept("final")
+            if self.kind not in _CLASS_STARTS:
+                raise first_of([*self.errors, self._no_class()])
+            start = self.at
+            try:
+                found = self.class_definition()
+                self.semicolon()
+                found.within = within
+                classes.append(found)
+            except Diagnostic as error:
+                if error in self.errors:
+                    raise
+                self.recover(error, _CLASS_STARTS, start)
+        if self.errors:
+            raise first_of(self.errors)
+        if not classes:
+            hint = "a .mo file holds a class: model NAME ... end NAME;"
+            raise Diagnostic("P019", "the file holds no class", self.source.span(0), hint)
+        return classes
+
+    def _no_class(self) -> Diagnostic:
+        wanted = "a class ('model', 'package', 'connector', 'function' ...)"
+        if self.kind == "end":
+            hint = "there is one 'end' too many above, or a class closed too early"
+            return Diagnostic("P009", "'end' closes nothing here", self.span(), hint)
+        return self.unexpected(wanted)
+
+    def class_definition(self) -> ast.Class:
+        """[partial] model NAME ... end NAME (without the semicolon)."""
+        self.enter()
+        start = self.at
+        partial = False
+        while self.kind in ("partial", "encapsulated", "pure", "impure", "expandable", "operator"):
+            if self.kind in ("expandable", "operator"):
+                raise _outside(self, self.kind)
+            partial = partial or self.kind == "partial"
+            self.at += 1
+        if self.kind not in _KINDS:
+            raise self.unexpected("'model', 'block', 'connector', 'record', 'type', 'package' or 'function'")
+        kind = self.kind
+        self.at += 1
+        if self.kind == "extends":
+            hint = "write a class of its own with 'extends' inside"
+            raise Diagnostic("R091", "'class extends' is outside the subset", self.span(), hint)
+        span = self.span()
+        cls = ast.Class(span, kind, self.identifier("the name of the class"), partial)
+        if self.accept("="):
+            self._short_definition(cls)
+        else:
+            self._long_definition(cls, start)
+        self.leave()
+        return cls
+
+    def _short_definition(self, cls: ast.Class) -> None:
+        start = self.at
+        if self.accept("enumeration"):
+            cls.literals = self._enumeration()
+        elif self.kind == "der":
+            raise _outside(self, "a function as the derivative of another")
+        else:
+            causality = self.word if self.accept("input", "output") else ""
+            base = self.reference()
+            dimensions = list(base.subscripts[-1] or ())
+            base = ast.Ref(base.span, base.names, (None,) * len(base.names), base.absolute)
+            modification = self.modification() if self.kind == "(" else ast.Modification(self.span(start))
+            causality = self.words[start] if causality else ""
+            cls.alias = ast.Alias(base.span, base, dimensions, modification, causality)
+        cls.description = self.description()
+        if self.kind == "annotation":
+            cls.annotation = self.annotation()
+
+    def _enumeration(self) -> tuple[tuple[str, str], ...]:
+        self.expect("(")
+        literals = []
+        while True:
+            if self.kind == ":":
+                raise _outside(self, "an enumeration without literals")
+            name = self.identifier("a literal of the enumeration")
+            literals.append((name, self.description()))
+            if not self.accept(","):
+                break
+        self.expect(")", "')' or ','")
+        return tuple(literals)
+
+    def _long_definition(self, cls: ast.Class, start: int) -> None:
+        cls.description = self.description()
+        depth = self.depth
+        self.depth = 0
+        protected = False
+        while self.kind not in ("end", "eof"):
+            if self.accept("public"):
+                protected = False
+            elif self.accept("protected"):
+                protected = True
+            elif self.kind == "annotation":
+                cls.annotation = self.annotation()
+                self.semicolon()
+            elif self.kind in ("equation", "algorithm", "initial"):
+                cls.sections.append(self.section())
+            elif self.kind == "external":
+                self._external(cls)
+            else:
+                self._element_into(cls, protected)
+        self.depth = depth
+        self._end_class(cls, start)
+
+    def _end_class(self, cls: ast.Class, start: int) -> None:
+        if self.kind == "eof":
+            error = Diagnostic("P009", f"'end {cls.name};' is missing", self.span(), f"close {cls.kind} {cls.name}")
+            error.notes.append((cls.span, "opened here"))
+            raise first_of([*self.errors, error])
+        self.at += 1
+        if self.kind in ("if", "for", "when", "while"):
+            message = f"'end {self.kind}' without its '{self.kind}'"
+            raise first_of([*self.errors, Diagnostic("P009", message, self.span(), "remove it, or open the block")])
+        if self.kind != "id" or self.word != cls.name:
+            error = Diagnostic(
+                "P005", f"'end {self.word}' closes {cls.kind} {cls.name}", self.span(), f"write end {cls.name};"
+            )
+            error.notes.append((cls.span, "the name given here"))
+            raise first_of([*self.errors, error])
+        self.at += 1
+
+    def _external(self, cls: ast.Class) -> None:
+        cls.external = self.span()
+        while self.kind not in (";", "eof"):
+            if self.kind == "annotation":
+                self.annotation()
+            else:
+                self.at += 1
+        self.semicolon()
+
+    def _element_into(self, cls: ast.Class, protected: bool) -> None:
+        start = self.at
+        errors = len(self.errors)
+        try:
+            self._element(cls, protected)
+        except Diagnostic as error:
+            if len(self.errors) > errors or error in self.errors or error.code in ("P009", "P005", "P013"):
+                raise
+            self.depth = 0
+            self.recover(error, (*SECTION_STARTS, "end"), start)
+
+    def _element(self, cls: ast.Class, protected: bool) -> None:
+        start = self.at
+        if self.kind == "import":
+            cls.imports.append(self._import())
+        elif self.kind == "extends":
+            self.at += 1
+            base = self.reference()
+            modification = self.modification(selective=True) if self.kind == "(" else ast.Modification(base.span)
+            if self.kind == "annotation":
+                self.annotation()
+            cls.extends.append(ast.Extends(base.span, base, modification))
+        else:
+            prefixes = self.element_prefixes()
+            prefixes["protected"] = protected
+            if self.kind in _CLASS_STARTS:
+                self._nested_class(cls, prefixes, start)
+            else:
+                cls.components.extend(self.component_clause(prefixes))
+        self.semicolon()
+
+    def _nested_class(self, cls: ast.Class, prefixes: dict[str, object], start: int) -> None:
+        if prefixes["replaceable"] or prefixes["redeclare"]:
+            hint = "replaceable components are supported: replaceable CLASS name"
+            raise Diagnostic("R092", "replaceable classes are outside the subset", self.span(start), hint)
+        nested = self.class_definition()
+        nested.parent = cls
+        if nested.name in cls.classes:
+            error = Diagnostic("R010", f"{nested.name} is declared twice", nested.span, "rename one of them")
+            error.notes.append((cls.classes[nested.name].span, "the other declaration"))
+            raise error
+        cls.classes[nested.name] = nested
+
+    def _import(self) -> ast.Import:
+        start = self.at
+        self.at += 1
+        alias = ""
+        if self.kind == "id" and self.kinds[self.at + 1] == "=":
+            alias = self.word
+            self.at += 2
+        names = [self.identifier()]
+        every = False
+        while self.kind in (".", ".*"):
+            if self.accept(".*"):
+                every = True
+                break
+            self.at += 1
+            if self.kind == "{":
+                raise Diagnostic("R093", "a list of imports is outside the subset", self.span(), "one import a line")
+            names.append(self.identifier())
+        span = self.span_from(start)
+        self.description()
+        if self.kind == "annotation":
+            self.annotation()
+        return ast.Import(span, ast.Ref(span, tuple(names), (None,) * len(names)), alias, every)
+
+
+def _outside(parser: ClassParser, what: str) -> Diagnostic:
+    hint = {
+        "expandable": "declare a connector with the variables it carries",
+        "operator": "write functions with names of their own",
+    }.get(what, "see docs/language.md for what to write instead")
+    return Diagnostic("R091", f"{what} is outside the subset", parser.span(), hint)

@@ -1,0 +1,303 @@
+"""Expressions, by precedence climbing over the levels of the Modelica grammar."""
+
+from __future__ import annotations
+
+from ..errors import Diagnostic
+from . import ast
+from .cursor import Cursor
+from .lexer import string_value
+
+_RELATIONS = ("<", "<=", ">", ">=", "==", "<>")
+_ADDITIVE = ("+", "-", ".+", ".-")
+_MULTIPLICATIVE = ("*", "/", ".*", "./")
+_POWER = ("^", ".^")
+
+
+class ExpressionParser(Cursor):
+    def expression(self) -> ast.Expression:
+        """Any expression, ranges and if-expressions included."""
+        self.enter()
+        try:
+            if self.kind == "if":
+                return self._if_expression()
+            start = self.at
+            first = self._or()
+            if self.kind != ":":
+                return first
+            self.at += 1
+            second = self._or()
+            if self.accept(":"):
+                return ast.Range(self.span_from(start), first, second, self._or())
+            return ast.Range(self.span_from(start), first, None, second)
+        finally:
+            self.leave()
+
+    def _if_expression(self) -> ast.IfExpression:
+        start = self.at
+        branches = []
+        self.at += 1
+        while True:
+            condition = self.condition("then")
+            branches.append((condition, self.expression()))
+            if not self.accept("elseif"):
+                break
+        if self.kind != "else":
+            hint = "an if-expression has a value in every case: if c then a else b"
+            raise Diagnostic("P014", "this if-expression has no 'else'", self.span(start), hint)
+        self.at += 1
+        otherwise = self.expression()
+        return ast.IfExpression(self.span_from(start), branches, otherwise)
+
+    def condition(self, end: str) -> ast.Expression:
+        """A condition and the keyword after it."""
+        result = self.expression()
+        if self.kind == "=":
+            raise Diagnostic("P008", "'=' in a condition", self.span(), "compare with ==")
+        if self.kind != end:
+            raise self.unexpected(f"'{end}' or an operator")
+        self.at += 1
+        return result
+
+    def _or(self) -> ast.Expression:
+        left = self._and()
+        while self.kind == "or":
+            span = self.span()
+            self.at += 1
+            left = ast.Binary(span, "or", left, self._and())
+        return left
+
+    def _and(self) -> ast.Expression:
+        left = self._not()
+        while self.kind == "and":
+            span = self.span()
+            self.at += 1
+            left = ast.Binary(span, "and", left, self._not())
+        return left
+
+    def _not(self) -> ast.Expression:
+        if self.kind == "not":
+            span = self.span()
+            self.at += 1
+            return ast.Unary(span, "not", self._relation())
+        return self._relation()
+
+    def _relation(self) -> ast.Expression:
+        left = self._sum()
+        if self.kind not in _RELATIONS:
+            return left
+        span, op = self.span(), self.kind
+        self.at += 1
+        result = ast.Binary(span, op, left, self._sum())
+        if self.kind in _RELATIONS:
+            hint = "join two comparisons: a < b and b < c"
+            raise Diagnostic("P015", "comparisons cannot be chained", self.span(), hint)
+        return result
+
+    def _sum(self) -> ast.Expression:
+        if self.kind in _ADDITIVE:
+            span, op = self.span(), self.kind
+            self.at += 1
+            self._no_sign()
+            left: ast.Expression = ast.Unary(span, op, self._product())
+        else:
+            left = self._product()
+        while self.kind in _ADDITIVE:
+            span, op = self.span(), self.kind
+            self.at += 1
+            self._no_sign()
+            left = ast.Binary(span, op, left, self._product())
+        return left
+
+    def _product(self) -> ast.Expression:
+        left = self._power()
+        while self.kind in _MULTIPLICATIVE:
+            span, op = self.span(), self.kind
+            self.at += 1
+            self._no_sign()
+            left = ast.Binary(span, op, left, self._power())
+        return left
+
+    def _power(self) -> ast.Expression:
+        base = self.primary()
+        if self.kind not in _POWER:
+            return base
+        span, op = self.span(), self.kind
+        self.at += 1
+        self._no_sign()
+        result = ast.Binary(span, op, base, self.primary())
+        if self.kind in _POWER:
+            raise Diagnostic("P015", "powers cannot be chained", self.span(), "use parentheses: (a^b)^c")
+        return result
+
+    def _no_sign(self) -> None:
+        if self.kind in _ADDITIVE:
+            hint = "put the signed part in parentheses, such as a*(-b)"
+            raise Diagnostic("P016", f"a sign directly after '{self.words[self.at - 1]}'", self.span(), hint)
+
+    def primary(self) -> ast.Expression:
+        start, kind = self.at, self.kind
+        if kind == "num":
+            self.at += 1
+            word = self.words[start]
+            return ast.Literal(self.span(start), int(word) if word.isdigit() else float(word))
+        if kind == "str":
+            self.at += 1
+            return ast.Literal(self.span(start), string_value(self.words[start]))
+        if kind in ("true", "false"):
+            self.at += 1
+            return ast.Literal(self.span(start), kind == "true")
+        if kind in ("id", "."):
+            return self._reference_or_call()
+        if kind in ("der", "initial", "pure"):
+            self.at += 1
+            return self._call(ast.Ref(self.span(start), (kind,), (None,)), start)
+        if kind == "(":
+            return self._parenthesised()
+        if kind == "{":
+            return self._braces()
+        if kind == "[":
+            return self._matrix()
+        if kind == "end":
+            self.at += 1
+            return ast.End(self.span(start))
+        raise self._no_expression()
+
+    def _no_expression(self) -> Diagnostic:
+        if self.kind == "if":
+            hint = "put the if-expression in parentheses: 2*(if c then a else b)"
+            return Diagnostic("P007", "an if-expression cannot be an operand as it stands", self.span(), hint)
+        if self.kind == "." or (self.kind == "op" and self.word == "."):
+            return Diagnostic("P011", "a number starts with a digit", self.span(), "write 0.5, not .5")
+        found = self.word if self.kind == "eof" else f"'{self.word}'"
+        hint = "'=' compares nothing: use ==" if self.kind == "=" else ""
+        return Diagnostic("P007", f"an expression is missing before {found}", self.span(), hint)
+
+    def reference(self) -> ast.Ref:
+        """A component reference: names with subscripts."""
+        start = self.at
+        absolute = self.accept(".")
+        if absolute and self.kind == "num":
+            raise Diagnostic("P011", "a number starts with a digit", self.span(start), "write 0.5, not .5")
+        names = [self.identifier()]
+        subscripts = [self._subscripts()]
+        while self.kind == ".":
+            self.at += 1
+            names.append(self.identifier("a name after '.'"))
+            subscripts.append(self._subscripts())
+        return ast.Ref(self.span_from(start), tuple(names), tuple(subscripts), absolute)
+
+    def _subscripts(self) -> tuple[ast.Expression, ...] | None:
+        return tuple(self.subscripts()) if self.kind == "[" else None
+
+    def subscripts(self) -> list[ast.Expression]:
+        """[2, :, i + 1]"""
+        self.expect("[")
+        result = []
+        while True:
+            if self.kind == ":":
+                result.append(ast.Colon(self.span()))
+                self.at += 1
+            else:
+                result.append(self.expression())
+            if not self.accept(","):
+                break
+        self.expect("]", "']' or ','")
+        return result
+
+    def _reference_or_call(self) -> ast.Expression:
+        start = self.at
+        reference = self.reference()
+        return self._call(reference, start) if self.kind == "(" else reference
+
+    def _call(self, function: ast.Ref, start: int) -> ast.Call:
+        self.expect("(")
+        call = ast.Call(function.span, function, [])
+        if not self.accept(")"):
+            self._arguments(call)
+        call.span = self.span_from(start)
+        return call
+
+    def _arguments(self, call: ast.Call) -> None:
+        while True:
+            if self.kind == "id" and self.kinds[self.at + 1] == "=":
+                name, span = self.word, self.span()
+                self.at += 2
+                if name in call.named:
+                    raise Diagnostic("P017", f"the argument {name} is given twice", span, "keep one of them")
+                call.named[name] = self.expression()
+            elif call.named:
+                hint = "arguments by position come before those by name"
+                raise Diagnostic("P017", "an argument by position after one by name", self.span(), hint)
+            elif self.kind == "function":
+                hint = "call the function where it is needed"
+                raise Diagnostic("R090", "functions as arguments are outside the subset", self.span(), hint)
+            else:
+                call.args.append(self._maybe_comprehension())
+            if self.accept(")"):
+                return
+            if not self.accept(","):
+                raise self.unexpected("')' or ','")
+
+    def _maybe_comprehension(self) -> ast.Expression:
+        start = self.at
+        body = self.expression()
+        if self.kind != "for":
+            return body
+        self.at += 1
+        iterators = self.iterators()
+        return ast.Comprehension(self.span_from(start), body, iterators)
+
+    def iterators(self) -> list[ast.Iterator]:
+        """i in 1:n, j in 1:m"""
+        result = []
+        while True:
+            start = self.at
+            name = self.identifier("the loop variable")
+            if self.kind != "in":
+                hint = "say what it runs over: for i in 1:n"
+                raise Diagnostic("P018", f"the loop variable {name} has no range", self.span(start), hint)
+            self.at += 1
+            bounds = self.expression()
+            result.append(ast.Iterator(self.span_from(start), name, bounds))
+            if not self.accept(","):
+                return result
+
+    def _parenthesised(self) -> ast.Expression:
+        start = self.at
+        self.at += 1
+        items: list[ast.Expression | None] = []
+        while True:
+            items.append(None if self.kind in (",", ")") else self.expression())
+            if not self.accept(","):
+                break
+        self.expect(")", "')' or an operator")
+        if len(items) == 1 and items[0] is not None:
+            return items[0]
+        return ast.Tuple(self.span_from(start), items)
+
+    def _braces(self) -> ast.Expression:
+        start = self.at
+        self.at += 1
+        if self.kind == "}":
+            hint = "for an empty array write zeros(0)"
+            raise Diagnostic("P007", "an array needs at least one element", self.span(), hint)
+        elements = [self._maybe_comprehension()]
+        while self.accept(","):
+            elements.append(self._maybe_comprehension())
+        self.expect("}", "'}' or ','")
+        if isinstance(elements[0], ast.Comprehension) and len(elements) == 1:
+            return elements[0]
+        return ast.ArrayLiteral(self.span_from(start), elements)
+
+    def _matrix(self) -> ast.MatrixLiteral:
+        start = self.at
+        self.at += 1
+        rows = [[self.expression()]]
+        while self.kind in (",", ";"):
+            if self.accept(","):
+                rows[-1].append(self.expression())
+            else:
+                self.at += 1
+                rows.append([self.expression()])
+        self.expect("]", "']', ',' or ';'")
+        return ast.MatrixLiteral(self.span_from(start), rows)

@@ -1,0 +1,178 @@
+"""Component declarations and modifications: Real x[3](start = 1, each fixed = true) = y "text"."""
+
+from __future__ import annotations
+
+from ..errors import Diagnostic, Span
+from . import ast
+from .expressions import ExpressionParser
+from .lexer import string_value
+
+_GRAPHICS = frozenset(
+    "Icon Diagram Placement Line Dialog Text choices choicesAllMatching preferredView Polygon Rectangle Ellipse".split()
+)
+_VARIABILITIES = ("parameter", "constant", "discrete")
+
+
+class ModificationParser(ExpressionParser):
+    def description(self) -> str:
+        """The text after a declaration: "text" + "text"."""
+        if self.kind != "str":
+            return ""
+        text = string_value(self.word)
+        self.at += 1
+        while self.kind == "+" and self.kinds[self.at + 1] == "str":
+            text += string_value(self.words[self.at + 1])
+            self.at += 2
+        return text
+
+    def element_prefixes(self) -> dict[str, object]:
+        """redeclare final inner outer replaceable, in any order."""
+        found = dict.fromkeys(("redeclare", "final", "inner", "outer", "replaceable"), False)
+        while self.kind in found:
+            found[self.kind] = True
+            self.at += 1
+        return dict(found)
+
+    def component_clause(self, prefixes: dict[str, object], single: bool = False) -> list[ast.Component]:
+        """flow parameter input TYPE[dims] a(...) = 1 "text", b ...; `single` allows only one component."""
+        options = {k: v for k, v in prefixes.items() if k != "redeclare"}
+        self._type_prefixes(options)
+        if self.kind != "id" and self.kind != ".":
+            raise self.unexpected("a declaration, 'equation', 'algorithm' or 'end'")
+        written = self.reference()
+        shared = list(written.subscripts[-1] or ())
+        kind = ast.Ref(written.span, written.names, (None,) * len(written.names), written.absolute)
+        result = []
+        while True:
+            result.append(self._component(kind, shared, options))
+            if single or not self.accept(","):
+                break
+        if self.accept("constrainedby"):
+            constraint = self.reference()
+            if self.kind == "(":
+                self.modification()
+            for component in result:
+                component.constraint = constraint
+                component.description = component.description or self.description()
+        return result
+
+    def _type_prefixes(self, options: dict[str, object]) -> None:
+        while True:
+            if self.kind == "stream":
+                hint = "carry the property as a variable of the connector"
+                raise Diagnostic("R091", "stream connectors are outside the subset", self.span(), hint)
+            if self.kind == "flow":
+                options["flow"] = True
+            elif self.kind in _VARIABILITIES:
+                options["variability"] = self.kind
+            elif self.kind in ("input", "output"):
+                options["causality"] = self.kind
+            else:
+                return
+            self.at += 1
+
+    def _component(self, kind: ast.Ref, shared: list[ast.Expression], options: dict[str, object]) -> ast.Component:
+        start = self.at
+        hint_missing = self.kind in ("=", ";", "(") and len(kind.names) == 1
+        if hint_missing:
+            message = f"a declaration needs a type and a name, found only '{kind}'"
+            hint = "write for example Real " + str(kind)
+            if self.kind == "=" or self.kind == "(":
+                hint += "; an equation belongs under 'equation'"
+            raise Diagnostic("P020", message, kind.span, hint)
+        name = self.identifier("the name of a component")
+        span = self.span(start)
+        dimensions = list(self.subscripts()) if self.kind == "[" else []
+        modification = self.modification()
+        condition = None
+        if self.kind == "if":
+            self.at += 1
+            condition = self.expression()
+        description = self.description()
+        if self.kind == "annotation":
+            self.annotation()
+        return ast.Component(
+            span, name, kind, dimensions + shared, modification, condition, description, **options
+        )
+
+    def modification(self, selective: bool = False) -> ast.Modification:
+        """(name = value, ...) = value, either part optional; `selective` (of extends) allows break entries."""
+        result = ast.Modification(self.span())
+        if self.accept("("):
+            if not self.accept(")"):
+                self._arguments_into(result, selective)
+        if self.kind == ":=":
+            raise Diagnostic("P004", "':=' in a declaration", self.span(), "a declaration is bound with =")
+        if self.accept("="):
+            result.value = self.expression()
+        return result
+
+    def _arguments_into(self, result: ast.Modification, selective: bool = False) -> None:
+        self.enter()
+        while True:
+            if selective and self.accept("break"):
+                result.left_out.append(self._connect() if self.kind == "connect" else self.reference())
+            else:
+                result.arguments.append(self._argument())
+            if self.accept(")"):
+                break
+            if not self.accept(","):
+                raise self.unexpected("')' or ','")
+        self.leave()
+
+    def _argument(self) -> ast.Argument:
+        start = self.at
+        flags = {"each": False, "final": False, "redeclare": False, "replaceable": False}
+        while self.kind in flags:
+            flags[self.kind] = True
+            self.at += 1
+        if flags["redeclare"] or flags["replaceable"]:
+            return self._redeclaration(start, flags)
+        name_at = self.at
+        names = [self.identifier("the name to modify")]
+        while self.accept("."):
+            names.append(self.identifier())
+        span = self.span(name_at)
+        inner = self.modification()
+        self.description()
+        for name in reversed(names[1:]):
+            nested = ast.Argument(span, name, inner)
+            inner = ast.Modification(inner.span, [nested])
+        return ast.Argument(span, names[0], inner, flags["each"], flags["final"])
+
+    def _redeclaration(self, start: int, flags: dict[str, bool]) -> ast.Argument:
+        if self.kind in ("model", "package", "function", "record", "type", "block", "connector", "class"):
+            hint = "redeclare the component instead"
+            raise Diagnostic("R092", "redeclaring a class is outside the subset", self.span(start), hint)
+        prefixes: dict[str, object] = {"final": flags["final"], "replaceable": flags["replaceable"]}
+        component = self.component_clause(prefixes, single=True)[0]
+        span: Span = component.span
+        return ast.Argument(span, component.name, component.modification, flags["each"], flags["final"], component)
+
+    def annotation(self) -> ast.Modification:
+        """annotation(...): graphical entries are dropped, the others are kept as a modification."""
+        self.at += 1
+        result = ast.Modification(self.span())
+        self.expect("(")
+        while not self.accept(")"):
+            if self.kind == "id" and self.word in _GRAPHICS:
+                self._skip_entry()
+            else:
+                result.arguments.append(self._argument())
+            if self.kind != ")":
+                self.expect(",", "')' or ','")
+        return result
+
+    def _skip_entry(self) -> None:
+        """Over one entry, to the ',' or ')' that ends it."""
+        level = 0
+        while self.kind != "eof":
+            if self.kind in ("(", "{", "["):
+                level += 1
+            elif self.kind in (")", "}", "]"):
+                if level == 0:
+                    return
+                level -= 1
+            elif self.kind == "," and level == 0:
+                return
+            self.at += 1
