@@ -30,7 +30,8 @@ class Band:
 class Fault:
     """The axis of a map: a parameter of the model and its values."""
 
-    parameter: str
+    parameter: str  # of the model
+    symbol: str  # heads the first column of map.csv
     name: str
     first: float
     last: float

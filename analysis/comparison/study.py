@@ -1,0 +1,152 @@
+"""Run one scenario through every lane and measure each against a tight IDA reference."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+import time as clock
+
+import numpy as np
+
+from analysis.comparison.deviation import (
+    EventDeviation,
+    SignalDeviation,
+    event_deviation,
+    event_pairs,
+    observed_order,
+    outside_event_gaps,
+    signal_deviation,
+)
+from analysis.comparison.scenarios import Scenario
+import runtime
+
+REFERENCE_MARGIN = 30.0  # an error counts for an observed order only this far above the reference's own tolerance
+
+
+@dataclass(frozen=True)
+class Lane:
+    """One way through the model: a solver with its step or its tolerance."""
+
+    solver: str
+    step: float | None = None
+    rtol: float | None = None
+    located: bool = True
+
+    @property
+    def family(self) -> str:
+        """The lanes that differ in step or tolerance only."""
+        return self.solver if self.located else f"{self.solver}, events not located"
+
+    @property
+    def label(self) -> str:
+        return f"{self.family}, " + (f"step {self.step:g} s" if self.step else f"rtol {self.rtol:g}")
+
+
+@dataclass
+class LaneResult:
+    lane: Lane
+    seconds: float
+    counters: dict[str, int]
+    failure: str | None
+    events: EventDeviation
+    signals: list[SignalDeviation]
+    values: dict[str, np.ndarray] = field(repr=False)  # of the shown signals, on the study's grid
+
+    @property
+    def error(self) -> float:
+        """The worst relative maximum deviation over all signals; infinite for a run that did not end well."""
+        return max((s.relative for s in self.signals), default=0.0) if self.failure is None else float("inf")
+
+
+@dataclass
+class Study:
+    scenario: Scenario
+    time: np.ndarray
+    reference: LaneResult
+    lanes: list[LaneResult]
+    orders: dict[str, float]  # family -> observed order of convergence
+
+
+def lanes_of(scenario: Scenario) -> list[Lane]:
+    """Variable-step lanes at every tolerance, fixed-step lanes at every step with and without event location."""
+    variable = [Lane(s, rtol=r) for s in ("ida", "dopri5", "rodas4") for r in scenario.variable_rtol]
+    fixed = [Lane(s, step=h, located=on) for s in ("rk4", "euler") for on in (True, False) for h in scenario.steps]
+    return variable + fixed
+
+
+def run(scenario: Scenario, model: runtime.Model, tick: Callable[[Lane], None] = lambda lane: None) -> Study:
+    """The whole study of one scenario; `tick` is called before each lane."""
+    grid = np.linspace(0.0, scenario.stop, round(scenario.stop / scenario.interval) + 1)
+    first = Lane("ida", rtol=scenario.reference_rtol)
+    tick(first)
+    reference, seconds = _simulate(scenario, model, first, grid)
+    signals = _continuous_signals(model)
+    lanes = []
+    for lane in lanes_of(scenario):
+        tick(lane)
+        result, elapsed = _simulate(scenario, model, lane, grid)
+        lanes.append(_measure(scenario, lane, elapsed, reference, result, signals))
+    own = _measure(scenario, first, seconds, reference, reference, signals)
+    return Study(scenario, grid, own, lanes, _orders(scenario, lanes))
+
+
+def _simulate(scenario: Scenario, model: runtime.Model, lane: Lane, grid: np.ndarray) -> tuple[runtime.Result, float]:
+    begin = clock.perf_counter()
+    result = runtime.simulate(
+        model, solver=lane.solver, parameters=scenario.parameters, stop=scenario.stop, rtol=lane.rtol,
+        step=lane.step, locate_events=lane.located, output_times=grid, events=False,
+    )  # fmt: skip
+    return result, clock.perf_counter() - begin
+
+
+def _continuous_signals(model: runtime.Model) -> list[str]:
+    """Names of the variables that change with time; of several aliases the first stands for all."""
+    seen: set[tuple] = set()
+    names = []
+    for name, variable in model.variables.items():
+        place = (variable.storage, variable.index)
+        if variable.kind != "parameter" and place not in seen:
+            seen.add(place)
+            names.append(name)
+    return names
+
+
+def _measure(
+    scenario: Scenario, lane: Lane, seconds: float, reference: runtime.Result, result: runtime.Result, names: list[str]
+) -> LaneResult:
+    rows = min(len(reference.time), len(result.time))
+    time = reference.time[:rows]
+    pairs, _ = event_pairs(_events(reference), _events(result))
+    use = outside_event_gaps(time, pairs)
+    signals = [signal_deviation(n, time, reference[n][:rows], result[n][:rows], use) for n in names]
+    return LaneResult(
+        lane, seconds, dict(result.counters), None if result.complete else str(result.failure),
+        event_deviation(_events(reference), _events(result)), signals, {n: result[n][:rows] for n in scenario.shown},
+    )  # fmt: skip
+
+
+def _events(result: runtime.Result) -> list[tuple[float, str]]:
+    return [(e.time, f"{e.kind}:{e.index}:{e.direction:+d}") for e in result.event_log]
+
+
+def _orders(scenario: Scenario, lanes: list[LaneResult]) -> dict[str, float]:
+    families: dict[str, list[LaneResult]] = {}
+    for result in lanes:
+        if result.lane.step:
+            families.setdefault(result.lane.family, []).append(result)
+    floor = REFERENCE_MARGIN * scenario.reference_rtol
+    return {
+        family: observed_order(np.array([r.lane.step for r in group]), np.array([r.error for r in group]), floor)
+        for family, group in families.items()
+    }
+
+
+def rows(study: Study) -> Iterator[dict[str, object]]:
+    """One row for each lane and signal, for the CSV."""
+    for result in [study.reference, *study.lanes]:
+        for signal in result.signals:
+            yield {
+                "scenario": study.scenario.name, "lane": result.lane.label, "signal": signal.name,
+                "max_deviation": signal.maximum, "rms_deviation": signal.rms, "scale": signal.scale,
+                "relative": signal.relative, "at_time_s": signal.at_time,
+            }  # fmt: skip

@@ -1,0 +1,89 @@
+"""What a map is drawn of: something that gives a record of its pre-flight test at any severity."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+
+from analysis.errors import AnalysisError
+from analysis.settings import Settings
+
+
+@dataclass(frozen=True)
+class Record:
+    """One test, sampled as the settings say from time 0."""
+
+    currents: np.ndarray  # A, [channels, samples]
+    speed: np.ndarray  # rad/s
+    angle: np.ndarray  # rad, not wrapped
+    counters: dict[str, int]  # of the solver
+
+
+@dataclass(frozen=True)
+class SourceEquation:
+    """An equation as written in the model, for the report."""
+
+    text: str
+    origin: str  # component path
+    place: str  # file:line
+
+
+class Plant(Protocol):
+    """`hash` must change with everything that may change a record."""
+
+    name: str
+    hash: str
+    passes: dict[str, float]  # seconds of each pass of its translation; empty where there was none
+    equations: list[SourceEquation]
+
+    def run(self, severity: float) -> Record: ...
+
+
+class ModelPlant:
+    """A translated model, solved by the runtime.
+
+    `path` is its shared object, `model_hash` the hash of its sources and `passes` the seconds that each pass of the
+    translation took; all three come from the compiler's result.
+    """
+
+    def __init__(self, name: str, path: Path | str, model_hash: str, settings: Settings, passes=None):
+        import runtime
+
+        self.name, self.passes, self._settings = name, dict(passes or {}), settings
+        self._simulate, self._model = runtime.simulate, runtime.Model(path)
+        self._times = np.arange(settings.samples) / settings.sampling_rate
+        self._outputs = [*settings.currents, settings.speed, settings.angle]
+        missing = [v for v in [settings.fault.parameter, *self._outputs] if v not in self._model.variables]
+        if missing:
+            raise AnalysisError(f"{settings.path}: model {name} has no variable {', '.join(missing)}")
+        self.hash = f"{model_hash} {runtime.__version__}"
+        self.equations = [
+            SourceEquation(e.text, e.origin, f"{Path(e.file).name}:{e.line}") for e in self._model.equations
+        ]
+
+    def run(self, severity: float) -> Record:
+        """Simulate one test. Raises AnalysisError with severity, time and reason where the run does not complete."""
+        settings = self._settings
+        result = self._simulate(
+            self._model,
+            solver=settings.solver,
+            parameters={settings.fault.parameter: severity},
+            start=0.0,
+            stop=float(self._times[-1]),
+            rtol=settings.relative_tolerance,
+            atol=settings.absolute_tolerance,
+            output_times=self._times,
+            outputs=self._outputs,
+            events=False,
+        )
+        if not result.complete:
+            raise AnalysisError(f"{self.name} at {settings.fault.symbol} = {severity:g}: {result.failure}")
+        return Record(
+            currents=np.array([result[name] for name in settings.currents]),
+            speed=result[settings.speed],
+            angle=result[settings.angle],
+            counters=dict(result.counters),
+        )
