@@ -1,11 +1,7 @@
 within Lacuna.Components.Drives;
 model Bridge "Three-phase bridge of ideal switches and diodes"
-  Interfaces.PositivePin p "Positive rail";
-  Interfaces.NegativePin n "Negative rail";
-  Interfaces.NegativePin a "Terminal of phase a";
-  Interfaces.NegativePin b "Terminal of phase b";
-  Interfaces.NegativePin c "Terminal of phase c";
-  Interfaces.IntegerInput leg[3] "Command of each leg: 1, -1 or 0";
+  extends Interfaces.PartialBridge;
+  Interfaces.IntegerInput leg[3] "Command of each leg: 1 to the positive rail, -1 to the negative rail, 0 floating";
   HalfBridge leg_a "Leg of phase a";
   HalfBridge leg_b "Leg of phase b";
   HalfBridge leg_c "Leg of phase c";

@@ -1,0 +1,18 @@
+within Lacuna.Components.Mechanics;
+model Mass "Rigid body that slides"
+  parameter Types.Mass m(final min=0, start=1) "Mass";
+  Interfaces.TranslationalFlange_a flange_a "Left flange";
+  Interfaces.TranslationalFlange_b flange_b "Right flange";
+  Types.Length s(stateSelect=StateSelect.prefer) "Position";
+  Types.Velocity v(stateSelect=StateSelect.prefer) "Speed";
+  Types.Acceleration a "Acceleration";
+equation
+  flange_a.s = s;
+  flange_b.s = s;
+  v = der(s);
+  a = der(v);
+  m*a = flange_a.f + flange_b.f;
+  annotation(Documentation(info="<html>
+<p>Law: <code>m a = flange_a.f + flange_b.f</code>.</p>
+</html>"));
+end Mass;

@@ -1,0 +1,3 @@
+within Lacuna.Effects;
+package Interfaces "Partial models that effects extend"
+end Interfaces;

@@ -1,0 +1,14 @@
+within Lacuna.Effects;
+block SensorLag "Bandwidth of a sensor"
+  extends Lacuna.Interfaces.SISO;
+  parameter Types.Time T(final min=1e-6) = 1e-3 "Time constant";
+  Real x "Reading";
+initial equation
+  x = u;
+equation
+  T*der(x) = u - x;
+  y = x;
+  annotation(__Lacuna(effect="sensor.lag", attaches="sensor", starts(T={1e-3, 5e-3}),
+    signature="difference in one signal in proportion to its slope", excitation="fast changes of the signal",
+    reference="Fraden 2016"));
+end SensorLag;

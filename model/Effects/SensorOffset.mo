@@ -1,0 +1,9 @@
+within Lacuna.Effects;
+block SensorOffset "Constant error of a sensor"
+  extends Lacuna.Interfaces.SISO;
+  parameter Real offset = 0 "Error";
+equation
+  y = u + offset;
+  annotation(__Lacuna(effect="sensor.offset", attaches="sensor", neutral(offset=0),
+    signature="constant difference in one signal only", excitation="none", reference="Fraden 2016"));
+end SensorOffset;

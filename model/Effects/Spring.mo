@@ -1,0 +1,11 @@
+within Lacuna.Effects;
+model Spring "Spring to ground, such as an aerodynamic hinge moment"
+  extends Interfaces.FlangeEffect;
+  parameter Types.RotationalStiffness c = 0 "Stiffness";
+  parameter Types.Torque tau_0 = 0 "Torque at position zero";
+equation
+  tau = c*angle + tau_0;
+  annotation(__Lacuna(effect="stiffness", attaches="flange", neutral(c=0, tau_0=0),
+    signature="effort proportional to position", excitation="steady positions apart from each other",
+    reference="Roskam 2001, hinge moments"));
+end Spring;
