@@ -114,6 +114,7 @@ RT_API size_t rt_result_rows(const rt_result *result);
 RT_API const double *rt_result_time(const rt_result *result);                /* [rows] */
 RT_API const unsigned char *rt_result_event_flags(const rt_result *result);  /* [rows] 1: row at an event */
 RT_API const double *rt_result_column(const rt_result *result, int column);  /* [rows] of the column-th output */
+RT_API const double *rt_result_parameters(const rt_result *result); /* [n_p] values used, dependent ones computed */
 RT_API const rt_event_entry *rt_result_events(const rt_result *result, size_t *count);
 
 #ifdef __cplusplus

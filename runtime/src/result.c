@@ -3,12 +3,13 @@
 
 #include "session.h"
 
-rt_result *rt_result_new(int columns, size_t capacity) {
+rt_result *rt_result_new(int columns, int parameters, size_t capacity) {
   rt_result *r = calloc(1, sizeof *r);
   if (!r) return NULL;
   r->n = columns;
   r->columns = calloc((size_t)columns + 1, sizeof *r->columns);
-  if (r->columns && rt_result_reserve(r, capacity)) return r;
+  r->parameters = calloc((size_t)parameters + 1, sizeof *r->parameters);
+  if (r->columns && r->parameters && rt_result_reserve(r, capacity)) return r;
   rt_result_free(r);
   return NULL;
 }
@@ -20,6 +21,7 @@ void rt_result_free(rt_result *r) {
   free(r->time);
   free(r->event);
   free(r->events);
+  free(r->parameters);
   free(r);
 }
 
@@ -56,6 +58,8 @@ size_t rt_result_rows(const rt_result *r) { return r->rows; }
 const double *rt_result_time(const rt_result *r) { return r->time; }
 const unsigned char *rt_result_event_flags(const rt_result *r) { return r->event; }
 const double *rt_result_column(const rt_result *r, int column) { return column >= 0 && column < r->n ? r->columns[column] : NULL; }
+
+const double *rt_result_parameters(const rt_result *r) { return r->parameters; }
 
 const rt_event_entry *rt_result_events(const rt_result *r, size_t *count) {
   *count = r->n_events;

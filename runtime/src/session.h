@@ -162,10 +162,11 @@ struct rt_result {
   double *time;
   double **columns;
   unsigned char *event;
+  double *parameters; /* [n_p] */
   size_t n_events, events_capacity;
   rt_event_entry *events;
 };
-rt_result *rt_result_new(int columns, size_t capacity);
+rt_result *rt_result_new(int columns, int parameters, size_t capacity);
 bool rt_result_reserve(rt_result *r, size_t rows);
 bool rt_result_log(rt_result *r, double time, int kind, int index, int direction);
 

@@ -1,5 +1,6 @@
 /* The hybrid loop: step, look for events, record, let events happen, go on. */
 #include <math.h>
+#include <string.h>
 
 #include "session.h"
 
@@ -40,6 +41,7 @@ static rt_status finish(rt_session *s, rt_status status) {
     status = rt_iterate_event(s);
   }
   if (!status) status = rt_record_step(s, true);
+  memcpy(s->result->parameters, s->data.p, (size_t)s->d->n_p * sizeof *s->data.p);
   s->result->failure = s->failure;
   return status;
 }
@@ -55,7 +57,7 @@ rt_result *rt_session_run(rt_session *s, double start, double stop) {
   s->start = start;
   s->stop = stop;
   s->failure = (rt_failure){.status = RT_OK, .variable = -1};
-  s->result = rt_result_new(s->recorder.n, expected_rows(s));
+  s->result = rt_result_new(s->recorder.n, s->d->n_p, expected_rows(s));
   if (!s->result) return NULL;
   rt_status status = begin(s);
   while (!status && s->t < s->stop && !s->data.terminated) status = advance(s);

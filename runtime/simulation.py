@@ -1,0 +1,158 @@
+"""Sessions and runs: from a model, parameters and inputs to a Result."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+import ctypes
+from dataclasses import dataclass
+from functools import partial
+from typing import Literal
+import weakref
+
+import numpy as np
+
+from runtime.errors import SimulationError
+from runtime.library import COptions, library
+from runtime.model import MESSAGE_SIZE, Model
+from runtime.result import Result
+
+SOLVERS = ("ida", "dopri5", "rodas4", "rk4", "euler")
+
+
+@dataclass(frozen=True, eq=False)
+class RecordedInput:
+    """Samples that drive an input. `time` (s) increases strictly; the first and last value hold outside.
+
+    Raises SimulationError where lengths differ or there are no samples.
+    """
+
+    time: np.ndarray
+    values: np.ndarray
+    interpolation: Literal["linear", "hold"] = "linear"
+
+    def __post_init__(self):
+        object.__setattr__(self, "time", np.ascontiguousarray(self.time, dtype=float))
+        object.__setattr__(self, "values", np.ascontiguousarray(self.values, dtype=float))
+        if self.time.ndim != 1 or self.time.shape != self.values.shape or not len(self.time):
+            raise SimulationError("a recorded input needs as many values as times, and at least one")
+        if self.interpolation not in ("linear", "hold"):
+            raise SimulationError(f'interpolation is "linear" or "hold", not "{self.interpolation}"')
+
+
+class Session:
+    """A model set up with one solver, to be run again and again: nothing is allocated anew but the results.
+
+    One session serves one thread at a time. `outputs` default to all variables that change with time. Rows are at
+    `output_times`, or every `interval` seconds, or (interval 0) at the end of every step; by default the model's own
+    interval. With `events`, a row before and one after each event is added. `locate_events=False` takes state and
+    time events at the end of the step in which they fall, which is what fixed-step simulations usually do.
+    `atol` is per unit of a variable's nominal value. Raises SimulationError for what cannot be used.
+    """
+
+    def __init__(
+        self,
+        model: Model,
+        *,
+        solver: str = "ida",
+        rtol: float | None = None,
+        atol: float | None = None,
+        step: float | None = None,
+        max_step: float | None = None,
+        locate_events: bool = True,
+        outputs: Sequence[str] | None = None,
+        output_times: np.ndarray | None = None,
+        interval: float | None = None,
+        events: bool = True,
+        inputs: Mapping[str, RecordedInput | float] | None = None,
+    ):
+        self._lib, self.model = library(), model
+        for name, value in {"rtol": rtol, "atol": atol, "step": step, "max_step": max_step}.items():
+            if value is not None and not 0 < value < float("inf"):
+                raise SimulationError(f"{name} must be greater than zero, not {value}")
+        self.settings = {"solver": solver, "rtol": rtol, "atol": atol, "step": step, "max_step": max_step,
+                         "locate_events": locate_events}  # fmt: skip
+        options = COptions(solver.encode(), rtol or 0, atol or 0, step or 0, max_step or 0, locate_events, events)
+        message = ctypes.create_string_buffer(MESSAGE_SIZE)
+        self._handle = self._lib.rt_session_new(model.handle, ctypes.byref(options), message, MESSAGE_SIZE)
+        if not self._handle:
+            raise SimulationError(message.value.decode("utf-8", "replace"))
+        weakref.finalize(self, self._lib.rt_session_free, self._handle)
+        self._inputs: dict[str, RecordedInput] = {}
+        self._set_outputs(model.recordable if outputs is None else outputs)
+        self._set_grid(output_times, model.interval if interval is None else interval)
+        self.set_inputs(inputs or {})
+
+    def _check(self, status: int) -> None:
+        if status:
+            failure = self._lib.rt_session_failure(self._handle).contents
+            raise SimulationError(failure.message.decode("utf-8", "replace"))
+
+    def _set_outputs(self, names: Sequence[str]) -> None:
+        rows = [self.model.variable(name).row for name in names if name != "time"]
+        self._columns = [name for name in names if name != "time"]
+        self._check(self._lib.rt_session_outputs(self._handle, len(rows), (ctypes.c_int * len(rows))(*rows)))
+
+    def _set_grid(self, times: np.ndarray | None, interval: float) -> None:
+        self._times = None if times is None else np.ascontiguousarray(times, dtype=float)
+        count, address = (0, None) if times is None else (self._times.size, self._times.ctypes.data)
+        self._check(self._lib.rt_session_grid(self._handle, count, address, interval))
+
+    def set_inputs(self, inputs: Mapping[str, RecordedInput | float]) -> None:
+        """Drive inputs by recordings or constants; inputs not named keep what they had (at first their start value)."""
+        for name, given in inputs.items():
+            if self._inputs.get(name) is given:
+                continue
+            variable = self.model.variable(name, "input", self.model.inputs)
+            recorded = given if isinstance(given, RecordedInput) else RecordedInput([0.0], [given], "hold")
+            self._inputs[name] = recorded  # keeps the arrays alive that the session borrows
+            self._check(
+                self._lib.rt_session_input(
+                    self._handle, variable.row, recorded.time.size, recorded.time.ctypes.data,
+                    recorded.values.ctypes.data, recorded.interpolation == "hold",
+                )
+            )  # fmt: skip
+
+    def _assign(self, function, values: Mapping[str, float], what: str, among) -> None:
+        n = len(values)
+        rows = [self.model.variable(name, what, among).row for name in values]
+        self._check(function(self._handle, n, (ctypes.c_int * n)(*rows), (ctypes.c_double * n)(*values.values())))
+
+    def run(
+        self,
+        parameters: Mapping[str, float] | None = None,
+        inputs: Mapping[str, RecordedInput | float] | None = None,
+        initial: Mapping[str, float] | None = None,
+        start: float | None = None,
+        stop: float | None = None,
+    ) -> Result:
+        """Simulate from `start` to `stop` (s; default the model's experiment).
+
+        `parameters` replace declared values, `initial` replaces the values of states that the initial equations give.
+        A run that fails gives an incomplete Result with `failure`; unknown names and values outside bounds raise
+        SimulationError.
+        """
+        model, lib = self.model, self._lib
+        self._assign(lib.rt_session_parameters, parameters or {}, "parameter that may be set", model.parameters)
+        self._assign(lib.rt_session_initial, initial or {}, "state", model.states)
+        if inputs:
+            self.set_inputs(inputs)
+        handle = lib.rt_session_run(
+            self._handle, model.start_time if start is None else start, model.stop_time if stop is None else stop
+        )
+        if not handle:
+            raise MemoryError("no memory for the result of a simulation")
+        return Result(model, handle, self._columns, self.settings, partial(lib.rt_result_free, handle))
+
+
+def simulate(
+    model: Model,
+    *,
+    parameters: Mapping[str, float] | None = None,
+    inputs: Mapping[str, RecordedInput | float] | None = None,
+    initial: Mapping[str, float] | None = None,
+    start: float | None = None,
+    stop: float | None = None,
+    **session,
+) -> Result:
+    """One run: Session(model, **session).run(...). Keep a Session where the same model is run many times."""
+    return Session(model, **session).run(parameters, inputs, initial, start, stop)
