@@ -1,0 +1,140 @@
+"""Compiled models on disk: one library for each content hash, and an index from requests to hashes.
+
+A request (model, search path, modifications) remembers which files it read with their SHA-256; while those files
+and this generator are unchanged the compiled library is used again without parsing anything. Everything is
+written beside its place and renamed, so that processes may share the cache.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+import hashlib
+import json
+import os
+from pathlib import Path
+import subprocess
+import tempfile
+
+from .errors import Diagnostic, Span
+from .prepared import Prepared
+
+COMPILER = ("cc", "-std=c11", "-O2", "-fPIC", "-shared", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic", "-Werror")
+_HERE = Path(__file__).resolve().parent
+INCLUDE = _HERE.parent / "runtime" / "include"
+
+
+class CompilerError(RuntimeError):
+    """The C compiler is missing or refused generated code (which is a fault of the generator)."""
+
+
+@dataclass
+class Found:
+    name: str
+    library: str
+    hash: str
+    warnings: list[Diagnostic]
+
+
+def _digest(*parts: str | bytes) -> str:
+    h = hashlib.sha256()
+    for part in parts:
+        h.update(part.encode() if isinstance(part, str) else part)
+        h.update(b"\0")
+    return h.hexdigest()
+
+
+@lru_cache(maxsize=1)
+def generator_version() -> str:
+    """Digest of the generator's own source, the ABI and the compiler's command: any change makes all models new."""
+    files = [*sorted(_HERE.rglob("*.py")), INCLUDE / "mdl_abi.h"]
+    return _digest(" ".join(COMPILER), *(f.read_bytes() for f in files))
+
+
+def request_key(name: str, search_path: Sequence[str] | None, modifications: Mapping[str, object] | None) -> str:
+    """Digest of what was asked for."""
+    paths = [str(Path(p).resolve()) for p in search_path or ()]
+    model = str(Path(name).resolve()) if name.endswith(".mo") else name
+    changes = sorted((k, repr(v)) for k, v in (modifications or {}).items())
+    return _digest(json.dumps([model, paths, changes]))
+
+
+def content_hash(files: Mapping[str, str], request: str) -> str:
+    """Digest of the text of every file read, the generator, and the request."""
+    return _digest(generator_version(), request, json.dumps(sorted(files.items())))
+
+
+def _file_digest(path: str) -> str | None:
+    try:
+        return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+    except OSError:
+        return None
+
+
+def _write(path: Path, text: str) -> None:
+    """Write beside and rename."""
+    with tempfile.NamedTemporaryFile("w", dir=path.parent, prefix=path.name, suffix=".tmp", delete=False) as f:
+        f.write(text)
+    Path(f.name).replace(path)
+
+
+class Cache:
+    """A directory of compiled models: $LACUNA_CACHE, else ~/.cache/lacuna."""
+
+    def __init__(self, directory: str | None = None):
+        default = os.environ.get("LACUNA_CACHE") or Path.home() / ".cache" / "lacuna"
+        self.directory = Path(directory or default)
+
+    def _index(self, request: str) -> Path:
+        return self.directory / "index" / f"{request[:32]}.json"
+
+    def find(self, request: str) -> Found | None:
+        """The compiled model of a request, if nothing that it was made from has changed."""
+        try:
+            entry = json.loads(self._index(request).read_text())
+        except (OSError, ValueError):
+            return None
+        if entry["generator"] != generator_version() or not Path(entry["library"]).exists():
+            return None
+        if any(_file_digest(path) != digest for path, digest in entry["files"].items()):
+            return None
+        warnings = [Diagnostic(w[0], w[1], Span(*w[2]) if w[2] else None, w[3], severity="warning")
+                    for w in entry["warnings"]]  # fmt: skip
+        return Found(entry["name"], entry["library"], entry["hash"], warnings)
+
+    def remember(self, request: str, prepared: Prepared, library: str, warnings: Sequence[Diagnostic]) -> None:
+        index = self._index(request)
+        index.parent.mkdir(parents=True, exist_ok=True)
+        spans = [(w, [w.span.file, w.span.line, w.span.column, w.span.length] if w.span else None) for w in warnings]
+        entry = {
+            "name": prepared.declared.name, "library": library, "hash": prepared.hash,
+            "generator": generator_version(), "files": prepared.declared.files,
+            "warnings": [[w.code, w.message, span, w.hint] for w, span in spans],
+        }  # fmt: skip
+        _write(index, json.dumps(entry))
+
+    def build(self, digest: str, source: str) -> str:
+        """Compile C `source` to <digest>.so and keep both; returns the path of the library."""
+        self.directory.mkdir(parents=True, exist_ok=True)
+        library, c_file = self.directory / f"{digest[:32]}.so", self.directory / f"{digest[:32]}.c"
+        if library.exists():
+            return str(library)
+        _write(c_file, source)
+        with tempfile.TemporaryDirectory(dir=self.directory) as scratch:
+            output = Path(scratch) / "model.so"
+            compile_c(c_file, output)
+            output.replace(library)
+        return str(library)
+
+
+def compile_c(c_file: Path, output: Path) -> None:
+    """Run the compiler on a generated file. Raises CompilerError with its first messages."""
+    command = [*COMPILER, f"-I{INCLUDE}", "-o", str(output), str(c_file), "-lm"]
+    try:
+        result = subprocess.run(command, capture_output=True, text=True, check=False)
+    except FileNotFoundError:
+        raise CompilerError("no C compiler: install one that is called as `cc` (Debian: apt install gcc)") from None
+    if result.returncode:
+        lines = "\n".join(result.stderr.splitlines()[:20])
+        raise CompilerError(f"the compiler refused {c_file}, a fault of the generator:\n{lines}")

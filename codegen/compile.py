@@ -1,0 +1,105 @@
+"""From a model's name to a compiled model: the list of passes, and nothing else."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+import sys
+import time
+from typing import TypeVar
+
+from . import cache, events, flat, hybrid
+from .emit.source import generate
+from .errors import Diagnostic
+from .expr import Expr
+from .flatten import flatten
+from .initial import initial_system
+from .library import Library
+from .prepared import Prepared
+from .storage import Storage
+from .structure.aliases import eliminate_aliases
+from .structure.causal import causalise
+from .structure.index_reduction import reduce_index
+from .structure.residual_form import jacobian, residual_form
+from .structure.system import DeclaredValues
+from .structure.tearing import Tearing
+
+T = TypeVar("T")
+Modifications = Mapping[str, Expr | float]
+
+
+@dataclass
+class Report:
+    """Seconds of each pass (empty where the model came from the cache) and warnings."""
+
+    seconds: dict[str, float] = field(default_factory=dict)
+    warnings: list[Diagnostic] = field(default_factory=list)
+    cached: bool = False
+
+    def run(self, name: str, work: Callable[..., T], *args: object) -> T:
+        start = time.perf_counter()
+        result = work(*args)
+        self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - start
+        return result
+
+
+@dataclass
+class CompiledModel:
+    name: str
+    path: str  # of the shared library
+    hash: str  # of everything that decides the generated code
+    report: Report
+
+
+def prepare(model: flat.FlatModel, report: Report) -> Prepared:
+    """The structural passes, in order."""
+    sys.setrecursionlimit(max(sys.getrecursionlimit(), 20000))
+    aliases = report.run("aliases", eliminate_aliases, model)
+    frozen = report.run("hybrid", hybrid.analyse, aliases.model)
+    continuous, discrete = report.run("hybrid", events.split, frozen.model)
+    steps = report.run("hybrid", events.order, frozen.model, discrete)
+    system = report.run("index reduction", reduce_index, frozen.model, continuous)
+    tearing = Tearing(DeclaredValues(system.model).parametric)
+    explicit = report.run("matching, BLT, tearing", causalise, system.rows, system.unknowns, tearing)
+    residual = report.run("residual form", residual_form, system, tearing)
+    matrix = report.run("jacobian", jacobian, residual, system)
+    initial = report.run("initial system", initial_system, system, system.model.initial_equations, tearing)
+    report.warnings += [*model.warnings, *initial.warnings]
+    return Prepared(
+        model, aliases.representative, system, Storage(system), frozen.relations, frozen.samples, steps, explicit,
+        residual, matrix, initial,
+    )  # fmt: skip
+
+
+def translate(
+    name: str, *, search_path: list[str] | None = None, modifications: Modifications | None = None
+) -> tuple[Prepared, Report]:
+    """All passes up to, not including, C: for `--dump` and for tests."""
+    report = Report()
+    library = report.run("library", Library, *([search_path] if search_path else []))
+    model = report.run("flatten", flatten, library, name, dict(modifications or {}))
+    return prepare(model, report), report
+
+
+def compile_model(
+    name: str,
+    *,
+    search_path: list[str] | None = None,
+    cache_directory: str | None = None,
+    modifications: Modifications | None = None,
+) -> CompiledModel:
+    """Translate and compile a model, or take it from the cache where nothing that it was made from has changed.
+
+    Raises Diagnostic (a finding about the model) or cache.CompilerError (the C compiler failed).
+    """
+    store = cache.Cache(cache_directory)
+    request = cache.request_key(name, search_path, modifications)
+    found = store.find(request)
+    if found:
+        return CompiledModel(found.name, found.library, found.hash, Report(cached=True, warnings=found.warnings))
+    prepared, report = translate(name, search_path=search_path, modifications=modifications)
+    prepared.hash = cache.content_hash(prepared.declared.files, request)
+    source = report.run("C", generate, prepared)
+    library = report.run("compile", store.build, prepared.hash, source)
+    store.remember(request, prepared, library, report.warnings)
+    return CompiledModel(prepared.declared.name, library, prepared.hash, report)

@@ -1,0 +1,1 @@
+"""C of a structured model, against runtime/include/mdl_abi.h."""

@@ -1,0 +1,184 @@
+"""The callbacks for continuous time: explicit form, residual form with its Jacobian, roots, initial system, asserts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+import re
+
+from ..expr import Expr, is_const, relation, sub, var
+from ..leaves import leaves
+from ..prepared import Prepared
+from ..structure.causal import Step, unknowns_of
+from ..structure.residual_form import CJ, needed
+from ..structure.tearing import Assignment
+from .body import Body
+from .equations import EquationTable
+from .names import Names
+from .steps import StepWriter, comment
+
+RHS = "static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double *v)"
+RESIDUAL = "static int mdl_residual(mdl_data *m, double t, const double *y, const double *yp, double *r)"
+JACOBIAN = (
+    "static int mdl_jacobian(mdl_data *m, double t, const double *y, const double *yp, double cj, double *values)"
+)
+ALGEBRAICS = "static int mdl_algebraics(mdl_data *m, double t, const double *y, const double *yp, double *v)"
+ROOTS = (
+    "static int mdl_roots(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *g)"
+)
+DAE_ROOTS = "static int mdl_dae_roots(mdl_data *m, double t, const double *y, const double *yp, double *g)"
+INITIAL = "static int mdl_initial_system(mdl_data *m, double t)"
+CHECK = "static int mdl_check(mdl_data *m, double t, const double *x, const double *xdot, const double *v)"
+STARTS = "static int mdl_starts(mdl_data *m)"
+
+
+def function(signature: str, body: Body, used: str = "m t x xdot v y yp r g cj values") -> str:
+    """A C function that returns 0 at its end; arguments that it does not use are marked so."""
+    text = body.text()
+    arguments = signature[signature.index("(") + 1 : -1].replace("*", " ").split(",")
+    names = [a.split()[-1] for a in arguments]
+    code = "\n".join(line for line in text.splitlines() if not line.strip().startswith("/*"))
+    words = set(re.findall(r"[A-Za-z_]\w*", code))
+    unused = [f"  (void){n};" for n in names if n not in words and n in used.split()]
+    parts = [f"{signature} {{", *unused, *([text] if text else []), "  return 0;", "}"]
+    return "\n".join(parts)
+
+
+class Continuous:
+    """Writes the callbacks for continuous time of one model."""
+
+    def __init__(self, prepared: Prepared, names: Names, equations: EquationTable):
+        self._p, self._names, self._equations = prepared, names, equations
+        self._storage = prepared.storage
+
+    # -- explicit form ----------------------------------------------------------------------------------------
+
+    def _steps(self, body: Body, steps: Sequence[Step], start: Callable[[Expr], str]) -> None:
+        writer = StepWriter(body, self._equations.index, start, self._nominal)
+        body.plan(writer.plan(steps))
+        writer.write(steps)
+
+    def _nominal(self, unknown: Expr) -> float:
+        v = self._p.model.variables.get(str(unknown.value)) if unknown.op == "var" else None
+        return float(v.nominal.value) if v and v.nominal is not None and is_const(v.nominal) else 1.0
+
+    def rhs(self) -> str:
+        body = Body(self._names, self._storage.explicit)
+        self._steps(body, self._p.explicit, self._storage.place)
+        for step in self._p.explicit:
+            for u in unknowns_of(step):
+                body.line(f"{self._storage.place(u)} = {self._names.leaf(u)};")
+        return function(RHS, body)
+
+    def initial_system(self) -> str:
+        body = Body(self._names, self._storage.frozen)
+        states = {var(n) for n in self._p.system.states}
+        if self._p.initial.from_start:
+            starts = [s for s in self._p.initial.steps if set(unknowns_of(s)) <= states]
+            self._steps(body, starts, self._start)
+            for s in starts:
+                body.line(f"m->{self._storage.place(s.unknown)} = {self._names.leaf(s.unknown)};")
+            body.line("return mdl_rhs(m, t, m->x, m->xdot, m->v);")
+            return function(INITIAL, body).replace("\n  return 0;\n}", "\n}")
+        self._steps(body, self._p.initial.steps, self._start)
+        for step in self._p.initial.steps:
+            for u in unknowns_of(step):
+                body.line(f"m->{self._storage.place(u)} = {self._names.leaf(u)};")
+        return function(INITIAL, body)
+
+    def _start(self, unknown: Expr) -> str:
+        return f"m->{self._storage.place(unknown)}"
+
+    def starts(self) -> str:
+        """Start attributes, from the parameters."""
+        body = Body(self._names, self._storage.frozen)
+        model, storage = self._p.model, self._storage
+        given = [(n, v.start) for n in (*storage.states, *storage.algebraics, *storage.discretes)
+                 if (v := model.variables[n]).start is not None]  # fmt: skip
+        body.plan(e for _, e in given)
+        for name, start in given:
+            slot = storage.slot(name)
+            body.line(f"m->{slot.array}[{slot.index}] = {body.value(start)};")
+        for k in range(len(storage.discretes)):
+            body.line(f"m->pre_d[{k}] = m->d[{k}];")
+        return function(STARTS, body)
+
+    # -- residual form ----------------------------------------------------------------------------------------
+
+    def _residual_body(self) -> Body:
+        tears = self._p.residual.tears
+        return Body(self._names, lambda n: self._storage.residual(n, tears))
+
+    def _assign(self, body: Body, chain: Sequence[Assignment]) -> None:
+        for step in chain:
+            body.line(comment(step.row.source, step.row.text))
+            body.let(step.unknown, step.value)
+
+    def residual(self) -> str:
+        form, body = self._p.residual, self._residual_body()
+        chain = needed(form.assignments, (row.leaves for row in form.residuals))
+        body.plan([*(s.value for s in chain), *(row.residual for row in form.residuals)])
+        self._assign(body, chain)
+        for k, row in enumerate(form.residuals):
+            body.line(comment(row.source, row.text))
+            body.line(f"r[{k}] = {body.value(row.residual)};")
+        return function(RESIDUAL, body)
+
+    def algebraics(self) -> str:
+        form, body = self._p.residual, self._residual_body()
+        body.plan(s.value for s in form.assignments)
+        self._assign(body, form.assignments)
+        for u in (*form.tears, *(s.unknown for s in form.assignments)):
+            body.line(f"{self._storage.place(u)} = {body.value(u)};")
+        return function(ALGEBRAICS, body)
+
+    def jacobian(self) -> str:
+        form, jac = self._p.residual, self._p.jacobian
+        tears = form.tears
+        body = Body(self._names, lambda n: self._storage.residual(n, tears), {CJ: "cj"})
+        values = [value for column in jac.entries for _, value in column]
+        wanted = [leaves(e) for e in (*values, *(value for _, value in jac.tangents))]
+        chain = needed(form.assignments, wanted)
+        body.plan([*(s.value for s in chain), *(value for _, value in jac.tangents), *values])
+        self._assign(body, chain)
+        for tangent, value in jac.tangents:
+            body.let(tangent, value)
+        for k, value in enumerate(values):
+            body.line(f"values[{k}] = {body.value(value)};")
+        return function(JACOBIAN, body)
+
+    # -- roots and asserts ------------------------------------------------------------------------------------
+
+    def roots(self) -> str:
+        body = Body(self._names, self._storage.point)
+        body.plan(self._root_differences())
+        self._root_values(body)
+        return function(ROOTS, body)
+
+    def _root_differences(self) -> list[Expr]:
+        return [sub(r.left, r.right) for r in self._p.relations if r.slope is None]
+
+    def dae_roots(self) -> str:
+        form, body = self._p.residual, self._residual_body()
+        differences = self._root_differences()
+        chain = needed(form.assignments, map(leaves, differences))
+        body.plan([*(s.value for s in chain), *differences])
+        self._assign(body, chain)
+        self._root_values(body)
+        return function(DAE_ROOTS, body)
+
+    def _root_values(self, body: Body) -> None:
+        for k, r in enumerate(self._p.relations):
+            value = body.value(sub(r.left, r.right)) if r.slope is None else "0.0"
+            body.line(f"g[{k}] = {value};  {comment(r.source, str(relation('>', r.left, r.right)))}")
+
+    def check(self) -> str:
+        body = Body(self._names, self._storage.point)
+        asserts = [a for a in self._p.model.asserts if a.level == "error"]
+        body.plan(a.condition for a in asserts)
+        for k, a in enumerate(asserts):
+            body.line(f"/* {a.span.file.rsplit('/', 1)[-1]}:{a.span.line}  assert */")
+            body.line(f"if (!({body.value(a.condition)})) {{")
+            body.line(f"  (void)mdl_fail(m, MDL_FAILURE_ASSERT, {k}, 0.0);")
+            body.line("  return -1;")
+            body.line("}")
+        return function(CHECK, body)

@@ -1,0 +1,122 @@
+"""Expressions as C, by operator precedence. Numbers are double, Booleans int; Integers are doubles of whole value."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ..expr import BOOLEAN, BUILTINS, Expr, call, const, div, mul, transform
+from .names import sanitise
+
+_BINARY = {
+    "or": ("||", 2), "and": ("&&", 3), "==": ("==", 4), "<>": ("!=", 4), "<": ("<", 5), "<=": ("<=", 5),
+    ">": (">", 5), ">=": (">=", 5), "+": ("+", 6), "-": ("-", 6), "*": ("*", 7), "/": ("/", 7),
+}  # fmt: skip
+_UNARY, _PRIMARY = 8, 9
+_FUNCTIONS = {
+    "abs": "fabs", "integer": "floor", "sign": "mdl_sign", "mod": "mdl_mod", "rem": "mdl_rem", "div": "mdl_div",
+}  # fmt: skip
+HELPERS = {
+    "mdl_sign": "static inline double mdl_sign(double a) { return (a > 0.0) - (a < 0.0); }",
+    "mdl_mod": "static inline double mdl_mod(double a, double b) { return a - floor(a / b) * b; }",
+    "mdl_rem": "static inline double mdl_rem(double a, double b) { return a - trunc(a / b) * b; }",
+    "mdl_div": "static inline double mdl_div(double a, double b) { return trunc(a / b); }",
+}
+
+Lookup = Callable[[Expr], str | None]
+
+
+def number(value: float | int | bool) -> str:
+    """A C literal that reads back to exactly this double (Booleans as int)."""
+    if isinstance(value, bool):
+        return str(int(value))
+    text = repr(float(value))
+    return text if text.lstrip("-") not in ("inf", "nan") else text.replace("inf", "INFINITY").replace("nan", "NAN")
+
+
+def lower_powers(e: Expr, memo: dict[Expr, Expr]) -> Expr:
+    """Small whole and half powers as products and roots."""
+
+    def rule(n: Expr) -> Expr | None:
+        if n.op != "^" or n.args[1].op != "const":
+            return None
+        base, exponent = lower_powers(n.args[0], memo), n.args[1].value
+        if exponent in (2, 3, 4):
+            square = mul(base, base)
+            return {2: square, 3: mul(square, base), 4: mul(square, square)}[exponent]
+        if exponent == 0.5:
+            return call("sqrt", base)
+        return div(const(1.0), base) if exponent == -1 else None
+
+    return transform(e, rule, memo)
+
+
+def to_c(e: Expr, name: Lookup, outer: int = 0) -> str:
+    """`e` as C. `name(node)` gives the text that stands for a node (a local, a temporary), or None."""
+    text, rank = _print(e, name)
+    return f"({text})" if rank < outer else text
+
+
+def _print(e: Expr, name: Lookup) -> tuple[str, int]:
+    known = name(e)
+    if known is not None:
+        return known, _PRIMARY
+    if e.op == "const":
+        text = number(e.value)
+        return text, _UNARY if text.startswith("-") else _PRIMARY
+    if e.op in _BINARY:
+        return _print_binary(e, name)
+    if e.op == "neg":
+        return "-" + to_c(e.args[0], name, _PRIMARY), _UNARY
+    if e.op == "not":
+        return "!" + to_c(e.args[0], name, _PRIMARY), _UNARY
+    if e.op == "if":
+        condition, a, b = e.args
+        return f"{to_c(condition, name, 2)} ? {to_c(a, name, 2)} : {to_c(b, name, 1)}", 1
+    if e.op in ("min", "max"):
+        return f"f{e.op}({_list(e.args, name)})", _PRIMARY
+    if e.op == "^":
+        return f"pow({_list(e.args, name)})", _PRIMARY
+    if e.op == "array":
+        return f"(const double[]){{{_list(e.args, name)}}}", _PRIMARY
+    if e.op == "call":
+        return _print_call(e, name), _PRIMARY
+    if e.op in ("noEvent", "smooth"):
+        return _print(e.args[-1], name)
+    raise AssertionError(f"no C for {e.op}: {e}")
+
+
+def _list(args: tuple[Expr, ...], name: Lookup) -> str:
+    return ", ".join(to_c(a, name) for a in args)
+
+
+def _print_binary(e: Expr, name: Lookup) -> tuple[str, int]:
+    sign, rank = _BINARY[e.op]
+    a, b = e.args
+    # gcc asks for parentheses where && stands in ||, and around comparisons of comparisons
+    left = rank if e.op in ("+", "-", "*", "/", "or", "and") else rank + 2
+    right = rank + 1 if e.op not in ("<", "<=", ">", ">=", "==", "<>") else rank + 2
+    if e.op == "or":
+        left, right = (rank if a.op == "or" else 4), 4
+    return f"{to_c(a, name, left)} {sign} {to_c(b, name, right)}", rank
+
+
+def _print_call(e: Expr, name: Lookup) -> str:
+    function = str(e.value)
+    if function in BUILTINS:
+        return f"{_FUNCTIONS.get(function, function)}({_list(e.args, name)})"
+    arguments = ", ".join(["m", *(to_c(a, name) for a in e.args)])
+    return f"{function_name(function)}({arguments})"
+
+
+def function_name(function: str) -> str:
+    return "fn_" + sanitise(function)
+
+
+def c_type(e: Expr) -> str:
+    return "int" if e.type == BOOLEAN else "double"
+
+
+def is_trivial(e: Expr) -> bool:
+    """Not worth a temporary: a constant, or the negation of something that is."""
+    return e.op == "const" or (e.op in ("neg", "not", "array") and (e.op == "array" or not e.args[0].args))
+

@@ -1,0 +1,96 @@
+"""Helper functions that a generated model carries along, each only where it is used."""
+
+from __future__ import annotations
+
+import re
+
+from .expression import HELPERS
+
+_FAIL = """\
+static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double value) {
+  m->failure = (mdl_failure){kind, equation, -1, value};
+  return 1;
+}"""
+
+_SOLVE = """\
+/* Solve a x = b in place (row-major, n x n) by Gaussian elimination with scaled partial pivoting; b becomes x.
+ * Returns 1 where a is singular to working precision. */
+static int mdl_solve(int n, double *a, double *b) {
+  for (int i = 0; i < n; ++i) {
+    double largest = 0.0;
+    for (int j = 0; j < n; ++j) largest = fmax(largest, fabs(a[i * n + j]));
+    if (!(largest > 0.0) || !isfinite(largest)) return 1;
+    for (int j = 0; j < n; ++j) a[i * n + j] /= largest;
+    b[i] /= largest;
+  }
+  for (int k = 0; k < n; ++k) {
+    int pivot = k;
+    for (int i = k + 1; i < n; ++i)
+      if (fabs(a[i * n + k]) > fabs(a[pivot * n + k])) pivot = i;
+    if (!(fabs(a[pivot * n + k]) > 1e-14)) return 1;
+    if (pivot != k) {
+      for (int j = k; j < n; ++j) {
+        const double swap = a[k * n + j];
+        a[k * n + j] = a[pivot * n + j];
+        a[pivot * n + j] = swap;
+      }
+      const double swap = b[k];
+      b[k] = b[pivot];
+      b[pivot] = swap;
+    }
+    for (int i = k + 1; i < n; ++i) {
+      const double factor = a[i * n + k] / a[k * n + k];
+      if (factor == 0.0) continue;
+      for (int j = k + 1; j < n; ++j) a[i * n + j] -= factor * a[k * n + j];
+      b[i] -= factor * b[k];
+    }
+  }
+  for (int i = n - 1; i >= 0; --i) {
+    for (int j = i + 1; j < n; ++j) b[i] -= a[i * n + j] * b[j];
+    b[i] /= a[i * n + i];
+  }
+  return 0;
+}"""
+
+_NEWTON = """\
+typedef struct {
+  int iterations, halvings, converged;
+  double norm;
+} mdl_newton;
+
+/* Whether a Newton step made the residual larger (or not finite), so that it should be halved. */
+static int mdl_newton_grows(mdl_newton *s, int n, const double *r) {
+  double norm = 0.0;
+  for (int i = 0; i < n; ++i) norm += r[i] * r[i];
+  if (s->iterations > 0 && !(norm <= s->norm) && s->halvings < 12) {
+    ++s->halvings;
+    return 1;
+  }
+  s->halvings = 0;
+  s->norm = norm;
+  return 0;
+}"""
+
+_TIME = """\
+/* Value of a time relation just after t: g is left minus right at t, slope its derivative. */
+static int mdl_time_relation(double g, double slope, double t) {
+  const double tolerance = 1e-12 * (1.0 + fabs(t)) * fabs(slope);
+  return slope > 0.0 ? g >= -tolerance : g > tolerance;
+}"""
+
+_NEXT = """\
+/* The earlier of `next` and the instant after t at which a time relation switches. */
+static double mdl_next_switch(double g, double slope, double t, double next) {
+  const double instant = t - g / slope;
+  return instant > t + 1e-12 * (1.0 + fabs(t)) && instant < next ? instant : next;
+}"""
+
+_HELPERS = {
+    **HELPERS, "mdl_fail": _FAIL, "mdl_solve": _SOLVE, "mdl_newton": _NEWTON, "mdl_time_relation": _TIME,
+    "mdl_next_switch": _NEXT,
+}  # fmt: skip
+
+
+def helpers(code: str) -> str:
+    """The helpers that `code` calls."""
+    return "\n\n".join(text for name, text in _HELPERS.items() if re.search(rf"\b{name}\b", code))

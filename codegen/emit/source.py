@@ -1,0 +1,109 @@
+"""The C file of a model: tables, functions, descriptor."""
+
+from __future__ import annotations
+
+from .. import flat
+from ..prepared import Prepared
+from .continuous import Continuous
+from .discrete import Discrete
+from .equations import EquationTable
+from .names import Names
+from .prelude import helpers
+from .tables import Tables, c_string
+from .user_functions import user_functions
+
+_CALLBACKS = (
+    "starts", "parameters", "samples", "initial_system", "rhs", "residual", "jacobian", "algebraics", "roots",
+    "dae_roots", "time_relations", "next_time_event", "event", "check",
+)  # fmt: skip
+
+
+def generate(prepared: Prepared) -> str:
+    """The C source of a prepared model; the same bytes for the same model."""
+    model, storage = prepared.model, prepared.storage
+    equations = EquationTable([row.source for row in prepared.system.rows])
+    names = Names(model.variables)
+    tables = Tables(prepared, equations)
+    continuous = Continuous(prepared, names, equations)
+    discrete = Discrete(prepared, names, tables.rows())
+    functions = [
+        discrete.parameters(), continuous.starts(), discrete.samples(), continuous.rhs(), continuous.initial_system(),
+        continuous.residual(), continuous.jacobian(), continuous.algebraics(), continuous.roots(),
+        continuous.dae_roots(), discrete.time_relations(), discrete.next_time_event(), discrete.event(),
+        continuous.check(),
+    ]  # fmt: skip
+    code = user_functions(prepared, "\n\n".join(functions))
+    arrays, counts = _arrays(tables, discrete.messages)
+    counts |= {
+        "n_p": len(storage.parameters), "n_u": len(storage.inputs), "n_x": len(storage.states),
+        "n_v": len(storage.algebraics), "n_d": len(storage.discretes), "n_sample": len(prepared.samples),
+        "n_when": discrete.when_count,
+    }  # fmt: skip
+    parts = [_header(prepared), *arrays, helpers(code), code, _descriptor(prepared, counts)]
+    return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def _header(prepared: Prepared) -> str:
+    files = "".join(f"\n *   {name.rsplit('/', 1)[-1]}  sha256 {digest}" for name, digest in _files(prepared))
+    return (
+        f"/* {prepared.declared.name}: generated from{files}\n * Do not edit: edit the model. */\n"
+        '#include "mdl_abi.h"\n\n#include <math.h>\n#include <stddef.h>'
+    )
+
+
+def _files(prepared: Prepared) -> list[tuple[str, str]]:
+    return sorted(prepared.declared.files.items())
+
+
+def _arrays(tables: Tables, messages: list[str]) -> tuple[list[str], dict[str, int]]:
+    contents = {
+        "variables": ("mdl_variable mdl_variables", tables.variables()),
+        "relations": ("mdl_relation mdl_relations", tables.relations()),
+        "asserts": ("mdl_equation mdl_asserts", tables.asserts()),
+        "z": ("int mdl_z_index", tables.z_index()),
+        "residuals": ("int mdl_residual_equation", tables.residual_equations()),
+        "p_start": ("double mdl_p_start", tables.parameter_starts()),
+        "colptr": ("int mdl_jac_colptr", tables.column_pointers()),
+        "rowidx": ("int mdl_jac_rowidx", tables.row_indices()),
+        "messages": ("char *const mdl_messages", [c_string(text) for text in messages]),
+        "equations": ("mdl_equation mdl_equations", tables.equations()),
+    }
+    arrays = [tables.array(declaration, rows) for declaration, rows in contents.values()]
+    counts = {f"n_{key}": len(contents[key][1]) for key in ("variables", "equations", "asserts", "messages", "z")}
+    counts["n_rel"], counts["jac_nnz"] = len(contents["relations"][1]), len(contents["rowidx"][1])
+    return arrays, counts
+
+
+def _descriptor(prepared: Prepared, counts: dict[str, int]) -> str:
+    experiment: flat.Experiment = prepared.declared.experiment
+    fields = {
+        "abi_version": "MDL_ABI_VERSION",
+        "name": c_string(prepared.declared.name),
+        "hash": c_string(prepared.hash),
+        **{key: str(value) for key, value in sorted(counts.items())},
+        "variables": _pointer("mdl_variables", counts["n_variables"]),
+        "equations": _pointer("mdl_equations", counts["n_equations"]),
+        "asserts": _pointer("mdl_asserts", counts["n_asserts"]),
+        "relations": _pointer("mdl_relations", counts["n_rel"]),
+        "messages": _pointer("mdl_messages", counts["n_messages"]),
+        "z_index": _pointer("mdl_z_index", counts["n_z"]),
+        "residual_equation": _pointer("mdl_residual_equation", counts["n_x"] + counts["n_z"]),
+        "p_start": _pointer("mdl_p_start", counts["n_p"]),
+        "start_time": repr(float(experiment.start_time)),
+        "stop_time": repr(float(experiment.stop_time)),
+        "tolerance": repr(float(experiment.tolerance)),
+        "interval": repr(float(experiment.interval or 0.0)),
+        "jac_colptr": "mdl_jac_colptr",
+        "jac_rowidx": _pointer("mdl_jac_rowidx", counts["jac_nnz"]),
+        **{name: f"mdl_{name}" for name in _CALLBACKS},
+    }
+    rows = "\n".join(f"  .{key} = {value}," for key, value in fields.items())
+    return (
+        f"static const mdl_descriptor mdl_model = {{\n{rows}\n}};\n\n"
+        "const mdl_descriptor *mdl_descriptor_get(void);\n\n"
+        "const mdl_descriptor *mdl_descriptor_get(void) { return &mdl_model; }"
+    )
+
+
+def _pointer(name: str, count: int) -> str:
+    return name if count else "NULL"

@@ -1,0 +1,109 @@
+"""The constant tables of a generated model: variables, equations, relations, patterns, start values."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import json
+
+from .. import flat
+from ..expr import relation
+from ..prepared import Prepared
+from ..storage import Slot
+from ..structure.system import DeclaredValues
+from .discrete import event_and_model_asserts, is_settable
+from .equations import EquationTable
+from .expression import number
+
+_STORAGE = {"x": "STATE", "v": "ALGEBRAIC", "d": "DISCRETE", "p": "PARAMETER", "u": "INPUT"}
+
+
+def c_string(text: str) -> str:
+    """A C string literal (UTF-8)."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\177").replace("??", '?""?')
+
+
+class Tables:
+    def __init__(self, prepared: Prepared, equations: EquationTable):
+        self._p, self._equations = prepared, equations
+        self._values = DeclaredValues(prepared.model)
+        self._sizes: dict[str, int] = {}
+
+    def array(self, declaration: str, rows: Sequence[str]) -> str:
+        """`static const <declaration>[] = {...};`, or nothing where there are no rows (C has no empty arrays)."""
+        if not rows:
+            return ""
+        body = ",\n  ".join(rows)
+        return f"static const {declaration}[] = {{\n  {body}\n}};"
+
+    def slot(self, name: str) -> tuple[Slot, int] | None:
+        """(slot, sign) of a declared variable."""
+        target, sign = self._p.aliases.get(name, (name, 1))
+        slot = self._p.storage.slot(target)
+        return (slot, sign) if slot else None
+
+    def variables(self) -> list[str]:
+        return [self._variable(v) for v in self._p.declared.variables.values() if self.slot(v.name)]
+
+    def rows(self) -> dict[str, int]:
+        """Index of each declared variable in the table."""
+        names = [n for n in self._p.declared.variables if self.slot(n)]
+        return {n: k for k, n in enumerate(names)}
+
+    def _variable(self, v: flat.Variable) -> str:
+        slot, sign = self.slot(v.name)
+        target = self._p.aliases.get(v.name, (v.name, 1))[0]
+        final = self._p.model.variables[target]
+        start = self._number(self._values.variable(target), 0.0)
+        limits = [
+            number(self._number(self._values(e) if e is not None else None, default))
+            for e, default in ((v.min, float("-inf")), (v.max, float("inf")), (v.nominal, 0.0))
+        ]
+        fields = [
+            c_string(v.name), c_string(v.unit), c_string(v.description), c_string(v.span.file), str(v.span.line),
+            f"MDL_{v.type.upper()}", f"MDL_{_STORAGE[slot.array]}", str(slot.index), str(sign),
+            str(int(slot.array == "p" and is_settable(final))), str(int(v.causality == "output")),
+            number(sign * start), *limits,
+        ]  # fmt: skip
+        return "{" + ", ".join(fields) + "}"
+
+    @staticmethod
+    def _number(value: float | int | bool | None, default: float) -> float:
+        return default if value is None else float(value)
+
+    def equations(self) -> list[str]:
+        return [self._source(e) for e in self._equations.entries]
+
+    def _source(self, e: flat.Equation, text: str | None = None) -> str:
+        text = text if text is not None else e.text or f"{e.lhs} = {e.rhs}"
+        text = " ".join(text.split())
+        return f"{{{c_string(text)}, {c_string(e.span.file)}, {e.span.line}, {c_string(e.origin)}}}"
+
+    def asserts(self) -> list[str]:
+        return [
+            f"{{{c_string(a.message)}, {c_string(a.span.file)}, {a.span.line}, {c_string('')}}}"
+            for a in event_and_model_asserts(self._p)
+        ]
+
+    def relations(self) -> list[str]:
+        return [
+            f"{{{self._source(r.source, str(relation('>', r.left, r.right)))}, {int(r.slope is not None)}}}"
+            for r in self._p.relations
+        ]
+
+    def residual_equations(self) -> list[str]:
+        return [str(self._equations.index(row.source)) for row in self._p.residual.residuals]
+
+    def z_index(self) -> list[str]:
+        return [str(self._p.storage.slot(str(z.value)).index) for z in self._p.residual.tears]
+
+    def parameter_starts(self) -> list[str]:
+        return [number(self._number(self._values.variable(n), 0.0)) for n in self._p.storage.parameters]
+
+    def column_pointers(self) -> list[str]:
+        pointers = [0]
+        for column in self._p.jacobian.entries:
+            pointers.append(pointers[-1] + len(column))
+        return [str(k) for k in pointers]
+
+    def row_indices(self) -> list[str]:
+        return [str(row) for column in self._p.jacobian.entries for row, _ in column]

@@ -1,0 +1,112 @@
+"""The initial system: all equations, the initial equations and fixed start values, states unknown too.
+
+Where that leaves unknowns open, start values of further states are used (with a warning that lists them).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from . import flat
+from .errors import Diagnostic
+from .expr import Expr, const, var
+from .structure.causal import Assignment, Step, causalise, unknowns_of
+from .structure.matching import Matching
+from .structure.system import Row, System
+from .structure.tearing import Tearing
+
+
+@dataclass
+class InitialSystem:
+    """`steps` compute all unknowns; `from_start` says that the states are simply their start values."""
+
+    steps: list[Step]
+    from_start: bool
+    warnings: list[Diagnostic] = field(default_factory=list)
+
+
+def initial_system(system: System, equations: list[flat.Equation], tearing: Tearing) -> InitialSystem:
+    """Rows for every state, derivative and algebraic variable, in the order in which they are solved."""
+    unknowns = [*map(var, system.states), *system.unknowns]
+    column = {u: k for k, u in enumerate(unknowns)}
+    rows = [*system.rows, *(Row(e.lhs, e.rhs, e) for e in equations)]
+    matching = Matching([_columns(r, column) for r in rows], len(unknowns))
+    unmatched = matching.match_all()
+    if unmatched:
+        _refuse(system, rows, unknowns, matching, unmatched)
+    for name in _fixed(system):
+        row = _start_row(system, name)
+        if not matching.add_row([column[var(name)]]):
+            _refuse_start(system, rows, unknowns, matching, row, column)
+        rows.append(row)
+    assumed = _assume_starts(system, rows, unknowns, matching, column)
+    steps = causalise(rows, unknowns, tearing)
+    own = {*map(var, system.states)}
+    trivial = all(
+        isinstance(s, Assignment) and s.row.source.text.startswith("start of") for s in steps
+        if own & set(unknowns_of(s))
+    )  # fmt: skip
+    return InitialSystem(steps, trivial, _warnings(system, assumed))
+
+
+def _columns(row: Row, column: dict[Expr, int]) -> list[int]:
+    return sorted(column[n] for n in row.leaves if n in column)
+
+
+def _fixed(system: System) -> list[str]:
+    variables = system.model.variables
+    return [
+        name for name in (*system.states, *system.algebraics)
+        if (f := variables[name].fixed) is not None and f.op == "const" and f.value
+    ]  # fmt: skip
+
+
+def _start_row(system: System, name: str) -> Row:
+    v = system.model.variables[name]
+    start = v.start if v.start is not None else const(0.0)
+    return Row(var(name), start, flat.Equation(var(name), start, v.span, "", f"start of {name}"))
+
+
+def _assume_starts(
+    system: System, rows: list[Row], unknowns: list[Expr], matching: Matching, column: dict[Expr, int]
+) -> list[str]:
+    assumed = []
+    if len(rows) < len(unknowns):
+        given = sorted(system.states, key=lambda n: system.model.variables[n].start is None)
+        for name in (*given, *system.algebraics):
+            if len(rows) < len(unknowns) and matching.add_row([column[var(name)]]):
+                rows.append(_start_row(system, name))
+                assumed.append(name)
+    return assumed
+
+
+def _warnings(system: System, assumed: list[str]) -> list[Diagnostic]:
+    variables = system.model.variables
+    return [
+        Diagnostic(
+            "S021", f"the initial value of {name} is not fixed; its start value {variables[name].start or 0.0} is used",
+            variables[name].span, "write fixed=true, or give an initial equation", severity="warning",
+        )
+        for name in assumed
+    ]  # fmt: skip
+
+
+def _refuse(system: System, rows: list[Row], unknowns: list[Expr], matching: Matching, unmatched: list[int]) -> None:
+    over, columns = matching.overdetermined(unmatched)
+    names = ", ".join(str(unknowns[c]) for c in columns[:8])
+    raise Diagnostic(
+        "S020", f"too many initial equations: {len(over)} for {names}", rows[unmatched[0]].source.span,
+        "remove an initial equation, or fixed=true of a start value",
+        [(rows[r].source.span, rows[r].text) for r in over[:12]],
+    )  # fmt: skip
+
+
+def _refuse_start(
+    system: System, rows: list[Row], unknowns: list[Expr], matching: Matching, row: Row, column: dict[Expr, int]
+) -> None:
+    name = str(row.lhs.value)
+    over, _ = matching.overdetermined([matching.row_of[column[row.lhs]]])
+    raise Diagnostic(
+        "S022", f"{name} has a fixed start value, but other initial conditions determine it already", row.source.span,
+        "drop fixed=true here or on one of the variables below", [(rows[r].source.span, rows[r].text) for r in over[:12]],
+    )  # fmt: skip

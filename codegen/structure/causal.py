@@ -1,0 +1,128 @@
+"""Causalisation: matching, block lower triangular form and torn blocks, as a sequence of steps to compute.
+
+The same procedure serves the explicit form (states known) and the initial system (states unknown too).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ..affine import UNSAFE, isolate
+from ..differentiate import Differentiator
+from ..expr import ONE, ZERO, Expr, neg, substitute
+from ..leaves import leaves
+from .blocks import strong_components
+from .matching import Matching
+from .system import Row
+from .tearing import Assignment, Tearing
+
+
+@dataclass(eq=False)
+class Division:
+    """unknown = numerator / denominator, where the denominator may vanish: checked when computed."""
+
+    unknown: Expr
+    numerator: Expr
+    denominator: Expr
+    row: Row
+
+
+@dataclass(eq=False)
+class LinearBlock:
+    """matrix * tears = right side, then the assignments in order."""
+
+    tears: list[Expr]
+    matrix: list[list[Expr]]
+    right: list[Expr]
+    assignments: list[Assignment]
+    residuals: list[Row]
+
+
+@dataclass(eq=False)
+class NonlinearBlock:
+    """Newton iteration over the tears: assignments in order, then residuals and jacobian[row][tear]."""
+
+    tears: list[Expr]
+    assignments: list[Assignment]
+    residuals: list[Row]
+    jacobian: list[list[Expr]]
+
+
+Step = Assignment | Division | LinearBlock | NonlinearBlock
+
+
+def causalise(rows: Sequence[Row], unknowns: Sequence[Expr], tearing: Tearing) -> list[Step]:
+    """Steps that solve a structurally regular square system, each using only what earlier steps give."""
+    column = {u: k for k, u in enumerate(unknowns)}
+    incidence = [sorted(column[n] for n in row.leaves if n in column) for row in rows]
+    matching = Matching(incidence, len(unknowns))
+    unmatched = matching.match_all()
+    assert not unmatched and len(rows) == len(unknowns), [rows[r].text for r in unmatched]
+    needs = [[matching.row_of[c] for c in columns] for columns in incidence]
+    steps: list[Step] = []
+    for component in strong_components(needs):
+        block_unknowns = sorted(matching.column_of[r] for r in component)
+        steps += _block([rows[r] for r in component], [unknowns[c] for c in block_unknowns], tearing)
+    return steps
+
+
+def _block(rows: list[Row], unknowns: list[Expr], tearing: Tearing) -> list[Step]:
+    if len(rows) == 1:
+        single = _single(rows[0], unknowns[0], tearing)
+        if single:
+            return [single]
+    torn = tearing.tear(rows, unknowns)
+    chain, tears, residuals = torn.assignments, torn.tears, torn.residuals
+    if _is_linear(rows, set(unknowns)):
+        return [_linear(chain, tears, residuals)]
+    return [_nonlinear(chain, tears, residuals)]
+
+
+def _single(row: Row, unknown: Expr, tearing: Tearing) -> Assignment | Division | None:
+    rank, value = tearing.explicit(row, unknown)
+    if rank < UNSAFE:
+        return Assignment(unknown, value, row)
+    parts = isolate(row.lhs, row.rhs, unknown)
+    return Division(unknown, *parts, row) if parts else None
+
+
+def _is_linear(rows: list[Row], unknowns: set[Expr]) -> bool:
+    """Whether all rows are jointly affine in the unknowns, and no condition depends on one."""
+    for row in rows:
+        for u in unknowns & row.leaves:
+            parts = isolate(row.lhs, row.rhs, u)
+            if parts is None or leaves(parts[1]) & unknowns:
+                return False
+    return True
+
+
+def _linear(chain: list[Assignment], tears: list[Expr], residuals: list[Row]) -> LinearBlock:
+    at_zero: dict[Expr, Expr] = dict.fromkeys(tears, ZERO)
+    for step in chain:
+        at_zero[step.unknown] = substitute(step.value, at_zero)
+    right = [neg(substitute(row.residual, at_zero)) for row in residuals]
+    columns = [_column(tear, chain, residuals) for tear in tears]
+    matrix = [[column[k] for column in columns] for k in range(len(residuals))]
+    return LinearBlock(tears, matrix, right, chain, residuals)
+
+
+def _column(tear: Expr, chain: list[Assignment], residuals: list[Row]) -> list[Expr]:
+    """d residuals / d tear, through the chain."""
+    seeds = {tear: ONE}
+    differentiate = Differentiator(lambda n: seeds.get(n, ZERO))
+    for step in chain:
+        seeds[step.unknown] = differentiate(step.value)
+    return [differentiate(row.residual) for row in residuals]
+
+
+def _nonlinear(chain: list[Assignment], tears: list[Expr], residuals: list[Row]) -> NonlinearBlock:
+    columns = [_column(tear, chain, residuals) for tear in tears]
+    jacobian = [[column[k] for column in columns] for k in range(len(residuals))]
+    return NonlinearBlock(tears, chain, residuals, jacobian)
+
+
+def unknowns_of(step: Step) -> list[Expr]:
+    if isinstance(step, Assignment | Division):
+        return [step.unknown]
+    return [*step.tears, *(a.unknown for a in step.assignments)]

@@ -1,0 +1,90 @@
+"""Constants, evaluated parameters and final literals take their values; what equals an expression in parameters
+becomes a dependent parameter, so that nothing constant is computed during integration."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from .. import flat
+from ..errors import Diagnostic
+from ..expr import Expr
+from ..leaves import leaves
+from ..rewrite import Rewriter
+
+
+def evaluate_constants(model: flat.FlatModel) -> flat.FlatModel:
+    """Replace every constant, evaluated parameter and final parameter that has a literal value by that value."""
+    values = _literal_values(model)
+    return Rewriter(lambda n: values.get(n.value) if n.op == "var" else None).model(model)
+
+
+def _literal_values(model: flat.FlatModel) -> dict[str, Expr]:
+    values: dict[str, Expr] = {}
+    rewriter = Rewriter(lambda n: values.get(n.value) if n.op == "var" else None)
+    for name in dependency_order(model):
+        v = model.variables[name]
+        if v.variability == flat.CONSTANT or v.evaluated or v.final:
+            value = rewriter.expression(v.binding)
+            if value.op == "const":
+                values[name] = value
+    return values
+
+
+def dependency_order(model: flat.FlatModel) -> list[str]:
+    """Names of constants and parameters with a binding, each after those that its binding uses; a cycle is refused."""
+    order: dict[str, None] = {}
+    path: dict[str, None] = {}
+
+    def visit(name: str) -> None:
+        v = model.variables[name]
+        if name in order or v.binding is None or v.variability not in (flat.CONSTANT, flat.PARAMETER):
+            return
+        if name in path:
+            names = list(path)
+            cycle = names[names.index(name) :]
+            notes = [(model.variables[n].span, f"{n} = {model.variables[n].binding}") for n in cycle[1:]]
+            raise Diagnostic("S001", f"parameter {name} depends on itself", v.span, notes=notes)
+        path[name] = None
+        for used in sorted(str(leaf.value) for leaf in leaves(v.binding) if leaf.op == "var"):
+            visit(used)
+        del path[name]
+        order[name] = None
+
+    for name in model.variables:
+        visit(name)
+    return list(order)
+
+
+def is_parametric(e: Expr, variables: dict[str, flat.Variable]) -> bool:
+    """Whether `e` depends on constants and parameters only."""
+    return all(
+        leaf.op == "var" and variables[str(leaf.value)].variability in (flat.CONSTANT, flat.PARAMETER)
+        for leaf in leaves(e)
+    )
+
+
+def parametric_unknowns(model: flat.FlatModel, differentiated: set[str]) -> flat.FlatModel:
+    """Continuous variables given by an expression in parameters become parameters with that binding."""
+    while True:
+        variables, equations = dict(model.variables), []
+        for eq in model.equations:
+            name, value = _definition(eq, variables, differentiated)
+            if name is None:
+                equations.append(eq)
+            else:
+                variables[name] = replace(variables[name], variability=flat.PARAMETER, binding=value, final=True)
+        if len(equations) == len(model.equations):
+            return model
+        model = evaluate_constants(replace(model, variables=variables, equations=equations))
+
+
+def _definition(
+    eq: flat.Equation, variables: dict[str, flat.Variable], differentiated: set[str]
+) -> tuple[str | None, Expr]:
+    for unknown, value in ((eq.lhs, eq.rhs), (eq.rhs, eq.lhs)):
+        if unknown.op == "var":
+            v = variables[str(unknown.value)]
+            local = v.variability == flat.CONTINUOUS and v.causality != "input" and v.name not in differentiated
+            if local and is_parametric(value, variables):
+                return v.name, value
+    return None, eq.rhs

@@ -1,0 +1,167 @@
+"""Static choice of states: for every equation that was differentiated one derivative becomes algebraic.
+
+S. Mattsson, G. Soderlind, Index reduction in DAEs using dummy derivatives, SIAM J. Sci. Comput. 14 (1993) 677-692.
+The pivots are evaluated at the start values, so the choice holds as long as they stay away from zero; the
+structure report names it. Among good pivots stateSelect decides, then the order of derivative.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from .. import flat
+from ..differentiate import partial
+from ..errors import Diagnostic
+from ..expr import Expr, der, var
+from ..rewrite import Rewriter
+from .aliases import STATE_SELECT
+from .system import DeclaredValues, Row, System
+
+PIVOT = 1e-6  # smallest pivot accepted, relative to the largest entry of its equation
+
+
+def choose_states(model: flat.FlatModel, rows: list[Row], names: list[str]) -> System:
+    """Select dummy derivatives among `rows` and return the system in the remaining states."""
+    variables = _variables(rows, names)
+    dummies = _choose_dummies(model, rows, variables)
+    replacement, model, extra = _rename(model, variables, dummies)
+    rewriter = Rewriter(replacement.get)
+    new_rows: dict[Row, Row] = {}
+    for row in rows:
+        integral = new_rows[row.integral] if row.integral else None
+        new_rows[row] = Row(rewriter.expression(row.lhs), rewriter.expression(row.rhs), row.source, integral)
+    states = [str(s.value) for v in variables if der(v) in variables and der(v) not in dummies
+              for s in [replacement.get(v, v)]]  # fmt: skip
+    all_names = [*names, *(str(n.value) for n in replacement.values() if n.op == "var")]
+    state_set = set(states)
+    system = System(
+        rewriter.model(model),
+        [*new_rows.values(), *extra],
+        states,
+        [n for n in all_names if n not in state_set],
+        [text_of(d) for d in variables if d in dummies],
+    )
+    system.renamed = replacement
+    return system
+
+
+def text_of(n: Expr) -> str:
+    return f"der({text_of(n.args[0])})" if n.op == "der" else str(n.value)
+
+
+def _variables(rows: list[Row], names: list[str]) -> dict[Expr, int]:
+    """Every unknown and derivative of one that occurs, with its order of differentiation; in declaration order."""
+    highest: dict[str, int] = {}
+    for row in rows:
+        for n in row.leaves:
+            if n.op == "der":
+                base, order = n, 0
+                while base.op == "der":
+                    base, order = base.args[0], order + 1
+                highest[str(base.value)] = max(order, highest.get(str(base.value), 0))
+    found: dict[Expr, int] = {}
+    for name in names:
+        n = var(name)
+        found[n] = 0
+        for order in range(1, highest.get(name, 0) + 1):
+            n = der(n)
+            found[n] = order
+    return found
+
+
+def _choose_dummies(model: flat.FlatModel, rows: list[Row], variables: dict[Expr, int]) -> set[Expr]:
+    differentiated = {row.integral for row in rows if row.integral}
+    constraints = [row for row in rows if row.integral and row not in differentiated]
+    candidates = [v for v in variables if variables[v] and der(v) not in variables]
+    dummies: set[Expr] = set()
+    values = DeclaredValues(model)
+    while constraints:
+        chosen = _pivots(model, constraints, candidates, variables, values)
+        dummies.update(chosen)
+        candidates = [v.args[0] for v in variables if v in chosen and variables[v] > 1]
+        constraints = [row.integral for row in constraints if row.integral.integral]
+    return dummies
+
+
+def _pivots(
+    model: flat.FlatModel, rows: list[Row], candidates: list[Expr], variables: dict[Expr, int], values: DeclaredValues
+) -> set[Expr]:
+    """As many candidates as rows, with a regular Jacobian at the start values (Gaussian elimination)."""
+    matrix = [[_entry(row, v, values) for v in candidates] for row in rows]
+    scale = [max(map(abs, line), default=0.0) or 1.0 for line in matrix]
+    matrix = [[a / s for a in line] for line, s in zip(matrix, scale)]
+    keys = [_keep(model, v, variables[v]) for v in candidates]
+    chosen: set[Expr] = set()
+    left_rows, left_columns = list(range(len(rows))), list(range(len(candidates)))
+    while left_rows:
+        good = [(r, c) for c in left_columns for r in left_rows if abs(matrix[r][c]) > PIVOT]
+        if not good:
+            _refuse(rows, candidates)
+        weakest = min(keys[c] for _, c in good)
+        r, c = max(((r, c) for r, c in good if keys[c] == weakest), key=lambda p: (abs(matrix[p[0]][p[1]]), p[1]))
+        left_rows.remove(r)
+        left_columns.remove(c)
+        chosen.add(candidates[c])
+        for other in left_rows:
+            factor = matrix[other][c] / matrix[r][c]
+            matrix[other] = [a - factor * b for a, b in zip(matrix[other], matrix[r])]
+    return chosen
+
+
+def _entry(row: Row, v: Expr, values: DeclaredValues) -> float:
+    if v not in row.leaves:
+        return 0.0
+    value = values(partial(row.residual, v))
+    return 1.0 if value is None else float(value)
+
+
+def _keep(model: flat.FlatModel, derivative: Expr, order: int) -> tuple:
+    """Derivatives with the smallest key become dummies first."""
+    base = derivative
+    while base.op == "der":
+        base = base.args[0]
+    v = model.variables[str(base.value)]
+    fixed = v.fixed is not None and v.fixed.op == "const" and bool(v.fixed.value)
+    return STATE_SELECT.index(v.state_select), -order, fixed
+
+
+def _refuse(rows: list[Row], candidates: list[Expr]) -> None:
+    raise Diagnostic(
+        "S005", "these constraints between states do not determine any of them at the start values",
+        rows[0].source.span, "give start values at which the constraint is regular: "
+        + ", ".join(text_of(c.args[0]) for c in candidates),
+        [(row.source.span, row.text) for row in rows],
+    )  # fmt: skip
+
+
+def _rename(
+    model: flat.FlatModel, variables: dict[Expr, int], dummies: set[Expr]
+) -> tuple[dict[Expr, Expr], flat.FlatModel, list[Row]]:
+    """Derivatives that are dummies or states themselves become variables named "der(x)"."""
+    replacement: dict[Expr, Expr] = {}
+    extra: list[Row] = []
+    declared = dict(model.variables)
+    for n, order in variables.items():
+        if not order:
+            continue
+        inner = replacement.get(n.args[0], n.args[0])
+        is_state = der(n) in variables and der(n) not in dummies
+        if n not in dummies and not is_state:
+            if inner is not n.args[0]:
+                replacement[n] = der(inner)
+            continue
+        name = text_of(n)
+        replacement[n] = var(name)
+        base = model.variables[str(_base(n).value)]
+        unit = f"{base.unit}/s{order if order > 1 else ''}" if base.unit else ""
+        declared[name] = flat.Variable(name, base.span, unit=unit, description=f"derivative of {base.name}")
+        if n not in dummies:
+            source = flat.Equation(der(inner), var(name), base.span, "", f"{text_of(der(inner))} = {name}")
+            extra.append(Row(der(inner), var(name), source))
+    return replacement, replace(model, variables=declared), extra
+
+
+def _base(n: Expr) -> Expr:
+    while n.op == "der":
+        n = n.args[0]
+    return n

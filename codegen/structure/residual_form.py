@@ -1,0 +1,79 @@
+"""The residual form for IDA: states and their derivatives known, what can be is computed in sequence, the
+rest of the algebraic variables (the tears) become unknowns of the integrator."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from ..differentiate import Differentiator
+from ..expr import ONE, ZERO, Expr, is_const, var
+from ..leaves import leaves
+from .system import Row, System
+from .tearing import Assignment, Tearing
+
+
+@dataclass
+class ResidualForm:
+    """F(t, [x; z], y'): assignments in order, then one residual a row."""
+
+    assignments: list[Assignment]
+    tears: list[Expr]
+    residuals: list[Row]
+
+
+def residual_form(system: System, tearing: Tearing) -> ResidualForm:
+    torn = tearing.tear(system.rows, [var(n) for n in system.algebraics])
+    return ResidualForm(torn.assignments, torn.tears, torn.residuals)
+
+
+def needed(assignments: Sequence[Assignment], wanted: Iterable[frozenset[Expr]]) -> list[Assignment]:
+    """Those assignments, in order, that the wanted leaves depend on."""
+    live = set().union(*wanted)
+    kept = []
+    for step in reversed(assignments):
+        if step.unknown in live:
+            kept.append(step)
+            live |= leaves(step.value)
+    return kept[::-1]
+
+
+CJ = var("$cj")
+
+
+@dataclass
+class Jacobian:
+    """Columns of dF/dy + cj dF/dy': `tangents` are derivatives of assigned variables to compute in order,
+    each a (name, value); `entries[column]` lists (row, value)."""
+
+    tangents: list[tuple[Expr, Expr]]
+    entries: list[list[tuple[int, Expr]]]
+
+
+def jacobian(form: ResidualForm, system: System) -> Jacobian:
+    """Forward differentiation through the assigned sequence, one column at a time. The state x and its
+    derivative share a column: their seeds are 1 and cj."""
+    result = Jacobian([], [])
+    used = needed(form.assignments, (row.leaves for row in form.residuals))
+    for name, derivative in zip(system.states, system.derivatives):
+        result.entries.append(_column({var(name): ONE, derivative: CJ}, used, form.residuals, result, name))
+    for tear in form.tears:
+        result.entries.append(_column({tear: ONE}, used, form.residuals, result, str(tear.value)))
+    return result
+
+
+def _column(
+    seeds: dict[Expr, Expr], chain: list[Assignment], residuals: list[Row], result: Jacobian, name: str
+) -> list[tuple[int, Expr]]:
+    differentiate = Differentiator(lambda n: seeds.get(n, ZERO))
+    for step in chain:
+        value = differentiate(step.value)
+        if is_const(value, 0):
+            continue
+        if value.args:
+            tangent = var(f"$d {step.unknown.value} d {name}")
+            result.tangents.append((tangent, value))
+            value = tangent
+        seeds[step.unknown] = value
+    columns = ((k, differentiate(row.residual)) for k, row in enumerate(residuals))
+    return [(k, value) for k, value in columns if not is_const(value, 0)]

@@ -1,0 +1,58 @@
+"""What to say when equations and unknowns do not match: the smallest parts with too many of either, by source line."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from .. import flat
+from ..errors import Diagnostic
+from .matching import Matching
+from .system import Row
+
+
+def _occurring(row: Row) -> set[str]:
+    names = set()
+    for n in row.leaves:
+        while n.op == "der":
+            n = n.args[0]
+        if n.op == "var":
+            names.add(str(n.value))
+    return names
+
+
+def require_regular(rows: list[Row], names: Sequence[str], model: flat.FlatModel) -> None:
+    """Refuse a structurally singular system (a variable and its derivatives count as one unknown)."""
+    column = {name: k for k, name in enumerate(names)}
+    matching = Matching([sorted(column[n] for n in _occurring(r) if n in column) for r in rows], len(names))
+    unmatched_rows = matching.match_all()
+    unmatched_columns = [k for k, row in enumerate(matching.row_of) if row < 0]
+    if not unmatched_rows and not unmatched_columns:
+        return
+    notes, counts = [], f"{len(rows)} equations for {len(names)} unknowns"
+    first = None
+    if unmatched_rows:
+        over_rows, over_columns = matching.overdetermined(unmatched_rows)
+        notes += _notes(rows, names, model, over_rows, over_columns)
+        first = f"too many equations: {len(over_rows)} for {_list(names, over_columns)}"
+    if unmatched_columns:
+        under_rows, under_columns = matching.underdetermined(unmatched_columns)
+        notes += _notes(rows, names, model, under_rows, under_columns)
+        lacking = f"too few equations: {len(under_rows)} for {_list(names, under_columns)}"
+        first = f"{first}; {lacking}" if first else lacking
+    span = rows[unmatched_rows[0]].source.span if unmatched_rows else model.variables[names[unmatched_columns[0]]].span
+    hint = "remove one of the equations listed" if unmatched_rows else "add an equation or a connection for one of them"
+    raise Diagnostic("S003", f"the model is structurally singular ({counts}): {first}", span, hint, notes)
+
+
+def _list(names: Sequence[str], columns: Sequence[int]) -> str:
+    if not columns:
+        return "no unknown"
+    return ", ".join(names[c] for c in columns[:8]) + (f" and {len(columns) - 8} more" if len(columns) > 8 else "")
+
+
+def _notes(
+    rows: list[Row], names: Sequence[str], model: flat.FlatModel, over: Sequence[int], columns: Sequence[int]
+) -> list[tuple[flat.Span, str]]:
+    equations = [(rows[r].source.span, f"equation  {rows[r].text}") for r in over[:12]]
+    unknowns = [(model.variables[names[c]].span, f"unknown  {names[c]}") for c in columns[:12]]
+    return equations + unknowns

@@ -1,0 +1,94 @@
+"""Equations and unknowns as the structural passes see them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from .. import flat
+from ..evaluate import evaluate
+from ..expr import REAL, Expr, der, sub, var
+from ..leaves import leaves
+
+
+@dataclass(eq=False)
+class Row:
+    """One scalar continuous equation lhs = rhs."""
+
+    lhs: Expr
+    rhs: Expr
+    source: flat.Equation
+    integral: Row | None = None  # the equation that this one is the time derivative of
+
+    @cached_property
+    def residual(self) -> Expr:
+        return sub(self.lhs, self.rhs)
+
+    @cached_property
+    def leaves(self) -> frozenset[Expr]:
+        return leaves(self.lhs) | leaves(self.rhs)
+
+    @property
+    def text(self) -> str:
+        text = self.source.text or f"{self.source.lhs} = {self.source.rhs}"
+        row, order = self, 0
+        while row.integral is not None:
+            row, order = row.integral, order + 1
+        return text if not order else f"{'d' * order}/{'dt' * order} of  {text}"
+
+
+@dataclass
+class System:
+    """A square system in derivatives of the states and in algebraic variables (an index-reduced DAE)."""
+
+    model: flat.FlatModel
+    rows: list[Row]
+    states: list[str]
+    algebraics: list[str]
+    dummies: list[str] = field(default_factory=list)  # algebraic variables that were derivatives before
+
+    @cached_property
+    def derivatives(self) -> list[Expr]:
+        return [der(var(name)) for name in self.states]
+
+    @cached_property
+    def unknowns(self) -> list[Expr]:
+        """Unknowns of the explicit form, in storage order."""
+        return [*self.derivatives, *map(var, self.algebraics)]
+
+
+class DeclaredValues:
+    """Values that variables have as declared: parameters from their bindings, others from their start attribute."""
+
+    def __init__(self, model: flat.FlatModel):
+        self._model = model
+        self._memo: dict[str, float | int | bool | None] = {}
+
+    def __call__(self, e: Expr) -> float | None:
+        """The value of `e`, with relations taken as false; None where it has none."""
+        return evaluate(e, self._leaf)
+
+    def parametric(self, e: Expr) -> float | None:
+        """The value of an expression in parameters only, else None."""
+        names = [str(n.value) for n in leaves(e) if n.op == "var"]
+        fixed = all(self._model.variables[n].variability in (flat.CONSTANT, flat.PARAMETER) for n in names)
+        return self(e) if fixed and all(n.op == "var" for n in leaves(e)) else None
+
+    def variable(self, name: str) -> float | int | bool | None:
+        if name not in self._memo:
+            self._memo[name] = None  # ends a cycle of start attributes
+            v = self._model.variables[name]
+            given = v.binding if v.variability in (flat.CONSTANT, flat.PARAMETER) else None
+            given = given if given is not None else v.start
+            default: float | int | bool = 0.0 if v.type == REAL else False if v.type == "Boolean" else 0
+            if given is None and v.enumeration:
+                default = 1
+            self._memo[name] = default if given is None else self(given)
+        return self._memo[name]
+
+    def _leaf(self, n: Expr) -> float | int | bool | None:
+        if n.op == "var":
+            return self.variable(str(n.value))
+        if n.op == "pre":
+            return self.variable(str(n.args[0].value))
+        return 0.0 if n.op in ("der", "time") else False

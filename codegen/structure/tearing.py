@@ -1,0 +1,93 @@
+"""Tearing: assign what one equation gives explicitly; where none does, assume the most used unknown as known.
+
+H. Elmqvist, M. Otter, Methods for tearing systems of equations in object-oriented modeling, ESM 1994.
+An equation is used for an unknown only where it is affine in it with a coefficient that is safely not zero.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from ..affine import UNSAFE, division_rank, isolate
+from ..expr import Expr, div
+from .system import Row
+
+
+@dataclass(eq=False)
+class Assignment:
+    """unknown = value, from `row`."""
+
+    unknown: Expr
+    value: Expr
+    row: Row
+
+
+@dataclass
+class Torn:
+    """`assignments` in order, given `tears`; `residuals` are the equations left over for the tears."""
+
+    assignments: list[Assignment] = field(default_factory=list)
+    tears: list[Expr] = field(default_factory=list)
+    residuals: list[Row] = field(default_factory=list)
+
+
+class Tearing:
+    def __init__(self, parameter_value: Callable[[Expr], float | None]):
+        self._parameter_value = parameter_value
+        self._explicit: dict[tuple[Row, Expr], tuple[int, Expr | None]] = {}
+
+    def explicit(self, row: Row, unknown: Expr) -> tuple[int, Expr | None]:
+        """(rank, value) of `unknown` from `row`; rank UNSAFE and None where it may not be used."""
+        key = (row, unknown)
+        if key not in self._explicit:
+            parts = isolate(row.lhs, row.rhs, unknown)
+            rank = division_rank(parts[1], self._parameter_value) if parts else UNSAFE
+            self._explicit[key] = (rank, div(*parts) if rank < UNSAFE else None)
+        return self._explicit[key]
+
+    def tear(self, rows: Sequence[Row], unknowns: Sequence[Expr]) -> Torn:
+        """Order `rows` for `unknowns`; every leaf that is not among them is known."""
+        position = {u: k for k, u in enumerate(unknowns)}
+        missing = {row: {u for u in row.leaves if u in position} for row in rows}
+        users: dict[Expr, list[Row]] = {u: [] for u in unknowns}
+        for row in rows:
+            for u in missing[row]:
+                users[u].append(row)
+        number = {row: k for k, row in enumerate(rows)}
+        torn = Torn()
+        ready = [row for row in rows if len(missing[row]) <= 1]
+
+        def settle(unknown: Expr) -> None:
+            del users_left[unknown]
+            for row in users[unknown]:
+                missing[row].discard(unknown)
+                if row in unused and len(missing[row]) == 1:
+                    ready.append(row)
+
+        users_left, unused = dict(users), dict.fromkeys(rows)
+        while users_left:
+            choice = self._best(ready, missing, unused, number)
+            if choice is None:
+                unknown = min(users_left, key=lambda u: (-sum(r in unused for r in users[u]), position[u]))
+                torn.tears.append(unknown)
+            else:
+                row, unknown, value = choice
+                torn.assignments.append(Assignment(unknown, value, row))
+                del unused[row]
+            settle(unknown)
+        torn.residuals = list(unused)
+        return torn
+
+    def _best(
+        self, ready: list[Row], missing: dict[Row, set[Expr]], unused: dict[Row, None], number: dict[Row, int]
+    ) -> tuple[Row, Expr, Expr] | None:
+        """The explicit equation to use next: constants before parameters as divisors, short before long."""
+        ready[:] = [row for row in ready if row in unused and len(missing[row]) == 1]
+        found = []
+        for row in ready:
+            (unknown,) = missing[row]
+            rank, value = self.explicit(row, unknown)
+            if value is not None:
+                found.append(((rank, any(n.op == "der" for n in row.leaves), number[row]), row, unknown, value))
+        return min(found, key=lambda f: f[0])[1:] if found else None
