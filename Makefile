@@ -32,7 +32,7 @@ $(BUILD)/build.ninja: | $(BUILD)/.debian
 setup: .venv/.installed build ## Bring the whole environment; afterwards .venv/bin/lacuna is the command line
 
 build: $(BUILD)/build.ninja ## Compile runtime, analysis and their tests into build/
-	@ninja -C $(BUILD) --quiet
+	@ninja -C $(BUILD) --quiet | sed '/no work to do/d'
 
 ## --- What users run -------------------------------------------------------------------------------------------------
 
@@ -86,7 +86,7 @@ lint: setup
 
 sanitize: $(BUILD)/.debian
 	@cmake -S . -B $(BUILD)/sanitize -G Ninja -DCMAKE_BUILD_TYPE=Debug -DLACUNA_SANITIZE=ON > $(BUILD)/sanitize.log
-	@ninja -C $(BUILD)/sanitize --quiet
+	@ninja -C $(BUILD)/sanitize --quiet | sed '/no work to do/d'
 	@ASAN_OPTIONS=detect_leaks=1 ctest --test-dir $(BUILD)/sanitize --output-on-failure -j 2 | tail -n 6
 
 fuzz: setup ## [FUZZ_SECONDS=180] random and mutated models through the parser, for a traceback

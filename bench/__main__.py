@@ -1,0 +1,58 @@
+"""`make bench`: every measurement in turn, each printed as soon as it is there, all written at the end."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from bench import maps, race, report, scenarios
+
+Section = Callable[[int], Sequence[report.Row]]
+
+
+def races(rounds: int) -> list[report.Row]:
+    return [_shown(entry) for name in race.PROBLEMS for entry in race.race(name, rounds)]
+
+
+def _shown(entry: race.Entry) -> report.Row:
+    counts = entry.counters
+    return {
+        "problem": entry.problem,
+        "program": entry.rival,
+        "time ratio": entry.ratio,
+        "goal": entry.goal,
+        "ms": 1e3 * entry.seconds,
+        "spread": entry.spread,
+        "error": entry.error,
+        "steps": counts["steps"],
+        "evaluations": counts["residuals"] + counts.get("rhs", 0),
+        "Jacobians": counts["jacobians"],
+    }
+
+
+SECTIONS: dict[str, tuple[str, Section]] = {
+    "races": ("T1 and T2 beside a program written by hand over IDA (time ratio 1)", races),
+    "maps": ("The paper's map, 51 severities", maps.split),
+    "scenarios": ("The whole actuator against the clock", scenarios.against_the_clock),
+}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(prog="python -m bench", description=__doc__)
+    parser.add_argument("--out", type=Path, default=Path("out/bench"), help="folder for the results")
+    parser.add_argument("--rounds", type=int, default=9, help="interleaved rounds of each race")
+    parser.add_argument("--only", choices=SECTIONS, action="append", help="measure only this; repeat for more")
+    arguments = parser.parse_args()
+    measured: dict[str, Sequence[report.Row]] = {}
+    for name in arguments.only or SECTIONS:
+        title, section = SECTIONS[name]
+        measured[name] = section(arguments.rounds)
+        report.show(title, measured[name])
+        report.write_csv(arguments.out / f"{name}.csv", measured[name])
+    report.write_json(arguments.out / "bench.json", measured)
+    print(f"written: {arguments.out}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,122 @@
+"""`lacuna simulate`: one run of one model."""
+
+from __future__ import annotations
+
+from pathlib import Path
+import time
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from rich.console import Console
+from rich.table import Table
+import typer
+
+from cli.errors import UserError, nearest, reported
+from cli.options import Assignments, Model, assignments, default_folder, number
+
+if TYPE_CHECKING:
+    import runtime
+
+Solver = Literal["ida", "dopri5", "rodas4", "rk4", "euler"]
+Inputs = Annotated[
+    list[str] | None,
+    typer.Option("--input", "-u", metavar="NAME=FILE.csv[:COLUMN]", help="Drive an input by a recorded column (SI)"),
+]
+
+
+@reported
+def simulate(
+    model: Model,
+    solver: Annotated[Solver, typer.Option(help="ida: reference; dopri5, rodas4: fast lanes; rk4, euler: fixed step")] = "ida",
+    rtol: Annotated[float | None, typer.Option(help="Relative tolerance; default: the model's experiment")] = None,
+    atol: Annotated[float | None, typer.Option(help="Absolute tolerance per nominal value; default: 0.01 rtol")] = None,
+    step: Annotated[float | None, typer.Option(help="Fixed step of rk4 and euler, s")] = None,
+    start: Annotated[float | None, typer.Option(help="Start time, s; default: the model's experiment")] = None,
+    stop: Annotated[float | None, typer.Option(help="Stop time, s; default: the model's experiment")] = None,
+    interval: Annotated[float | None, typer.Option(help="Output interval, s; default: the model's experiment")] = None,
+    locate_events: Annotated[bool, typer.Option(help="Find events inside a step, or take them at its end")] = True,
+    parameter: Assignments = None,
+    inputs: Inputs = None,
+    hold: Annotated[bool, typer.Option("--hold", help="Hold recorded inputs between samples, not linear")] = False,
+    signal: Annotated[list[str] | None, typer.Option(help="Record only these variables; repeat for more")] = None,
+    out: Annotated[Path | None, typer.Option(help="Folder for the result; default: out/simulate/MODEL")] = None,
+    plot: Annotated[bool, typer.Option("--plot", help="Draw the recorded signals as SVG beside the CSV")] = False,
+) -> None:
+    """Simulate MODEL and write its trajectories as CSV with a .meta.json beside it.
+
+    A run that fails keeps its results so far, marked incomplete, says why with time, equation and source line, and
+    ends with status 1.
+
+    [bold]Example[/bold]: lacuna simulate Actuators.EccentricBldc -p zeta=0.3 --signal rotor.w --plot
+    """
+    import runtime
+
+    settings = assignments(parameter)
+    loaded = _compiled(model, settings)
+    values = {name: number(name, text) for name, text in settings.items() if loaded.variables[name].settable}
+    outputs = _known(loaded, signal) if signal else None
+    begin = time.perf_counter()
+    result = runtime.simulate(
+        loaded, solver=solver, parameters=values, inputs=_recorded(loaded, inputs, hold), start=start, stop=stop,
+        rtol=rtol, atol=atol, step=step, locate_events=locate_events, interval=interval, outputs=outputs,
+    )  # fmt: skip
+    seconds = time.perf_counter() - begin
+    folder = out or default_folder("simulate", model)
+    name = folder.name if out is None else loaded.name.rsplit(".", 1)[-1]
+    written = [result.save(folder, name)]
+    if plot:
+        from cli.plot import draw
+
+        written.append(draw(result, loaded, outputs, folder / f"{name}.svg"))
+    _report(result, seconds, solver, written)
+    if not result.complete:
+        raise UserError(str(result.failure))
+
+
+def _compiled(model: str, settings: dict[str, str]) -> runtime.Model:
+    """The model, translated anew where a parameter that decides its structure is among `settings`."""
+    from codegen.compile import compile_model
+    import runtime
+
+    loaded = runtime.Model(compile_model(model).path)
+    _known(loaded, settings)
+    structural = {
+        name: number(name, text) for name, text in settings.items() if not loaded.variables[name].settable
+    }
+    return runtime.Model(compile_model(model, modifications=structural).path) if structural else loaded
+
+
+def _known(model: runtime.Model, names: dict[str, str] | list[str]) -> list[str]:
+    for name in names:
+        if name not in model.variables:
+            raise UserError(f"{model.name} has no variable '{name}'{nearest(name, model.variables)}")
+    return list(names)
+
+
+def _recorded(model: runtime.Model, inputs: list[str] | None, hold: bool) -> dict[str, runtime.RecordedInput]:
+    return {name: _read(model, name, text, hold) for name, text in assignments(inputs, "--input").items()}
+
+
+def _read(model: runtime.Model, name: str, text: str, hold: bool) -> runtime.RecordedInput:
+    from analysis.recording import read_columns
+    import runtime
+
+    file, _, column = text.partition(":")
+    known = [n for n, variable in model.variables.items() if variable.kind == "input"]
+    if name not in known:
+        raise UserError(f"{model.name} has no input '{name}'{nearest(name, known) or '; it has ' + ', '.join(known)}")
+    columns = read_columns(Path(file))
+    column = column or name
+    if column not in columns:
+        raise UserError(f"{file}: no column '{column}'{nearest(column, columns)}")
+    return runtime.RecordedInput(columns["time"], columns[column], "hold" if hold else "linear")
+
+
+def _report(result: runtime.Result, seconds: float, solver: str, written: list[Path]) -> None:
+    table = Table(show_header=False)
+    covered = result.time[-1] - result.time[0] if len(result.time) else 0.0
+    table.add_row("time covered", f"{covered:g} s in {seconds:.3f} s of computing with {solver}")
+    for name, count in result.counters.items():
+        table.add_row(name.replace("_", " "), f"{count}")
+    for path in written:
+        table.add_row("written", str(path))
+    Console().print(table)
