@@ -55,6 +55,11 @@ class Library:
         self._folders[id(classes[0])] = folder
         return classes[0]
 
+    @property
+    def folders(self) -> list[Path]:
+        """Folders of the packages seen so far, outermost first."""
+        return list(self._folders.values())
+
     def parse_file(self, path: Path) -> list[ast.Class]:
         """The classes of one file, each time the same objects. Raises F001 when it cannot be read."""
         path = Path(path)

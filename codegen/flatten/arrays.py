@@ -9,7 +9,7 @@ from .. import expr as ex
 from ..errors import Diagnostic, Span
 from ..expr import BOOLEAN, INTEGER, Expr
 from ..syntax import ast
-from .constants import evaluate
+from .constants import known
 from .lower import lower, need_numbers
 from .scope import Scope
 from .values import Array, Value, elementwise, integers, scalars, shape_of, shape_text, stack, transpose
@@ -26,7 +26,7 @@ def _arguments(e: ast.Call, scope: Scope, least: int, most: int) -> list[Value]:
 def _number(value: Value, scope: Scope, span: Span, what: str) -> int:
     if not isinstance(value, Expr) or value.type != INTEGER:
         raise Diagnostic("R020", f"{what} is not an Integer", span, "use a whole number or an Integer parameter")
-    number = evaluate(value, scope.context, span, what).value
+    number = known(value, scope, span, what).value
     if not 0 <= number <= 1_000_000:
         raise Diagnostic("R043", f"{what} is {number}", span, "sizes are from 0 to 1000000")
     return number

@@ -10,7 +10,7 @@ from ..expr import BOOLEAN, INTEGER, REAL, Expr
 from ..suggest import did_you_mean
 from ..syntax import ast
 from .arrays import ARRAY_FUNCTIONS, map_call
-from .constants import evaluate, is_known, variability
+from .constants import is_known, known, variability
 from .lower import lower, lower_scalar
 from .references import enumeration_literals
 from .scope import Scope, find_class, visible_classes
@@ -137,7 +137,7 @@ def _wrap(op: str, x: Expr) -> Expr:
 def _smooth(e: ast.Call, scope: Scope) -> Value:
     order, written = _take(e, 2)
     degree = lower_scalar(order, scope, INTEGER)
-    degree = evaluate(degree, scope.context, order.span, "the order of smooth")
+    degree = known(degree, scope, order.span, "the order of smooth")
     value = lower(written, scope)
     return elementwise(lambda x: ex.special("smooth", degree, x, type=x.type), [value], e.span, "smooth")
 

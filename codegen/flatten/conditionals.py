@@ -7,7 +7,7 @@ from .. import flat
 from ..errors import Diagnostic, Span
 from ..expr import BOOLEAN, TRUE, Expr
 from ..syntax import ast
-from .constants import evaluate, is_known
+from .constants import is_known, known
 from .equations import Collected, flatten_item
 from .lower import lower_scalar
 from .scope import Scope
@@ -16,15 +16,15 @@ from .scope import Scope
 def flatten_if(item: ast.If, scope: Scope, out: Collected) -> None:
     """Add the equations of an if-equation. Raises F030 where branches that change in time do not match."""
     conditions = [TRUE if c is None else lower_scalar(c, scope, BOOLEAN) for c, _ in item.branches]
-    known = all(is_known(c, scope.context) for c in conditions)
-    if known and (all(c.op == "const" for c in conditions) or _structural(item)):
+    fixed = all(is_known(c, scope.context) for c in conditions)
+    if fixed and (all(c.op == "const" for c in conditions) or _structural(item)):
         _decided(item, conditions, scope, out)
         return
     try:
         parts = [_branch(body, scope) for _, body in item.branches]
         merged = _merge(item, conditions, parts)
     except Diagnostic:
-        if not known:
+        if not fixed:
             raise
         _decided(item, conditions, scope, out)
         return
@@ -50,7 +50,7 @@ def _has_structure(body: list[ast.Item]) -> bool:
 
 def _decided(item: ast.If, conditions: list[Expr], scope: Scope, out: Collected) -> None:
     for condition, (_, body) in zip(conditions, item.branches, strict=True):
-        if evaluate(condition, scope.context, item.span, "the condition of an if-equation").value:
+        if known(condition, scope, item.span, "the condition of an if-equation").value:
             for inner in body:
                 flatten_item(inner, scope, out)
             return

@@ -6,8 +6,21 @@ from .. import expr as ex
 from ..errors import Diagnostic, Span
 from ..expr import Expr
 from .context import Context
+from .scope import Scope
+
+
+class AtRunTime(Exception):
+    """Inside a function: a value that must be known before its call turned out not to be."""
+
 
 _ORDER = {"constant": 0, "parameter": 1, "discrete": 2, "continuous": 3}
+
+
+def known(e: Expr, scope: Scope, span: Span, what: str) -> Expr:
+    """`e` as a constant; inside a function only what does not depend on arguments, else AtRunTime is raised."""
+    if scope.in_function and e.op != "const" and variability(e, scope.context) != "constant":
+        raise AtRunTime(what, span)
+    return evaluate(e, scope.context, span, what)
 
 
 def evaluate(e: Expr, context: Context, span: Span, what: str = "this") -> Expr:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..errors import Diagnostic
+from ..errors import Diagnostic, Span
 from ..expr import Expr
 from ..flat import Function
 from ..library import Library
@@ -31,6 +31,9 @@ class Context:
     evaluating: list[str] = field(default_factory=list)
     constants: dict[str, Expr] = field(default_factory=dict)  # values of those
     variabilities: dict[Expr, str] = field(default_factory=dict)
+    function_sources: dict[str, object] = field(default_factory=dict)  # name -> function_code.Source
+    argument_units: list[tuple[Expr, str, str, Span]] = field(default_factory=list)  # value, unit, what, where
+    call_depth: int = 0
     files: dict[str, str] = field(default_factory=dict)
     errors: list[Diagnostic] = field(default_factory=list)
     warnings: list[Diagnostic] = field(default_factory=list)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..errors import Diagnostic
 from ..expr import BOOLEAN, INTEGER
 from ..syntax import ast
-from .constants import evaluate
+from .constants import known
 from .lower import lower, modifier_value
 from .modifiers import Modifier
 from .scope import Scope
@@ -18,14 +18,14 @@ def evaluate_boolean(e: ast.Expression, scope: Scope, what: str = "the condition
     value = lower(e, scope)
     if isinstance(value, str | Array) or getattr(value, "type", None) != BOOLEAN:
         raise Diagnostic("R020", f"{what} is not a Boolean", e.span, "use a comparison, or a Boolean parameter")
-    return bool(evaluate(value, scope.context, e.span, what).value)
+    return bool(known(value, scope, e.span, what).value)
 
 
 def evaluate_integer(e: ast.Expression, scope: Scope, what: str) -> int:
     value = lower(e, scope)
     if isinstance(value, str | Array) or getattr(value, "type", None) != INTEGER:
         raise Diagnostic("R020", f"{what} is not an Integer", e.span, "use a whole number or an Integer parameter")
-    return int(evaluate(value, scope.context, e.span, what).value)
+    return int(known(value, scope, e.span, what).value)
 
 
 def evaluate_text(e: ast.Expression, scope: Scope, what: str) -> str:

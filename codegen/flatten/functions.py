@@ -1,4 +1,220 @@
-from ..errors import Diagnostic
-def run(name, args, context, span): raise Diagnostic("F099","todo",span)
-def call_function(cls, e, scope): raise Diagnostic("F099","todo",e.span)
-def construct_record(cls, e, scope): raise Diagnostic("F099","todo",e.span)
+"""Calls of functions declared in a model: arguments bound, then inlined, or kept as a function of fixed sizes.
+
+What runs straight (assignments, ifs, loops of known length) becomes an expression at the place of the call; the rest
+becomes a `flat.Function`, one for each combination of array sizes, and for each result a call names.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from .. import expr as ex
+from ..errors import Diagnostic, Span
+from ..expr import INTEGER, REAL, Expr
+from ..suggest import did_you_mean
+from ..syntax import ast
+from .constants import AtRunTime
+from .context import Context
+from .evaluate import evaluate_dimensions
+from .instance import Instance
+from .lower import lower
+from .modifiers import from_tree, merge
+from .scope import Scope
+from .types import Type, resolve_type
+from .values import Array, Record, Value, scalars, shape_of, shape_text
+
+MAX_INLINE_NODES = 250
+MAX_INLINE_DEPTH = 12
+_EVENTFUL = ("abs", "sign", "floor", "ceil", "integer", "mod", "rem", "div")
+
+
+@dataclass
+class Local:
+    """A declared input, output or protected variable of a function."""
+
+    name: str
+    declaration: ast.Component
+    type: Type
+    scope: Scope  # of the class it is declared in
+
+    @property
+    def unit(self) -> str:
+        own = from_tree(self.declaration.modification, self.scope)
+        child = (merge(own, self.type.modifier) or own).children.get("unit")
+        return child.value.value if child is not None and isinstance(child.value, ast.Literal) else ""
+
+
+def declared_locals(cls: ast.Class, context: Context) -> list[Local]:
+    """Everything a function declares, inherited first."""
+    result = []
+    for name, element in Instance(context, cls, cls.path, None, None).elements.items():
+        scope = Scope(context, element.cls, in_function=True)
+        result.append(Local(name, element.declaration, resolve_type(element.declaration.type, scope), scope))
+    return result
+
+
+def call_function(cls: ast.Class, e: ast.Call, scope: Scope) -> list[Value]:
+    """The results of a call. Raises R050 and R062 for arguments that do not fit."""
+    from .external import call_external
+    from .function_code import emitted_call
+    from .interpret import interpret
+
+    context = scope.context
+    if cls.partial:
+        raise Diagnostic("R015", f"the function {cls.name} is partial", e.function.span, "call one that extends it")
+    declared = declared_locals(cls, context)
+    inputs = [d for d in declared if d.declaration.causality == "input"]
+    arguments = bind_arguments(cls, inputs, e, scope)
+    if cls.external is not None:
+        return call_external(cls, arguments, e, context)
+    known = all(isinstance(a, str) or a.op == "const" for v in arguments.values() for a in scalars(v))
+    if known or (context.call_depth < MAX_INLINE_DEPTH and not _has_events(arguments)):
+        context.call_depth += 1
+        try:
+            results = interpret(cls, declared, arguments, context, e.span)
+            if known or _is_small(results, arguments):
+                return [_without_events(r) for r in results]
+        except AtRunTime:
+            pass
+        finally:
+            context.call_depth -= 1
+    return emitted_call(cls, declared, arguments, context, e.span)
+
+
+def bind_arguments(cls: ast.Class, inputs: list[Local], e: ast.Call, scope: Scope) -> dict[str, Value]:
+    """Values of the inputs by name: given by position, by name, or the declared default."""
+    names = [i.name for i in inputs]
+    if len(e.args) > len(inputs):
+        hint = f"{cls.name}({', '.join(names)})"
+        raise Diagnostic("R050", f"{cls.name} takes {len(inputs)} arguments, given {len(e.args)}", e.span, hint)
+    written = dict(zip(names, e.args, strict=False))
+    for name, value in e.named.items():
+        if name not in names:
+            hint = did_you_mean(name, names, f"{cls.name}({', '.join(names)})")
+            raise Diagnostic("R050", f"{cls.name} has no input {name}", value.span, hint)
+        if name in written:
+            raise Diagnostic("R050", f"the input {name} is given twice", value.span, "keep one of them")
+        written[name] = value
+    bound: dict[str, Value] = {}
+    for local in inputs:
+        inner = replace(local.scope, locals=dict(bound))
+        default = local.declaration.modification.value
+        if local.name in written:
+            value, span = lower(written[local.name], scope), written[local.name].span
+        elif default is not None:
+            value, span = lower(default, inner), default.span
+        else:
+            hint = f"{cls.name}({', '.join(names)})"
+            raise Diagnostic("R050", f"the input {local.name} of {cls.name} is not given", e.span, hint)
+        bound[local.name] = fit(local, value, inner, span)
+        _note_units(local, bound[local.name], span, cls, scope)
+    return bound
+
+
+def _note_units(local: Local, value: Value, span: Span, cls: ast.Class, scope: Scope) -> None:
+    if local.unit and not isinstance(value, Record) and not scope.in_function:
+        for item in scalars(value):
+            scope.context.argument_units.append((item, local.unit, f"input {local.name} of {cls.name}", span))
+
+
+def fit(local: Local, value: Value, scope: Scope, span: Span) -> Value:
+    """`value` for a declared variable: type and size checked, whole numbers made Real where that is declared."""
+    if local.type.primitive is None:
+        if not isinstance(value, Record):
+            raise Diagnostic("R062", f"{local.name} is a record", span, f"give a {local.declaration.type}")
+        return value
+    sizes = declared_sizes(local, scope, value)
+    if sizes != shape_of(value) or isinstance(value, Record):
+        message = f"{local.name} has size {shape_text(sizes)}, given {shape_text(shape_of(value))}"
+        raise Diagnostic("R062", message, span, "both need the same size")
+    items = [typed(item, local.type.primitive, local.name, span) for item in scalars(value)]
+    return Array(sizes, tuple(items)) if isinstance(value, Array) else items[0]
+
+
+def declared_sizes(local: Local, scope: Scope, value: Value | None) -> tuple[int, ...]:
+    """The size of a declared variable; `:` takes that of `value`."""
+    sizes = []
+    for position, dimension in enumerate(local.declaration.dimensions):
+        if isinstance(dimension, ast.Colon):
+            shape = shape_of(value) if value is not None else ()
+            if position >= len(shape):
+                message = f"{local.name} needs an array of {len(local.declaration.dimensions)} dimensions"
+                raise Diagnostic("R062", message, dimension.span, "give a size, or an array")
+            sizes.append(shape[position])
+        else:
+            sizes += evaluate_dimensions([dimension], scope, None, local.name)
+    return (*sizes, *local.type.dimensions)
+
+
+def typed(item: Expr | str, kind: str, name: str, span: Span) -> Expr | str:
+    """`item` as a value of type `kind`. Raises R062."""
+    found = "String" if isinstance(item, str) else item.type
+    if found != kind and (kind, found) != (REAL, INTEGER):
+        raise Diagnostic("R062", f"{name} is {kind}, given {found}", span, f"give a {kind}")
+    if kind == REAL and not isinstance(item, str) and item.op == "const" and item.type == INTEGER:
+        return ex.const(float(item.value))
+    return item
+
+
+def _eventful(n: Expr) -> bool:
+    return n.op in ex.RELATIONS or n.op in ("min", "max") or (n.op == "call" and n.value in _EVENTFUL)
+
+
+def _has_events(arguments: dict[str, Value]) -> bool:
+    """Would inlining put event-generating arguments under the noEvent of the function's body?"""
+    return any(_eventful(n) for v in arguments.values() for a in scalars(v) if isinstance(a, Expr) for n in ex.walk(a))
+
+
+def _without_events(value: Value) -> Value:
+    """Relations in functions make no events."""
+
+    def quiet(item: Expr | str) -> Expr | str:
+        if isinstance(item, Expr) and item.op not in ("const", "var") and any(map(_eventful, ex.walk(item))):
+            return ex.special("noEvent", item, type=item.type)
+        return item
+
+    if isinstance(value, Array):
+        return Array(value.shape, tuple(map(quiet, value.items)))
+    if isinstance(value, Record):
+        return Record(value.name, {name: _without_events(field) for name, field in value.fields.items()})
+    return quiet(value)
+
+
+def _is_small(results: list[Value], arguments: dict[str, Value]) -> bool:
+    given = {a for v in arguments.values() for a in scalars(v)}
+    seen: set[Expr] = set()
+    stack = [s for r in results for s in scalars(r) if isinstance(s, Expr)]
+    while stack:
+        n = stack.pop()
+        if n not in seen and n not in given:
+            seen.add(n)
+            stack.extend(n.args)
+        if len(seen) > MAX_INLINE_NODES:
+            return False
+    return True
+
+
+def construct_record(cls: ast.Class, e: ast.Call, scope: Scope) -> Record:
+    """Record(a, field = b): fields by position and name, the rest by their defaults."""
+    fields = declared_locals(cls, scope.context)
+    fields = [f for f in fields if f.declaration.variability != "constant"]
+    for f in fields:
+        f.scope.in_function = scope.in_function
+    return Record(cls.path, bind_arguments(cls, fields, e, scope))
+
+
+def run(name: str, arguments: list[Expr], context: Context, span: Span) -> Expr:
+    """A kept function on constant arguments: its (first) result as a constant."""
+    from .interpret import interpret
+
+    source = context.function_sources[name]
+    bound: dict[str, Value] = {}
+    for local, value in zip(source.inputs, arguments, strict=True):
+        bound[local] = Array(source.shapes[local], value.args) if value.op == "array" else value
+    try:
+        results = interpret(source.cls, declared_locals(source.cls, context), bound, context, span)
+    except AtRunTime as reason:
+        raise Diagnostic("F021", f"{name} cannot be evaluated at translation: {reason.args[0]}", span) from None
+    return scalars(results[source.output])[source.element]
+
+

@@ -198,8 +198,9 @@ class Instance:
         found = resolve_type(reference, type_scope)
         sizes = evaluate_dimensions([*declaration.dimensions], scope, modifier, declaration.name)
         sizes += found.dimensions
-        if modifier.value is None and self._record_value() is not None:
-            modifier = replace(modifier, value=self._record_value().fields.get(declaration.name), index=())
+        record = self._record_value()
+        if record is not None and (element.modifier is None or element.modifier.value is None):
+            modifier = replace(modifier, value=record.fields.get(declaration.name), index=())
         name = self.path_of(declaration.name)
         if found.primitive is not None:
             attributes = for_each(found.modifier) if sizes else found.modifier

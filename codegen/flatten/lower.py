@@ -8,7 +8,7 @@ from .. import expr as ex
 from ..errors import Diagnostic, Span
 from ..expr import BOOLEAN, INTEGER, REAL, Expr
 from ..syntax import ast
-from .constants import evaluate, is_known
+from .constants import is_known, known
 from .modifiers import Modifier
 from .references import read
 from .scope import Scope
@@ -180,8 +180,8 @@ def _if(e: ast.IfExpression, scope: Scope) -> Value:
 
 def _choice(condition: Expr, then: Value, otherwise: Value, span: Span, scope: Scope) -> Value:
     if isinstance(then, str) or isinstance(otherwise, str) or shape_of(then) != shape_of(otherwise):
-        known = evaluate(condition, scope.context, span, "the condition of alternatives of different size")
-        return then if known.value else otherwise
+        decided = known(condition, scope, span, "the condition of alternatives of different size")
+        return then if decided.value else otherwise
     if isinstance(then, Record) or isinstance(otherwise, Record):
         raise Diagnostic("R041", "an if-expression of records", span, "choose between their fields")
 
@@ -208,7 +208,7 @@ def range_values(e: ast.Range, scope: Scope) -> Array:
     """The numbers of a range; its bounds are known at translation."""
     parts = [e.first, e.step, e.last]
     values = [
-        evaluate(lower_scalar(p, scope, REAL), scope.context, p.span, "a bound of the range") if p else None
+        known(lower_scalar(p, scope, REAL), scope, p.span, "a bound of the range") if p else None
         for p in parts
     ]
     first, last = values[0].value, values[2].value

@@ -14,9 +14,9 @@ from ..rewrite import assigned, expressions
 from ..syntax import ast
 from .algorithms import flatten_algorithm
 from .connections import connection_equations
+from .constants import evaluate
 from .context import Context
 from .equations import Collected, flatten_items
-from .evaluate import evaluate
 from .instance import ArrayNode, Instance
 from .leaf import Leaf
 from .lower import lower_scalar

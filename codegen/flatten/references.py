@@ -10,7 +10,7 @@ from ..errors import Diagnostic
 from ..expr import INTEGER, Expr
 from ..suggest import did_you_mean
 from ..syntax import ast
-from .constants import evaluate, is_known
+from .constants import is_known, known
 from .scope import Scope, find_class, find_first, own_or_inherited, visible_classes
 from .values import Array, Record, Value, shape_of, stack
 
@@ -140,11 +140,17 @@ def apply_subscripts(
         raise Diagnostic("R044", f"a subscript of {ref} is not an Integer", first.span, "use a whole number")
     if index.op == "const" or is_known(index, scope.context) and not scope.in_function:
         return apply_subscripts(_row(rows, index, scope, ref, first), rest, scope, ref)
+    if scope.in_function:
+        from .function_code import at_index
+
+        moved = at_index(rows[0], index) if rows else None
+        if moved is not None:
+            return apply_subscripts(moved, rest, scope, ref)
     return _choose([apply_subscripts(r, rest, scope, ref) for r in rows], index, first, scope)
 
 
 def _row(rows: list[Value], index: Expr, scope: Scope, ref: ast.Ref, written: ast.Expression) -> Value:
-    number = evaluate(index, scope.context, written.span, "the subscript").value
+    number = known(index, scope, written.span, "the subscript").value
     if not 1 <= number <= len(rows):
         raise Diagnostic("R045", f"{ref}[{number}] is outside 1..{len(rows)}", written.span, "arrays start at 1")
     return rows[number - 1]

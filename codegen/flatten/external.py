@@ -1,0 +1,78 @@
+"""The one external function of the language: a column of a CSV file, read at translation."""
+
+from __future__ import annotations
+
+import csv
+from functools import lru_cache
+import hashlib
+from pathlib import Path
+
+from .. import expr as ex
+from ..errors import Diagnostic, Span
+from ..suggest import did_you_mean
+from ..syntax import ast
+from .context import Context
+from .values import Array, Value
+
+CSV_COLUMN = "csvColumn"
+
+
+def call_external(cls: ast.Class, arguments: dict[str, Value], e: ast.Call, context: Context) -> list[Value]:
+    """csvColumn(fileName, column) as a vector of constants. Raises R094 for any other external function."""
+    values = list(arguments.values())
+    if cls.name != CSV_COLUMN or len(values) != 2:
+        hint = f"write it as a function of the language; data comes in by {CSV_COLUMN}(fileName, column)"
+        raise Diagnostic("R094", f"the external function {cls.name} is outside the subset", e.span, hint)
+    name, column = values
+    if not isinstance(name, str) or not isinstance(column, str):
+        raise Diagnostic("R062", f"{CSV_COLUMN} takes the names of a file and of a column", e.span, 'two Strings')
+    path = _locate(name, context, e.span)
+    text = _read(path, e.span)
+    context.files[str(path)] = hashlib.sha256(text.encode()).hexdigest()
+    return [csv_column(text, path, column, e.span)]
+
+
+def _locate(name: str, context: Context, span: Span) -> Path:
+    """Beside the model's file, beside the file of the call, or in the folder of a package."""
+    folders = [context.folder, Path(span.file).resolve().parent, *context.library.folders]
+    for folder in folders:
+        if (folder / name).is_file():
+            return folder / name
+    searched = ", ".join(dict.fromkeys(map(str, folders)))
+    raise Diagnostic("F040", f"there is no data file {name}", span, f"looked in {searched}")
+
+
+def _read(path: Path, span: Span) -> str:
+    try:
+        return path.read_bytes().decode("utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        raise Diagnostic("F040", f"cannot read {path}: {error}", span, "save it as UTF-8 text") from None
+
+
+@lru_cache(maxsize=64)
+def _rows(text: str) -> list[list[str]]:
+    lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
+    return list(csv.reader(lines))
+
+
+def csv_column(text: str, path: Path, column: str, span: Span) -> Array:
+    """The numbers under the heading `column`; lines starting with # are comments."""
+    rows = _rows(text)
+    if not rows:
+        raise Diagnostic("F041", f"{path.name} is empty", span, "the first line names the columns")
+    heading = [h.strip() for h in rows[0]]
+    if column not in heading:
+        hint = did_you_mean(column, heading, f"it has {', '.join(heading)}")
+        raise Diagnostic("F041", f"{path.name} has no column {column}", span, hint)
+    at = heading.index(column)
+    numbers = []
+    for number, row in enumerate(rows[1:], 2):
+        try:
+            numbers.append(float(row[at]))
+        except (ValueError, IndexError):
+            found = row[at] if at < len(row) else "nothing"
+            message = f"{path.name}, data line {number}, column {column}: {found!r} is no number"
+            raise Diagnostic("F041", message, span, "correct the file") from None
+    if not numbers:
+        raise Diagnostic("F041", f"{path.name} has a heading and no data", span, "add lines of numbers")
+    return Array((len(numbers),), tuple(map(ex.const, numbers)))

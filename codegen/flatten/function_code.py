@@ -1,0 +1,294 @@
+"""Functions that must run at run time: their bodies as statements over scalars and arrays of fixed size."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from .. import expr as ex
+from .. import flat
+from ..errors import Diagnostic, Span
+from ..expr import BOOLEAN, FALSE, INTEGER, REAL, TRUE, Expr
+from ..syntax import ast
+from .constants import AtRunTime
+from .context import Context
+from .lower import iterate, lower, lower_scalar
+from .scope import Scope
+from .values import Array, Record, Value, indices, scalars, shape_of, shape_text
+
+
+@dataclass
+class Source:
+    """What a kept function was made of, to run it on constants: result number `output`, its scalar `element`."""
+
+    cls: ast.Class
+    inputs: tuple[str, ...]
+    shapes: dict[str, tuple[int, ...]]
+    output: int
+    element: int
+
+
+def element(name: str, kind: str, index: tuple[Expr, ...]) -> Expr:
+    """The read of an array element inside a function."""
+    return ex.node("call", (ex.var(name, kind), *index), "[]", kind)
+
+
+def local_value(name: str, kind: str, shape: tuple[int, ...]) -> Value:
+    """A local variable as a value: a scalar, or an array of element reads."""
+    if not shape:
+        return ex.var(name, kind)
+    return Array(shape, tuple(element(name, kind, tuple(map(ex.const, i))) for i in indices(shape)))
+
+
+def emitted_call(
+    cls: ast.Class, declared: list, arguments: dict[str, Value], context: Context, span: Span
+) -> list[Value]:
+    """Calls that give the results of the function, one for each scalar of each result."""
+    base = _base(cls, declared, arguments, context, span)
+    function = context.functions[base]
+    call_arguments = [ex.array(*v.items) if isinstance(v, Array) else v for v in arguments.values()]
+    results: list[Value] = []
+    for number, name in enumerate(function.outputs):
+        shape, kind = function.shapes[name], function.types[name]
+        if number == 0 and not shape:
+            results.append(ex.call(base, *call_arguments, type=kind))
+            continue
+        items = []
+        for position, index in enumerate(indices(shape) if shape else [()]):
+            selected = _selected(function, cls, name, number, position, index, context)
+            items.append(ex.call(selected, *call_arguments, type=kind))
+        results.append(Array(shape, tuple(items)) if shape else items[0])
+    return results
+
+
+def _selected(
+    function: flat.Function, cls: ast.Class, name: str, number: int, position: int, index: tuple[int, ...],
+    context: Context,
+) -> str:  # fmt: skip
+    """A function that calls `function` and gives one scalar of one of its results."""
+    text = "[" + ",".join(map(str, index)) + "]" if index else ""
+    selected = f"{function.name}.{name}{text}"
+    if selected in context.functions:
+        return selected
+    kind, shape = function.types[name], function.shapes[name]
+    call = ex.call(function.name, *(_argument(i, function) for i in function.inputs), type=kind)
+    targets = tuple(n if n == name else None for n in function.outputs)
+    picked = element(name, kind, tuple(map(ex.const, index))) if index else ex.var(name, kind)
+    inputs = {n: function.shapes[n] for n in function.inputs}
+    types = {n: function.types[n] for n in function.inputs}
+    context.functions[selected] = flat.Function(
+        selected, function.inputs, ("result",), {**inputs, name: shape, "result": ()},
+        {**types, name: kind, "result": kind}, {},
+        [flat.AssignCall(targets, call, function.span), flat.Assign("result", picked, function.span)], function.span,
+    )  # fmt: skip
+    context.function_sources[selected] = Source(cls, function.inputs, inputs, number, position)
+    return selected
+
+
+def _argument(name: str, function: flat.Function) -> Expr:
+    value = local_value(name, function.types[name], function.shapes[name])
+    return ex.array(*value.items) if isinstance(value, Array) else value
+
+
+def _base(cls: ast.Class, declared: list, arguments: dict[str, Value], context: Context, span: Span) -> str:
+    shapes = {n: shape_of(v) for n, v in arguments.items()}
+    sizes = ",".join("x".join(map(str, s)) for s in shapes.values() if s)
+    name = f"{cls.path}[{sizes}]" if sizes else cls.path
+    if name not in context.functions:
+        for n, v in arguments.items():
+            if isinstance(v, Record) or any(isinstance(s, str) for s in scalars(v)):
+                what = "record" if isinstance(v, Record) else "String"
+                hint = "give its fields one by one" if what == "record" else "decide by an enumeration or a Boolean"
+                raise Diagnostic("F036", f"{cls.name} has the {what} input {n} and runs at run time", span, hint)
+        _emit(name, cls, declared, shapes, context, span)
+    return name
+
+
+def _emit(
+    name: str, cls: ast.Class, declared: list, shapes: dict[str, tuple[int, ...]], context: Context, span: Span
+) -> None:
+    from .functions import declared_sizes, fit
+
+    inputs = tuple(shapes)
+    outputs = tuple(d.name for d in declared if d.declaration.causality == "output")
+    function = flat.Function(name, inputs, outputs, {}, {}, {}, [], cls.span)
+    context.functions[name] = function
+    context.function_sources[name] = Source(cls, inputs, shapes, 0, 0)
+    writer = _Writer(function, Scope(context, cls, None, {}, in_function=True))
+    try:
+        for d in declared:
+            if d.type.primitive not in (REAL, INTEGER, BOOLEAN):
+                hint = "use scalars and arrays in functions with loops of unknown length"
+                raise Diagnostic("F036", f"{d.name} is no number or Boolean", d.declaration.span, hint)
+            scope = replace(d.scope, locals=writer.scope.locals)
+            shape = shapes.get(d.name)
+            default = d.declaration.modification.value
+            writer.declare(d.name, d.type.primitive, declared_sizes(d, scope, None) if shape is None else shape)
+            if shape is None and default is not None:
+                value = fit(d, lower(default, scope), scope, default.span)
+                writer.assign([((d.name, None), value)], default.span, function.body)
+        for section in cls.sections:
+            function.body += writer.block(section.items)
+    except AtRunTime as reason:
+        del context.functions[name], context.function_sources[name]
+        message = f"in {cls.name}, {reason.args[0]} depends on an argument's value"
+        error = Diagnostic("F036", message, span, "sizes may depend on the sizes of arguments, not on their values")
+        error.notes.append((reason.args[1], "here"))
+        raise error from None
+
+
+class _Writer:
+    """Statements of one function; a target is (name, subscripts as values or None for all of it)."""
+
+    def __init__(self, function: flat.Function, scope: Scope) -> None:
+        self.function, self.scope = function, scope
+        self.counter = 0
+
+    def declare(self, name: str, kind: str, shape: tuple[int, ...]) -> None:
+        self.function.shapes[name], self.function.types[name] = shape, kind
+        self.scope.locals[name] = local_value(name, kind, shape)
+
+    def block(self, items: list[ast.Item]) -> list[flat.Statement]:
+        result: list[flat.Statement] = []
+        for item in items:
+            self._item(item, result)
+        return result
+
+    def _item(self, item: ast.Item, result: list[flat.Statement]) -> None:
+        from .equations import lower_assert
+
+        if isinstance(item, ast.Assignment):
+            self._assignment(item, result)
+        elif isinstance(item, ast.If):
+            self._if(item, result)
+        elif isinstance(item, ast.For):
+            self._for(item, list(item.iterators), result)
+        elif isinstance(item, ast.While):
+            condition = lower_scalar(item.condition, self.scope, BOOLEAN)
+            result.append(flat.While(condition, self.block(item.body), item.span))
+        elif isinstance(item, ast.Break):
+            result.append(flat.Break(item.span))
+        elif isinstance(item, ast.Return):
+            result.append(flat.Return(item.span))
+        elif isinstance(item, ast.Procedure) and str(item.call.function) == "assert":
+            result.append(lower_assert(item.call, self.scope))
+        else:
+            what = str(item.call.function) if isinstance(item, ast.Procedure) else type(item).__name__.lower()
+            raise Diagnostic("R059", f"'{what}' in a function", item.span, "functions compute values only")
+
+    def _if(self, item: ast.If, result: list[flat.Statement]) -> None:
+        branches = []
+        for written, body in item.branches:
+            condition = TRUE if written is None else lower_scalar(written, self.scope, BOOLEAN)
+            if condition is not FALSE:
+                branches.append((condition, self.block(body)))
+            if condition is TRUE:
+                break
+        if branches and branches[0][0] is TRUE:
+            result += branches[0][1]
+        elif branches:
+            result.append(flat.If(branches, item.span))
+
+    def _for(self, item: ast.For, iterators: list[ast.Iterator], result: list[flat.Statement]) -> None:
+        """Over a range the loop is kept; over an array it is unrolled."""
+        if not iterators:
+            result += self.block(item.body)
+            return
+        first, *rest = iterators
+        outer = self.scope
+        bounds = first.range
+        if isinstance(bounds, ast.Range):
+            low, high = (lower_scalar(b, outer, INTEGER) for b in (bounds.first, bounds.last))
+            step = lower_scalar(bounds.step, outer, INTEGER) if bounds.step else ex.const(1)
+            name = first.name if first.name not in self.function.types else self._fresh(first.name)
+            self.scope = outer.with_locals(**{first.name: ex.var(name, INTEGER)})
+            body: list[flat.Statement] = []
+            self._for(item, rest, body)
+            result.append(flat.For(name, low, step, high, body, item.span))
+        else:
+            for value in iterate(first, outer):
+                self.scope = outer.with_locals(**{first.name: value})
+                self._for(item, rest, result)
+        self.scope = outer
+
+    def _fresh(self, stem: str) -> str:
+        self.counter += 1
+        return f"{stem}_{self.counter}"
+
+    def _assignment(self, item: ast.Assignment, result: list[flat.Statement]) -> None:
+        from .calls import call_of_model
+
+        if not isinstance(item.target, ast.Tuple):
+            self.assign([(self._target(item.target), lower(item.value, self.scope))], item.span, result)
+            return
+        if not isinstance(item.value, ast.Call):
+            raise Diagnostic("R023", "a list on the left needs a call on the right", item.span, "(a, b) := f(x)")
+        values = call_of_model(item.value, self.scope)
+        pairs = zip(item.target.items, values, strict=False)
+        self.assign([(self._target(t), v) for t, v in pairs if t is not None], item.span, result)
+
+    def _target(self, ref: ast.Ref) -> tuple[str, Value | None]:
+        from .interpret import unknown_target
+
+        if len(ref.names) > 1:
+            raise Diagnostic("F036", "records in a function that runs at run time", ref.span, "use scalars and arrays")
+        if ref.names[0] not in self.function.types:
+            raise unknown_target(ref, self.function.types)
+        if ref.names[0] in self.function.inputs:
+            raise Diagnostic("R058", f"the input {ref.names[0]} is assigned", ref.span, "copy it to a variable first")
+        if ref.subscripts[0] is None:
+            return ref.names[0], None
+        from .references import apply_subscripts
+
+        whole = self.scope.locals[ref.names[0]]
+        return ref.names[0], apply_subscripts(whole, ref.subscripts[0], self.scope, ref)
+
+    def assign(
+        self, pairs: list[tuple[tuple[str, Value | None], Value]], span: Span, result: list[flat.Statement]
+    ) -> None:
+        """All targets at once: values that read what is assigned go through temporary variables."""
+        steps: list[tuple[Expr, Expr]] = []
+        for (name, part), value in pairs:
+            old = self.scope.locals[name] if part is None else part
+            if shape_of(old) != shape_of(value) or isinstance(value, Record):
+                message = f"{name}: {shape_text(shape_of(old))} := {shape_text(shape_of(value))}"
+                raise Diagnostic("R042", f"the sides differ in size: {message}", span, "both need the same size")
+            steps += zip(scalars(old), scalars(value), strict=True)
+        from .functions import typed
+
+        steps = [(t, typed(v, t.type, ex.to_text(t), span)) for t, v in steps]
+        if len(steps) > 1 and any(self._reads(v, pairs) for _, v in steps):
+            temporary = self._fresh("before")
+            self.declare(temporary, steps[0][0].type, (len(steps),))
+            copies = scalars(self.scope.locals[temporary])
+            result += [_store(copy, value, span) for copy, (_, value) in zip(copies, steps, strict=True)]
+            steps = [(target, copy) for (target, _), copy in zip(steps, copies, strict=True)]
+        result += [_store(target, value, span) for target, value in steps]
+
+    @staticmethod
+    def _reads(value: Expr, pairs: list[tuple[tuple[str, Value | None], Value]]) -> bool:
+        names = {name for (name, _), _ in pairs}
+        return any(n.op == "var" and n.value in names for n in ex.walk(value))
+
+
+def _store(target: Expr, value: Expr, span: Span) -> flat.Statement:
+    if target.op == "var":
+        return flat.Assign(str(target.value), value, span)
+    return flat.AssignElement(str(target.args[0].value), target.args[1:], value, span)
+
+
+def at_index(value: Value, index: Expr) -> Value | None:
+    """`value` (the first row of an array) with its row number replaced by a run-time `index`; None where it is no
+    array of element reads."""
+
+    def moved(item: Expr | str, dimensions: int) -> Expr | None:
+        if not isinstance(item, Expr) or item.op != "call" or item.value != "[]":
+            return None
+        position = len(item.args) - 1 - dimensions
+        args = item.args[:position] + (index,) + item.args[position + 1 :]
+        return ex.node("call", args, "[]", item.type)
+
+    dimensions = len(shape_of(value))
+    items = [moved(item, dimensions) for item in scalars(value)]
+    if None in items:
+        return None
+    return Array(value.shape, tuple(items)) if isinstance(value, Array) else items[0]

@@ -1,0 +1,260 @@
+"""Running the body of a function on values: numbers give numbers, expressions give expressions."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import prod
+
+from .. import expr as ex
+from ..errors import Diagnostic, Span
+from ..expr import BOOLEAN, TRUE, Expr
+from ..syntax import ast
+from .constants import AtRunTime
+from .context import Context
+from .lower import iterate, lower, lower_scalar
+from .references import apply_subscripts
+from .scope import Scope
+from .values import Array, Record, Value, elementwise, integers, scalars, shape_of, shape_text
+
+MAX_STEPS = 2_000_000
+MAX_SYMBOLIC_STEPS = 400
+
+
+def unset(kind: str) -> Expr:
+    """Stands for a variable that nothing was assigned to."""
+    return ex.node("unset", (), None, kind)
+
+
+def interpret(
+    cls: ast.Class, declared: list, arguments: dict[str, Value], context: Context, span: Span
+) -> list[Value]:
+    """Results of the function on `arguments`. Raises AtRunTime where its course depends on unknown values."""
+    from .functions import declared_sizes, fit
+
+    run = _Run(cls, context, dict(arguments), span)
+    for local in declared:
+        if local.declaration.causality == "input":
+            continue
+        scope = replace(local.scope, locals=run.locals)
+        default = local.declaration.modification.value
+        if default is not None:
+            run.locals[local.name] = fit(local, lower(default, scope), scope, default.span)
+        elif local.type.primitive is None:
+            run.locals[local.name] = _blank_record(local, context)
+        else:
+            shape = declared_sizes(local, scope, None)
+            blank = unset(local.type.primitive)
+            run.locals[local.name] = Array(shape, (blank,) * prod(shape)) if shape else blank
+    for section in cls.sections:
+        run.block(section.items)
+    results = []
+    for local in declared:
+        if local.declaration.causality == "output":
+            value = run.locals[local.name]
+            for item in scalars(value):
+                if isinstance(item, Expr) and any(n.op == "unset" for n in ex.walk(item)):
+                    message = f"the output {local.name} of {cls.name} is not assigned in every case"
+                    raise Diagnostic("F033", message, local.declaration.span, "assign it, or give it a value first")
+            results.append(value)
+    return results
+
+
+def _blank_record(local: object, context: Context) -> Record:
+    from .functions import declared_locals
+
+    fields: dict[str, Value] = {}
+    for part in declared_locals(local.type.cls, context):
+        fields[part.name] = unset(part.type.primitive) if part.type.primitive else _blank_record(part, context)
+    return Record(local.name, fields)
+
+
+class _Run:
+    def __init__(self, cls: ast.Class, context: Context, values: dict[str, Value], span: Span) -> None:
+        self.scope = Scope(context, cls, None, values, in_function=True)
+        self.locals = values
+        self.span = span
+        self.steps = 0
+        symbolic = any(isinstance(s, Expr) and s.op != "const" for v in values.values() for s in scalars(v))
+        self.symbolic = symbolic
+        self.limit = MAX_SYMBOLIC_STEPS if symbolic else MAX_STEPS
+
+    def block(self, items: list[ast.Item]) -> str:
+        """Run statements; "break" or "return" where one of these ended the block."""
+        for item in items:
+            self.steps += 1
+            if self.steps > self.limit:
+                if self.symbolic:
+                    raise AtRunTime("a long computation", item.span)
+                message = f"no end after {MAX_STEPS} statements"
+                raise Diagnostic("F034", message, item.span, "does the loop reach its end?")
+            signal = self._item(item)
+            if signal:
+                return signal
+        return ""
+
+    def _item(self, item: ast.Item) -> str:
+        if isinstance(item, ast.Assignment):
+            self._assign(item)
+        elif isinstance(item, ast.If):
+            return self._if(item)
+        elif isinstance(item, ast.For):
+            return self._for(item, 0)
+        elif isinstance(item, ast.While):
+            while self._decided(item.condition):
+                signal = self.block(item.body)
+                self.steps += 1
+                if signal == "return":
+                    return signal
+                if signal == "break":
+                    break
+        elif isinstance(item, ast.Break):
+            return "break"
+        elif isinstance(item, ast.Return):
+            return "return"
+        elif isinstance(item, ast.Procedure):
+            self._procedure(item)
+        else:
+            what = type(item).__name__.lower()
+            raise Diagnostic("R059", f"'{what}' in a function", item.span, "functions have no events")
+        return ""
+
+    def _procedure(self, item: ast.Procedure) -> None:
+        from .equations import lower_assert
+
+        if str(item.call.function) != "assert":
+            hint = "assign its result: y := f(x)"
+            raise Diagnostic("R056", f"a call of {item.call.function} is no statement here", item.span, hint)
+        check = lower_assert(item.call, self.scope)
+        if check.condition.op != "const":
+            raise AtRunTime("an assert", item.span)
+        if not check.condition.value and check.level == "error":
+            error = Diagnostic("F035", f"the function failed: {check.message}", self.span)
+            error.notes.append((item.span, "by this assert"))
+            error.hint = "change the arguments"
+            raise error
+
+    def _decided(self, written: ast.Expression) -> bool:
+        condition = lower_scalar(written, self.scope, BOOLEAN)
+        if condition.op != "const":
+            raise AtRunTime("the condition of a loop", written.span)
+        return bool(condition.value)
+
+    def _for(self, item: ast.For, at: int) -> str:
+        iterator = item.iterators[at]
+        shadowed = self.locals.get(iterator.name)
+        values = iterate(iterator, self.scope)
+        signal = ""
+        for value in values:
+            self.locals[iterator.name] = value
+            inner = at + 1 < len(item.iterators)
+            signal = self._for(item, at + 1) if inner else self.block(item.body)
+            if signal:
+                break
+        if shadowed is None:
+            self.locals.pop(iterator.name, None)
+        else:
+            self.locals[iterator.name] = shadowed
+        return "return" if signal == "return" else ""
+
+    def _if(self, item: ast.If) -> str:
+        outcomes: list[tuple[Expr, dict[str, Value]]] = []
+        before = dict(self.locals)
+        for written, body in item.branches:
+            self._set(before)
+            condition = TRUE if written is None else lower_scalar(written, self.scope, BOOLEAN)
+            if condition.op == "const" and not condition.value:
+                continue
+            if condition is TRUE and not outcomes:
+                return self.block(body)
+            if self.block(body):
+                raise AtRunTime("leaving a branch early", item.span)
+            outcomes.append((condition, dict(self.locals)))
+            if condition is TRUE:
+                break
+        if not outcomes:
+            self._set(before)
+            return ""
+        if outcomes[-1][0] is not TRUE:
+            outcomes.append((TRUE, before))
+        merged = dict(outcomes[-1][1])
+        for condition, values in reversed(outcomes[:-1]):
+            for name, value in values.items():
+                if name in merged and merged[name] is not value:
+                    merged[name] = _choose(condition, value, merged[name], item.span)
+        self._set(merged)
+        return ""
+
+    def _set(self, values: dict[str, Value]) -> None:
+        self.locals.clear()
+        self.locals.update(values)
+
+    def _assign(self, item: ast.Assignment) -> None:
+        from .calls import call_of_model
+
+        if isinstance(item.target, ast.Tuple):
+            if not isinstance(item.value, ast.Call):
+                raise Diagnostic("R023", "a list on the left needs a call on the right", item.span, "(a, b) := f(x)")
+            results = call_of_model(item.value, self.scope)
+            for target, value in zip(item.target.items, results, strict=False):
+                if target is not None:
+                    self._store(target, value, item.span)
+        else:
+            self._store(item.target, lower(item.value, self.scope), item.span)
+
+    def _store(self, target: ast.Ref, value: Value, span: Span) -> None:
+        name = target.names[0]
+        if name not in self.locals:
+            raise unknown_target(target, self.locals)
+        self.locals[name] = self._updated(self.locals[name], target, 0, value, span)
+
+    def _updated(self, old: Value, target: ast.Ref, at: int, value: Value, span: Span) -> Value:
+        """`old` with the part that `target` names, from name number `at` on, replaced by `value`."""
+        if at + 1 < len(target.names):
+            if not isinstance(old, Record) or target.names[at + 1] not in old.fields:
+                raise Diagnostic("R003", f"{target} has no such element", target.span, "only records have elements")
+            name = target.names[at + 1]
+            return Record(old.name, old.fields | {name: self._updated(old.fields[name], target, at + 1, value, span)})
+        subscripts = target.subscripts[at]
+        if subscripts is None:
+            return conform(old, value, span, str(target))
+        numbers = Array(shape_of(old), integers(list(range(prod(shape_of(old))))).items)
+        picked = apply_subscripts(numbers, subscripts, self.scope, target)
+        if any(p.op != "const" for p in scalars(picked)):
+            raise AtRunTime("an index", span)
+        if shape_of(picked) != shape_of(value):
+            message = f"{shape_text(shape_of(picked))} := {shape_text(shape_of(value))}"
+            raise Diagnostic("R042", f"the sides differ in size: {message}", span, "both need the same size")
+        items = list(old.items)
+        for position, new in zip(scalars(picked), scalars(value), strict=True):
+            items[position.value] = conform(old.items[position.value], new, span, str(target))
+        return Array(old.shape, tuple(items))
+
+
+def unknown_target(target: ast.Ref, names: dict[str, Value]) -> Diagnostic:
+    from ..suggest import did_you_mean
+
+    hint = did_you_mean(target.names[0], names, "declare it under 'protected'")
+    return Diagnostic("R002", f"there is no variable {target.names[0]}", target.span, hint)
+
+
+def conform(old: Value, value: Value, span: Span, name: str) -> Value:
+    """`value` for a variable that held `old`: the same size, and a type that fits."""
+    from .functions import typed
+
+    if shape_of(old) != shape_of(value) or isinstance(old, Record) != isinstance(value, Record):
+        message = f"{name} has size {shape_text(shape_of(old))}, given {shape_text(shape_of(value))}"
+        raise Diagnostic("R042", message, span, "both need the same size")
+    if isinstance(old, Record):
+        return value
+    kinds = [o.type if isinstance(o, Expr) else "String" for o in scalars(old)]
+    items = [typed(v, k, name, span) for v, k in zip(scalars(value), kinds, strict=True)]
+    return Array(old.shape, tuple(items)) if isinstance(old, Array) else items[0]
+
+
+def _choose(condition: Expr, then: Value, otherwise: Value, span: Span) -> Value:
+    if isinstance(then, Record) and isinstance(otherwise, Record):
+        fields = {n: _choose(condition, v, otherwise.fields[n], span) for n, v in then.fields.items()}
+        return Record(then.name, fields)
+    if isinstance(then, str) or isinstance(otherwise, str):
+        raise AtRunTime("a String", span)
+    return elementwise(lambda a, b: ex.if_else(condition, a, b), [then, otherwise], span, "alternatives")
