@@ -69,7 +69,17 @@ def _draw_lines(axes: Axes, settings: Settings, rows: list[Row]) -> None:
         if channel < len(settings.currents):
             lines = [np.nan if row.peak_bin[channel] is None else row.peak_bin[channel] for row in rows]
             axes.plot(severity, lines, style, color=colour, drawstyle="steps-mid", label=f"phase {phase_name(channel)}")
+    if any(row.speed_mean is not None for row in rows):
+        _draw_electrical_frequency(axes, settings, rows, resolution)
+    axes.set_ylabel(f"spectral line  (of {resolution:.4f} Hz)")
+    axes.set_title("First peak of the three phases")
+    axes.legend(frameon=False, ncols=4, loc="upper right")
+    severity_axis(axes, settings)
+
+
+def _draw_electrical_frequency(axes: Axes, settings: Settings, rows: list[Row], resolution: float) -> None:
     pole_pairs = settings.raw["actuator"].get("pole_pairs", 1)
+    severity = 100 * np.array([row.severity for row in rows])
     speed = np.array([np.nan if row.speed_mean is None else row.speed_mean for row in rows])
     electrical = pole_pairs * speed / (2 * np.pi) / resolution
     axes.plot(severity, electrical, color=INK, linewidth=1.2)
@@ -82,7 +92,3 @@ def _draw_lines(axes: Axes, settings: Settings, rows: list[Row]) -> None:
             axes.text(100 * settings.fault.first, middle, text, va="bottom", fontsize=9, color=MUTED)
     axes.set_ylim(np.floor(low) + 0.4, np.ceil(high) + 0.45)
     axes.set_yticks(np.arange(np.floor(low) + 1, np.ceil(high) + 1))
-    axes.set_ylabel(f"spectral line  (of {resolution:.4f} Hz)")
-    axes.set_title("First peak of the three phases")
-    axes.legend(frameon=False, ncols=4, loc="upper right")
-    severity_axis(axes, settings)

@@ -11,7 +11,7 @@ from analysis.chain import library_path
 
 
 class Parameters(ctypes.Structure):
-    _fields_ = [(name, ctypes.c_double) for name in "V R L Ke pp J d tau_c f_cut zeta".split()]
+    _fields_ = [(name, ctypes.c_double) for name in ["V", "R", "L", "Ke", "pp", "J", "d", "tau_c", "f_cut", "zeta"]]
 
 
 @lru_cache(maxsize=1)

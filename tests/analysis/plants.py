@@ -1,0 +1,37 @@
+"""Plants for tests that need no translated model."""
+
+from __future__ import annotations
+
+from analysis.plant import Record, SourceEquation
+from analysis.settings import PAPER, Settings, load_settings
+from tests.analysis.reference import simulate
+
+
+class ReferencePlant:
+    """The hand-written simulation; counts its runs, and stops at the severity `fails_at` with `error`."""
+
+    name = "reference actuator"
+
+    def __init__(self, hash: str = "1", fails_at: float | None = None, error: BaseException | None = None):
+        self.hash, self.runs = hash, []
+        self.passes = {"by hand": 0.0}
+        self.equations = [SourceEquation("J*a = tau < 0 & b", "rotor", "by hand:1")]
+        self._fails_at, self._error = fails_at, error
+
+    def run(self, severity: float) -> Record:
+        if severity == self._fails_at:
+            raise self._error
+        self.runs.append(severity)
+        record = simulate(severity)
+        return Record(record[:3], record[3], record[4], {"steps": 100000, "state_events": 403})
+
+
+def paper_settings(folder, *replacements: tuple[str, str]) -> Settings:
+    """The paper's settings with pieces of their text replaced, written into `folder`."""
+    text = PAPER.read_text(encoding="utf-8")
+    for old, new in replacements:
+        assert old in text, old
+        text = text.replace(old, new)
+    path = folder / "settings.toml"
+    path.write_text(text, encoding="utf-8")
+    return load_settings(path)

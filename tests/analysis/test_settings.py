@@ -1,0 +1,37 @@
+"""What a settings file may hold, and how its slips are told."""
+
+from __future__ import annotations
+
+import pytest
+
+from analysis.errors import AnalysisError
+from analysis.settings import load_settings
+from tests.analysis.plants import paper_settings
+
+
+def test_the_papers_settings():
+    settings = load_settings()
+    assert settings.samples == 100000
+    assert settings.fault.severities == [round(0.01 * k, 2) for k in range(51)]
+    assert [band.name for band in settings.bands] == ["green", "orange", "red", "violet"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("[fault]", "[fault", "not a settings file"),
+        ("duration = 1.0", "length = 1.0", "'duration' is missing|duration is missing"),
+        ("step = 0.01", "step = -1.0", "step above zero"),
+        ("sampling_rate = 100000.0", 'sampling_rate = "fast"', "fast"),
+        ('mode = "Normal"', 'state = "Normal"', "state"),
+    ],
+)
+def test_slips_name_the_file_and_the_entry(tmp_path, old, new, message):
+    with pytest.raises(AnalysisError, match=message) as caught:
+        paper_settings(tmp_path, (old, new))
+    assert "settings.toml" in str(caught.value)
+
+
+def test_a_missing_file_is_an_os_error(tmp_path):
+    with pytest.raises(FileNotFoundError):
+        load_settings(tmp_path / "none.toml")
