@@ -104,7 +104,7 @@ def _continuous_signals(model: runtime.Model) -> list[str]:
     seen: set[tuple] = set()
     names = []
     for name, variable in model.variables.items():
-        place = (variable.storage, variable.index)
+        place = (variable.kind, variable.index)
         if variable.kind != "parameter" and place not in seen:
             seen.add(place)
             names.append(name)

@@ -1,0 +1,89 @@
+"""The two comparisons a user asks for: all scenarios lane against lane, and one model against a file from elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+import csv
+from pathlib import Path
+
+import numpy as np
+
+from analysis.comparison.deviation import SignalDeviation, signal_deviation
+from analysis.comparison.scenarios import Scenario
+from analysis.comparison.study import Lane, Study, rows, run
+from analysis.errors import AnalysisError
+from analysis.files import published_together
+import runtime
+
+
+def compare_lanes(
+    scenarios: Sequence[Scenario],
+    compiled: Callable[[str], runtime.Model],
+    out: Path,
+    tick: Callable[[Scenario, Lane], None] = lambda scenario, lane: None,
+) -> list[Study]:
+    """Run every scenario; write deviations.csv, figures and report.html into `out`, all together at the end.
+
+    `compiled` gives the model of a qualified name.
+    """
+    studies, units = [], {}
+    for scenario in scenarios:
+        model = compiled(scenario.model)
+        for name in scenario.shown:
+            model.variable(name)
+        studies.append(run(scenario, model, lambda lane, s=scenario: tick(s, lane)))
+        units[scenario.name] = {name: v.unit for name, v in model.variables.items()}
+    with published_together(out) as folder:
+        _write_csv(folder / "deviations.csv", [row for study in studies for row in rows(study)])
+        _write_report(studies, units, folder)
+    return studies
+
+
+def _write_csv(path: Path, table: Sequence[dict[str, object]]) -> None:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, fieldnames=list(table[0]))
+        writer.writeheader()
+        writer.writerows(table)
+
+
+def _write_report(studies: Sequence[Study], units: dict[str, dict[str, str]], folder: Path) -> None:
+    from analysis.comparison.figures import draw_all
+    from analysis.comparison.report import report_html
+
+    figures = {s.scenario.name: draw_all(s, units[s.scenario.name], folder) for s in studies}
+    (folder / "report.html").write_text(report_html(studies, figures, folder), encoding="utf-8")
+
+
+def compare_with_file(
+    result: runtime.Result, time: np.ndarray, columns: dict[str, np.ndarray]
+) -> list[SignalDeviation]:
+    """Deviation of each column of a file (the reference) from a run on the same instants `time` (s).
+
+    Raises AnalysisError where the run ended early or a column is not a variable of the model.
+    """
+    if not result.complete:
+        raise AnalysisError(str(result.failure))
+    use = np.ones(time.shape, dtype=bool)
+    return [
+        signal_deviation(name, time, values, result[name], use & np.isfinite(values))
+        for name, values in columns.items()
+    ]
+
+
+def read_columns(path: Path) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """`time` and the other columns of a CSV with one header line; empty fields are NaN. `event` is left out."""
+    with path.open(newline="", encoding="utf-8") as file:
+        lines = list(csv.reader(file))
+    header = [name.strip() for name in lines[0]] if lines else []
+    if not header or header[0] != "time":
+        raise AnalysisError(f"{path}: the first column must be 'time'")
+    try:
+        body = np.array([[float(cell) if cell.strip() else np.nan for cell in line] for line in lines[1:]], dtype=float)
+    except ValueError as error:
+        raise AnalysisError(f"{path}: {error}") from None
+    if body.ndim != 2 or body.shape[1] != len(header) or len(body) < 2:
+        raise AnalysisError(f"{path}: every line needs {len(header)} fields, and at least two lines are needed")
+    if not np.all(np.diff(body[:, 0]) >= 0):
+        row = int(np.flatnonzero(~(np.diff(body[:, 0]) >= 0))[0]) + 3
+        raise AnalysisError(f"{path}:{row}: time must not decrease")
+    return body[:, 0], {name: body[:, k] for k, name in enumerate(header) if name not in ("time", "event")}
