@@ -66,7 +66,7 @@ def overlay(study: Study, units: Mapping[str, str]) -> Figure:
             axes.plot(
                 study.time[: len(values)], values, "--", color=COLOURS[family], linewidth=1.2, label=result.lane.label
             )
-        axes.set_ylabel(_label(name, units))
+        axes.set_ylabel(_label(name, units.get(name, "")))
     _finish(figure, panels, study, "signals")
     return figure
 
@@ -82,7 +82,7 @@ def difference(study: Study, units: Mapping[str, str]) -> Figure:
                 study.time[: len(gap)], np.where(gap > 0, gap, np.nan), color=COLOURS[result.lane.family],
                 linewidth=1.0, label=result.lane.label,
             )  # fmt: skip
-        axes.set_ylabel("|Δ " + _label(name, units))
+        axes.set_ylabel(_label(f"|Δ {name}|", units.get(name, "")))
     _finish(figure, panels, study, "distance from the reference")
     return figure
 
@@ -94,8 +94,7 @@ def _finish(figure: Figure, panels: list, study: Study, what: str) -> None:
     figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize=8, frameon=False)
 
 
-def _label(name: str, units: Mapping[str, str]) -> str:
-    unit = units.get(name, "")
+def _label(name: str, unit: str) -> str:
     return f"{name}  ({unit})" if unit not in ("", "1") else name
 
 
