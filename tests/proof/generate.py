@@ -1,0 +1,235 @@
+"""Writes the proof's cases: `python -m tests.proof.generate --seed 1 --out DIR [--only NAME ...]`.
+
+DIR/cases/NAME is a recording case as the tool reads it; DIR/truth/NAME.toml is what really is in it.
+"""
+
+import argparse
+from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, replace
+import os
+from pathlib import Path
+
+import numpy as np
+
+from tests.proof.benches import BENCHES, Bench
+from tests.proof.effects import Concealed, catalogue, outside
+from tests.proof.plan import Plan, plan
+from tests.proof.refit import Refit, case_nrmse
+from tests.proof.write import write_case, write_truth
+
+
+@dataclass
+class Case:
+    """A case in memory: machine, instruments and recordings, with the truth."""
+
+    name: str
+    plan: Plan
+    bench: Bench
+    outputs: tuple[str, ...]
+    believed: dict[str, float]
+    true: dict[str, float]
+    concealed: list[Concealed]
+    inputs: list[np.ndarray]
+    fit: int  # recordings before this one are for fitting
+    noise_scale: float
+    colour: float
+    unknown_noise: bool
+    clean: list[np.ndarray] = None
+    measured: list[np.ndarray] = None
+    refit: dict = None
+
+
+def simulate(case: Case) -> list[np.ndarray]:
+    """What ideal instruments (but for concealed sensor errors) would have recorded."""
+    bench, machine = case.bench, case.bench.machine
+    kernel = bench.kernel(case.true)
+    lag, delay = {}, 0.0
+    for c in case.concealed:
+        kernel |= c.kernel
+        lag |= c.lag
+        delay += c.delay
+    hold = [name in bench.hold for name in machine.inputs]
+    columns = [machine.outputs.index(name) for name in case.outputs]
+    recorded = []
+    for u in case.inputs:
+        y = machine.simulate(kernel, bench.period, u, hold=hold, delay=delay, lags=lag)[:, columns]
+        for c in case.concealed:
+            for j, name in enumerate(case.outputs):
+                if name in c.once_per_rev:
+                    amplitude, phase = c.once_per_rev[name]
+                    y[:, j] += amplitude * np.sin(y[:, j] + phase) - amplitude * np.sin(phase)
+                y[:, j] = y[:, j] * c.gain.get(name, 1.0) + c.offset.get(name, 0.0)
+        recorded.append(y)
+    return recorded
+
+
+def place_stops(case: Case) -> None:
+    """Puts end stops within the stroke that the recordings reach without them."""
+    for k, c in enumerate(case.concealed):
+        if not c.stop_share:
+            continue
+        machine, others = case.bench.machine, [o for o in case.concealed if o is not c]
+        angle = "ths" if "ths" in machine.outputs else "theta"
+        free = replace(case, concealed=others, outputs=(angle,))
+        at = c.stop_share * max(float(y.max()) for y in simulate(free)[: case.fit])
+        case.concealed[k] = replace(
+            c,
+            kernel={**c.kernel, "stop_high": at},
+            parameters={"position": (at, "rad", ("stop", "limit", "theta_max", "phi_max"))},
+        )
+
+
+def noise_std(case: Case, name: str) -> float:
+    """Of a signal, with its quantisation."""
+    instrument = case.bench.instruments[name]
+    return float(np.hypot(instrument.noise * case.noise_scale, instrument.quantum / np.sqrt(12)))
+
+
+def measure(case: Case, rng: np.random.Generator) -> list[np.ndarray]:
+    """Noise of the case's colour and quantisation on the clean recordings."""
+    measured = []
+    for clean in case.clean:
+        y = np.empty_like(clean)
+        for j, name in enumerate(case.outputs):
+            instrument = case.bench.instruments[name]
+            white = rng.standard_normal(len(clean))
+            coloured = np.empty_like(white)
+            coloured[0] = white[0]
+            for k in range(1, len(white)):
+                coloured[k] = case.colour * coloured[k - 1] + np.sqrt(1 - case.colour**2) * white[k]
+            noisy = clean[:, j] + instrument.noise * case.noise_scale * coloured
+            y[:, j] = np.round(noisy / instrument.quantum) * instrument.quantum
+        measured.append(y)
+    return measured
+
+
+def _outputs(bench: Bench, rng: np.random.Generator, drawn: Sequence[Concealed], fewest: int) -> tuple[str, ...]:
+    needs = {n for c in drawn for n in c.needs}
+    lacks = {n for c in drawn for n in c.lacks}
+    sets = [s for s in bench.sets_of_outputs if needs <= set(s) and not lacks & set(s) and len(s) >= fewest]
+    if not sets:
+        return tuple(n for n in bench.instruments if n not in lacks)
+    return sets[rng.integers(len(sets))]
+
+
+def _conceal(bench_name: str, item: Plan, seed: int, size: float) -> list[Concealed]:
+    known, unknown = catalogue(bench_name), outside(bench_name)
+    made = []
+    for k, effect in enumerate(item.effects):
+        maker = known.get(effect) or unknown[effect]
+        made.append(maker(np.random.default_rng([seed, 7, k]), size * (0.8 if k else 1.0)))
+    return made
+
+
+def _scaled_defaults(bench: Bench, rng: np.random.Generator) -> dict[str, float]:
+    return {
+        n: float(f"{v * (1 + 2 * bench.uncertainty.get(n, 0.05) * np.clip(rng.standard_normal(), -1.4, 1.4)):.4g}")
+        for n, v in bench.believed.items()
+    }
+
+
+def _prepare(name: str, item: Plan, seed: int) -> Case:
+    rng = np.random.default_rng([seed, 1])
+    bench = BENCHES[item.bench]
+    believed = _scaled_defaults(bench, rng)
+    true = {
+        n: v * float(1 + bench.uncertainty.get(n, 0.05) * np.clip(rng.standard_normal(), -2, 2))
+        for n, v in believed.items()
+    }
+    for parameter in item.off:
+        sigma = bench.uncertainty[parameter]
+        sign = 1 if sigma > 0.12 or rng.random() < 0.5 else -1
+        true[parameter] = believed[parameter] * (1 + sign * sigma * rng.uniform(4.5, 7.0))
+    concealed = _conceal(item.bench, item, seed, 1.0)
+    fits = int(rng.integers(2, 4)) if item.bench not in ("BldcDrive",) else 3
+    first = int(rng.integers(0, 4)) if item.bench != "BldcDrive" else 0
+    kinds = [("one_way" if item.kind == "one_way" else "fit", first + k) for k in range(fits)]
+    kinds.append(("one_way" if item.kind == "one_way" else "validate", int(rng.integers(0, 3))))
+    inputs = [bench.experiment(rng, kind, index) for kind, index in kinds]
+    return Case(
+        name,
+        item,
+        bench,
+        _outputs(bench, rng, concealed, 2 if item.off else 1),
+        believed,
+        true,
+        concealed,
+        inputs,
+        fits,
+        noise_scale=float(rng.choice([0.6, 1.0, 1.0, 1.5])),
+        colour=float(rng.choice([0.0, 0.0, 0.0, 0.5, 0.8])),
+        unknown_noise=bool(rng.random() < 0.2),
+    )
+
+
+def _judge(case: Case, seed: int, start: dict[str, float]) -> float:
+    """Simulates, measures and refits; returns the believed model's misfit over the floor on the fit recordings."""
+    case.clean = simulate(case)
+    case.measured = measure(case, np.random.default_rng([seed, 3]))
+    pairs = list(zip(case.inputs, case.measured, strict=True))
+    refit = Refit(case.bench, case.outputs, pairs[: case.fit])
+    fitted, _ = refit.fit(start)
+    every = Refit(case.bench, case.outputs, pairs)
+    case.refit = {"parameters": fitted}
+    simulated = {
+        "believed": every.simulate(case.believed),
+        "refit_believed": every.simulate(fitted),
+        "floor": case.clean,
+    }
+    for part, of in (("fit", slice(0, case.fit)), ("validate", slice(case.fit, None))):
+        case.refit[part] = {k: case_nrmse(case.measured[of], s[of]) for k, s in simulated.items()}
+    return case.refit["fit"]["refit_believed"] / case.refit["fit"]["floor"]
+
+
+def build(name: str, item: Plan, seed: int) -> Case:
+    """One case, its concealed effect tuned until the believed model's misfit is of the planned order."""
+    case = _prepare(name, item, seed)
+    start, size = case.true, 1.0
+    target = float(np.exp(np.random.default_rng([seed, 2]).uniform(*np.log(item.gain))))
+    for attempt in range(7):
+        case.concealed = _conceal(item.bench, item, seed, size)
+        try:
+            place_stops(case)
+            gain = _judge(case, seed, start)
+        except ArithmeticError:
+            size *= 0.6
+            continue
+        if not item.effects or abs(np.log(gain / target)) < 0.25:
+            break
+        wanted = np.sqrt(max(target**2 - 1, 0.02) / max(gain**2 - 1, 0.005))
+        size *= float(np.clip(wanted, 0.35, 2.5))
+        start = case.refit["parameters"] if attempt % 2 else case.true
+    return case
+
+
+def generate(item: tuple[str, Plan, int, Path]) -> str:
+    """Builds and writes one case; returns a line about it."""
+    name, planned, seed, out = item
+    case = build(name, planned, seed)
+    write_case(case, out / "cases" / name, {n: noise_std(case, n) for n in case.outputs})
+    write_truth(case, out / "truth" / f"{name}.toml", seed)
+    fit, validate = case.refit["fit"], case.refit["validate"]
+    return (
+        f"{name} {planned.kind:12s} {planned.bench:14s} {'+'.join(planned.effects or planned.off) or '-':34s} "
+        f"{','.join(case.outputs):18s} fit {fit['refit_believed']:.4f}/{fit['floor']:.4f} = "
+        f"{fit['refit_believed'] / fit['floor']:.2f}  validate {validate['refit_believed'] / validate['floor']:.2f}"
+    )
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--only", nargs="*", help="names of cases; all when absent")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    arguments = parser.parse_args()
+    planned = plan(arguments.seed)
+    chosen = [(n, p, s, arguments.out) for n, p, s in planned if not arguments.only or n in arguments.only]
+    with ProcessPoolExecutor(arguments.jobs) as pool:
+        for line in pool.map(generate, chosen):
+            print(line, flush=True)
+
+
+if __name__ == "__main__":
+    main()
