@@ -5,7 +5,7 @@ model DeadTime "Voltage lost against the sign of the current"
   parameter Types.Current i_s(final min=1e-9) = 0.003 "Current within which the sign changes";
 equation
   v = V_d*tanh(i/i_s);
-  annotation(__Lacuna(effect="drive.dead_time", attaches="phases", location="drive", neutral(V_d=0), fixed={"i_s"},
+  annotation(__Lacuna(effect="drive.dead_time", attaches="phases", neutral(V_d=0), fixed={"i_s"},
     signature="constant voltage with the sign of the current",
     excitation="small currents of both signs", reference="Jeong, Park 1991"));
 end DeadTime;

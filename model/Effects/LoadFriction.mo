@@ -8,7 +8,7 @@ equation
   flange.tau = tau_fric;
   tau_slide = tau_c + mu*noEvent(abs(load));
   tau_break = tau_slide;
-  annotation(__Lacuna(effect="friction.load", attaches="flange", neutral(tau_c=0, mu=0),
+  annotation(__Lacuna(effect="friction.load", attaches="flange", neutral(tau_c=0, mu=0), signals(load="transmitted"),
     signature="effort with the sign of the speed whose size follows the load",
     excitation="reversals under different loads", reference="Olaru, Puiu, Balan, Puiu 2004"));
 end LoadFriction;

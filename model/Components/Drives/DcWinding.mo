@@ -8,12 +8,16 @@ model DcWinding "Armature of a DC machine: resistance, inductance and constant b
   Types.AngularVelocity w "Speed of the shaft";
   Types.Voltage e "Back-EMF";
   Types.Torque tau "Torque on the shaft";
+  Types.Power loss "Heat";
+  Types.Energy stored "Magnetic energy";
 equation
   w = der(flange.phi);
   e = Ke*w;
   L*der(i) = v - R*i - e;
   tau = Ke*i;
   flange.tau = -tau;
+  loss = R*i*i;
+  stored = L*i*i/2;
   annotation(Documentation(info="<html>
 <p>Laws: <code>L der(i) = v - R i - Ke w</code>, torque <code>Ke i</code>. It also stands for a brushless machine with ideal
 current control, seen from its direct-current side.</p>

@@ -9,6 +9,8 @@ model PhaseWinding "Winding of one phase: resistance, inductance and a back-EMF 
   Types.AngularVelocity w "Speed of the shaft";
   Types.Voltage e "Back-EMF";
   Types.Torque tau "Torque on the shaft";
+  Types.Power loss "Heat";
+  Types.Energy stored "Magnetic energy";
 protected
   parameter Types.PerUnit turns = 1 - shorted "Fraction of the turns that is left";
 equation
@@ -17,6 +19,8 @@ equation
   turns*turns*L*der(i) = v - turns*R*i - e;
   tau = turns*k*i;
   flange.tau = -tau;
+  loss = turns*R*i*i;
+  stored = turns*turns*L*i*i/2;
   annotation(Documentation(info="<html>
 <p>Laws: <code>L der(i) = v - R i - k w</code> and torque <code>k i</code>; one constant in both, so electrical power
 <code>e i</code> is mechanical power <code>tau w</code>. When a fraction <code>f</code> of the turns is shorted, resistance

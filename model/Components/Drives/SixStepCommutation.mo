@@ -3,7 +3,7 @@ block SixStepCommutation "Which leg is high, which low and which floats, from th
   Interfaces.IntegerInput sector "Sector of the rotor's electrical angle";
   Interfaces.RealInput dir(unit="1") "Sense of the torque: positive or not";
   Interfaces.IntegerOutput leg[3] "Command of each leg: 1 to the positive rail, -1 to the negative rail, 0 floating";
-  Integer pattern[3](each start=0) "Command for positive torque";
+  Interfaces.IntegerOutput pattern[3](each start=0) "Command for positive torque";
 protected
   Integer sense "Sense of the torque, 1 or -1";
   Integer step[3](each start=0) "Sector as each phase sees it, 0 to 5";

@@ -19,6 +19,8 @@ model StarWinding "Stator of a trapezoidal machine: three windings in star with 
   PhaseWinding c(R=R, L=L, shorted=shorted[3]) "Phase c";
   HallSensor hall(pp=pp) "Sector of the rotor";
   Types.Torque tau "Electromagnetic torque";
+  Types.Power loss "Heat";
+  Types.Energy stored "Magnetic energy";
 protected
   constant Real pi = 3.141592653589793;
   parameter Types.Angle axis[3] = {0, 2*pi/3, 4*pi/3} "Axes of the phases, electrical";
@@ -47,6 +49,8 @@ equation
   b.k = Ke*shape[2]*gap[2];
   c.k = Ke*shape[3]*gap[3];
   tau = a.tau + b.tau + c.tau;
+  loss = a.loss + b.loss + c.loss;
+  stored = a.stored + b.stored + c.stored;
   annotation(Documentation(info="<html>
 <p>Phase x has the back-EMF constant <code>k_x = Ke trap(theta_e - axis_x) gap_x</code>. The trapezoid is flat from 30 to 150
 electrical degrees; its corners are the bounds of the sectors, so in every sector it is constant or linear. The

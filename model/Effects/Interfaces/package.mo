@@ -1,3 +1,3 @@
 within Lacuna.Effects;
-package Interfaces "Partial models that effects extend"
+package Interfaces "What effects extend, and the tracker that looks for their place"
 end Interfaces;

@@ -1,0 +1,3 @@
+within Lacuna.Actuators;
+package Scenarios "Variants of the flight control actuator with commands, loads and faults"
+end Scenarios;

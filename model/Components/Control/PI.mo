@@ -1,0 +1,21 @@
+within Lacuna.Components.Control;
+block PI "Proportional-integral controller with a limited output and anti-windup"
+  extends Interfaces.SISO;
+  parameter Real k(start=1) "Gain";
+  parameter Types.Time Ti(final min=1e-9, start=1) "Integral time";
+  parameter Real y_max(start=1) "Upper limit of the output";
+  parameter Real y_min = -y_max "Lower limit of the output";
+  Real x(start=0, fixed=true) "Integral of the input over Ti";
+protected
+  Real y_free "Output before the limit";
+equation
+  assert(y_min < y_max, "PI: y_min must be below y_max");
+  y_free = k*(u + x);
+  y = if y_free > y_max then y_max elseif y_free < y_min then y_min else y_free;
+  Ti*der(x) = if y_free > y_max and k*u > 0 or y_free < y_min and k*u < 0 then 0 else u;
+  annotation(Documentation(info="<html>
+<p>Law: <code>y = k (u + integral(u)/Ti)</code> within the limits. The integral is held while the output is at a limit and
+the input would drive it further in (conditional integration), so it leaves the limit without delay.</p>
+<p>Reference: K. J. Astrom, T. Hagglund: PID Controllers, 2nd ed., ISA 1995, section 3.5.</p>
+</html>"));
+end PI;
