@@ -20,7 +20,7 @@ def check(model: Model, units: Units = "error") -> None:
     from codegen.flatten import flatten
     from codegen.library import Library
 
-    flat = flatten(Library.default(), model, units=units)
+    flat = flatten(Library(), model, units=units)
     for warning in flat.warnings:
         typer.echo(str(warning), err=True)
     states = sum(1 for v in flat.variables.values() if v.variability == "continuous")

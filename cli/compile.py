@@ -2,41 +2,42 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated, Literal
 
 from rich.console import Console
 from rich.table import Table
 import typer
 
-from cli.check import Units
 from cli.errors import reported
 from cli.options import Model
 
 Dump = Annotated[
     Literal["flat", "structure", "c"] | None,
-    typer.Option(help="Print the flat equations, the sorted blocks with their unknowns, or the generated C"),
+    typer.Option(help="Print the flat equations, the structure (states, blocks, tears, relations) or the generated C"),
 ]
 
 
 @reported
-def compile(model: Model, dump: Dump = None, units: Units = "error") -> None:
-    """Translate MODEL to C and compile it; print the seconds of each pass, or with --dump what a pass made.
+def compile(model: Model, dump: Dump = None) -> None:
+    """Translate MODEL to C and compile it; print the seconds of each pass, or with --dump what the passes made.
 
-    An unchanged model is neither translated nor compiled again.
+    A model whose files are unchanged is neither translated nor compiled again.
     """
-    from codegen.compile import compile_model
-    from codegen.dump import dump_text
+    from codegen.compile import compile_model, translate
+    from codegen.report import dump as dump_text
 
     if dump:
-        typer.echo(dump_text(model, dump, units=units))
+        prepared, _ = translate(model)
+        typer.echo(dump_text(prepared, dump), nl=False)
         return
-    compiled = compile_model(model, units=units)
-    for warning in compiled.warnings:
+    compiled = compile_model(model)
+    for warning in compiled.report.warnings:
         typer.echo(str(warning), err=True)
-    console = Console()
-    console.print(_passes(compiled.name, compiled.report.seconds))
-    console.print(f"{Path(compiled.path)}")
+    if compiled.report.cached:
+        typer.echo(f"{compiled.name}: unchanged since it was compiled")
+    else:
+        Console().print(_passes(compiled.name, compiled.report.seconds))
+    typer.echo(compiled.path)
 
 
 def _passes(name: str, seconds: dict[str, float]) -> Table:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from cli import assess, check, compare, compile, explain, maps, simulate
+from cli import check, compare, compile, maps, simulate
 
 app = typer.Typer(
     name="lacuna",
@@ -13,29 +13,23 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
     help="""Equations in, health maps out; and when a recording disagrees, the missing physics.
 
-A model is Modelica source: a qualified name such as [bold]Actuators.PaperActuator[/bold] in this project's
-[bold]model/[/bold], or a [bold].mo[/bold] file of yours. Every command writes under [bold]out/[/bold] unless
-[bold]--out[/bold] says otherwise, prints what it wrote, and ends with status 0 only when all went well.
+MODEL is a qualified name such as [bold]Actuators.EccentricBldc[/bold], found in the package [bold]model/[/bold],
+or a [bold].mo[/bold] file of yours. Commands write under [bold]out/[/bold] unless --out says otherwise, print what
+they wrote, and end with status 0 only when all went well.
 
 [bold]Start here[/bold]
 
-  lacuna check MyModel.mo                  is it a valid model? every finding with its line
+lacuna check My.mo: every finding with its line
 
-  lacuna simulate MyModel.mo --plot        trajectories as CSV and a figure
+lacuna simulate My.mo --plot: trajectories, CSV and figure
 
-  lacuna maps                              operating maps of the paper's actuator
-
-  lacuna explain path/to/case              what a recording knows and the model does not""",
+lacuna maps: operating maps of the paper's actuator""",
 )
 
-MODELS, FAULTS, DIAGNOSIS = "Models", "Maps and severity", "Missing physics"
+MODELS, FAULTS = "Models", "Maps and severity"
 
 app.command("check", rich_help_panel=MODELS)(check.check)
 app.command("compile", rich_help_panel=MODELS)(compile.compile)
 app.command("simulate", rich_help_panel=MODELS)(simulate.simulate)
 app.command("compare", rich_help_panel=MODELS)(compare.compare)
 app.command("maps", rich_help_panel=FAULTS)(maps.maps)
-app.command("assess", rich_help_panel=FAULTS)(assess.assess)
-app.command("explain", rich_help_panel=DIAGNOSIS)(explain.explain)
-for step in explain.STEPS:
-    app.command(step.__name__, rich_help_panel=DIAGNOSIS)(step)

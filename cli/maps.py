@@ -1,0 +1,65 @@
+"""`lacuna maps`: operating maps of an actuator."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from rich.console import Console
+from rich.table import Table
+import typer
+
+from cli.errors import reported
+
+if TYPE_CHECKING:
+    from analysis.maps import Map
+
+
+@reported
+def maps(
+    actuator: Annotated[str | None, typer.Argument(metavar="[ACTUATOR]", help="Model; default: the settings' own")] = None,
+    settings: Annotated[Path | None, typer.Option(help="Sampling, spectra, fault axis and bands, a TOML file")] = None,
+    out: Annotated[Path | None, typer.Option(help="Folder of the map; default: out/maps/NAME of the settings")] = None,
+    jobs: Annotated[int | None, typer.Option(min=1, help="Simulations at once; default: one a core")] = None,
+    fresh: Annotated[bool, typer.Option("--fresh", help="Compute every row again, also those already there")] = False,
+    figures: Annotated[bool, typer.Option(help="Draw the figures and report.html")] = True,
+) -> None:
+    """Simulate a pre-flight test at every severity of a fault and write the map, its figures and a report.
+
+    Without arguments: the paper's actuator over its eccentricity, into out/maps/paper. An interrupted map goes on
+    where it stopped; a map whose model and settings are unchanged is there at once.
+    """
+    from analysis.maps import build_map
+    from analysis.plant import ModelPlant
+    from analysis.progress import progress_bar
+    from analysis.settings import PAPER, load_settings
+    from codegen.compile import compile_model
+
+    chosen = load_settings(settings or PAPER)
+    compiled = compile_model(actuator or chosen.model)
+    plant = ModelPlant(compiled.name, compiled.path, compiled.hash, chosen, compiled.report.seconds)
+    folder = out or Path("out/maps") / (settings or PAPER).stem
+    with progress_bar(f"map of {compiled.name}") as progress:
+        finished = build_map(plant, chosen, folder, jobs=jobs, progress=progress, resume=not fresh, figures=figures)
+    _report(finished)
+
+
+def _report(finished: Map) -> None:
+    console = Console()
+    table = Table(title=finished.summary["title"], title_justify="left")
+    table.add_column("quantity")
+    for column in ("published", "reproduced"):
+        table.add_column(column, justify="right")
+    table.add_column("unit")
+    for row in finished.summary["comparison"]:
+        table.add_row(row["quantity"], _text(row["published"]), _text(row["reproduced"]), row["unit"])
+    console.print(table)
+    split = ", ".join(f"{name.replace('_cpu', ' (summed over cores)')} {s:.2f} s" for name, s in finished.seconds.items())
+    console.print(f"{len(finished.rows)} severities: {split}")
+    console.print(f"written: {finished.folder}")
+
+
+def _text(value: object) -> str:
+    if value is None:
+        return "none"
+    return f"{value:.5g}" if isinstance(value, float) else str(value)

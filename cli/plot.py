@@ -12,16 +12,16 @@ if TYPE_CHECKING:
 MOST_SIGNALS = 8  # more lines than this in one panel tell a reader nothing
 
 
-def draw(result: runtime.Result, model: runtime.Model, names: list[str] | None, path: Path) -> Path:
-    """Draw `names`, or the outputs and states at the model's own level where none are given, and write `path`."""
+def draw(result: runtime.Result, names: list[str] | None, path: Path) -> Path:
+    """Draw `names`, or what the model itself declares where none are given, and write `path`."""
     import matplotlib
 
     matplotlib.use("Agg")
     from matplotlib import pyplot
 
     panels: dict[str, list[str]] = defaultdict(list)
-    for name in names or _top_level(model):
-        panels[model.variables[name].unit].append(name)
+    for name in names or _top_level(result):
+        panels[result.model.variables[name].unit].append(name)
     figure, axes = pyplot.subplots(len(panels), sharex=True, squeeze=False, figsize=(8, 1.0 + 2.2 * len(panels)))
     for axis, (unit, signals) in zip(axes[:, 0], panels.items(), strict=True):
         for name in signals[:MOST_SIGNALS]:
@@ -37,7 +37,7 @@ def draw(result: runtime.Result, model: runtime.Model, names: list[str] | None, 
     return temporary.replace(path)
 
 
-def _top_level(model: runtime.Model) -> list[str]:
-    """Continuous variables of the model itself; those of its components where it declares none."""
-    moving = [n for n, v in model.variables.items() if v.kind not in ("parameter", "constant") and v.type == "real"]
-    return [name for name in moving if "." not in name] or moving[: 2 * MOST_SIGNALS]
+def _top_level(result: runtime.Result) -> list[str]:
+    """Recorded Real variables of the model itself; those of its components where it declares none."""
+    real = [name for name in result.columns if result.model.variables[name].type == "Real"]
+    return [name for name in real if "." not in name] or real[: 2 * MOST_SIGNALS]

@@ -52,21 +52,19 @@ def simulate(
 
     settings = assignments(parameter)
     loaded = _compiled(model, settings)
-    values = {name: number(name, text) for name, text in settings.items() if loaded.variables[name].settable}
-    outputs = _known(loaded, signal) if signal else None
+    values = {name: number(name, text) for name, text in settings.items() if loaded.variable(name).settable}
     begin = time.perf_counter()
     result = runtime.simulate(
-        loaded, solver=solver, parameters=values, inputs=_recorded(loaded, inputs, hold), start=start, stop=stop,
-        rtol=rtol, atol=atol, step=step, locate_events=locate_events, interval=interval, outputs=outputs,
+        loaded, solver=solver, parameters=values, inputs=_recorded(inputs, hold), start=start, stop=stop,
+        rtol=rtol, atol=atol, step=step, locate_events=locate_events, interval=interval, outputs=signal,
     )  # fmt: skip
     seconds = time.perf_counter() - begin
-    folder = out or default_folder("simulate", model)
-    name = folder.name if out is None else loaded.name.rsplit(".", 1)[-1]
-    written = [result.save(folder, name)]
+    path = (out or default_folder("simulate", model)) / f"{loaded.name.rsplit('.', 1)[-1]}.csv"
+    written = [runtime.write_csv(result, path)]
     if plot:
         from cli.plot import draw
 
-        written.append(draw(result, loaded, outputs, folder / f"{name}.svg"))
+        written.append(draw(result, signal, path.with_suffix(".svg")))
     _report(result, seconds, solver, written)
     if not result.complete:
         raise UserError(str(result.failure))
@@ -78,42 +76,32 @@ def _compiled(model: str, settings: dict[str, str]) -> runtime.Model:
     import runtime
 
     loaded = runtime.Model(compile_model(model).path)
-    _known(loaded, settings)
-    structural = {
-        name: number(name, text) for name, text in settings.items() if not loaded.variables[name].settable
+    parameters = {name: v for name, v in loaded.variables.items() if v.kind == "parameter"}
+    fixed = {
+        name: number(name, text)
+        for name, text in settings.items()
+        if not loaded.variable(name, "parameter", parameters).settable
     }
-    return runtime.Model(compile_model(model, modifications=structural).path) if structural else loaded
+    return runtime.Model(compile_model(model, modifications=fixed).path) if fixed else loaded
 
 
-def _known(model: runtime.Model, names: dict[str, str] | list[str]) -> list[str]:
-    for name in names:
-        if name not in model.variables:
-            raise UserError(f"{model.name} has no variable '{name}'{nearest(name, model.variables)}")
-    return list(names)
+def _recorded(inputs: list[str] | None, hold: bool) -> dict[str, runtime.RecordedInput]:
+    from runtime import RecordedInput, read_csv
 
-
-def _recorded(model: runtime.Model, inputs: list[str] | None, hold: bool) -> dict[str, runtime.RecordedInput]:
-    return {name: _read(model, name, text, hold) for name, text in assignments(inputs, "--input").items()}
-
-
-def _read(model: runtime.Model, name: str, text: str, hold: bool) -> runtime.RecordedInput:
-    from analysis.recording import read_columns
-    import runtime
-
-    file, _, column = text.partition(":")
-    known = [n for n, variable in model.variables.items() if variable.kind == "input"]
-    if name not in known:
-        raise UserError(f"{model.name} has no input '{name}'{nearest(name, known) or '; it has ' + ', '.join(known)}")
-    columns = read_columns(Path(file))
-    column = column or name
-    if column not in columns:
-        raise UserError(f"{file}: no column '{column}'{nearest(column, columns)}")
-    return runtime.RecordedInput(columns["time"], columns[column], "hold" if hold else "linear")
+    recorded = {}
+    for name, text in assignments(inputs, "--input").items():
+        file, _, column = text.partition(":")
+        columns, _ = read_csv(file)
+        column = column or name
+        if column not in columns:
+            raise UserError(f"{file} has no column called {column}{nearest(column, columns)}")
+        recorded[name] = RecordedInput(columns["time"], columns[column], "hold" if hold else "linear")
+    return recorded
 
 
 def _report(result: runtime.Result, seconds: float, solver: str, written: list[Path]) -> None:
     table = Table(show_header=False)
-    covered = result.time[-1] - result.time[0] if len(result.time) else 0.0
+    covered = result.time[-1] - result.time[0] if len(result) else 0.0
     table.add_row("time covered", f"{covered:g} s in {seconds:.3f} s of computing with {solver}")
     for name, count in result.counters.items():
         table.add_row(name.replace("_", " "), f"{count}")

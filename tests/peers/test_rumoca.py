@@ -37,13 +37,13 @@ def first_rows_of_the_grid(time: np.ndarray, grid: np.ndarray) -> np.ndarray:
 
 def assert_agreement(path: Path) -> None:
     model = runtime.Model(compile_model(str(path)).path)
-    stop = model.experiment.stop_time
+    stop = model.stop_time
     other = theirs(path, stop)
     grid = np.linspace(0.0, stop, POINTS + 1)
     rows = first_rows_of_the_grid(np.asarray(other.time), grid)
     ours = runtime.simulate(model, stop=stop, rtol=RTOL, atol=ATOL, output_times=grid, events=False)
     assert ours.complete, ours.failure
-    compared = [name for name in other.names if name in model.variables and model.variables[name].type == "real"]
+    compared = [name for name in other.names if name in model.variables and model.variables[name].type == "Real"]
     assert compared, "no variable in common"
     event_times = np.array([event.time for event in ours.event_log])
     away = np.all(np.abs(grid[:, None] - event_times[None, :]) > 1e-6 * stop, axis=1)
