@@ -23,6 +23,8 @@ class _Channel(ctypes.Structure):
         ("peak_hz", ctypes.c_double),
         ("peak_amplitude", ctypes.c_double),
         ("peak_bin", ctypes.c_longlong),
+        ("frequency", ctypes.c_double),
+        ("harmonic", ctypes.c_double * 4),
     ]
 
 
@@ -39,6 +41,8 @@ class Features:
     peak_bin: np.ndarray  # first peak of the peak-hold spectrum; -1: none
     peak_hz: np.ndarray  # NaN: none
     peak_amplitude: np.ndarray  # A; NaN: none
+    frequency: np.ndarray  # Hz, of the fundamental, between the lines; NaN: none
+    harmonic: np.ndarray  # A, [channels, 4] peak-hold amplitude at 0, 1, 2, 3 times the fundamental; NaN: none
     speed_mean: float  # rad/s over whole turns after the start-up; NaN: not one whole turn, or no angle
     turns: int
     held: np.ndarray  # A, [channels, lines] peak-hold amplitude spectra
@@ -147,6 +151,8 @@ class Chain:
             peak_bin=np.array([channel.peak_bin for channel in channels]),
             peak_hz=np.array([channel.peak_hz for channel in channels]),
             peak_amplitude=np.array([channel.peak_amplitude for channel in channels]),
+            frequency=np.array([channel.frequency for channel in channels]),
+            harmonic=np.array([list(channel.harmonic) for channel in channels]),
             speed_mean=summary.speed_mean,
             turns=summary.turns,
             held=held,

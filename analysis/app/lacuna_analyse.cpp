@@ -80,7 +80,11 @@ std::string features_json(const lacuna::Chain &chain, const lacuna::Features &fe
     out << (c ? ",\n" : "\n") << "    {\"signal\": " << quoted(chain.settings().currents[c])
         << ", \"rms\": " << json(channel.rms) << ", \"peak_hz\": " << json(channel.peak_hz)
         << ", \"peak_bin\": " << (channel.peak_bin < 0 ? "null" : std::to_string(channel.peak_bin))
-        << ", \"peak_amplitude\": " << json(channel.peak_amplitude) << "}";
+        << ", \"peak_amplitude\": " << json(channel.peak_amplitude) << ", \"frequency\": " << json(channel.frequency)
+        << ", \"harmonics\": [";
+    for (std::size_t h = 0; h < channel.harmonic.size(); ++h)
+      out << (h ? ", " : "") << json(channel.harmonic[h]);
+    out << "]}";
   }
   out << "\n  ]\n}\n";
   return out.str();
@@ -93,8 +97,8 @@ std::string spectrum_csv(const lacuna::Chain &chain, const lacuna::Features &fea
     out << ',' << quoted(name);
   for (std::size_t k = 0; k < chain.spectrum().lines(); ++k) {
     out << '\n' << json(static_cast<double>(k) * chain.resolution_hz());
-    for (const lacuna::ChannelFeatures &channel : features.channels)
-      out << ',' << json(channel.held[static_cast<Eigen::Index>(k)]);
+    for (const Eigen::ArrayXd &held : features.held)
+      out << ',' << json(held[static_cast<Eigen::Index>(k)]);
   }
   out << '\n';
   return out.str();

@@ -16,6 +16,8 @@ typedef struct {
   double peak_hz;        /* first peak of the peak-hold spectrum; NaN: none */
   double peak_amplitude; /* A; NaN: none */
   long long peak_bin;    /* -1: none */
+  double frequency;      /* Hz, of the fundamental, between the lines; NaN: none */
+  double harmonic[4];    /* A, peak-hold amplitude at 0, 1, 2, 3 times the fundamental; NaN: no fundamental */
 } lacuna_channel;
 
 typedef struct {

@@ -73,10 +73,14 @@ int lacuna_chain_analyse(const lacuna_chain *chain, const double *const *current
       records.emplace_back(currents[c], samples);
     const std::span<const double> turned(angle, angle ? samples : 0);
     const lacuna::Features features = chain->chain.analyse(records, turned);
-    for (const lacuna::ChannelFeatures &channel : features.channels) {
-      *channels++ = {channel.rms, channel.peak_hz, channel.peak_amplitude, channel.peak_bin};
-      if (held) held = std::copy(channel.held.begin(), channel.held.end(), held);
+    for (const lacuna::ChannelFeatures &found : features.channels) {
+      const auto &h = found.harmonic;
+      *channels++ = {found.rms,      found.peak_hz,   found.peak_amplitude,
+                     found.peak_bin, found.frequency, {h[0], h[1], h[2], h[3]}};
     }
+    if (held)
+      for (const Eigen::ArrayXd &spectrum : features.held)
+        held = std::copy(spectrum.begin(), spectrum.end(), held);
     *summary = {features.rms_mean, features.speed.value, features.speed.turns};
   });
 }

@@ -1,5 +1,6 @@
 #include "lacuna/features.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -7,35 +8,85 @@
 namespace lacuna {
 
 double rms(std::span<const double> x) {
-  const Eigen::Map<const Eigen::ArrayXd> samples(x.data(), static_cast<Eigen::Index>(x.size()));
-  return std::sqrt(samples.square().mean());
+  double sum = 0;
+  for (const double value : x)
+    sum += value * value;
+  return std::sqrt(sum / static_cast<double>(x.size()));
 }
 
-std::optional<std::size_t> first_peak(const Eigen::ArrayXd &amplitude, double resolution_hz, double above_hz,
+std::optional<std::size_t> first_peak(std::span<const double> amplitude, double resolution_hz, double above_hz,
                                       double threshold) {
-  const double floor = threshold * amplitude.maxCoeff();
-  for (Eigen::Index k = 1; k + 1 < amplitude.size(); ++k) {
+  const double floor = threshold * *std::max_element(amplitude.begin(), amplitude.end());
+  for (std::size_t k = 1; k + 1 < amplitude.size(); ++k) {
     const bool summit = amplitude[k] > amplitude[k - 1] && amplitude[k] >= amplitude[k + 1];
-    if (summit && static_cast<double>(k) * resolution_hz > above_hz && amplitude[k] > floor)
-      return static_cast<std::size_t>(k);
+    if (summit && static_cast<double>(k) * resolution_hz > above_hz && amplitude[k] > floor) return k;
   }
   return std::nullopt;
 }
 
+double between_lines(std::span<const double> amplitude, std::size_t peak) {
+  const double left = std::log(amplitude[peak - 1]), top = std::log(amplitude[peak]),
+               right = std::log(amplitude[peak + 1]), curvature = left - 2 * top + right;
+  const double offset = curvature < 0 ? 0.5 * (left - right) / curvature : 0;
+  return static_cast<double>(peak) + (std::isfinite(offset) ? std::clamp(offset, -0.5, 0.5) : 0);
+}
+
+std::array<double, harmonics> harmonic_amplitudes(std::span<const double> amplitude, double fundamental, double reach) {
+  std::array<double, harmonics> found{};
+  const auto last = static_cast<double>(amplitude.size() - 1);
+  for (std::size_t h = 0; h < harmonics; ++h) {
+    const double centre = static_cast<double>(h) * fundamental;
+    const auto from = static_cast<std::size_t>(std::ceil(std::max(0.0, centre - reach)));
+    const auto to = static_cast<std::size_t>(std::floor(std::min(last, centre + reach)));
+    for (std::size_t k = from; k <= to; ++k)
+      found[h] = std::max(found[h], amplitude[k]);
+  }
+  return found;
+}
+
+ChannelFeatures channel_features(double rms, std::span<const double> held, const PeakRule &rule) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  ChannelFeatures features{rms, -1, nan, nan, nan, {nan, nan, nan, nan}};
+  if (const auto peak = first_peak(held, rule.resolution_hz, rule.above_hz, rule.threshold)) {
+    const double fundamental = between_lines(held, *peak);
+    features.peak_bin = static_cast<std::ptrdiff_t>(*peak);
+    features.peak_hz = static_cast<double>(*peak) * rule.resolution_hz;
+    features.peak_amplitude = held[*peak];
+    features.frequency = fundamental * rule.resolution_hz;
+    features.harmonic = harmonic_amplitudes(held, fundamental, rule.reach);
+  }
+  return features;
+}
+
+void WholeTurns::add(double angle) {
+  const double turn = 2 * std::numbers::pi;
+  if (samples_ == 0) first_ = angle;
+  const double travel = angle - first_;
+  const int direction = turns_ == 0 ? (travel < 0 ? -1 : 1) : (turns_ < 0 ? -1 : 1);
+  for (double goal = turn * (turns_ + direction); direction * (travel - goal) >= 0;
+       goal = turn * (turns_ + direction)) {
+    turns_ += direction;
+    duration_ = static_cast<double>(samples_) - (travel - goal) / (travel - travel_);
+  }
+  travel_ = travel;
+  ++samples_;
+}
+
+MeanSpeed WholeTurns::mean_speed(double period) const {
+  if (turns_ == 0) return {0, std::numeric_limits<double>::quiet_NaN()};
+  return {std::abs(turns_), 2 * std::numbers::pi * turns_ / (period * duration_)};
+}
+
+std::size_t first_sample_after(double after, double period) {
+  // A time that is a sample's own, but for rounding, is not later than that sample.
+  return static_cast<std::size_t>(std::floor(after / period + 1e-9)) + 1;
+}
+
 MeanSpeed mean_speed(std::span<const double> angle, double period, double after) {
-  const MeanSpeed none{0, std::numeric_limits<double>::quiet_NaN()};
-  const auto first = static_cast<std::size_t>(std::floor(after / period + 1e-9)) + 1;
-  if (first >= angle.size()) return none;
-  const double turn = 2 * std::numbers::pi, travel = angle.back() - angle[first];
-  const int turns = static_cast<int>(std::floor(std::abs(travel) / turn));
-  if (turns == 0) return none;
-  const double goal = turns * turn, sign = travel < 0 ? -1 : 1;
-  std::size_t k = first;
-  while (k + 2 < angle.size() && sign * (angle[k + 1] - angle[first]) < goal)
-    ++k;
-  const double before = sign * (angle[k] - angle[first]), past = sign * (angle[k + 1] - angle[first]);
-  const double duration = period * (static_cast<double>(k - first) + (goal - before) / (past - before));
-  return {turns, sign * goal / duration};
+  WholeTurns turns;
+  for (std::size_t k = first_sample_after(after, period); k < angle.size(); ++k)
+    turns.add(angle[k]);
+  return turns.mean_speed(period);
 }
 
 } // namespace lacuna

@@ -86,7 +86,7 @@ TEST_F(PaperChain, ManyThreadsGiveTheSameBytes) {
   for (const auto &result : results)
     for (std::size_t c = 0; c < 3; ++c) {
       EXPECT_EQ(result[0].channels[c].rms, alone.channels[c].rms);
-      EXPECT_TRUE((result[0].channels[c].held == alone.channels[c].held).all());
+      EXPECT_TRUE((result[0].held[c] == alone.held[c]).all());
     }
 }
 

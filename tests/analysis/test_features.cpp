@@ -14,10 +14,8 @@ using lacuna::SeverityBands;
 
 namespace {
 
-Eigen::ArrayXd lines(std::initializer_list<double> values) {
-  Eigen::ArrayXd result(static_cast<Eigen::Index>(values.size()));
-  std::copy(values.begin(), values.end(), result.begin());
-  return result;
+std::vector<double> lines(std::initializer_list<double> values) {
+  return values;
 }
 
 std::vector<double> angle(double start, double speed, double acceleration, std::size_t samples = 10001) {
@@ -80,6 +78,24 @@ TEST(MeanSpeed, NeedsAWholeTurn) {
   EXPECT_EQ(speed.turns, 0);
   EXPECT_TRUE(std::isnan(speed.value));
   EXPECT_EQ(mean_speed(angle(0, 5.0, 0, 10), 1e-4, 0.3).turns, 0);
+}
+
+TEST(MeanSpeed, CountsTurnsUpToTheLastSample) {
+  EXPECT_EQ(mean_speed(angle(0, 2 * std::numbers::pi / 0.4, 0, 4001), 1e-4, 0).turns, 0);
+  EXPECT_EQ(mean_speed(angle(0, 2 * std::numbers::pi / 0.3998, 0, 4001), 1e-4, 0).turns, 1);
+}
+
+TEST(BetweenLines, FindsTheTopOfAHannPeak) {
+  std::vector<double> peak(9);
+  for (std::size_t k = 0; k < peak.size(); ++k)
+    peak[k] = std::exp(-0.1 * std::pow(static_cast<double>(k) - 4.3, 2));
+  EXPECT_NEAR(lacuna::between_lines(peak, 4), 4.3, 1e-12);
+  EXPECT_EQ(lacuna::between_lines(lines({0, 1, 0}), 1), 1.0);
+}
+
+TEST(Harmonics, AreTheLargestLinesNearMultiplesOfTheFundamental) {
+  const auto found = lacuna::harmonic_amplitudes(lines({7, 0, 0, 0, 0, 5, 1, 0, 0, 0, 3, 4, 0, 0, 9, 0}), 5.2, 1);
+  EXPECT_EQ(found, (std::array<double, 4>{7, 5, 4, 0}));
 }
 
 TEST(SeverityBands, GapsBelongToTheWorseSide) {

@@ -12,16 +12,9 @@
 
 namespace lacuna {
 
-struct ChannelFeatures {
-  double rms;              ///< of the whole record
-  std::ptrdiff_t peak_bin; ///< first peak of the peak-hold spectrum; -1: there is none
-  double peak_hz;          ///< its frequency; NaN without a peak
-  double peak_amplitude;   ///< its amplitude; NaN without a peak
-  Eigen::ArrayXd held;     ///< [lines] peak-hold amplitude spectrum
-};
-
 struct Features {
   std::vector<ChannelFeatures> channels;
+  std::vector<Eigen::ArrayXd> held; ///< [channels][lines] peak-hold amplitude spectra
   double rms_mean;
   MeanSpeed speed;
 };
@@ -34,6 +27,7 @@ public:
   const Settings &settings() const { return settings_; }
   const Sections &sections() const { return sections_; }
   const SectionSpectrum &spectrum() const { return spectrum_; }
+  PeakRule peak_rule() const;
   double resolution_hz() const { return settings_.sampling_rate / static_cast<double>(spectrum_.padded()); }
 
   /// `currents` as many as in the settings, each a whole record; `angle` a whole record or empty (no speed).
@@ -42,7 +36,7 @@ public:
 
 private:
   void require_record(std::span<const double> record, const std::string &name) const;
-  ChannelFeatures analyse_channel(std::span<const double> record, RealTransform::Buffers &work) const;
+  Eigen::ArrayXd peak_hold(std::span<const double> record, RealTransform::Buffers &work) const;
 
   Settings settings_;
   Sections sections_;
