@@ -9,13 +9,10 @@ protected
   constant Real pi = 3.141592653589793;
   constant Types.Angle width = pi/3 "Width of a sector";
   constant Types.Angle first = pi/6 "Lower bound of sector 0";
-initial equation
-  pre(sector) = integer(floor((theta_e - first)/width));
 equation
   flange.tau = 0;
   theta_e = pp*flange.phi;
-  sector = if theta_e >= first + (pre(sector) + 1)*width then pre(sector) + 1
-    elseif theta_e < first + pre(sector)*width then pre(sector) - 1 else pre(sector);
+  sector = integer((theta_e - first)/width);
   slope = 2*(theta_e - first - sector*width)/width - 1;
   annotation(Documentation(info="<html>
 <p>Three Hall sensors tell a six-step drive in which sixth of an electrical turn the rotor is. <code>sector</code> counts
