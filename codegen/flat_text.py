@@ -38,7 +38,7 @@ def _place(e: flat.Equation) -> str:
 
 
 def _declaration(v: flat.Variable) -> str:
-    prefix = "" if v.variability == flat.CONTINUOUS or (v.variability, v.type) == ("discrete", "Integer") else ""
+    prefix = ""
     if v.variability in (flat.CONSTANT, flat.PARAMETER) or (v.variability == flat.DISCRETE and v.type == "Real"):
         prefix = v.variability + " "
     if v.final:

@@ -102,9 +102,7 @@ def assignment(item: ast.Assignment, scope: Scope) -> list[flat.Statement]:
         if not isinstance(item.value, ast.Call):
             raise Diagnostic("R023", "a list on the left needs a call on the right", item.span, "(a, b) := f(x)")
         values = call_of_model(item.value, scope)
-        pairs = [
-            (lower(t, scope), v) for t, v in zip(item.target.items, values, strict=False) if t is not None
-        ]
+        pairs = [(lower(t, scope), v) for t, v in zip(item.target.items, values, strict=False) if t is not None]
     else:
         pairs = [(lower(item.target, scope), lower(item.value, scope))]
     result: list[flat.Statement] = []

@@ -193,4 +193,3 @@ ARRAY_FUNCTIONS: dict[str, Callable[[ast.Call, Scope], Value]] = {
     "sum": _reduction(ex.add, ex.const(0)), "product": _reduction(ex.mul, ex.const(1)),
     "min": _reduction(ex.minimum, None), "max": _reduction(ex.maximum, None),
 }  # fmt: skip
-

@@ -9,7 +9,7 @@ from .. import flat
 from ..errors import Diagnostic, Span
 from ..syntax import ast
 from .context import Context
-from .references import element_numbers, apply_subscripts, member, unknown_name
+from .references import apply_subscripts, element_numbers, member, unknown_name
 from .scope import Scope
 from .values import Array, Value
 

@@ -33,6 +33,7 @@ class Context:
     variabilities: dict[Expr, str] = field(default_factory=dict)
     function_sources: dict[str, object] = field(default_factory=dict)  # name -> function_code.Source
     argument_units: list[tuple[Expr, str, str, Span]] = field(default_factory=list)  # value, unit, what, where
+    function_units: dict[str, str] = field(default_factory=dict)  # of the result, by name of a kept function
     call_depth: int = 0
     files: dict[str, str] = field(default_factory=dict)
     errors: list[Diagnostic] = field(default_factory=list)

@@ -25,7 +25,7 @@ def call_external(cls: ast.Class, arguments: dict[str, Value], e: ast.Call, cont
         raise Diagnostic("R094", f"the external function {cls.name} is outside the subset", e.span, hint)
     name, column = values
     if not isinstance(name, str) or not isinstance(column, str):
-        raise Diagnostic("R062", f"{CSV_COLUMN} takes the names of a file and of a column", e.span, 'two Strings')
+        raise Diagnostic("R062", f"{CSV_COLUMN} takes the names of a file and of a column", e.span, "two Strings")
     path = _locate(name, context, e.span)
     text = _read(path, e.span)
     context.files[str(path)] = hashlib.sha256(text.encode()).hexdigest()

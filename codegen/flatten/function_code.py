@@ -46,6 +46,8 @@ def emitted_call(
     base = _base(cls, declared, arguments, context, span)
     function = context.functions[base]
     call_arguments = [ex.array(*v.items) if isinstance(v, Array) else v for v in arguments.values()]
+    units = {d.name: d.unit for d in declared}
+    context.function_units[base] = units[function.outputs[0]] if function.outputs else ""
     results: list[Value] = []
     for number, name in enumerate(function.outputs):
         shape, kind = function.shapes[name], function.types[name]
@@ -54,7 +56,7 @@ def emitted_call(
             continue
         items = []
         for position, index in enumerate(indices(shape) if shape else [()]):
-            selected = _selected(function, cls, name, number, position, index, context)
+            selected = _selected(function, cls, name, number, position, index, units[name], context)
             items.append(ex.call(selected, *call_arguments, type=kind))
         results.append(Array(shape, tuple(items)) if shape else items[0])
     return results
@@ -62,7 +64,7 @@ def emitted_call(
 
 def _selected(
     function: flat.Function, cls: ast.Class, name: str, number: int, position: int, index: tuple[int, ...],
-    context: Context,
+    unit: str, context: Context,
 ) -> str:  # fmt: skip
     """A function that calls `function` and gives one scalar of one of its results."""
     text = "[" + ",".join(map(str, index)) + "]" if index else ""
@@ -81,6 +83,7 @@ def _selected(
         [flat.AssignCall(targets, call, function.span), flat.Assign("result", picked, function.span)], function.span,
     )  # fmt: skip
     context.function_sources[selected] = Source(cls, function.inputs, inputs, number, position)
+    context.function_units[selected] = unit
     return selected
 
 

@@ -73,7 +73,11 @@ def call_function(cls: ast.Class, e: ast.Call, scope: Scope) -> list[Value]:
         try:
             results = interpret(cls, declared, arguments, context, e.span)
             if known or _is_small(results, arguments):
-                return [_without_events(r) for r in results]
+                results = [_without_events(r) for r in results]
+                outputs = [d for d in declared if d.declaration.causality == "output"]
+                for local, value in zip(outputs, results, strict=True):
+                    note_units(local, value, e.span, f"output {local.name} of {cls.name}", scope)
+                return results
         except AtRunTime:
             pass
         finally:
@@ -107,14 +111,15 @@ def bind_arguments(cls: ast.Class, inputs: list[Local], e: ast.Call, scope: Scop
             hint = f"{cls.name}({', '.join(names)})"
             raise Diagnostic("R050", f"the input {local.name} of {cls.name} is not given", e.span, hint)
         bound[local.name] = fit(local, value, inner, span)
-        _note_units(local, bound[local.name], span, cls, scope)
+        note_units(local, bound[local.name], span, f"input {local.name} of {cls.name}", scope)
     return bound
 
 
-def _note_units(local: Local, value: Value, span: Span, cls: ast.Class, scope: Scope) -> None:
+def note_units(local: Local, value: Value, span: Span, what: str, scope: Scope) -> None:
+    """Have the unit check compare `value` with the unit that `local` declares."""
     if local.unit and not isinstance(value, Record) and not scope.in_function:
         for item in scalars(value):
-            scope.context.argument_units.append((item, local.unit, f"input {local.name} of {cls.name}", span))
+            scope.context.argument_units.append((item, local.unit, what, span))
 
 
 def fit(local: Local, value: Value, scope: Scope, span: Span) -> Value:
@@ -216,5 +221,3 @@ def run(name: str, arguments: list[Expr], context: Context, span: Span) -> Expr:
     except AtRunTime as reason:
         raise Diagnostic("F021", f"{name} cannot be evaluated at translation: {reason.args[0]}", span) from None
     return scalars(results[source.output])[source.element]
-
-

@@ -13,7 +13,7 @@ from ..syntax import ast
 from .context import Context
 from .evaluate import evaluate_boolean, evaluate_dimensions
 from .leaf import Leaf
-from .lower import lower, modifier_value
+from .lower import modifier_value
 from .modifiers import Modifier, for_each, from_tree, merge, narrow
 from .scope import Scope, require_class
 from .types import Type, resolve_type
@@ -186,7 +186,11 @@ class Instance:
     def _build(self, element: Element) -> Instance | Leaf | ArrayNode | Absent:
         declaration = element.declaration
         scope = Scope(self.context, element.cls, self)
-        own = from_tree(declaration.modification, scope, final=declaration.final)
+        redeclared = element.modifier is not None and element.modifier.redeclare is not None
+        tree = (
+            declaration.constraint.modification if redeclared and declaration.constraint else declaration.modification
+        )
+        own = from_tree(tree, scope, final=declaration.final)
         modifier = merge(element.modifier, own) or own
         if declaration.outer and not declaration.inner:
             return self._outer(declaration)
@@ -235,7 +239,8 @@ class Instance:
             raise error
         library = self.context.library
         scope = element.modifier.scope
-        bound = require_class(library, element.cls, declaration.constraint or declaration.type, "class")
+        limit = declaration.constraint.base if declaration.constraint else declaration.type
+        bound = require_class(library, element.cls, limit, "class")
         chosen = require_class(library, scope.cls, new.type, "class")
         needed = Instance(self.context, bound, "", None, None).elements
         offered = Instance(self.context, chosen, "", None, None).elements

@@ -25,9 +25,7 @@ def unset(kind: str) -> Expr:
     return ex.node("unset", (), None, kind)
 
 
-def interpret(
-    cls: ast.Class, declared: list, arguments: dict[str, Value], context: Context, span: Span
-) -> list[Value]:
+def interpret(cls: ast.Class, declared: list, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
     """Results of the function on `arguments`. Raises AtRunTime where its course depends on unknown values."""
     from .functions import declared_sizes, fit
 

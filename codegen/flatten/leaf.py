@@ -76,7 +76,7 @@ class Leaf:
     def text(self) -> Value:
         value = self.binding()
         if value is None:
-            raise Diagnostic("F020", f"the String {self.name} has no value", self.span, "bind it: = \"...\"")
+            raise Diagnostic("F020", f"the String {self.name} has no value", self.span, 'bind it: = "..."')
         return value
 
     def binding(self) -> Value | None:

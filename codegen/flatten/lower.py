@@ -113,10 +113,10 @@ def _relation(e: ast.Binary, left: Value, right: Value, scope: Scope) -> Expr:
             raise Diagnostic("R021", f"{e.op} compares scalars", e.span, "compare element by element")
     if (left.type == BOOLEAN) != (right.type == BOOLEAN) or (left.type == BOOLEAN and e.op not in ("==", "<>")):
         raise Diagnostic("R021", f"{e.op} between {left.type} and {right.type}", e.span, "compare like with like")
-    if e.op in ("==", "<>") and REAL in (left.type, right.type) and not scope.in_function:
-        if not (is_known(left, scope.context) and is_known(right, scope.context)):
-            hint = "compare with a tolerance, abs(a - b) < eps, or use Integers"
-            raise Diagnostic("R022", f"Reals that vary cannot be compared with {e.op}", e.span, hint)
+    exact = e.op in ("==", "<>") and REAL in (left.type, right.type) and not scope.in_function
+    if exact and not (is_known(left, scope.context) and is_known(right, scope.context)):
+        hint = "compare with a tolerance, abs(a - b) < eps, or use Integers"
+        raise Diagnostic("R022", f"Reals that vary cannot be compared with {e.op}", e.span, hint)
     return ex.relation(e.op, left, right)
 
 
@@ -207,10 +207,7 @@ def _matrix(e: ast.MatrixLiteral, scope: Scope) -> Value:
 def range_values(e: ast.Range, scope: Scope) -> Array:
     """The numbers of a range; its bounds are known at translation."""
     parts = [e.first, e.step, e.last]
-    values = [
-        known(lower_scalar(p, scope, REAL), scope, p.span, "a bound of the range") if p else None
-        for p in parts
-    ]
+    values = [known(lower_scalar(p, scope, REAL), scope, p.span, "a bound of the range") if p else None for p in parts]
     first, last = values[0].value, values[2].value
     step = values[1].value if values[1] is not None else 1
     if step == 0:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 from .. import expr as ex
@@ -12,6 +13,7 @@ from ..expr import Expr
 from ..library import Library
 from ..rewrite import assigned, expressions
 from ..syntax import ast
+from ..unit_check import check_units
 from .algorithms import flatten_algorithm
 from .connections import connection_equations
 from .constants import evaluate
@@ -27,11 +29,13 @@ from .variables import add_used_constants, flatten_variables, mark_discrete
 _MODEL_KINDS = ("model", "block", "class")
 
 
-def flatten(library: Library, name: str, modifications: dict[str, Expr | float] | None = None) -> flat.FlatModel:
+def flatten(
+    library: Library, name: str, modifications: dict[str, Expr | float] | None = None, units: str = "error"
+) -> flat.FlatModel:
     """The flat model of class `name` (see `Library.find`), every check of the front end done.
 
-    `modifications` set structural parameters by their full name. Raises Diagnostic; further independent
-    findings are in its `others`.
+    `modifications` set structural parameters by their full name; `units` is "error", "warn" (findings go to
+    `FlatModel.warnings`) or "off". Raises Diagnostic; further independent findings are in its `others`.
     """
     cls = library.find(name)
     if cls.kind not in _MODEL_KINDS or cls.partial:
@@ -57,10 +61,21 @@ def flatten(library: Library, name: str, modifications: dict[str, Expr | float] 
     for scalar in context.evaluated & model.variables.keys():
         model.variables[scalar].evaluated = True
     model.experiment = _experiment(top)
+    _check_units(model, context, units)
     model.files = {**library.files, **context.files}
     model.warnings = context.warnings
     context.finish()
     return model
+
+
+def _check_units(model: flat.FlatModel, context: Context, mode: str) -> None:
+    if mode == "off":
+        return
+    findings = check_units(model, context.argument_units, context.function_units)
+    if mode == "warn":
+        context.warnings += [replace(f, severity="warning") for f in findings]
+    else:
+        context.errors += findings
 
 
 def _outside_modifier(modifications: dict[str, Expr | float], span: Span) -> Modifier | None:

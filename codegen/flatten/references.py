@@ -114,9 +114,7 @@ def element_numbers(node: object) -> Array:
     return Array(node.shape, tuple(ex.const(i + 1) for i in range(prod(node.shape))))
 
 
-def apply_subscripts(
-    value: Value, subscripts: tuple[ast.Expression, ...] | None, scope: Scope, ref: ast.Ref
-) -> Value:
+def apply_subscripts(value: Value, subscripts: tuple[ast.Expression, ...] | None, scope: Scope, ref: ast.Ref) -> Value:
     """value[i, :, {1, 3}]: each subscript is a number, `:` or a vector of numbers; rows come first."""
     from .lower import lower
 
@@ -138,7 +136,7 @@ def apply_subscripts(
         return stack([apply_subscripts(r, rest, scope, ref) for r in picked], ref.span)
     if not isinstance(index, Expr) or index.type != INTEGER:
         raise Diagnostic("R044", f"a subscript of {ref} is not an Integer", first.span, "use a whole number")
-    if index.op == "const" or is_known(index, scope.context) and not scope.in_function:
+    if index.op == "const" or (is_known(index, scope.context) and not scope.in_function):
         return apply_subscripts(_row(rows, index, scope, ref, first), rest, scope, ref)
     if scope.in_function:
         from .function_code import at_index

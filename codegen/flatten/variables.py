@@ -42,7 +42,12 @@ def flatten_variables(leaf: Leaf, model: flat.FlatModel) -> None:
 def _variable(leaf: Leaf, name: str, attributes: dict[str, Expr | str]) -> flat.Variable:
     context, span = leaf.instance.context, leaf.span
     result = flat.Variable(
-        name, span, leaf.primitive, leaf.variability, description=leaf.declaration.description, final=leaf.modifier.final
+        name,
+        span,
+        leaf.primitive,
+        leaf.variability,
+        description=leaf.declaration.description,
+        final=leaf.modifier.final,
     )
     for key in _NUMERIC:
         if key in attributes:

@@ -237,7 +237,7 @@ class Component:
     inner: bool = False
     outer: bool = False
     replaceable: bool = False
-    constraint: Ref | None = None
+    constraint: Extends | None = None  # constrainedby CLASS(...)
 
 
 @dataclass(slots=True, eq=False)

@@ -9,11 +9,15 @@ import re
 from ..errors import Diagnostic, Span
 
 KEYWORDS = frozenset(
-    """algorithm and annotation block break class connect connector constant constrainedby der discrete each else
-    elseif elsewhen encapsulated end enumeration equation expandable extends external false final flow for function
-    if import impure in initial inner input loop model not operator or outer output package parameter partial
-    protected public pure record redeclare replaceable return stream then true type when while within""".split()
-)
+    (
+        "algorithm", "and", "annotation", "block", "break", "class", "connect", "connector", "constant",
+        "constrainedby", "der", "discrete", "each", "else", "elseif", "elsewhen", "encapsulated", "end", "enumeration",
+        "equation", "expandable", "extends", "external", "false", "final", "flow", "for", "function", "if", "import",
+        "impure", "in", "initial", "inner", "input", "loop", "model", "not", "operator", "or", "outer", "output",
+        "package", "parameter", "partial", "protected", "public", "pure", "record", "redeclare", "replaceable",
+        "return", "stream", "then", "true", "type", "when", "while", "within",
+    )
+)  # fmt: skip
 
 _TOKEN = re.compile(
     r"""
@@ -119,7 +123,7 @@ def _check_number(source: Source, start: int, end: int) -> None:
     if following.isalpha() or following == "_":
         raise Diagnostic(
             "P011",
-            f"a number runs into a letter: {source.text[start:end + 1]}",
+            f"a number runs into a letter: {source.text[start : end + 1]}",
             source.span(start, end - start + 1),
             "put an operator between them, such as 2*x; an exponent needs digits, such as 1e-3",
         )

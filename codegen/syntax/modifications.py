@@ -8,8 +8,11 @@ from .expressions import ExpressionParser
 from .lexer import string_value
 
 _GRAPHICS = frozenset(
-    "Icon Diagram Placement Line Dialog Text choices choicesAllMatching preferredView Polygon Rectangle Ellipse".split()
-)
+    (
+        "Icon", "Diagram", "Placement", "Line", "Dialog", "Text", "choices", "choicesAllMatching", "preferredView",
+        "Polygon", "Rectangle", "Ellipse",
+    )
+)  # fmt: skip
 _VARIABILITIES = ("parameter", "constant", "discrete")
 
 
@@ -48,11 +51,10 @@ class ModificationParser(ExpressionParser):
             if single or not self.accept(","):
                 break
         if self.accept("constrainedby"):
-            constraint = self.reference()
-            if self.kind == "(":
-                self.modification()
+            bound = self.reference()
+            modification = self.modification() if self.kind == "(" else ast.Modification(bound.span)
             for component in result:
-                component.constraint = constraint
+                component.constraint = ast.Extends(bound.span, bound, modification)
                 component.description = component.description or self.description()
         return result
 
@@ -91,16 +93,13 @@ class ModificationParser(ExpressionParser):
         description = self.description()
         if self.kind == "annotation":
             self.annotation()
-        return ast.Component(
-            span, name, kind, dimensions + shared, modification, condition, description, **options
-        )
+        return ast.Component(span, name, kind, dimensions + shared, modification, condition, description, **options)
 
     def modification(self, selective: bool = False) -> ast.Modification:
         """(name = value, ...) = value, either part optional; `selective` (of extends) allows break entries."""
         result = ast.Modification(self.span())
-        if self.accept("("):
-            if not self.accept(")"):
-                self._arguments_into(result, selective)
+        if self.accept("(") and not self.accept(")"):
+            self._arguments_into(result, selective)
         if self.kind == ":=":
             raise Diagnostic("P004", "':=' in a declaration", self.span(), "a declaration is bound with =")
         if self.accept("="):

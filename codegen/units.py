@@ -1,0 +1,158 @@
+"""Units of measure: strings such as "N.m.s/rad" to SI exponents with a factor, and back.
+
+Grammar and symbols are those of the Modelica language specification (unit expressions). Angles are
+dimensionless: rad and 1 are the same, deg has the factor pi/180. A temperature in degC counts as K.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import lru_cache
+import math
+import re
+
+_BASE = ("m", "kg", "s", "A", "K", "mol", "cd")
+Exponents = tuple[Fraction, ...]
+_NONE: Exponents = (Fraction(0),) * len(_BASE)
+
+
+@dataclass(frozen=True)
+class Unit:
+    """Exponents of m, kg, s, A, K, mol, cd; `factor` to SI, or None where literals have made it unknown.
+
+    `text` is how it was written, where it was.
+    """
+
+    exponents: Exponents
+    factor: float | None = 1.0
+    text: str = field(default="", compare=False)
+
+    def __mul__(self, other: Unit) -> Unit:
+        pairs = zip(self.exponents, other.exponents, strict=True)
+        return Unit(tuple(a + b for a, b in pairs), _product(self.factor, other.factor))
+
+    def __truediv__(self, other: Unit) -> Unit:
+        return self * other ** Fraction(-1)
+
+    def __pow__(self, power: Fraction) -> Unit:
+        factor = None if self.factor is None else self.factor ** float(power)
+        return Unit(tuple(a * power for a in self.exponents), factor)
+
+    @property
+    def dimensionless(self) -> bool:
+        return self.exponents == _NONE
+
+    def same(self, other: Unit) -> bool:
+        """Equal dimension, and equal factor where both are known."""
+        return self.exponents == other.exponents and not self.scaled(other)
+
+    def scaled(self, other: Unit) -> bool:
+        """Do the factors, where both are known, differ?"""
+        if self.factor is None or other.factor is None:
+            return False
+        return not math.isclose(self.factor, other.factor, rel_tol=1e-9)
+
+    def __str__(self) -> str:
+        return self.text or format_unit(self)
+
+
+def _product(a: float | None, b: float | None) -> float | None:
+    return None if a is None or b is None else a * b
+
+
+DIMENSIONLESS = Unit(_NONE)
+
+
+def _unit(factor: float = 1.0, **powers: int) -> Unit:
+    return Unit(tuple(Fraction(powers.get(b, 0)) for b in _BASE), factor)
+
+
+_SYMBOLS: dict[str, Unit] = {
+    "1": DIMENSIONLESS, "rad": DIMENSIONLESS, "sr": DIMENSIONLESS, "%": _unit(0.01), "deg": _unit(math.pi / 180),
+    "rev": _unit(2 * math.pi), "ppm": _unit(1e-6), "dB": DIMENSIONLESS, "Np": DIMENSIONLESS, "bit": DIMENSIONLESS,
+    "m": _unit(m=1), "g": _unit(1e-3, kg=1), "s": _unit(s=1), "A": _unit(A=1), "K": _unit(K=1),
+    "mol": _unit(mol=1), "cd": _unit(cd=1), "degC": _unit(K=1), "Hz": _unit(s=-1), "N": _unit(m=1, kg=1, s=-2),
+    "Pa": _unit(m=-1, kg=1, s=-2), "J": _unit(m=2, kg=1, s=-2), "W": _unit(m=2, kg=1, s=-3), "C": _unit(s=1, A=1),
+    "V": _unit(m=2, kg=1, s=-3, A=-1), "Ohm": _unit(m=2, kg=1, s=-3, A=-2), "S": _unit(m=-2, kg=-1, s=3, A=2),
+    "F": _unit(m=-2, kg=-1, s=4, A=2), "H": _unit(m=2, kg=1, s=-2, A=-2), "Wb": _unit(m=2, kg=1, s=-2, A=-1),
+    "T": _unit(kg=1, s=-2, A=-1), "lm": _unit(cd=1), "lx": _unit(m=-2, cd=1), "Bq": _unit(s=-1),
+    "Gy": _unit(m=2, s=-2), "Sv": _unit(m=2, s=-2), "kat": _unit(mol=1, s=-1),
+    "eV": _unit(1.602176634e-19, m=2, kg=1, s=-2),
+    "min": _unit(60.0, s=1), "h": _unit(3600.0, s=1), "d": _unit(86400.0, s=1), "l": _unit(1e-3, m=3),
+    "L": _unit(1e-3, m=3), "t": _unit(1e3, kg=1), "bar": _unit(1e5, m=-1, kg=1, s=-2), "rpm": _unit(math.pi / 30, s=-1),
+    "var": _unit(m=2, kg=1, s=-3), "VA": _unit(m=2, kg=1, s=-3),
+}  # fmt: skip
+
+_PREFIXES = {
+    "da": 1e1, "Y": 1e24, "Z": 1e21, "E": 1e18, "P": 1e15, "T": 1e12, "G": 1e9, "M": 1e6, "k": 1e3, "h": 1e2,
+    "d": 1e-1, "c": 1e-2, "m": 1e-3, "u": 1e-6, "n": 1e-9, "p": 1e-12, "f": 1e-15, "a": 1e-18, "z": 1e-21, "y": 1e-24,
+}  # fmt: skip
+
+_UNPREFIXED = ("1", "%", "kg", "min", "h", "d", "deg", "degC", "rev", "rpm", "ppm", "rad", "sr")
+_FACTOR = re.compile(r"([A-Za-z%]+|1)([+-]?[0-9]+)?")
+
+
+@lru_cache(maxsize=1024)
+def parse_unit(text: str) -> Unit:
+    """The unit that `text` means. Raises ValueError with a sentence for what cannot be read."""
+    numerator, slash, denominator = text.strip().partition("/")
+    if not slash:
+        return replace(_group(numerator, text), text=text)
+    if "/" in denominator:
+        raise ValueError(f"{text!r} has two '/': put the denominator in parentheses, as in W/(m2.K)")
+    return replace(_group(numerator, text) / _group(denominator, text), text=text)
+
+
+def _group(part: str, whole: str) -> Unit:
+    inner = part.strip()
+    if inner.startswith("(") and inner.endswith(")"):
+        inner = inner[1:-1]
+    result = DIMENSIONLESS
+    for factor in inner.split("."):
+        found = _FACTOR.fullmatch(factor.strip())
+        if not found:
+            raise ValueError(f"{whole!r} is no unit: write products as N.m, quotients as rad/s, powers as m2")
+        symbol, power = found.groups()
+        result = result * _symbol(symbol, whole) ** Fraction(int(power or 1))
+    return result
+
+
+def _symbol(symbol: str, whole: str) -> Unit:
+    if symbol in _SYMBOLS:
+        return _SYMBOLS[symbol]
+    for prefix, factor in _PREFIXES.items():
+        rest = symbol.removeprefix(prefix)
+        if rest != symbol and rest in _SYMBOLS and rest not in _UNPREFIXED:
+            return Unit(_NONE, factor) * _SYMBOLS[rest]
+    raise ValueError(f"there is no unit {symbol!r}" + (f", as in {whole!r}" if symbol != whole else ""))
+
+
+_NAMED = (
+    "N", "W", "V", "Ohm", "H", "F", "Wb", "T", "Pa", "C", "N.m", "V.s", "N.m.s", "N.s/m", "N/m", "kg.m2", "kg", "m/s",
+    "m/s2", "V/m", "W/K", "J/K", "N.m/A", "A/s", "V/s", "W/A2",
+)  # fmt: skip
+
+
+@lru_cache(maxsize=1)
+def _names() -> dict[Exponents, str]:
+    return {parse_unit(text).exponents: text for text in reversed(_NAMED)}
+
+
+def format_unit(unit: Unit) -> str:
+    """A readable name: a common one where there is, else base units; another factor is shown before it."""
+    text = "1" if unit.dimensionless else _names().get(unit.exponents) or _base_text(unit.exponents)
+    if unit.factor is not None and not math.isclose(unit.factor, 1.0, rel_tol=1e-9):
+        text = f"{unit.factor:.6g} {text}"
+    return text
+
+
+def _base_text(exponents: Exponents) -> str:
+    def group(sign: int) -> list[str]:
+        powers = [(b, sign * e) for b, e in zip(_BASE, exponents, strict=True) if sign * e > 0]
+        return [b if e == 1 else f"{b}{e}" if e.denominator == 1 else f"{b}({e})" for b, e in powers]
+
+    above, below = ".".join(group(1)) or "1", ".".join(group(-1))
+    if not below:
+        return above
+    return f"{above}/({below})" if "." in below else f"{above}/{below}"
