@@ -11,20 +11,23 @@ partial model PartialFriction "Dry friction that sticks: mode, path variable and
   Types.Power loss "Heat";
 protected
   constant Types.Torque unitTorque = 1;
+  constant Types.AngularVelocity unitVelocity = 1;
   constant Types.AngularAcceleration unitAcceleration = 1;
   constant Types.AngularVelocity w_small = 1e-10 "Slower than this is at rest";
   Real sa(start=0) "Path variable: torque while stuck, acceleration while sliding";
   Types.Torque tau_hold "Torque that keeps it at rest; zero while it slides";
   Types.AngularVelocity w_stuck "Speed while stuck: zero unless something else sets it";
+  Types.AngularVelocity w_along "Speed in the sense in which it slides; positive while stuck";
 equation
   tau_fric = if mode == Stuck then sa*unitTorque else mode*tau_slide;
   der(w_fric) = if mode == Stuck then 0 else sa*unitAcceleration;
   tau_hold = if mode == Stuck then sa*unitTorque else 0;
   w_stuck = if mode == Stuck then w_fric else 0;
+  w_along = if mode == Stuck then unitVelocity else mode*w_fric;
   mode = if pre(mode) == Stuck then
       (if tau_hold > tau_break or w_stuck > w_small then Forward
        elseif tau_hold < -tau_break or w_stuck < -w_small then Backward else Stuck)
-    elseif pre(mode)*w_fric < 0 then Stuck else pre(mode);
+    elseif w_along < 0 then Stuck else pre(mode);
   when mode == Stuck then
     reinit(w_fric, 0);
   end when;

@@ -14,13 +14,14 @@ protected
   constant Types.Time T_open = 1e-4 "Decay time of the residual current of an open leg";
   constant Types.Inductance L_open = 1e9 "Leakage of an open leg; it only sets the potential of a load that floats as a whole";
   constant Types.Voltage unitVoltage = 1;
+  constant Types.Current unitCurrent = 1;
   constant Types.CurrentSlope unitSlope = 1;
   Boolean open "Neither driven nor conducting";
   Types.PerUnit upper "Share of the current that the positive rail carries";
   Real s(start=0) "Path variable: potential when open, slope of the current when joined to the rails";
   Integer forward(start=0) "Sign of the current at the moment when both switches open";
   Types.Current residue(start=0, fixed=true) "Residual current at the moment when an open leg conducts again";
-  Types.Current reversed "How far a diode's current is beyond zero";
+  Types.Current reversed "How far the current of a conducting diode is beyond zero";
 equation
   v = out.v;
   i = -out.i;
@@ -39,7 +40,7 @@ equation
   elsewhen driven then
     residue = 0;
   end when;
-  reversed = diode*i;
+  reversed = if diode == 0 then -unitCurrent else diode*i;
   diode = if driven then 0
     elseif pre(driven) then -forward
     elseif pre(diode) == 0 then (if v > p.v + v_on then 1 elseif v < n.v - v_on then -1 else 0)
