@@ -170,7 +170,7 @@ def _merge_attributes(model: flat.FlatModel, pairs: dict[str, tuple[str, int]]) 
             changed["nominal"] = a.nominal
         changed["state_select"] = max(a.state_select, b.state_select, key=STATE_SELECT.index)
         variables[target] = replace(b, **changed)
-    return replace(model, variables=variables)
+    return replace(model, variables={name: v for name, v in variables.items() if name not in pairs})
 
 
 def _is_fixed(v: flat.Variable) -> bool:
