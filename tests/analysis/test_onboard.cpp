@@ -1,0 +1,162 @@
+// The on-board chain against the desktop's, its memory, and its speed.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <sstream>
+
+#include "lacuna/chain.hpp"
+#include "lacuna/onboard/fft.hpp"
+#include "lacuna/onboard/monitor.hpp"
+#include "malloc_trap.h"
+#include "reference_actuator.h"
+
+using lacuna::onboard::Configuration;
+using lacuna::onboard::Monitor;
+using lacuna::onboard::RealFft;
+
+namespace {
+
+constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
+
+lacuna::Chain paper_chain() {
+  std::ostringstream text;
+  text << std::ifstream(PAPER_SETTINGS).rdbuf();
+  return lacuna::Chain(lacuna::Settings::parse(text.str()));
+}
+
+Configuration configuration_of(const lacuna::Chain &chain) {
+  const auto &s = chain.settings();
+  return {s.currents.size(), s.samples(),  chain.sections().length(), chain.sections().hop(), chain.spectrum().padded(),
+          s.sampling_rate,   s.peak_above, s.peak_threshold,          s.speed_after};
+}
+
+std::vector<std::array<double, 5>> simulated(double zeta, int rows) {
+  reference_parameters parameters = reference_defaults();
+  parameters.zeta = zeta;
+  std::vector<std::array<double, 5>> out(static_cast<std::size_t>(rows));
+  EXPECT_GT(reference_simulate(&parameters, 1e-5, rows, reinterpret_cast<double(*)[5]>(out.data())), 0);
+  return out;
+}
+
+void expect_close(double a, double b) {
+  if (std::isnan(b))
+    EXPECT_TRUE(std::isnan(a));
+  else
+    EXPECT_NEAR(a, b, 1e-9 * std::max(1.0, std::abs(b)));
+}
+
+} // namespace
+
+class RealFftOfLength : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(RealFftOfLength, AgreesWithTheSumThatDefinesIt) {
+  const std::size_t length = GetParam();
+  RealFft fft(length);
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  std::vector<double> x(length), held(fft.lines(), 0.0);
+  for (double &value : x)
+    value = normal(random);
+  for (std::size_t n = 0; n < length; ++n)
+    fft.buffer()[fft.place(n)] = x[n];
+  fft.run_and_hold(held);
+  for (std::size_t k = 0; k < fft.lines(); ++k) {
+    std::complex<double> sum = 0;
+    for (std::size_t n = 0; n < length; ++n)
+      sum += x[n] *
+             std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(k * n % length) / static_cast<double>(length));
+    EXPECT_NEAR(held[fft.slot(k)], std::norm(sum), 1e-11 * static_cast<double>(length)) << "line " << k;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(PowersOfTwo, RealFftOfLength, testing::Values(16, 32, 64, 128, 256, 1024, 2048));
+
+TEST(RealFft, RefusesOtherLengths) {
+  EXPECT_THROW(RealFft(8), std::invalid_argument);
+  EXPECT_THROW(RealFft(100), std::invalid_argument);
+}
+
+TEST(Monitor, EqualsTheDesktopChain) {
+  const lacuna::Chain chain = paper_chain();
+  Monitor monitor(configuration_of(chain));
+  for (const double zeta : {0.0, 0.34}) {
+    const auto rows = simulated(zeta, 100000);
+    std::array<std::vector<double>, 5> columns;
+    for (const auto &row : rows)
+      for (std::size_t c = 0; c < 5; ++c)
+        columns[c].push_back(row[c]);
+    const auto desktop = chain.analyse({columns[0], columns[1], columns[2]}, columns[4]);
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      ASSERT_EQ(monitor.push({rows[k].data(), 3}, rows[k][4]), k + 1 == rows.size());
+    const auto &found = monitor.features();
+    ASSERT_TRUE(found.valid);
+    expect_close(found.rms_mean, desktop.rms_mean);
+    expect_close(found.speed.value, desktop.speed.value);
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_EQ(found.channels[c].peak_bin, desktop.channels[c].peak_bin);
+      expect_close(found.channels[c].rms, desktop.channels[c].rms);
+      expect_close(found.channels[c].peak_amplitude, desktop.channels[c].peak_amplitude);
+      expect_close(found.channels[c].frequency, desktop.channels[c].frequency);
+      for (std::size_t h = 0; h < lacuna::harmonics; ++h)
+        expect_close(found.channels[c].harmonic[h], desktop.channels[c].harmonic[h]);
+    }
+  }
+}
+
+TEST(Monitor, ARecordWithAGapIsNotValidAndTheNextOneIs) {
+  Monitor monitor({1, 100, 50, 10, 64, 100, 1, 0.1, 0});
+  const auto record = [&](std::size_t gap) {
+    for (std::size_t k = 0; k < 100; ++k) {
+      const double current = k == gap ? not_measured : std::sin(0.7 * static_cast<double>(k));
+      if (monitor.push({&current, 1}, not_measured)) return monitor.features();
+    }
+    return lacuna::onboard::RecordFeatures{};
+  };
+  EXPECT_FALSE(record(70).valid);
+  const auto good = record(1000);
+  EXPECT_TRUE(good.valid);
+  EXPECT_GT(good.channels[0].peak_bin, 0);
+  EXPECT_EQ(good.speed.turns, 0);
+}
+
+TEST(Monitor, RefusesAnImpossibleConfiguration) {
+  EXPECT_THROW(Monitor({0, 100, 50, 10, 64, 100, 1, 0.1, 0}), std::invalid_argument);
+  EXPECT_THROW(Monitor({1, 100, 200, 10, 256, 100, 1, 0.1, 0}), std::invalid_argument);
+  EXPECT_THROW(Monitor({1, 100, 50, 10, 32, 100, 1, 0.1, 0}), std::invalid_argument);
+  EXPECT_THROW(Monitor({1, 100, 50, 0, 64, 100, 1, 0.1, 0}), std::invalid_argument);
+}
+
+TEST(MallocTrap, IsSet) {
+  const long before = allocations();
+  const std::vector<double> memory(1000);
+  void *volatile block = std::malloc(10);
+  std::free(block);
+  EXPECT_EQ(allocations() - before, 2);
+}
+
+TEST(Monitor, ALongStreamWithoutAllocationAndFasterThanRealTime) {
+  const lacuna::Chain chain = paper_chain();
+  Monitor monitor(configuration_of(chain));
+  const auto rows = simulated(0.2, 100000);
+  const long before = allocations();
+  const std::clock_t begin = std::clock(); // of this process: other work on the machine does not count
+  int records = 0;
+  for (int second = 0; second < STREAM_SECONDS; ++second)
+    for (const auto &row : rows)
+      records += monitor.push({row.data(), 3}, row[4]) ? 1 : 0;
+  const double elapsed = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  EXPECT_EQ(allocations() - before, 0);
+  EXPECT_EQ(records, STREAM_SECONDS);
+  EXPECT_EQ(monitor.features().channels[0].peak_bin, 44);
+  const double speed = STREAM_SECONDS / elapsed;
+  RecordProperty("times_real_time", std::to_string(speed));
+  std::printf("%.0f times faster than real time\n", speed);
+  EXPECT_GT(speed, MINIMUM_SPEED);
+}
