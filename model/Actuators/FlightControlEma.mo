@@ -1,9 +1,8 @@
 within Lacuna.Actuators;
 model FlightControlEma "Position servo of a flight control surface: the whole closed loop with its progressive faults"
   extends Interfaces.PartialEma(
-    V=48, R=1.05, L=0.35e-3, Ke=0.0375, Jm=2.5e-5, bm=3e-5, tau_m=0.01,
+    V=48, R=1.05, L=0.35e-3, Ke=0.0375, Jm=2.5e-5, bm=3e-5, tau_m=0.01, i_limit=15, Kp_i=1.5, Ki_i=500,
     controller(N=N, Kp=18, w_max=550, Kw=0.05, Ki=0.5, i_max=12),
-    drive(i_max=15),
     followingError(limit=0.05, t_confirm=0.2), overCurrent(limit=14, t_confirm=0.1), overSpeed(limit=620, t_confirm=0.05));
   parameter Types.PerUnit N(final min=1) = 160 "Ratio of the reducer";
   parameter Types.RotationalStiffness k(final min=0) = 1e5 "Stiffness of the transmission, at the surface";
@@ -26,7 +25,7 @@ model FlightControlEma "Position servo of a flight control surface: the whole cl
   Components.Mechanics.DryFriction hingeFriction(tau_c=friction*tau_s, peak=peak) "Dry friction of the hinge";
   Components.Mechanics.EndStops stops(phi_max=travel, c=2e5, lambda=0.5) "End stops";
   Components.Mechanics.HingeMoment aero(tau0=tau_aero, c=c_aero) "Aerodynamic load";
-  Components.Sensors.PositionTransducer transducer(offset=offset) "Position transducer of the surface";
+  Components.Sensors.PositionTransducer transducer(offset=offset, f_c=300) "Position transducer of the surface";
 equation
   connect(command.y, controller.command);
   connect(gust.y, aero.u);

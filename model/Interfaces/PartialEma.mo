@@ -11,6 +11,9 @@ partial model PartialEma "Motor side of an actuator: controller, drive, bus, mac
   parameter Types.Torque tau_m(final min=0, start=0.01) "Dry friction of the motor, healthy";
   parameter Types.PerUnit mu(final min=0, final max=0.5) = 0.03 "Friction of the reducer over its load, healthy";
   parameter Types.PerUnit peak(final min=1) = 1.3 "Breakaway level of dry friction over its sliding level";
+  parameter Types.Current i_limit(final min=0, start=10) "Current limit of the drive";
+  parameter Types.Resistance Kp_i(final min=0, start=1) "Proportional gain of the current loop";
+  parameter Real Ki_i(final min=0, final unit="Ohm/s", start=500) "Integral gain of the current loop";
   parameter Types.Frequency f_filter(final min=1e-6) = 500 "Corner frequency of the current filters' sections";
   parameter Types.PerUnit friction(final min=0) = 1 "Fault: dry friction as a multiple of the healthy one";
   parameter Types.PerUnit zeta(final min=0, final max=0.99) = 0 "Fault: static eccentricity over air gap";
@@ -19,7 +22,8 @@ partial model PartialEma "Motor side of an actuator: controller, drive, bus, mac
   parameter Types.PerUnit short_c(final min=0, final max=0.99) = 0 "Fault: shorted turns of phase c";
   replaceable Components.Control.PositionController controller constrainedby PartialController
     "Actuator control electronics";
-  replaceable Components.Drives.AveragedDrive drive constrainedby PartialDrive "Power drive electronics";
+  replaceable Components.Drives.AveragedDrive drive(V=V, Kp=Kp_i, Ki=Ki_i) constrainedby PartialDrive(i_max=i_limit)
+    "Power drive electronics";
   Components.Electrical.Bus supply(V=V, R=R_bus) "Bus";
   Components.Electrical.Ground ground "Reference potential";
   Components.Drives.StarWinding winding(R=R, L=L, Ke=Ke, pp=pp, zeta=zeta, shorted={short_a, short_b, short_c}) "Stator";

@@ -1,5 +1,5 @@
 within Lacuna.Interfaces;
-partial model PartialFriction "Dry friction that sticks: mode, path variable and events"
+partial model PartialFriction "Dry friction that sticks: mode and events"
   constant Integer Forward = 1 "Slides with positive speed";
   constant Integer Stuck = 0 "At rest, held by friction";
   constant Integer Backward = -1 "Slides with negative speed";
@@ -10,18 +10,15 @@ partial model PartialFriction "Dry friction that sticks: mode, path variable and
   Types.Torque tau_break "Level at which it breaks away, not below tau_slide";
   Types.Power loss "Heat";
 protected
-  constant Types.Torque unitTorque = 1;
   constant Types.AngularVelocity unitVelocity = 1;
-  constant Types.AngularAcceleration unitAcceleration = 1;
+  constant Types.Inertia unitInertia = 1;
   constant Types.AngularVelocity w_small = 1e-10 "Slower than this is at rest";
-  Real sa(start=0) "Path variable: torque while stuck, acceleration while sliding";
   Types.Torque tau_hold "Torque that keeps it at rest; zero while it slides";
   Types.AngularVelocity w_stuck "Speed while stuck: zero unless something else sets it";
   Types.AngularVelocity w_along "Speed in the sense in which it slides; positive while stuck";
 equation
-  tau_fric = if mode == Stuck then sa*unitTorque else mode*tau_slide;
-  der(w_fric) = if mode == Stuck then 0 else sa*unitAcceleration;
-  tau_hold = if mode == Stuck then sa*unitTorque else 0;
+  0 = if mode == Stuck then unitInertia*der(w_fric) else tau_fric - mode*tau_slide;
+  tau_hold = if mode == Stuck then tau_fric else 0;
   w_stuck = if mode == Stuck then w_fric else 0;
   w_along = if mode == Stuck then unitVelocity else mode*w_fric;
   mode = if pre(mode) == Stuck then
@@ -34,8 +31,8 @@ equation
   loss = tau_fric*w_fric;
   annotation(Documentation(info="<html>
 <p>Dry friction opposes motion with <code>tau_slide</code>; at rest it takes whatever value keeps the body at rest, up to
-<code>tau_break</code>. Torque is thus no function of speed: the relation is traversed by the path variable <code>sa</code>,
-which is the torque while stuck and the acceleration while sliding, and <code>mode</code> says which branch holds.</p>
+<code>tau_break</code>. Torque is thus no function of speed: while it slides the torque is known and the acceleration
+follows, while it is stuck the acceleration is known and the torque follows; <code>mode</code> says which.</p>
 <p>Sliding ends when the speed passes zero; the speed is then set to exactly zero and its derivative is zero, so a stuck
 element never creeps. In the same event the torque needed to hold it becomes known: if it exceeds <code>tau_break</code> the
 element slides on at once in the sense of that torque. All conditions are strict, so none is exactly on its switching

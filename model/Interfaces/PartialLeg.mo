@@ -11,14 +11,12 @@ partial model PartialLeg "One leg of an inverter on an inductive load: driven, o
   Types.Voltage v "Potential of the terminal";
   Types.Current i "Current into the load";
 protected
-  constant Types.Time T_open = 1e-4 "Decay time of the residual current of an open leg";
-  constant Types.Inductance L_open = 1e9 "Leakage of an open leg; it only sets the potential of a load that floats as a whole";
-  constant Types.Voltage unitVoltage = 1;
+  constant Types.Time T_open = 1e-3 "Decay time of the residual current of an open leg";
+  constant Types.Inductance L_open = 1e-3 "Inductance that weights the slope of the current against a voltage";
+  constant Types.PerUnit leak = 1e-12 "Share of the potential that sets the mean of a load that floats as a whole";
   constant Types.Current unitCurrent = 1;
-  constant Types.CurrentSlope unitSlope = 1;
   Boolean open "Neither driven nor conducting";
   Types.PerUnit upper "Share of the current that the positive rail carries";
-  Real s(start=0) "Path variable: potential when open, slope of the current when joined to the rails";
   Integer forward(start=0) "Sign of the current at the moment when both switches open";
   Types.Current residue(start=0, fixed=true) "Residual current at the moment when an open leg conducts again";
   Types.Current reversed "How far the current of a conducting diode is beyond zero";
@@ -28,8 +26,7 @@ equation
   upper = if driven then share elseif diode > 0 then 1 else 0;
   p.i = upper*i;
   n.i = (1 - upper)*i;
-  v = if open then s*unitVoltage else upper*p.v + (1 - upper)*n.v;
-  der(i) = if open then -i/T_open - (v - (p.v + n.v)/2)/L_open else s*unitSlope;
+  0 = if open then L_open*(der(i) + i/T_open) + leak*(v - (p.v + n.v)/2) else v - upper*p.v - (1 - upper)*n.v;
 
   open = not driven and diode == 0;
   when {initial(), not driven} then
@@ -54,9 +51,8 @@ again.</p>
 <p>The current is a state of the load, so <em>open</em> is said of its derivative: <code>der(i) = 0</code> with
 <code>i = 0</code>. What is left of the current when the event is found (below <code>i_off</code>) decays in
 <code>T_open</code>. Currents of three phases at one star point are not independent, so the residue of the third is
-not exactly zero; it is remembered when the leg conducts again, so that rounding cannot put the diode out at once.
-Slope and potential share one unknown, <code>s</code>, as on the characteristic of an ideal diode.</p>
+not exactly zero; it is remembered when the leg conducts again, so that rounding cannot put the diode out at once.</p>
 <p>The terminal must be connected to an inductive load. When every leg of an isolated load is open its potential would be
-undetermined; <code>L_open</code> then puts its mean midway between the rails, at a current of picoamperes.</p>
+undetermined; <code>leak</code> then puts its mean midway between the rails, at a current of picoamperes.</p>
 </html>"));
 end PartialLeg;
