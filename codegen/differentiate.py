@@ -63,15 +63,15 @@ class Differentiator:
             return ZERO
         if e.op in LEAF_OPS:
             return self._seed(e) if e.type == REAL else ZERO
-        rule = getattr(self, "_" + _RULES[e.op], None)
-        return rule(e)
+        return getattr(self, "_" + _RULES[e.op])(e)
 
     def _sum(self, e: Expr) -> Expr:
         a, b = map(self, e.args)
         return add(a, b) if e.op == "+" else sub(a, b)
 
     def _negation(self, e: Expr) -> Expr:
-        return neg(self(e.args[0]))
+        inner = self(e.args[0])
+        return ZERO if is_const(inner, 0) else neg(inner)  # never -0.0
 
     def _product(self, e: Expr) -> Expr:
         a, b = e.args

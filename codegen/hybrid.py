@@ -24,11 +24,6 @@ from .expr import (
 from .leaves import leaves
 from .rewrite import Rewriter
 
-# After an upward jump floor(x) = n leaves its lower guard at n - GUARD, so that no guard is ever exactly zero
-# where its partner has just fired. In units of the jump; far above rounding, far below any tolerance.
-GUARD = const(1e-9)
-
-
 @dataclass
 class Relation:
     """left > right; `slope` is d(left - right)/dt of a time relation, None of a root."""
@@ -127,7 +122,7 @@ class _Freezer:
             return None
         if n.op in ("noEvent", "smooth"):
             return strip(n)
-        if n.op in ("edge", "change", "sample"):
+        if n.op in ("edge", "change", "sample", "pre"):
             return self._rule(n)
         return None
 
@@ -154,6 +149,8 @@ class _Freezer:
             return relation("<>", n.args[0], pre(n.args[0]))
         if n.op == "sample":
             return self._tick(n)
+        if n.op == "pre":  # of a continuous variable: its value on arrival at the event
+            return n.args[0] if self._is_continuous(n.args[0]) else None
         if n.op in RELATIONS and n.op not in ("==", "<>") and self._continuous(n):
             left, right, positive = _canonical(n)
             return self._relation(self.freeze(left), self.freeze(right), positive)
@@ -207,8 +204,8 @@ class _Freezer:
             name, self._source.span, INTEGER, flat.DISCRETE, description="whole part kept between events"
         )
         above = self._relation(add(pre(n), const(1)), x, False)
-        below = self._relation(sub(pre(n), GUARD), x, True)
-        whole = call("floor", x)
+        below = self._relation(pre(n), x, True)
+        whole = call("integer", x)
         value = if_else(below, minimum(sub(pre(n), const(1)), whole), pre(n))
         value = if_else(above, maximum(add(pre(n), const(1)), whole), value)
         value = if_else(special("initial"), whole, value)

@@ -95,6 +95,17 @@ def assigned(body: Iterable[flat.Statement]) -> list[str]:
     return list(names)
 
 
+def all_statements(body: Iterable[flat.Statement]) -> Iterable[flat.Statement]:
+    """Every statement, those inside others after them."""
+    for s in body:
+        yield s
+        if isinstance(s, flat.If | flat.When):
+            for _, inner in s.branches:
+                yield from all_statements(inner)
+        elif isinstance(s, flat.While | flat.For):
+            yield from all_statements(s.body)
+
+
 def expressions(body: Iterable[flat.Statement]) -> Iterable[Expr]:
     """Every expression read by statements."""
     for s in body:

@@ -40,6 +40,10 @@ class Storage:
     def slot(self, name: str) -> Slot | None:
         return self._slots.get(name)
 
+    def is_discrete(self, n: Expr) -> bool:
+        slot = self._slots.get(str(n.value)) if n.op == "var" else None
+        return slot is not None and slot.array == "d"
+
     def frozen(self, n: Expr) -> str | None:
         """C text of a leaf that does not change within a callback: p, u, d, pre, rel, tick."""
         if n.op == "rel":

@@ -20,6 +20,7 @@ class Body:
         self.names = names
         self._access = access
         self._loads: dict[Expr, str] = {}
+        self._preamble: list[str] = []
         self._lines: list[str] = []
         self._defined: dict[Expr, str] = dict(given or {})  # nodes that have a name already
         self._uses: dict[Expr, int] = {}
@@ -31,7 +32,11 @@ class Body:
     def text(self) -> str:
         order = sorted(self._loads.items(), key=lambda item: _natural(item[1]))
         loads = [f"  {line}" for _, line in order]
-        return "\n".join([*loads, *self._lines])
+        return "\n".join([*self._preamble, *loads, *self._lines])
+
+    def preamble(self, text: str) -> None:
+        """A statement that stands before everything is loaded."""
+        self._preamble.append(f"  {text}")
 
     def line(self, text: str) -> None:
         self._lines.append("  " * self._depth + text if text else "")

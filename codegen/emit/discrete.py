@@ -8,7 +8,10 @@ from .. import flat
 from ..errors import Diagnostic
 from ..events import DiscreteEquation, targets
 from ..expr import relation, sub, var, walk
+from ..hybrid import Relation
+from ..leaves import leaves
 from ..prepared import Prepared
+from ..rewrite import all_statements
 from ..structure.constants import dependency_order
 from .body import Body
 from .continuous import function
@@ -36,6 +39,8 @@ class Discrete:
     def event(self) -> str:
         body = Body(self._names, self._storage.point)
         self._body = body
+        if self._has_moving_time_relations():
+            body.preamble("(void)mdl_time_relations(m, t);")
         for step in self._p.events:
             match step:
                 case DiscreteEquation():
@@ -52,6 +57,11 @@ class Discrete:
             for name in targets(step):
                 body.line(f"m->d[{self._storage.slot(name).index}] = {self._names.identifier(name)};")
         return function(EVENT, body)
+
+    def _has_moving_time_relations(self) -> bool:
+        """Whether the instant of a time relation depends on discrete variables: it follows them from pass to pass."""
+        used = [leaves(sub(r.left, r.right)) for _, r in self._timed()]
+        return any(n.op == "pre" or self._storage.is_discrete(n) for found in used for n in found)
 
     def _type(self, name: str) -> str:
         return self._p.model.variables[name].type
@@ -146,7 +156,7 @@ class Discrete:
             body.line(f"next = mdl_next_switch({g}, {slope}, t, next);")
         return function(NEXT_TIME_EVENT, body).replace("\n  return 0;\n}", "\n  return next;\n}")
 
-    def _timed(self) -> list[tuple[int, object]]:
+    def _timed(self) -> list[tuple[int, Relation]]:
         return [(k, r) for k, r in enumerate(self._p.relations) if r.slope is not None]
 
     def samples(self) -> str:
@@ -193,16 +203,8 @@ def is_settable(v: flat.Variable) -> bool:
 def event_and_model_asserts(p: Prepared) -> list[flat.Assert]:
     """Asserts in the order of the descriptor: those of the model, then those inside when clauses."""
     found = [a for a in p.model.asserts if a.level == "error"]
-
-    def collect(body: Sequence[flat.Statement]) -> None:
-        for s in body:
-            if isinstance(s, flat.Assert):
-                found.append(s)
-            elif isinstance(s, flat.If | flat.When):
-                for _, inner in s.branches:
-                    collect(inner)
-
     for step in p.events:
         if not isinstance(step, DiscreteEquation):
-            collect([step] if isinstance(step, flat.When) else step.statements)
+            inside = all_statements([step] if isinstance(step, flat.When) else step.statements)
+            found += [s for s in inside if isinstance(s, flat.Assert)]
     return found

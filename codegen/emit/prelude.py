@@ -58,10 +58,12 @@ typedef struct {
   double norm;
 } mdl_newton;
 
-/* Whether a Newton step made the residual larger (or not finite), so that it should be halved. */
+/* Whether a Newton step made the residual larger (or not finite), so that it should be halved. A residual of zero
+ * ends the iteration, even where the Jacobian is singular. */
 static int mdl_newton_grows(mdl_newton *s, int n, const double *r) {
   double norm = 0.0;
   for (int i = 0; i < n; ++i) norm += r[i] * r[i];
+  s->converged = norm == 0.0;
   if (s->iterations > 0 && !(norm <= s->norm) && s->halvings < 12) {
     ++s->halvings;
     return 1;

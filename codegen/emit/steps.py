@@ -131,6 +131,7 @@ class StepWriter:
             body.line(f"double {block}_r[{size}] = {{{', '.join(body.value(r) for r in residuals)}}};")
             names = [body.names.leaf(u) for u in step.tears]
             self._damping(block, size, names)
+            body.line(f"if ({block}.converged) break;")
             matrix = ", ".join(body.value(j) for line in step.jacobian for j in line)
             body.line(f"double {block}_a[{size * size}] = {{{matrix}}};")
             body.line(f"if (mdl_solve({size}, {block}_a, {block}_r)) {self._fail('SINGULAR', step.residuals[0])}")

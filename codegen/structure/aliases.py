@@ -78,6 +78,17 @@ def alias_pair(eq: flat.Equation) -> tuple[str, str, int] | None:
     return None
 
 
+def _speed(eq: flat.Equation) -> tuple[str, Expr, int] | None:
+    """(v, der(x), sign) where the equation says v = sign * der(x)."""
+    for side, other in ((eq.lhs, eq.rhs), (eq.rhs, eq.lhs)):
+        v, sign = _signed(side), 1
+        if other.op == "neg":
+            other, sign = other.args[0], -1
+        if v and other.op == "der":
+            return v[0], other, v[1] * sign
+    return None
+
+
 class _Union:
     """Union-find over names with a sign on every link."""
 
@@ -119,8 +130,12 @@ def _alias_pairs(
         return v.type == o.type and (continuous or (v.variability == flat.DISCRETE) <= (o.variability == flat.DISCRETE)
                                      and name not in differentiated)  # fmt: skip
 
+    speeds: dict[Expr, tuple[str, int]] = {}
     for eq in model.equations:
-        pair = alias_pair(eq)
+        pair, speed = alias_pair(eq), _speed(eq)
+        if speed:  # two variables that equal the same derivative equal each other
+            first, sign = speeds.setdefault(speed[1], (speed[0], speed[2]))
+            pair = (speed[0], first, speed[2] * sign) if first != speed[0] else None
         if pair is None or any(model.variables[n].variability in (flat.CONSTANT, flat.PARAMETER) for n in pair[:2]):
             kept.append(eq)
             continue

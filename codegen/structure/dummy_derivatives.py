@@ -13,7 +13,7 @@ from .. import flat
 from ..differentiate import partial
 from ..errors import Diagnostic
 from ..expr import Expr, der, var
-from ..rewrite import Rewriter
+from ..rewrite import Rewriter, all_statements
 from .aliases import STATE_SELECT
 from .system import DeclaredValues, Row, System
 
@@ -75,22 +75,34 @@ def _choose_dummies(model: flat.FlatModel, rows: list[Row], variables: dict[Expr
     candidates = [v for v in variables if variables[v] and der(v) not in variables]
     dummies: set[Expr] = set()
     values = DeclaredValues(model)
+    reset = _reinitialised(model)
     while constraints:
-        chosen = _pivots(model, constraints, candidates, variables, values)
+        chosen = _pivots(model, constraints, candidates, variables, values, reset)
         dummies.update(chosen)
         candidates = [v.args[0] for v in variables if v in chosen and variables[v] > 1]
         constraints = [row.integral for row in constraints if row.integral.integral]
     return dummies
 
 
+def _reinitialised(model: flat.FlatModel) -> set[str]:
+    """Targets of reinit: they must be states."""
+    return {s.target for s in all_statements([*model.whens, *(s for a in model.algorithms for s in a.statements)])
+            if isinstance(s, flat.Reinit)}  # fmt: skip
+
+
 def _pivots(
-    model: flat.FlatModel, rows: list[Row], candidates: list[Expr], variables: dict[Expr, int], values: DeclaredValues
+    model: flat.FlatModel,
+    rows: list[Row],
+    candidates: list[Expr],
+    variables: dict[Expr, int],
+    values: DeclaredValues,
+    reset: set[str],
 ) -> set[Expr]:
     """As many candidates as rows, with a regular Jacobian at the start values (Gaussian elimination)."""
     matrix = [[_entry(row, v, values) for v in candidates] for row in rows]
     scale = [max(map(abs, line), default=0.0) or 1.0 for line in matrix]
     matrix = [[a / s for a in line] for line, s in zip(matrix, scale)]
-    keys = [_keep(model, v, variables[v]) for v in candidates]
+    keys = [_keep(model, v, variables[v], reset) for v in candidates]
     chosen: set[Expr] = set()
     left_rows, left_columns = list(range(len(rows))), list(range(len(candidates)))
     while left_rows:
@@ -115,14 +127,14 @@ def _entry(row: Row, v: Expr, values: DeclaredValues) -> float:
     return 1.0 if value is None else float(value)
 
 
-def _keep(model: flat.FlatModel, derivative: Expr, order: int) -> tuple:
+def _keep(model: flat.FlatModel, derivative: Expr, order: int, reset: set[str]) -> tuple:
     """Derivatives with the smallest key become dummies first."""
     base = derivative
     while base.op == "der":
         base = base.args[0]
     v = model.variables[str(base.value)]
     fixed = v.fixed is not None and v.fixed.op == "const" and bool(v.fixed.value)
-    return STATE_SELECT.index(v.state_select), -order, fixed
+    return v.name in reset, STATE_SELECT.index(v.state_select), -order, fixed
 
 
 def _refuse(rows: list[Row], candidates: list[Expr]) -> None:
