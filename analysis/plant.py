@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+import hashlib
 from pathlib import Path
+import threading
 from typing import Protocol
 
 import numpy as np
 
 from analysis.errors import AnalysisError
 from analysis.settings import Settings
+import runtime
+from runtime.library import library_path as runtime_library_path
 
 
 @dataclass(frozen=True)
@@ -39,7 +43,7 @@ class Plant(Protocol):
     passes: dict[str, float]  # seconds of each pass of its translation; empty where there was none
     equations: list[SourceEquation]
 
-    def run(self, severity: float) -> Record: ...
+    def run(self, severity: float, **parameters: float) -> Record: ...
 
 
 class ModelPlant:
@@ -50,35 +54,43 @@ class ModelPlant:
     """
 
     def __init__(self, name: str, path: Path | str, model_hash: str, settings: Settings, passes=None):
-        import runtime
-
         self.name, self.passes, self._settings = name, dict(passes or {}), settings
-        self._simulate, self._model = runtime.simulate, runtime.Model(path)
+        self._model = runtime.Model(path)
         self._times = np.arange(settings.samples) / settings.sampling_rate
         self._outputs = [*settings.currents, settings.speed, settings.angle]
+        self._of_thread = threading.local()
         missing = [v for v in [settings.fault.parameter, *self._outputs] if v not in self._model.variables]
         if missing:
             raise AnalysisError(f"{settings.path}: model {name} has no variable {', '.join(missing)}")
-        self.hash = f"{model_hash} {runtime.__version__}"
+        solver = hashlib.sha256(runtime_library_path().read_bytes()).hexdigest()
+        self.hash = f"{model_hash} {solver[:16]}"
         self.equations = [
             SourceEquation(e.text, e.origin, f"{Path(e.file).name}:{e.line}") for e in self._model.equations
         ]
 
-    def run(self, severity: float) -> Record:
-        """Simulate one test. Raises AnalysisError with severity, time and reason where the run does not complete."""
+    def _session(self) -> runtime.Session:
+        """A session of this thread's own, set up once."""
+        if not hasattr(self._of_thread, "session"):
+            settings = self._settings
+            self._of_thread.session = runtime.Session(
+                self._model,
+                solver=settings.solver,
+                rtol=settings.relative_tolerance,
+                atol=settings.absolute_tolerance,
+                outputs=self._outputs,
+                output_times=self._times,
+                events=False,
+            )
+        return self._of_thread.session
+
+    def run(self, severity: float, **parameters: float) -> Record:
+        """Simulate one test, with `parameters` other than declared.
+
+        Raises AnalysisError with severity, time and reason where the run does not complete.
+        """
         settings = self._settings
-        result = self._simulate(
-            self._model,
-            solver=settings.solver,
-            parameters={settings.fault.parameter: severity},
-            start=0.0,
-            stop=float(self._times[-1]),
-            rtol=settings.relative_tolerance,
-            atol=settings.absolute_tolerance,
-            output_times=self._times,
-            outputs=self._outputs,
-            events=False,
-        )
+        values = {settings.fault.parameter: severity} | parameters
+        result = self._session().run(values, start=0.0, stop=float(self._times[-1]))
         if not result.complete:
             raise AnalysisError(f"{self.name} at {settings.fault.symbol} = {severity:g}: {result.failure}")
         return Record(

@@ -12,7 +12,13 @@ from analysis.figures import FIGURES
 from analysis.figures.style import BAND_FILL, BAND_INK
 from analysis.plant import Plant, SourceEquation
 from analysis.rows import Row
-from analysis.settings import Settings
+from analysis.settings import Fault, Settings
+
+_CONSISTENT_SET = """<p class="note"><b>How to read this.</b> The publication gives no motor parameters. The model uses
+<em>a consistent set</em>: one that gives the published numbers, fitted in three parameters, and not the only one.
+Scaling supply voltage, resistance, inductance, back-EMF constant, inertia and friction by one factor leaves every
+current and speed as it is. The agreement shows that the method and the physics fit together; it does not identify the
+authors' motor. Spectral lines are to be compared by number, not in hertz: the published ones are rounded.</p>"""
 
 _TEMPLATE = Path(__file__).with_name("report.html.in")
 
@@ -23,16 +29,17 @@ def report_html(plant: Plant, settings: Settings, rows: list[Row], summary: dict
         title=escape(settings.title),
         model=escape(plant.name),
         count=len(rows),
-        first=f"{100 * rows[0].severity:.0f}",
-        last=f"{100 * rows[-1].severity:.0f}",
+        first=escape(settings.fault.text(rows[0].severity)),
+        last=escape(settings.fault.text(rows[-1].severity)),
         fault=escape(settings.fault.name),
         duration=f"{settings.duration:g}",
         rate=f"{settings.sampling_rate / 1e3:g}",
         sections=_sections(settings),
         peak=_peak_rule(settings),
         speed_after=f"{settings.speed_after:g}",
+        test=escape(settings.raw["actuator"].get("test", "as the model has it")),
         comparison=_comparison(summary["comparison"]),
-        bands=_bands(summary["bands"]),
+        bands=_bands(summary["bands"], settings.fault),
         figures="\n".join(_figure(stem, folder) for stem in FIGURES),
         solver=escape(settings.solver.upper()),
         tolerances=f"{settings.relative_tolerance:g} relative, {settings.absolute_tolerance:g} absolute",
@@ -68,6 +75,8 @@ def _value(value: Any, unit: str, sign: str = "") -> str:
 
 
 def _comparison(comparison: list[dict[str, Any]]) -> str:
+    if not comparison:
+        return ""
     rows = []
     for entry in comparison:
         published, found, unit = entry["published"], entry["reproduced"], entry["unit"]
@@ -77,16 +86,17 @@ def _comparison(comparison: list[dict[str, Any]]) -> str:
             difference = "same" if published == found else "differs"
         name = escape(entry["quantity"] + (" (spectral line)" if unit == "line" else ""))
         rows.append([name, _value(published, unit), _value(found, unit), difference])
-    return _table(["quantity", "published", "reproduced", "difference"], rows)
+    table = _table(["quantity", "published", "reproduced", "difference"], rows)
+    return f"<h2>Published and reproduced</h2>\n{table}\n{_CONSISTENT_SET}"
 
 
-def _bands(bands: list[dict[str, Any]]) -> str:
+def _bands(bands: list[dict[str, Any]], fault: Fault) -> str:
     rows = [
         [
             f'<span class="band" style="background:{BAND_FILL.get(b["name"], "#eee")};'
             f'color:{BAND_INK.get(b["name"], "#333")}">{escape(b["name"])}</span>',
             escape(b["mode"]),
-            f"{100 * b['first']:.0f} to {100 * b['last']:.0f} %",
+            escape(f"{fault.text(b['first'])} to {fault.text(b['last'])}"),
             f"{1e3 * b['rms_first']:.1f} to {1e3 * b['rms_last']:.1f} mA",
             f"{1e3 * b['rise']:.1f} mA",
         ]

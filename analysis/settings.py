@@ -33,9 +33,18 @@ class Fault:
     parameter: str  # of the model
     symbol: str  # heads the first column of map.csv
     name: str
+    unit: str  # in which people read it
+    scale: float  # how many of that unit a value of 1 is
     first: float
     last: float
     step: float
+
+    def shown(self, severity):
+        """A severity, or an array of them, in the unit that people read."""
+        return self.scale * severity
+
+    def text(self, severity: float) -> str:
+        return f"{self.shown(severity):.4g} {self.unit}"
 
     @property
     def severities(self) -> list[float]:

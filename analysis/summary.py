@@ -75,10 +75,10 @@ def _falls(values: list[float | None]) -> bool:
 
 def _comparison(settings: Settings, bands: list, peaks: list, ordering: str | None, rows: list[Row]) -> list[dict]:
     """Rows of the table published/reproduced; `unit` says in which unit both are given."""
-    table = []
+    table, fault = [], settings.fault
     for band in bands:
         if band["published_rise"] is not None:
-            interval = f"{100 * band['first']:.0f}-{100 * band['last']:.0f} %"
+            interval = f"{fault.shown(band['first']):.4g}-{fault.text(band['last'])}"
             name = f"rise of mean RMS, {band['name']} {interval}"
             table.append(_entry(name, "mA", 1e3 * band["published_rise"], 1e3 * band["rise"]))
     if not settings.published:
@@ -89,11 +89,11 @@ def _comparison(settings: Settings, bands: list, peaks: list, ordering: str | No
         name = f"first peak {when} the switch"
         table.append(_entry(name, "line", published["first_peak_bin"][k], found["bin"]))
         table.append(_entry(name, "Hz", published["first_peak_hz"][k], found["hz"]))
-    switch = 100 * peaks[1]["first"] if len(peaks) == 2 else None
+    switch = fault.shown(peaks[1]["first"]) if len(peaks) == 2 else None
     falls = "falls" if _falls([row.speed_mean for row in rows]) else "does not always fall"
     return [
         *table,
-        _entry("first severity after the switch", "%", 100 * published["switch"], switch),
+        _entry("first severity after the switch", fault.unit, fault.shown(published["switch"]), switch),
         _entry("order of the phase RMS", "", published["ordering"], ordering),
         _entry("mean speed with rising severity", "", "falls", falls),
     ]

@@ -21,9 +21,9 @@ TITLE = "Phase currents and rotor position"
 CAPTION = (
     "Figure 7 of the paper, over the last two electrical turns. Around: electrical rotor angle, zero where phase A's "
     "back-EMF rises through zero. Outwards: filtered phase current; the dotted circle is zero current. The red arrow "
-    "marks the angle at which the eccentric rotor raises the back-EMF most. The healthy motor draws the same pattern "
-    "three times, 120 degrees apart; with eccentricity the back-EMF is weak on the side away from the arrow, and the "
-    "current rushes in there."
+    "marks the angle at which the fault raises the back-EMF most. The healthy motor draws the same pattern three "
+    "times, 120 degrees apart; the fault weakens the back-EMF on the side away from the arrow, and the current rushes "
+    "in there."
 )
 
 
@@ -35,7 +35,7 @@ def draw(settings: Settings, rows: list[Row]) -> Figure:
     panels = figure.subplots(1, len(picks), subplot_kw={"projection": "polar"})
     for axes, (row, colour) in zip(panels, picks, strict=True):
         _draw_orbit(axes, settings, row, limit)
-        axes.set_title(f"ζ = {100 * row.severity:.0f} %", loc="center", color=colour, pad=12)
+        axes.set_title(settings.fault.text(row.severity), loc="center", color=colour, pad=12)
     lines = [(PHASES[c], PHASE_STYLES[c], f"phase {phase_name(c)}") for c in range(len(settings.currents))]
     handles = [panels[0].plot([], [], style, color=colour, label=name)[0] for colour, style, name in lines]
     figure.legend(handles=handles, loc="outside lower center", ncols=len(lines), frameon=False)

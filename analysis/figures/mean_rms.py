@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 import numpy as np
 
-from analysis.figures.style import INK, band_ink, label_line_end, new_figure, severity_axis, shade_bands
+from analysis.figures.style import INK, band_ink, bands_on_map, label_line_end, new_figure, severity_axis, shade_bands
 from analysis.rows import Row
 from analysis.settings import Band, Settings
 
@@ -20,12 +20,12 @@ CAPTION = (
 def draw(settings: Settings, rows: list[Row]) -> Figure:
     figure = new_figure()
     axes = figure.subplots()
-    severity = 100 * np.array([row.severity for row in rows])
+    severity = settings.fault.shown(np.array([row.severity for row in rows]))
     mean = 1e3 * np.array([row.rms_mean for row in rows])
     shade_bands(axes, settings)
     axes.plot(severity, mean, color=INK, linewidth=2.2)
-    for band in settings.bands:
-        _mark_rise(axes, band, severity, mean)
+    for band in bands_on_map(settings):
+        _mark_rise(axes, band, settings.fault.shown(band.first), settings.fault.shown(band.last), severity, mean)
     label_line_end(axes, severity[-1], mean[-1], f"{mean[-1]:.0f} mA", INK)
     severity_axis(axes, settings)
     axes.set_ylabel("mean RMS of the phase currents  (mA)")
@@ -35,9 +35,8 @@ def draw(settings: Settings, rows: list[Row]) -> Figure:
     return figure
 
 
-def _mark_rise(axes: Axes, band: Band, severity: np.ndarray, mean: np.ndarray) -> None:
+def _mark_rise(axes: Axes, band: Band, first: float, last: float, severity: np.ndarray, mean: np.ndarray) -> None:
     """A bar at the end of the band, from the level at its beginning to that at its end."""
-    first, last = 100 * band.first, 100 * band.last
     low, high = np.interp([first, last], severity, mean)
     colour = band_ink(band)
     axes.plot([first, last], [low, low], color=colour, linewidth=1, linestyle=(0, (4, 3)))

@@ -20,15 +20,15 @@ from analysis.settings import Settings
 
 TITLE = "RMS of the filtered phase currents"
 CAPTION = (
-    "Figure 4 of the paper. The currents grow with eccentricity and drift apart: the order of the phases tells the "
-    "direction of the narrow gap. They differ slightly at zero already, because the start-up belongs to the record."
+    "Figure 4 of the paper. The currents grow with the fault and drift apart. They differ slightly without a fault "
+    "already, because the start-up belongs to the record."
 )
 
 
 def draw(settings: Settings, rows: list[Row]) -> Figure:
     figure = new_figure()
     axes = figure.subplots()
-    severity = 100 * np.array([row.severity for row in rows])
+    severity = settings.fault.shown(np.array([row.severity for row in rows]))
     rms = 1e3 * np.array([row.rms for row in rows])
     shade_bands(axes, settings)
     ends = spread(rms[-1].tolist(), 0.06 * (rms.max() - rms.min()))

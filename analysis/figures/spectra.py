@@ -49,7 +49,7 @@ def _draw_spectrum(axes: Axes, settings: Settings, rows: list[Row], channel: int
     for row, colour in reversed(landmarks(settings, rows)):
         frequency, held = row.traces["frequency"], 1e3 * row.traces["held"][channel]
         shown = frequency <= SHOWN
-        label = f"{100 * row.severity:.0f} %"
+        label = settings.fault.text(row.severity)
         axes.plot(frequency[shown], held[shown], color=colour, linewidth=1.3, label=label)
         if row.peak_bin[channel] is not None and row.peak_bin[channel] < len(held):
             axes.plot(row.peak_hz[channel], held[row.peak_bin[channel]], "o", color=colour, markersize=4.5)
@@ -57,12 +57,12 @@ def _draw_spectrum(axes: Axes, settings: Settings, rows: list[Row], channel: int
     axes.set_xlabel("frequency  (Hz)")
     axes.set_title(f"phase {phase_name(channel)}", color=PHASES[channel])
     if channel == 0:
-        axes.legend(title="ζ", frameon=False, loc="upper right")
+        axes.legend(frameon=False, loc="upper right")
 
 
 def _draw_lines(axes: Axes, settings: Settings, rows: list[Row]) -> None:
     """First-peak line of each phase, and the electrical frequency in units of lines."""
-    severity = 100 * np.array([row.severity for row in rows])
+    severity = settings.fault.shown(np.array([row.severity for row in rows]))
     resolution = float(rows[0].traces["frequency"][1])
     shade_bands(axes, settings, names=False)
     for channel, (colour, style) in enumerate(zip(PHASES, PHASE_STYLES, strict=True)):
@@ -79,7 +79,7 @@ def _draw_lines(axes: Axes, settings: Settings, rows: list[Row]) -> None:
 
 def _draw_electrical_frequency(axes: Axes, settings: Settings, rows: list[Row], resolution: float) -> None:
     pole_pairs = settings.raw["actuator"].get("pole_pairs", 1)
-    severity = 100 * np.array([row.severity for row in rows])
+    severity = settings.fault.shown(np.array([row.severity for row in rows]))
     speed = np.array([np.nan if row.speed_mean is None else row.speed_mean for row in rows])
     electrical = pole_pairs * speed / (2 * np.pi) / resolution
     axes.plot(severity, electrical, color=INK, linewidth=1.2)
@@ -89,6 +89,6 @@ def _draw_electrical_frequency(axes: Axes, settings: Settings, rows: list[Row], 
         if low <= middle <= high:
             axes.axhline(middle, color=MUTED, linestyle=":", linewidth=1.2)
             text = f"  middle between lines {middle - 0.5:.0f} and {middle + 0.5:.0f}"
-            axes.text(100 * settings.fault.first, middle, text, va="bottom", fontsize=9, color=MUTED)
+            axes.text(settings.fault.shown(settings.fault.first), middle, text, va="bottom", fontsize=9, color=MUTED)
     axes.set_ylim(np.floor(low) + 0.4, np.ceil(high) + 0.45)
     axes.set_yticks(np.arange(np.floor(low) + 1, np.ceil(high) + 1))

@@ -21,8 +21,8 @@ from analysis.settings import Settings
 
 TITLE = "Rotor speed"
 CAPTION = (
-    "Figure 6 of the paper. Left: the last tenth of a second; the eccentric rotor is slower and its speed ripples "
-    "more. Right: mean speed over whole turns after the start-up."
+    "Figure 6 of the paper. Left: the last tenth of a second; with the fault the rotor is slower and its speed "
+    "ripples more. Right: mean speed over whole turns after the start-up."
 )
 ZOOM = 0.1  # s, end of the record
 
@@ -42,7 +42,7 @@ def _draw_zoom(axes: Axes, settings: Settings, rows: list[Row]) -> None:
         shown = time >= settings.duration - ZOOM
         axes.plot(1e3 * time[shown], speed[shown], color=colour, linewidth=1.4)
         ends.append(float(speed[-1]))
-        labels.append((f"ζ = {100 * row.severity:.0f} %", colour))
+        labels.append((settings.fault.text(row.severity), colour))
     low, high = axes.get_ylim()
     for y, end, (text, colour) in zip(spread(ends, 0.055 * (high - low)), ends, labels, strict=True):
         axes.annotate(
@@ -57,7 +57,7 @@ def _draw_zoom(axes: Axes, settings: Settings, rows: list[Row]) -> None:
 
 
 def _draw_means(axes: Axes, settings: Settings, rows: list[Row]) -> None:
-    found = [(100 * row.severity, row.speed_mean) for row in rows if row.speed_mean is not None]
+    found = [(settings.fault.shown(row.severity), row.speed_mean) for row in rows if row.speed_mean is not None]
     shade_bands(axes, settings, names=False)
     severity_axis(axes, settings)
     axes.set_ylabel("mean speed over whole turns  (rad/s)")

@@ -70,20 +70,26 @@ def band_ink(band: Band) -> str:
     return BAND_INK.get(band.name, MUTED)
 
 
+def bands_on_map(settings: Settings) -> list[Band]:
+    """Those that the map's severities reach."""
+    return [band for band in settings.bands if band.first <= settings.fault.last and band.last >= settings.fault.first]
+
+
 def landmarks(settings: Settings, rows: list[Row]) -> list[tuple[Row, str]]:
     """The first row in ink, and the last row of each band in the band's colour: what figures show of a map."""
     severity = np.array([row.severity for row in rows])
-    ends = [(int(np.abs(severity - band.last).argmin()), band_ink(band)) for band in settings.bands]
+    ends = [(int(np.abs(severity - band.last).argmin()), band_ink(band)) for band in bands_on_map(settings)]
     return [(rows[0], INK)] + [(rows[k], colour) for k, colour in ends if k > 0]
 
 
 def shade_bands(axes: Axes, settings: Settings, *, names: bool = True) -> None:
-    """Colour the severities (in %) of each band; the gaps between the published bands stay white."""
-    for band in settings.bands:
-        axes.axvspan(100 * band.first, 100 * band.last, color=band_fill(band), linewidth=0, zorder=0)
+    """Colour the severities of each band; the gaps between the published bands stay white."""
+    for band in bands_on_map(settings):
+        first, last = settings.fault.shown(band.first), settings.fault.shown(band.last)
+        axes.axvspan(first, last, color=band_fill(band), linewidth=0, zorder=0)
         if names:
             axes.text(
-                50 * (band.first + band.last),
+                (first + last) / 2,
                 1.01,
                 band.name,
                 transform=axes.get_xaxis_transform(),
@@ -96,8 +102,8 @@ def shade_bands(axes: Axes, settings: Settings, *, names: bool = True) -> None:
 
 
 def severity_axis(axes: Axes, settings: Settings) -> None:
-    axes.set_xlim(100 * settings.fault.first, 100 * settings.fault.last)
-    axes.set_xlabel(f"{settings.fault.name} ζ  (%)")
+    axes.set_xlim(settings.fault.shown(settings.fault.first), settings.fault.shown(settings.fault.last))
+    axes.set_xlabel(f"{settings.fault.name}  ({settings.fault.unit})")
 
 
 def label_line_end(axes: Axes, x: float, y: float, text: str, colour: str, dx: float = 6) -> None:

@@ -65,7 +65,7 @@ def test_report_stands_alone(tmp_path, coarse):
     report = (tmp_path / "map" / "report.html").read_text()
     assert re.findall(r"(?:src|href)=[\"'](?!data:)[^\"']*", report) == []
     assert report.count("data:image/svg+xml;base64,") == 5
-    assert "a consistent\nset" in report and "16.0 mA" in report
+    assert "a consistent set" in report and "16.0 mA" in report
     assert "J*a = tau &lt; 0 &amp; b" in report
     assert "$" not in re.sub(r"base64,[^\"]*", "", report)
 
