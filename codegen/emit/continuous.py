@@ -31,14 +31,13 @@ CHECK = "static int mdl_check(mdl_data *m, double t, const double *x, const doub
 STARTS = "static int mdl_starts(mdl_data *m)"
 
 
-def function(signature: str, body: Body, used: str = "m t x xdot v y yp r g cj values") -> str:
+def function(signature: str, body: Body) -> str:
     """A C function that returns 0 at its end; arguments that it does not use are marked so."""
     text = body.text()
     arguments = signature[signature.index("(") + 1 : -1].replace("*", " ").split(",")
     names = [a.split()[-1] for a in arguments]
-    code = "\n".join(line for line in text.splitlines() if not line.strip().startswith("/*"))
-    words = set(re.findall(r"[A-Za-z_]\w*", code))
-    unused = [f"  (void){n};" for n in names if n not in words and n in used.split()]
+    words = set(re.findall(r"[A-Za-z_]\w*", re.sub(r"/\*.*?\*/", "", text)))
+    unused = [f"  (void){n};" for n in names if n not in words]
     parts = [f"{signature} {{", *unused, *([text] if text else []), "  return 0;", "}"]
     return "\n".join(parts)
 

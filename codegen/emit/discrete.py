@@ -164,7 +164,7 @@ class Discrete:
         for k, (start, interval) in enumerate(self._p.samples):
             body.line(f"start[{k}] = {body.value(start)};")
             body.line(f"interval[{k}] = {body.value(interval)};")
-        return function(SAMPLES, body, "m start interval")
+        return function(SAMPLES, body)
 
     def parameters(self) -> str:
         """Dependent parameters in order, then bounds."""
