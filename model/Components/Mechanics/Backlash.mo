@@ -7,18 +7,21 @@ model Backlash "Elastic transmission with play; its contact only pushes"
   parameter Types.Angle b_min(final min=0) = 1e-10 "Play below which it is a spring and damper";
   Types.Power loss "Heat";
   Types.Energy stored "Elastic energy";
+  Integer side(start=0) "Flank in contact: 1 or -1; 0 none";
 protected
-  Types.Angle delta "Deformation of the teeth in contact; zero within the play";
+  parameter Types.Angle reach = if b < b_min then 1e6 else b/2 "Half of the play; never reached where there is none";
+  Types.Angle delta "Deformation";
   Types.Torque tau_c "Elastic torque";
-  Types.Torque tau_d "Damping torque before its limit";
+  Types.Torque tau_d "Damping torque before its limit, positive where the flanks approach";
+  Types.Torque push "Torque of the flanks on each other, not negative";
 equation
-  delta = if phi_rel > b/2 then phi_rel - b/2 elseif phi_rel < -b/2 then phi_rel + b/2 else 0;
+  side = if phi_rel > reach then 1 elseif phi_rel < -reach then -1 else 0;
+  delta = if b < b_min then phi_rel else side*noEvent(max(0, side*phi_rel - reach));
   tau_c = c*delta;
-  tau_d = d*w_rel;
-  tau = if b < b_min then tau_c + tau_d
-    elseif tau_d > abs(tau_c) then tau_c + abs(tau_c)
-    elseif tau_d < -abs(tau_c) then tau_c - abs(tau_c)
-    else tau_c + tau_d;
+  tau_d = side*d*w_rel;
+  push = if tau_d > side*tau_c then 2*side*tau_c elseif tau_d < -side*tau_c then 0
+    else noEvent(max(0, side*tau_c + tau_d));
+  tau = if b < b_min then tau_c + d*w_rel else side*push;
   loss = (tau - tau_c)*w_rel;
   stored = tau_c*delta/2;
   annotation(Documentation(info="<html>

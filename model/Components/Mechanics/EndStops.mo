@@ -8,17 +8,19 @@ model EndStops "Mechanical limits of the travel of a shaft"
   Types.Torque tau "Torque of the stop that is touched, against the angle";
   Types.Power loss "Heat";
   Types.Energy stored "Elastic energy";
+  Integer side(start=0) "Stop that is touched: 1 upper, -1 lower; 0 none";
 protected
-  Types.Angle delta "Deformation of the stop that is touched";
-  Types.PerUnit push "Damping factor before it is limited";
+  Types.Angle depth "Deformation of the stop";
+  Types.PerUnit factor "Elastic torque is multiplied by this";
 equation
   assert(phi_min < phi_max, "EndStops: phi_min must be below phi_max");
-  delta = if phi > phi_max then phi - phi_max elseif phi < phi_min then phi - phi_min else 0;
-  push = if delta > 0 then 1 + lambda*w elseif delta < 0 then 1 - lambda*w else 1;
-  tau = if push > 0 then c*delta*push else 0;
+  side = if phi > phi_max then 1 elseif phi < phi_min then -1 else 0;
+  depth = if side > 0 then noEvent(max(0, phi - phi_max)) elseif side < 0 then noEvent(max(0, phi_min - phi)) else 0;
+  factor = 1 + side*lambda*w;
+  tau = if factor > 0 then side*c*depth*noEvent(max(0, factor)) else 0;
   flange_a.tau + flange_b.tau = tau;
-  loss = (tau - c*delta)*w;
-  stored = c*delta*delta/2;
+  loss = (tau - side*c*depth)*w;
+  stored = c*depth*depth/2;
   annotation(Documentation(info="<html>
 <p>Contact after Hunt and Crossley: <code>tau = c delta (1 + lambda d|delta|/dt)</code>, never pulling. The torque begins at
 zero whatever the speed of impact, which the law <code>c delta + d w</code> does not, and ends at zero. A share of about
