@@ -135,6 +135,7 @@ def _peak_rule(settings: Settings) -> str:
 
 def _seconds(seconds: dict[str, Any], jobs: int) -> str:
     passes = [[f"model: {escape(name)}", f"{value:.3f} s"] for name, value in seconds["passes"].items()]
+    passes = passes or [["model: translated earlier, taken from the cache", "0 s"]]
     work = [
         [f"sweep over all severities, {jobs} threads", f"{seconds['sweep']:.2f} s"],
         ["in it, added over threads: simulation", f"{seconds['simulate_cpu']:.2f} s"],
@@ -149,14 +150,14 @@ def _counters(counters: dict[str, int], runs: int) -> str:
 
 
 def _equations(equations: list[SourceEquation]) -> str:
-    """Equations as written in the model, by component."""
+    """Equations as written in the model, by component; components with the same equations share one list."""
     if not equations:
         return "<p>This plant is not a translated model; it has no equations to show.</p>"
     parts: dict[str, list[SourceEquation]] = {}
     for equation in equations:
         parts.setdefault(equation.origin or "model", []).append(equation)
-    lines = []
+    alike: dict[str, list[str]] = {}
     for origin, members in parts.items():
-        code = "\n".join(f"{escape(e.text):<60}  <i>{escape(e.place)}</i>" for e in members)
-        lines.append(f"<h4>{escape(origin)}</h4><pre>{code}</pre>")
-    return "\n".join(lines)
+        code = "\n".join(f"<i>{escape(e.place):<24}</i>{escape(e.text)}" for e in members)
+        alike.setdefault(code, []).append(origin)
+    return "\n".join(f"<h4>{escape(', '.join(names))}</h4><pre>{code}</pre>" for code, names in alike.items())
