@@ -64,7 +64,7 @@ class Body:
         return to_c(e, self._name, outer)
 
     def _prepare(self, e: Expr) -> None:
-        if e in self._defined or e.op == "const":
+        if e in self._defined or e.op == "const" or self.names.table(e):
             return
         if e.op in LEAF_OPS:
             self._load(e)
@@ -87,7 +87,7 @@ class Body:
         self._defined[n] = name
 
     def _name(self, n: Expr) -> str | None:
-        return self._defined.get(n)
+        return self._defined.get(n) or self.names.table(n)
 
     def let(self, leaf: Expr, value: Expr, declare: bool = True) -> None:
         """Define the local of a leaf; where `declare` is false it was declared before (and may change)."""

@@ -38,8 +38,12 @@ def function(signature: str, body: Body) -> str:
     names = [a.split()[-1] for a in arguments]
     words = set(re.findall(r"[A-Za-z_]\w*", re.sub(r"/\*.*?\*/", "", text)))
     unused = [f"  (void){n};" for n in names if n not in words]
-    parts = [f"{signature} {{", *unused, *([text] if text else []), "  return 0;", "}"]
-    return "\n".join(parts)
+    parts = [f"{signature} {{", *unused]
+    result = "0"
+    if re.search(r"\bfn_\w+\(", text) and "const mdl_data" not in signature:  # functions note their failures
+        parts.append("  m->failure.kind = MDL_FAILURE_NONE;")
+        result = "m->failure.kind != MDL_FAILURE_NONE"
+    return "\n".join([*parts, *([text] if text else []), f"  return {result};", "}"])
 
 
 class Continuous:
@@ -77,7 +81,7 @@ class Continuous:
             for s in starts:
                 body.line(f"m->{self._storage.place(s.unknown)} = {self._names.leaf(s.unknown)};")
             body.line("return mdl_rhs(m, t, m->x, m->xdot, m->v);")
-            return function(INITIAL, body).replace("\n  return 0;\n}", "\n}")
+            return re.sub(r"\n  return [^;]*;\n}$", "\n}", function(INITIAL, body))
         self._steps(body, self._p.initial.steps, self._start)
         for step in self._p.initial.steps:
             for u in unknowns_of(step):

@@ -109,7 +109,9 @@ def _print_call(e: Expr, name: Lookup) -> str:
 
 
 def function_name(function: str) -> str:
+    """The C function of a function of the model."""
     return "fn_" + sanitise(function)
+
 
 
 def c_type(e: Expr) -> str:

@@ -20,6 +20,7 @@ class Names:
     """One identifier for each leaf, the same in every function of the model."""
 
     def __init__(self, variables: Iterable[str]):
+        self.tables: dict[Expr, str] = {}  # constant arrays that stand in the file under a name
         self._used: set[str] = set(_RESERVED)
         self._of: dict[str, str] = {}
         for name in variables:
@@ -39,6 +40,12 @@ class Names:
             text = f"{stem}_{number}"
         self._used.add(text)
         return text
+
+    def table(self, e: Expr) -> str | None:
+        """The name of a constant array, which is written once for the file; None where `e` is not constant."""
+        if e.op != "array" or any(a.op != "const" for a in e.args):
+            return None
+        return self.tables.setdefault(e, f"mdl_table{len(self.tables) + 1}")
 
     def leaf(self, n: Expr) -> str:
         """The identifier of a leaf of an expression."""

@@ -12,6 +12,14 @@ static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double val
   return 1;
 }"""
 
+_INDEX = """\
+/* 0-based offset of the 1-based subscript of a dimension; one outside is noted as a failure. */
+static inline int mdl_index(const mdl_data *m, double subscript, int size) {
+  if (subscript >= 1.0 && subscript <= size) return (int)subscript - 1;
+  (void)mdl_fail((mdl_data *)m, MDL_FAILURE_DOMAIN, -1, subscript);
+  return 0;
+}"""
+
 _SOLVE = """\
 /* Solve a x = b in place (row-major, n x n) by Gaussian elimination with scaled partial pivoting; b becomes x.
  * Returns 1 where a is singular to working precision. */
@@ -88,11 +96,12 @@ static double mdl_next_switch(double g, double slope, double t, double next) {
 }"""
 
 _HELPERS = {
-    **HELPERS, "mdl_fail": _FAIL, "mdl_solve": _SOLVE, "mdl_newton": _NEWTON, "mdl_time_relation": _TIME,
+    **HELPERS, "mdl_fail": _FAIL, "mdl_index": _INDEX, "mdl_solve": _SOLVE, "mdl_newton": _NEWTON, "mdl_time_relation": _TIME,
     "mdl_next_switch": _NEXT,
 }  # fmt: skip
 
 
 def helpers(code: str) -> str:
     """The helpers that `code` calls."""
+    code += _INDEX if "mdl_index" in code else ""
     return "\n\n".join(text for name, text in _HELPERS.items() if re.search(rf"\b{name}\b", code))

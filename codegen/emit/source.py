@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 from .. import flat
+from ..events import DiscreteEquation
+from ..expr import Expr
 from ..prepared import Prepared
+from ..rewrite import expressions
+from ..structure.causal import expressions_of
 from .continuous import Continuous
 from .discrete import Discrete
 from .equations import EquationTable
+from .expression import number
 from .names import Names
 from .prelude import helpers
 from .tables import Tables, c_string
-from .user_functions import user_functions
+from .user_functions import calls, user_functions
 
 _CALLBACKS = (
     "starts", "parameters", "samples", "initial_system", "rhs", "residual", "jacobian", "algebraics", "roots",
@@ -32,22 +37,45 @@ def generate(prepared: Prepared) -> str:
         continuous.dae_roots(), discrete.time_relations(), discrete.next_time_event(), discrete.event(),
         continuous.check(),
     ]  # fmt: skip
-    code = user_functions(prepared, "\n\n".join(functions))
+    code = "\n\n".join(functions)
+    code = "\n\n".join(filter(None, [user_functions(model.functions, called_functions(prepared), names), code]))
+    tables_text = "\n".join(constant_table(name, e) for e, name in names.tables.items())
     arrays, counts = _arrays(tables, discrete.messages)
     counts |= {
         "n_p": len(storage.parameters), "n_u": len(storage.inputs), "n_x": len(storage.states),
         "n_v": len(storage.algebraics), "n_d": len(storage.discretes), "n_sample": len(prepared.samples),
         "n_when": discrete.when_count,
     }  # fmt: skip
-    parts = [_header(prepared), *arrays, helpers(code), code, _descriptor(prepared, counts)]
+    parts = [_header(prepared), *arrays, tables_text, helpers(code), code, _descriptor(prepared, counts)]
     return "\n\n".join(part for part in parts if part) + "\n"
+
+
+def called_functions(prepared: Prepared) -> list[str]:
+    """Functions of the model that its own code calls, tangents included."""
+    model, form = prepared.model, prepared.residual
+    roots: list[Expr] = [value for column in prepared.jacobian.entries for _, value in column]
+    roots += [value for _, value in prepared.jacobian.tangents]
+    roots += [e for row in form.residuals for e in (row.lhs, row.rhs)] + [a.value for a in form.assignments]
+    roots += [e for step in (*prepared.explicit, *prepared.initial.steps) for e in expressions_of(step)]
+    roots += [e for r in prepared.relations for e in (r.left, r.right)] + [e for s in prepared.samples for e in s]
+    for step in prepared.events:
+        roots += [step.value] if isinstance(step, DiscreteEquation) else expressions(
+            [step] if isinstance(step, flat.When) else step.statements)  # fmt: skip
+    roots += [a.condition for a in model.asserts]
+    roots += [e for v in model.variables.values() for e in (v.binding, v.start, v.min, v.max) if e is not None]
+    return calls(roots)
+
+
+def constant_table(name: str, e: Expr) -> str:
+    """A constant array argument as a table of the file."""
+    return f"static const double {name}[] = {{{', '.join(number(float(a.value)) for a in e.args)}}};"
 
 
 def _header(prepared: Prepared) -> str:
     files = "".join(f"\n *   {name.rsplit('/', 1)[-1]}  sha256 {digest}" for name, digest in _files(prepared))
     return (
         f"/* {prepared.declared.name}: generated from{files}\n * Do not edit: edit the model. */\n"
-        '#include "mdl_abi.h"\n\n#include <math.h>\n#include <stddef.h>'
+        '#include "mdl_abi.h"\n\n#include <math.h>\n#include <stddef.h>\n#include <string.h>'
     )
 
 

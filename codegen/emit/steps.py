@@ -7,7 +7,7 @@ from pathlib import Path
 
 from .. import flat
 from ..expr import Expr
-from ..structure.causal import Division, LinearBlock, NonlinearBlock, Step
+from ..structure.causal import Division, LinearBlock, NonlinearBlock, Step, expressions_of
 from ..structure.system import Row
 from ..structure.tearing import Assignment
 from .body import Body
@@ -36,17 +36,7 @@ class StepWriter:
 
     def plan(self, steps: Sequence[Step]) -> list[Expr]:
         """Expressions that the steps compute in the function's own scope."""
-        roots: list[Expr] = []
-        for step in steps:
-            match step:
-                case Assignment():
-                    roots.append(step.value)
-                case Division():
-                    roots += [step.numerator, step.denominator]
-                case LinearBlock():
-                    roots += [*(a for line in step.matrix for a in line), *step.right]
-                    roots += [a.value for a in step.assignments]
-        return roots
+        return [e for step in steps if not isinstance(step, NonlinearBlock) for e in expressions_of(step)]
 
     def write(self, steps: Sequence[Step]) -> None:
         for step in steps:
@@ -119,10 +109,9 @@ class StepWriter:
         for a in step.assignments:
             body.declare(a.unknown, "0.0")
         residuals = [r.residual for r in step.residuals]
-        roots = [*(a.value for a in step.assignments), *residuals, *(j for line in step.jacobian for j in line)]
         body.line(f"mdl_newton {block} = {{0}};")
         body.line(f"double {block}_step[{size}] = {{0}};")
-        with body.scope("for (;;)", roots):
+        with body.scope("for (;;)", expressions_of(step)):
             for a in step.assignments:
                 self._assignment(a, declare=False)
             body.line(f"if ({block}.converged) break;")

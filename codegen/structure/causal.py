@@ -126,3 +126,17 @@ def unknowns_of(step: Step) -> list[Expr]:
     if isinstance(step, Assignment | Division):
         return [step.unknown]
     return [*step.tears, *(a.unknown for a in step.assignments)]
+
+
+def expressions_of(step: Step) -> list[Expr]:
+    """Everything that a step computes."""
+    match step:
+        case Assignment():
+            return [step.value]
+        case Division():
+            return [step.numerator, step.denominator]
+        case LinearBlock():
+            own = [*(a for line in step.matrix for a in line), *step.right]
+        case NonlinearBlock():
+            own = [*(a for line in step.jacobian for a in line), *(row.residual for row in step.residuals)]
+    return own + [a.value for a in step.assignments]
