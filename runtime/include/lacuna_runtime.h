@@ -111,9 +111,9 @@ RT_API const rt_failure *rt_result_failure(const rt_result *result); /* status R
 RT_API const char *rt_result_terminated(const rt_result *result);    /* message of terminate(), or NULL */
 RT_API const rt_counters *rt_result_counters(const rt_result *result);
 RT_API size_t rt_result_rows(const rt_result *result);
-RT_API const double *rt_result_time(const rt_result *result);                /* [rows] */
-RT_API const unsigned char *rt_result_event_flags(const rt_result *result);  /* [rows] 1: row at an event */
-RT_API const double *rt_result_column(const rt_result *result, int column);  /* [rows] of the column-th output */
+RT_API const double *rt_result_time(const rt_result *result);               /* [rows] */
+RT_API const unsigned char *rt_result_event_flags(const rt_result *result); /* [rows] 1: row at an event */
+RT_API const double *rt_result_column(const rt_result *result, int column); /* [rows] of the column-th output */
 RT_API const double *rt_result_parameters(const rt_result *result); /* [n_p] values used, dependent ones computed */
 RT_API const rt_event_entry *rt_result_events(const rt_result *result, size_t *count);
 

@@ -1,17 +1,23 @@
 /* Time events: sample() ticks, time relations, jumps of inputs, and the grid of a fixed step. */
 #include <math.h>
+#include <string.h>
 
 #include "session.h"
 
-static double tick_time(const rt_clock *c, int i) { return c->first[i] + (double)c->next[i] * c->interval[i]; }
+static double tick_time(const rt_clock *c, int i) {
+  return c->first[i] + (double)c->next[i] * c->interval[i];
+}
 
 rt_status rt_clock_begin(rt_session *s) {
   rt_clock *c = &s->clock;
   c->tolerance = 1e-13 * (fabs(s->start) + fabs(s->stop));
   c->step = 1;
-  if (s->d->n_sample && s->d->samples(&s->data, c->first, c->interval)) return rt_fail_model(s, s->start, "computing sample times");
+  if (s->d->n_sample && s->d->samples(&s->data, c->first, c->interval))
+    return rt_fail_model(s, s->start, "computing sample times");
   for (int i = 0; i < s->d->n_sample; i++) {
-    if (!(c->interval[i] > 0)) return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "sample() number %d has interval %.9g s", i + 1, c->interval[i]);
+    if (!(c->interval[i] > 0))
+      return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "sample() number %d has interval %.9g s", i + 1,
+                     c->interval[i]);
     c->next[i] = (long)fmax(0, ceil((s->start - c->tolerance - c->first[i]) / c->interval[i]));
   }
   if (s->d->time_relations(&s->data, s->start)) return rt_fail_model(s, s->start, "evaluating time relations");
@@ -21,7 +27,8 @@ rt_status rt_clock_begin(rt_session *s) {
 
 static double next_event(const rt_session *s) {
   double next = s->clock.next_relation;
-  for (int i = 0; i < s->d->n_sample; i++) next = fmin(next, tick_time(&s->clock, i));
+  for (int i = 0; i < s->d->n_sample; i++)
+    next = fmin(next, tick_time(&s->clock, i));
   return next;
 }
 
@@ -30,7 +37,8 @@ double rt_clock_limit(rt_session *s) {
   double limit = s->stop;
   if (s->options.step > 0) {
     rt_clock *c = &s->clock;
-    while (s->start + (double)c->step * s->options.step <= s->t + c->tolerance) c->step++;
+    while (s->start + (double)c->step * s->options.step <= s->t + c->tolerance)
+      c->step++;
     limit = fmin(limit, s->start + (double)c->step * s->options.step);
     if (!s->options.locate_events) return limit;
   }
@@ -47,7 +55,9 @@ int rt_clock_due(rt_session *s) {
   for (int i = 0; i < s->d->n_u; i++) {
     rt_input *in = &s->inputs[i];
     if (!in->n || in->interpolation != RT_HOLD) continue;
-    while (in->cursor + 1 < in->n && in->time[in->cursor + 1] <= now && in->values[in->cursor + 1] == in->values[in->cursor]) in->cursor++;
+    while (in->cursor + 1 < in->n && in->time[in->cursor + 1] <= now &&
+           in->values[in->cursor + 1] == in->values[in->cursor])
+      in->cursor++;
     if (in->cursor + 1 < in->n && in->time[in->cursor + 1] <= now) pending |= RT_PENDING_INPUT;
   }
   return pending;
@@ -57,6 +67,16 @@ static void log_time_relations(rt_session *s) {
   for (int r = 0; r < s->d->n_rel; r++)
     if (s->d->relations[r].is_time && s->data.rel[r] != s->rel_before[r])
       rt_result_log(s->result, s->t, RT_EVENT_TIME, r, s->data.rel[r] ? 1 : -1);
+}
+
+/* Time relations with the discrete variables as they are now, and when the next one switches. Whether any changed. */
+bool rt_clock_relations(rt_session *s) {
+  double now = s->t + s->clock.tolerance;
+  memcpy(s->rel_trial, s->data.rel, (size_t)s->d->n_rel);
+  s->d->time_relations(&s->data, now);
+  bool changed = memcmp(s->rel_trial, s->data.rel, (size_t)s->d->n_rel) != 0;
+  s->clock.next_relation = s->d->next_time_event(&s->data, now);
+  return changed;
 }
 
 /* Switch the time relations and raise the ticks that are due. */
@@ -75,6 +95,7 @@ void rt_clock_tick(rt_session *s) {
     s->data.tick[i] = 1;
     rt_result_log(s->result, s->t, RT_EVENT_SAMPLE, i, 1);
     s->result->counters.sample_events++;
-    while (tick_time(c, i) <= now) c->next[i]++;
+    while (tick_time(c, i) <= now)
+      c->next[i]++;
   }
 }

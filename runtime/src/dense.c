@@ -7,19 +7,24 @@ void rt_dense_prepare(rt_session *s) {
   s->dense.valid = true;
 }
 
+/* x [n_x] inside the last step; `alone`: no other point of the step is wanted soon. */
+void rt_dense_point(rt_session *s, double t, bool alone, double *x) {
+  if (alone && !s->dense.valid && s->method->point) {
+    s->method->point(s, s->memory, t, x);
+    return;
+  }
+  rt_dense_prepare(s);
+  rt_dense_eval(&s->dense, s->d->n_x, t, x);
+}
+
 /* x [n] at t, by Horner's rule. */
 void rt_dense_eval(const rt_dense *dense, int n, double t, double *x) {
   double theta = (t - dense->t0) / dense->h;
-  const double *c = dense->c + dense->degree * n;
-  for (int i = 0; i < n; i++) x[i] = c[i];
-  for (int k = dense->degree - 1; k >= 0; k--) {
-    c -= n;
-    for (int i = 0; i < n; i++) x[i] = x[i] * theta + c[i];
+  const double *highest = dense->c + dense->degree * n;
+  for (int i = 0; i < n; i++) {
+    double sum = highest[i];
+    for (const double *c = highest - n; c >= dense->c; c -= n)
+      sum = sum * theta + c[i];
+    x[i] = sum;
   }
-}
-
-double rt_dense_eval_one(const rt_dense *dense, int n, int i, double t) {
-  double theta = (t - dense->t0) / dense->h, x = 0;
-  for (int k = dense->degree; k >= 0; k--) x = x * theta + dense->c[k * n + i];
-  return x;
 }

@@ -1,7 +1,6 @@
-/* Dormand & Prince 5(4): J. R. Dormand, P. J. Prince, J. Comp. Appl. Math. 6 (1980) 19-26. The seventh stage is the first of the next
- * step. Dense output of order 4: Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, II.6. */
-#include <string.h>
-
+/* Dormand & Prince 5(4): J. R. Dormand, P. J. Prince, J. Comp. Appl. Math. 6 (1980) 19-26. The seventh stage is the
+ * first of the next step. Dense output of order 4: Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I,
+ * II.6. */
 #include "onestep.h"
 
 enum { STAGES = 7 };
@@ -16,24 +15,26 @@ static const double a[STAGES][STAGES - 1] = {{0},
                                              {35. / 384, 0, 500. / 1113, 125. / 192, -2187. / 6784, 11. / 84}};
 /* fifth-order minus fourth-order weights */
 static const double e[STAGES] = {71. / 57600, 0, -71. / 16695, 71. / 1920, -17253. / 339200, 22. / 525, -1. / 40};
-static const double d[STAGES] = {-12715105075. / 11282082432.,  0, 87487479700. / 32700410799., -10690763975. / 1880347072.,
-                                 701980252875. / 199316789632., -1453857185. / 822651844., 69997945. / 29380423.};
+static const double d[STAGES] = {-12715105075. / 11282082432.,  0,
+                                 87487479700. / 32700410799.,   -10690763975. / 1880347072.,
+                                 701980252875. / 199316789632., -1453857185. / 822651844.,
+                                 69997945. / 29380423.};
 
-static int attempt(rt_session *s, rt_onestep *o, double h, double *error) {
-  int n = s->d->n_x;
-  memcpy(o->k, o->f0, (size_t)n * sizeof *o->k);
-  for (int j = 1; j < STAGES; j++) {
-    int status = rt_rhs(s, o->t0 + c[j] * h, rt_stage(s, o, h, j, a[j]), o->k + j * n, s->data.v);
-    if (status) return status;
-  }
-  memcpy(o->x1, o->x_stage, (size_t)n * sizeof *o->x1);
-  memcpy(o->f1, o->k + (STAGES - 1) * n, (size_t)n * sizeof *o->f1);
+static inline int stage(rt_session *s, rt_onestep *o, double h, int j) {
+  return rt_explicit_stage(s, o, h, j, c[j], a[j]);
+}
+
+static int attempt(rt_session *s, rt_onestep *o, double h) {
+  int n = s->d->n_x, status;
+  if ((status = stage(s, o, h, 1)) || (status = stage(s, o, h, 2)) || (status = stage(s, o, h, 3)) ||
+      (status = stage(s, o, h, 4)) || (status = stage(s, o, h, 5)) || (status = stage(s, o, h, 6)))
+    return status;
   for (int i = 0; i < n; i++) {
     double sum = 0;
-    for (int j = 0; j < STAGES; j++) sum += e[j] * o->k[j * n + i];
-    o->x_stage[i] = h * sum;
+    for (int j = 0; j < STAGES; j++)
+      sum += e[j] * o->k[j * n + i];
+    o->error[i] = h * sum;
   }
-  *error = rt_error_norm(s, o, o->x_stage);
   return 0;
 }
 
@@ -43,7 +44,8 @@ static void dense(const rt_session *s, const rt_onestep *o, rt_dense *out) {
   out->degree = 4;
   for (int i = 0; i < n; i++) {
     double r1 = o->x1[i] - o->x0[i], r2 = o->h * o->f0[i] - r1, r3 = r1 - o->h * o->f1[i] - r2, r4 = 0;
-    for (int j = 0; j < STAGES; j++) r4 += d[j] * o->k[j * n + i];
+    for (int j = 0; j < STAGES; j++)
+      r4 += d[j] * o->k[j * n + i];
     r4 *= o->h;
     out->c[i] = o->x0[i];
     out->c[n + i] = r1 + r2;
@@ -53,10 +55,27 @@ static void dense(const rt_session *s, const rt_onestep *o, rt_dense *out) {
   }
 }
 
-static const rt_scheme scheme = {
-    .stages = STAGES, .order = 5, .damping = 0.04, .min_factor = 0.2, .max_factor = 10, .attempt = attempt, .dense = dense};
+static const rt_scheme scheme = {.stages = STAGES,
+                                 .order = 5,
+                                 .damping = 0.04,
+                                 .min_factor = 0.2,
+                                 .max_factor = 10,
+                                 .ends_are_stages = true,
+                                 .attempt = attempt,
+                                 .dense = dense};
 
-static void *create(rt_session *s) { return rt_onestep_create(s, &scheme); }
+static void *create(rt_session *s) {
+  return rt_onestep_create(s, &scheme);
+}
 
-const rt_method rt_method_dopri5 = {"dopri5", false, true, create, rt_onestep_destroy, rt_onestep_begin, rt_onestep_restart,
-                                    rt_onestep_step, rt_onestep_dense, rt_onestep_count};
+const rt_method rt_method_dopri5 = {"dopri5",
+                                    false,
+                                    true,
+                                    create,
+                                    rt_onestep_destroy,
+                                    rt_onestep_begin,
+                                    rt_onestep_restart,
+                                    rt_onestep_step,
+                                    rt_onestep_dense,
+                                    NULL,
+                                    rt_onestep_count};

@@ -11,29 +11,32 @@ int rt_state_variable(const rt_session *s, int state) {
   return -1;
 }
 
-static int report_nonfinite(rt_session *s, const double *xdot) {
+/* 0 if all n_x numbers are finite; else 1, with the first state that is not in m->failure. */
+int rt_check_finite(rt_session *s, const double *x) {
+  double sum = 0;
+  for (int i = 0; i < s->d->n_x; i++)
+    sum += x[i] - x[i];
+  if (sum == 0) return 0;
   int state = 0;
-  while (state < s->d->n_x - 1 && isfinite(xdot[state])) state++;
-  s->data.failure =
-      (mdl_failure){.kind = MDL_FAILURE_NONFINITE, .equation = -1, .variable = rt_state_variable(s, state), .value = xdot[state]};
+  while (isfinite(x[state]))
+    state++;
+  s->data.failure = (mdl_failure){
+      .kind = MDL_FAILURE_NONFINITE, .equation = -1, .variable = rt_state_variable(s, state), .value = x[state]};
   return 1;
 }
 
 /* Explicit form: x' [n_x] and v [n_v] at (t, x). `v` holds start values of nonlinear blocks on entry. */
 int rt_rhs(rt_session *s, double t, const double *x, double *xdot, double *v) {
-  rt_inputs_at(s, t);
+  if (s->d->n_u) rt_inputs_at(s, t);
   s->result->counters.rhs++;
-  int status = s->d->rhs(&s->data, t, x, xdot, v);
-  if (status) return status;
-  double sum = 0;
-  for (int i = 0; i < s->d->n_x; i++) sum += xdot[i];
-  return isfinite(sum) ? 0 : report_nonfinite(s, xdot);
+  return s->d->rhs(&s->data, t, x, xdot, v);
 }
 
 /* x', v and the guards at the present point. */
 int rt_evaluate(rt_session *s) {
   mdl_data *m = &s->data;
   int status = rt_rhs(s, s->t, m->x, m->xdot, m->v);
+  if (!status) status = rt_check_finite(s, m->xdot);
   if (status || !s->d->n_rel) return status;
   s->result->counters.root_evaluations++;
   return s->d->roots(m, s->t, m->x, m->xdot, m->v, s->g);
@@ -54,17 +57,20 @@ void rt_residual_point(rt_session *s) {
 static rt_status compare(rt_session *s, double *r, double *scale, double *fy, double *fyp) {
   const mdl_descriptor *d = s->d;
   mdl_data *m = &s->data;
-  if (d->residual(m, s->t, s->y, s->yp, r) || d->jacobian(m, s->t, s->y, s->yp, 0, fy) || d->jacobian(m, s->t, s->y, s->yp, 1, fyp))
+  if (d->residual(m, s->t, s->y, s->yp, r) || d->jacobian(m, s->t, s->y, s->yp, 0, fy) ||
+      d->jacobian(m, s->t, s->y, s->yp, 1, fyp))
     return rt_fail_model(s, s->t, "evaluating the residual form");
   int n = d->n_x + d->n_z;
-  for (int i = 0; i < n; i++) scale[i] = 0;
+  for (int i = 0; i < n; i++)
+    scale[i] = 0;
   for (int j = 0; j < n; j++)
     for (int k = d->jac_colptr[j]; k < d->jac_colptr[j + 1]; k++)
       scale[d->jac_rowidx[k]] += fabs(fy[k] * s->y[j]) + fabs((fyp[k] - fy[k]) * s->yp[j]);
   for (int i = 0; i < n; i++)
     if (!(fabs(r[i]) <= 1e-6 * scale[i] + 1e-9))
       return rt_fail(s, RT_INCONSISTENT, s->t, -1, &d->equations[d->residual_equation[i]],
-                     "the residual form of the model disagrees with its explicit form at time %.9g s (residual %.3g)", s->t, r[i]);
+                     "the residual form of the model disagrees with its explicit form at time %.9g s (residual %.3g)",
+                     s->t, r[i]);
   return RT_OK;
 }
 

@@ -50,6 +50,7 @@ static int pass(rt_session *s) {
   s->result->counters.event_passes++;
   if (rt_evaluate(s)) return -1;
   bool changed = update_relations(s);
+  changed |= rt_clock_relations(s);
   m->reinitialised = 0;
   if (s->d->event(m, s->t, m->x, m->xdot, m->v)) return -1;
   return changed || m->reinitialised || memcmp(m->d, m->pre_d, (size_t)s->d->n_d * sizeof *m->d) != 0;
@@ -67,11 +68,13 @@ rt_status rt_iterate_event(rt_session *s) {
     if (i >= MAX_PASSES - WATCHED_PASSES) append_changed(s, names, sizeof names);
     memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
   }
-  return rt_fail(s, RT_EVENT_CYCLE, s->t, -1, NULL, "the event at time %.9g s does not settle in %d passes; these keep changing: %s", s->t,
-                 MAX_PASSES, names[0] ? names : "relations between continuous variables");
+  return rt_fail(s, RT_EVENT_CYCLE, s->t, -1, NULL,
+                 "the event at time %.9g s does not settle in %d passes; these keep changing: %s", s->t, MAX_PASSES,
+                 names[0] ? names : "relations between continuous variables");
 }
 
-/* An event is futile if its guards have hardly moved since they last switched, or time has not. Many in a row are chattering. */
+/* An event is futile if its guards have hardly moved since they last switched, or time has not. Many in a row are
+ * chattering. */
 static rt_status check_chattering(rt_session *s, double since) {
   bool futile = s->pending == RT_PENDING_STATE;
   int flipped = 0;
@@ -84,7 +87,8 @@ static rt_status check_chattering(rt_session *s, double since) {
   s->futile_events = futile ? s->futile_events + 1 : 0;
   if (s->futile_events <= MAX_FUTILE_EVENTS) return RT_OK;
   return rt_fail(s, RT_CHATTERING, s->t, -1, &s->d->relations[flipped].source,
-                 "chattering: this relation switches to and fro at time %.9g s without getting anywhere (%d events)", s->t, MAX_FUTILE_EVENTS);
+                 "chattering: this relation switches to and fro at time %.9g s without getting anywhere (%d events)",
+                 s->t, MAX_FUTILE_EVENTS);
 }
 
 static void switch_relations(rt_session *s) {
@@ -104,17 +108,30 @@ static void remember(rt_session *s) {
   memcpy(s->rel_before, s->data.rel, (size_t)d->n_rel);
 }
 
-/* Has the event changed what is integrated? If not, the method may go on with the history that it has. */
-static bool has_changed(const rt_session *s) {
+static bool differs(const rt_session *s, const double *x, const double *xdot, const double *v) {
   const mdl_descriptor *d = s->d;
   const mdl_data *m = &s->data;
   for (int k = 0; k < d->n_z; k++)
-    if (m->v[d->z_index[k]] != s->v_before[d->z_index[k]]) return true;
-  return s->pending & RT_PENDING_STATE || memcmp(m->x, s->x_before, (size_t)d->n_x * sizeof(double)) ||
-         memcmp(m->xdot, s->xdot_before, (size_t)d->n_x * sizeof(double)) || memcmp(m->rel, s->rel_before, (size_t)d->n_rel);
+    if (m->v[d->z_index[k]] != v[d->z_index[k]]) return true;
+  return memcmp(m->x, x, (size_t)d->n_x * sizeof *x) || memcmp(m->xdot, xdot, (size_t)d->n_x * sizeof *xdot);
 }
 
-/* What is pending at the present time happens: two rows in the result, and the method restarts where something changed. */
+/* Has the event changed what is integrated? It has not if x, x' and z are the same as before, to the last bit, both
+ * here and with the new relations at the end of the step that the event cut short. Then that step stands. */
+static bool is_inconsequential(rt_session *s) {
+  if (differs(s, s->x_before, s->xdot_before, s->v_before)) return false;
+  bool cut = s->t < s->t_end, switched = memcmp(s->data.rel, s->rel_before, (size_t)s->d->n_rel) != 0;
+  if (!cut) return !switched;
+  memcpy(s->v_trial, s->v_end, (size_t)s->d->n_v * sizeof *s->v_trial);
+  if (rt_rhs(s, s->t_end, s->x_end, s->xdot_trial, s->v_trial)) return false;
+  for (int k = 0; k < s->d->n_z; k++)
+    if (s->v_trial[s->d->z_index[k]] != s->v_end[s->d->z_index[k]]) return false;
+  s->resume = memcmp(s->xdot_trial, s->xdot_end, (size_t)s->d->n_x * sizeof(double)) == 0;
+  return s->resume;
+}
+
+/* What is pending at the present time happens: two rows in the result, and the method restarts where something changed.
+ */
 rt_status rt_event(rt_session *s) {
   bool record = s->options.record_events && s->pending != RT_PENDING_INPUT;
   rt_status status = record ? rt_record_event_row(s) : RT_OK;
@@ -130,7 +147,8 @@ rt_status rt_event(rt_session *s) {
   memset(s->flip, 0, (size_t)s->d->n_rel);
   if (record && (status = rt_record_event_row(s))) return status;
   if (s->data.terminated) rt_result_log(s->result, s->t, RT_EVENT_TERMINATE, s->data.terminated - 1, 1);
-  if (!has_changed(s)) return RT_OK;
+  if (is_inconsequential(s)) return RT_OK;
   s->result->counters.restarts++;
+  s->t_before = NAN;
   return s->method->restart(s, s->memory);
 }

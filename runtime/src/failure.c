@@ -4,7 +4,8 @@
 
 #include "session.h"
 
-rt_status rt_fail(rt_session *s, rt_status status, double time, int variable, const mdl_equation *where, const char *format, ...) {
+rt_status rt_fail(rt_session *s, rt_status status, double time, int variable, const mdl_equation *where,
+                  const char *format, ...) {
   rt_failure *f = &s->failure;
   *f = (rt_failure){.status = status, .time = time, .variable = variable};
   if (where) {
@@ -26,32 +27,45 @@ rt_status rt_fail(rt_session *s, rt_status status, double time, int variable, co
 
 static const char *describe(mdl_failure_kind kind) {
   switch (kind) {
-    case MDL_FAILURE_SINGULAR: return "a block of linear equations has no unique solution";
-    case MDL_FAILURE_NEWTON: return "a block of nonlinear equations did not converge";
-    case MDL_FAILURE_NONFINITE: return "the result is not a finite number";
-    case MDL_FAILURE_DOMAIN: return "argument outside the function's domain";
-    case MDL_FAILURE_ASSERT: return "assertion violated";
-    case MDL_FAILURE_BOUND: return "parameter outside its bounds";
-    case MDL_FAILURE_LOOP: return "a loop in a function ran too long";
-    case MDL_FAILURE_NONE: break;
+  case MDL_FAILURE_SINGULAR:
+    return "a block of linear equations has no unique solution";
+  case MDL_FAILURE_NEWTON:
+    return "a block of nonlinear equations did not converge";
+  case MDL_FAILURE_NONFINITE:
+    return "the result is not a finite number";
+  case MDL_FAILURE_DOMAIN:
+    return "argument outside the function's domain";
+  case MDL_FAILURE_ASSERT:
+    return "assertion violated";
+  case MDL_FAILURE_BOUND:
+    return "parameter outside its bounds";
+  case MDL_FAILURE_LOOP:
+    return "a loop in a function ran too long";
+  case MDL_FAILURE_NONE:
+    break;
   }
   return "the model reported a failure without a reason";
 }
 
 static rt_status status_of(mdl_failure_kind kind) {
   switch (kind) {
-    case MDL_FAILURE_NONFINITE: return RT_NONFINITE;
-    case MDL_FAILURE_DOMAIN: return RT_DOMAIN;
-    case MDL_FAILURE_ASSERT: return RT_ASSERT;
-    case MDL_FAILURE_BOUND: return RT_BOUND;
-    default: return RT_SINGULAR;
+  case MDL_FAILURE_NONFINITE:
+    return RT_NONFINITE;
+  case MDL_FAILURE_DOMAIN:
+    return RT_DOMAIN;
+  case MDL_FAILURE_ASSERT:
+    return RT_ASSERT;
+  case MDL_FAILURE_BOUND:
+    return RT_BOUND;
+  default:
+    return RT_SINGULAR;
   }
 }
 
 static rt_status fail_bound(rt_session *s, double time, const mdl_failure *f) {
   const mdl_variable *v = &s->d->variables[f->variable];
-  return rt_fail(s, RT_BOUND, time, f->variable, NULL, "parameter %s = %.9g is outside its bounds [%.9g, %.9g] %s", v->name, f->value,
-                 v->min, v->max, v->unit);
+  return rt_fail(s, RT_BOUND, time, f->variable, NULL, "parameter %s = %.9g is outside its bounds [%.9g, %.9g] %s",
+                 v->name, f->value, v->min, v->max, v->unit);
 }
 
 /* Turn the failure that a model function has left in m->failure into the session's. `doing` says what for. */
@@ -65,6 +79,6 @@ rt_status rt_fail_model(rt_session *s, double time, const char *doing) {
   bool named = f->variable >= 0 && f->variable < d->n_variables;
   int variable = named ? f->variable : -1;
   if (f->kind == MDL_FAILURE_BOUND && named) return fail_bound(s, time, f);
-  return rt_fail(s, status_of(f->kind), time, variable, where, "%s at time %.9g s: %s%s%s (value %.9g)", doing, time, describe(f->kind),
-                 named ? ", variable " : "", named ? d->variables[variable].name : "", f->value);
+  return rt_fail(s, status_of(f->kind), time, variable, where, "%s at time %.9g s: %s%s%s (value %.9g)", doing, time,
+                 describe(f->kind), named ? ", variable " : "", named ? d->variables[variable].name : "", f->value);
 }

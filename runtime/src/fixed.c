@@ -1,12 +1,9 @@
 /* Explicit Euler and the classical Runge-Kutta method of order 4, at a fixed step. */
-#include <string.h>
-
 #include "onestep.h"
 
-static int euler_attempt(rt_session *s, rt_onestep *o, double h, double *error) {
-  *error = 0;
-  for (int i = 0; i < s->d->n_x; i++) o->x1[i] = o->x0[i] + h * o->f0[i];
-  return rt_rhs(s, o->t0 + h, o->x1, o->f1, s->data.v);
+static int euler_attempt(rt_session *s, rt_onestep *o, double h) {
+  static const double b[] = {1};
+  return rt_explicit_stage(s, o, h, 1, 1, b);
 }
 
 static void euler_dense(const rt_session *s, const rt_onestep *o, rt_dense *dense) {
@@ -18,17 +15,13 @@ static void euler_dense(const rt_session *s, const rt_onestep *o, rt_dense *dens
   }
 }
 
-static int rk4_attempt(rt_session *s, rt_onestep *o, double h, double *error) {
-  static const double a2[] = {0.5}, a3[] = {0, 0.5}, a4[] = {0, 0, 1}, b[] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
-  int n = s->d->n_x, status;
-  double *v = s->data.v, half = o->t0 + 0.5 * h, end = o->t0 + h;
-  *error = 0;
-  memcpy(o->k, o->f0, (size_t)n * sizeof *o->k);
-  if ((status = rt_rhs(s, half, rt_stage(s, o, h, 1, a2), o->k + n, v)) || (status = rt_rhs(s, half, rt_stage(s, o, h, 2, a3), o->k + 2 * n, v)) ||
-      (status = rt_rhs(s, end, rt_stage(s, o, h, 3, a4), o->k + 3 * n, v)))
+static int rk4_attempt(rt_session *s, rt_onestep *o, double h) {
+  static const double a1[] = {0.5}, a2[] = {0, 0.5}, a3[] = {0, 0, 1}, b[] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
+  int status;
+  if ((status = rt_explicit_stage(s, o, h, 1, 0.5, a1)) || (status = rt_explicit_stage(s, o, h, 2, 0.5, a2)) ||
+      (status = rt_explicit_stage(s, o, h, 3, 1, a3)))
     return status;
-  memcpy(o->x1, rt_stage(s, o, h, 4, b), (size_t)n * sizeof *o->x1);
-  return rt_rhs(s, end, o->x1, o->f1, v);
+  return rt_explicit_stage(s, o, h, 4, 1, b);
 }
 
 /* Cubic Hermite polynomial through both ends of the step: local error O(h^4), so one event does not cost the order. */
@@ -44,13 +37,35 @@ static void rk4_dense(const rt_session *s, const rt_onestep *o, rt_dense *dense)
   }
 }
 
-static const rt_scheme euler = {.stages = 1, .attempt = euler_attempt, .dense = euler_dense};
-static const rt_scheme rk4 = {.stages = 4, .attempt = rk4_attempt, .dense = rk4_dense};
+static const rt_scheme euler = {.stages = 2, .ends_are_stages = true, .attempt = euler_attempt, .dense = euler_dense};
+static const rt_scheme rk4 = {.stages = 5, .ends_are_stages = true, .attempt = rk4_attempt, .dense = rk4_dense};
 
-static void *create_euler(rt_session *s) { return rt_onestep_create(s, &euler); }
-static void *create_rk4(rt_session *s) { return rt_onestep_create(s, &rk4); }
+static void *create_euler(rt_session *s) {
+  return rt_onestep_create(s, &euler);
+}
+static void *create_rk4(rt_session *s) {
+  return rt_onestep_create(s, &rk4);
+}
 
-const rt_method rt_method_euler = {"euler", true, true, create_euler, rt_onestep_destroy, rt_onestep_begin, rt_onestep_restart,
-                                   rt_onestep_step, rt_onestep_dense, rt_onestep_count};
-const rt_method rt_method_rk4 = {"rk4", true, true, create_rk4, rt_onestep_destroy, rt_onestep_begin, rt_onestep_restart,
-                                 rt_onestep_step, rt_onestep_dense, rt_onestep_count};
+const rt_method rt_method_euler = {"euler",
+                                   true,
+                                   true,
+                                   create_euler,
+                                   rt_onestep_destroy,
+                                   rt_onestep_begin,
+                                   rt_onestep_restart,
+                                   rt_onestep_step,
+                                   rt_onestep_dense,
+                                   NULL,
+                                   rt_onestep_count};
+const rt_method rt_method_rk4 = {"rk4",
+                                 true,
+                                 true,
+                                 create_rk4,
+                                 rt_onestep_destroy,
+                                 rt_onestep_begin,
+                                 rt_onestep_restart,
+                                 rt_onestep_step,
+                                 rt_onestep_dense,
+                                 NULL,
+                                 rt_onestep_count};

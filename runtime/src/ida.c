@@ -1,7 +1,7 @@
 /* SUNDIALS IDA (variable-order BDF) on the residual form, with the model's analytic Jacobian.
  *
- * Events are located by the runtime on IDA's own interpolating polynomial, so IDA has no root functions. After an event x' and z are
- * known exactly from the explicit form: IDA restarts from them without solving for consistent values. */
+ * Events are located by the runtime on IDA's own interpolating polynomial, so IDA has no root functions. After an event
+ * x' and z are known exactly from the explicit form: IDA restarts from them without solving for consistent values. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -30,16 +30,18 @@ static int residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *us
   int status = s->d->residual(&s->data, t, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), values);
   if (status) return status;
   int n = s->d->n_x + s->d->n_z;
-  for (int i = 0; i < n; i++) sum += values[i];
+  for (int i = 0; i < n; i++)
+    sum += values[i];
   if (isfinite(sum)) return 0;
   int row = 0;
-  while (row < n - 1 && isfinite(values[row])) row++;
+  while (row < n - 1 && isfinite(values[row]))
+    row++;
   s->data.failure = (mdl_failure){MDL_FAILURE_NONFINITE, s->d->residual_equation[row], -1, values[row]};
   return 1;
 }
 
-static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix matrix, void *user, N_Vector t1,
-                    N_Vector t2, N_Vector t3) {
+static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix matrix, void *user,
+                    N_Vector t1, N_Vector t2, N_Vector t3) {
   (void)r, (void)t1, (void)t2, (void)t3;
   rt_session *s = user;
   const mdl_descriptor *d = s->d;
@@ -49,13 +51,16 @@ static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Ve
   if (status) return status;
   int n = d->n_x + d->n_z;
   if (SUNMatGetID(matrix) == SUNMATRIX_SPARSE) {
-    for (int j = 0; j <= n; j++) SUNSparseMatrix_IndexPointers(matrix)[j] = d->jac_colptr[j];
-    for (int k = 0; k < d->jac_nnz; k++) SUNSparseMatrix_IndexValues(matrix)[k] = d->jac_rowidx[k];
+    for (int j = 0; j <= n; j++)
+      SUNSparseMatrix_IndexPointers(matrix)[j] = d->jac_colptr[j];
+    for (int k = 0; k < d->jac_nnz; k++)
+      SUNSparseMatrix_IndexValues(matrix)[k] = d->jac_rowidx[k];
     memcpy(SUNSparseMatrix_Data(matrix), values, (size_t)d->jac_nnz * sizeof *values);
     return 0;
   }
   for (int j = 0; j < n; j++)
-    for (int k = d->jac_colptr[j]; k < d->jac_colptr[j + 1]; k++) SUNDenseMatrix_Column(matrix, j)[d->jac_rowidx[k]] = values[k];
+    for (int k = d->jac_colptr[j]; k < d->jac_colptr[j + 1]; k++)
+      SUNDenseMatrix_Column(matrix, j)[d->jac_rowidx[k]] = values[k];
   return 0;
 }
 
@@ -93,15 +98,17 @@ static bool create_linear_solver(rt_session *s, memory *m) {
     m->matrix = SUNDenseMatrix(n, n, m->context);
     m->solver = m->matrix ? SUNLinSol_Dense(m->y, m->matrix, m->context) : NULL;
   }
-  return m->solver && IDASetLinearSolver(m->ida, m->solver, m->matrix) == IDA_SUCCESS && IDASetJacFn(m->ida, jacobian) == IDA_SUCCESS;
+  return m->solver && IDASetLinearSolver(m->ida, m->solver, m->matrix) == IDA_SUCCESS &&
+         IDASetJacFn(m->ida, jacobian) == IDA_SUCCESS;
 }
 
 /* Algebraic unknowns are left out of the error test: their z' at a restart is only a difference quotient. */
 static bool set_options(rt_session *s, memory *m) {
-  for (int i = 0; i < s->d->n_x; i++) N_VGetArrayPointer(m->work)[i] = 1;
+  for (int i = 0; i < s->d->n_x; i++)
+    N_VGetArrayPointer(m->work)[i] = 1;
   return rt_silence(m->context, m->ida) == 0 && IDASetUserData(m->ida, s) == IDA_SUCCESS &&
          IDASVtolerances(m->ida, s->options.rtol, m->atol) == IDA_SUCCESS && IDASetId(m->ida, m->work) == IDA_SUCCESS &&
-         IDASetSuppressAlg(m->ida, SUNTRUE) == IDA_SUCCESS && IDASetMaxNumSteps(m->ida, -1) == IDA_SUCCESS &&
+         IDASetSuppressAlg(m->ida, s->d->n_z > 0) == IDA_SUCCESS && IDASetMaxNumSteps(m->ida, -1) == IDA_SUCCESS &&
          (!(s->options.max_step > 0) || IDASetMaxStep(m->ida, s->options.max_step) == IDA_SUCCESS);
 }
 
@@ -109,8 +116,9 @@ static void *create(rt_session *s) {
   memory *m = calloc(1, sizeof *m);
   if (!m) return NULL;
   m->values = calloc((size_t)s->d->jac_nnz + 1, sizeof *m->values);
-  if (m->values && SUNContext_Create(SUN_COMM_NULL, &m->context) == 0 && create_vectors(s, m) && (m->ida = IDACreate(m->context)) &&
-      IDAInit(m->ida, residual, 0, m->y, m->yp) == IDA_SUCCESS && set_options(s, m) && create_linear_solver(s, m))
+  if (m->values && SUNContext_Create(SUN_COMM_NULL, &m->context) == 0 && create_vectors(s, m) &&
+      (m->ida = IDACreate(m->context)) && IDAInit(m->ida, residual, 0, m->y, m->yp) == IDA_SUCCESS &&
+      set_options(s, m) && create_linear_solver(s, m))
     return m;
   destroy(m);
   return NULL;
@@ -144,18 +152,23 @@ static double weighted_norm(const rt_session *s, const double *e) {
   return sqrt(sum / s->d->n_x);
 }
 
-/* A short explicit step gives x'' and z'. The first BDF step, of order 1, errs by h^2/2 x'': the largest h within tolerance follows. */
+/* A short explicit step gives x'' and z'. The first BDF step, of order 1, errs by h^2/2 x'': the largest h within
+ * tolerance follows. */
 static double first_step(rt_session *s, double *zdot) {
   const mdl_descriptor *d = s->d;
   double speed = weighted_norm(s, s->data.xdot), span = s->stop - s->start;
   double delta = fmin(1e-6 * span, speed > 0 ? 0.01 / speed : INFINITY);
   memcpy(s->v_trial, s->data.v, (size_t)d->n_v * sizeof *s->v_trial);
-  for (int i = 0; i < d->n_x; i++) s->x_trial[i] = s->data.x[i] + delta * s->data.xdot[i];
-  if (rt_rhs(s, s->t + delta, s->x_trial, s->xdot_trial, s->v_trial)) return fmin(1e-3 * span, speed > 0 ? 0.5 / speed : INFINITY);
-  for (int k = 0; k < d->n_z; k++) zdot[k] = (s->v_trial[d->z_index[k]] - s->data.v[d->z_index[k]]) / delta;
-  for (int i = 0; i < d->n_x; i++) s->xdot_trial[i] = (s->xdot_trial[i] - s->data.xdot[i]) / delta;
+  for (int i = 0; i < d->n_x; i++)
+    s->x_trial[i] = s->data.x[i] + delta * s->data.xdot[i];
+  if (rt_rhs(s, s->t + delta, s->x_trial, s->xdot_trial, s->v_trial))
+    return fmin(1e-3 * span, speed > 0 ? 0.5 / speed : INFINITY);
+  for (int k = 0; k < d->n_z; k++)
+    zdot[k] = (s->v_trial[d->z_index[k]] - s->data.v[d->z_index[k]]) / delta;
+  for (int i = 0; i < d->n_x; i++)
+    s->xdot_trial[i] = (s->xdot_trial[i] - s->data.xdot[i]) / delta;
   double curvature = weighted_norm(s, s->xdot_trial);
-  return fmin(1e-3 * span, curvature > 0 ? sqrt(0.5 / curvature) : INFINITY);
+  return fmin(1e-3 * span, curvature > 0 ? sqrt(0.03 / curvature) : INFINITY);
 }
 
 static rt_status restart(rt_session *s, void *p) {
@@ -188,8 +201,11 @@ static rt_status fail(rt_session *s, memory *m, int flag) {
   int variable = rt_state_variable(s, worst);
   sunrealtype h = 0;
   IDAGetCurrentStep(m->ida, &h);
-  return rt_fail(s, RT_STEP_COLLAPSE, s->t, variable, NULL, "IDA makes no progress at time %.9g s: %s (step %.3g s); largest error in %s", s->t,
-                 flag == IDA_ERR_FAIL ? "the error test fails" : flag == IDA_CONV_FAIL ? "Newton's method does not converge" : "it gave up",
+  return rt_fail(s, RT_STEP_COLLAPSE, s->t, variable, NULL,
+                 "IDA makes no progress at time %.9g s: %s (step %.3g s); largest error in %s", s->t,
+                 flag == IDA_ERR_FAIL    ? "the error test fails"
+                 : flag == IDA_CONV_FAIL ? "Newton's method does not converge"
+                                         : "it gave up",
                  h, variable >= 0 ? s->d->variables[variable].name : "a state");
 }
 
@@ -202,9 +218,11 @@ static rt_status step(rt_session *s, void *p, double limit) {
   if (flag < 0) return fail(s, m, flag);
   const double *y = N_VGetArrayPointer(m->y);
   memcpy(s->data.x, y, (size_t)s->d->n_x * sizeof *y);
-  for (int k = 0; k < s->d->n_z; k++) s->data.v[s->d->z_index[k]] = y[s->d->n_x + k];
+  for (int k = 0; k < s->d->n_z; k++)
+    s->data.v[s->d->z_index[k]] = y[s->d->n_x + k];
   s->t = flag == IDA_TSTOP_RETURN ? limit : t;
-  if (rt_rhs(s, s->t, s->data.x, s->data.xdot, s->data.v)) return rt_fail_model(s, s->t, "evaluating the explicit form");
+  if (rt_rhs(s, s->t, s->data.x, s->data.xdot, s->data.v) || rt_check_finite(s, s->data.xdot))
+    return rt_fail_model(s, s->t, "evaluating the explicit form");
   return RT_OK;
 }
 
@@ -220,9 +238,16 @@ static void dense(rt_session *s, void *p, rt_dense *out) {
   double factor = 1;
   for (int k = 0; k <= out->degree; k++) {
     IDAGetDky(m->ida, out->t0, k, m->work);
-    for (int i = 0; i < n; i++) out->c[k * n + i] = factor * NV_Ith_S(m->work, i);
+    for (int i = 0; i < n; i++)
+      out->c[k * n + i] = factor * NV_Ith_S(m->work, i);
     factor *= h / (k + 1);
   }
 }
 
-const rt_method rt_method_ida = {"ida", false, false, create, destroy, begin, restart, step, dense, count};
+static void point(rt_session *s, void *p, double t, double *x) {
+  memory *m = p;
+  IDAGetDky(m->ida, t, 0, m->work);
+  memcpy(x, N_VGetArrayPointer(m->work), (size_t)s->d->n_x * sizeof *x);
+}
+
+const rt_method rt_method_ida = {"ida", false, false, create, destroy, begin, restart, step, dense, point, count};

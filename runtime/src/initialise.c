@@ -1,4 +1,5 @@
 /* The start of a run: start values, parameters, initial equations, first events. */
+#include <math.h>
 #include <string.h>
 
 #include "session.h"
@@ -17,14 +18,17 @@ static void clear(rt_session *s) {
   memset(m->tick, 0, (size_t)d->n_sample);
   memset(m->when, 0, (size_t)d->n_when);
   for (int i = 0; i < d->n_variables; i++)
-    if (d->variables[i].storage == MDL_INPUT) m->u[d->variables[i].index] = d->variables[i].sign * d->variables[i].start;
+    if (d->variables[i].storage == MDL_INPUT)
+      m->u[d->variables[i].index] = d->variables[i].sign * d->variables[i].start;
   m->initial = 1;
   m->terminal = m->reinitialised = m->terminated = 0;
   m->failure = (mdl_failure){.equation = -1, .variable = -1};
   memset(s->flip, 0, (size_t)d->n_rel);
   memset(s->g_span, 0, (size_t)d->n_rel * sizeof *s->g_span);
   memset(s->g_travel, 0, (size_t)d->n_rel * sizeof *s->g_travel);
-  s->t = s->t_previous = s->last_event = s->start;
+  s->t = s->t_previous = s->t_end = s->last_event = s->start;
+  s->t_before = NAN;
+  s->resume = false;
   s->dense.valid = false;
   s->futile_events = s->pending = 0;
 }
@@ -53,14 +57,15 @@ static rt_status fail_initialisation(rt_session *s) {
   return s->failure.status = RT_INITIALISATION;
 }
 
-/* Initial equations, relations and discrete equations with initial() true, until they agree. States given by the caller replace what
- * the initial equations say. */
+/* Initial equations, relations and discrete equations with initial() true, until they agree. States given by the caller
+ * replace what the initial equations say. */
 static rt_status solve_initial_equations(rt_session *s) {
   mdl_data *m = &s->data;
   for (int i = 0; i < MAX_ITERATIONS; i++) {
     rt_inputs_at(s, s->t);
     if (s->d->initial_system(m, s->t)) return fail_initialisation(s);
-    for (int k = 0; k < s->n_initial; k++) m->x[s->initial_index[k]] = s->initial_value[k];
+    for (int k = 0; k < s->n_initial; k++)
+      m->x[s->initial_index[k]] = s->initial_value[k];
     if (rt_evaluate(s)) return fail_initialisation(s);
     bool changed = settle_relations(s);
     if (s->d->event(m, s->t, m->x, m->xdot, m->v)) return fail_initialisation(s);
@@ -68,7 +73,8 @@ static rt_status solve_initial_equations(rt_session *s) {
     memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
     if (!changed) return RT_OK;
   }
-  return rt_fail(s, RT_INITIALISATION, s->t, -1, NULL, "initial equations and relations do not settle at time %.9g s", s->t);
+  return rt_fail(s, RT_INITIALISATION, s->t, -1, NULL, "initial equations and relations do not settle at time %.9g s",
+                 s->t);
 }
 
 /* Events at the start: with initial() no longer true, then the ticks that fall on it. */

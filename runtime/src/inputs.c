@@ -1,15 +1,17 @@
 /* Recorded inputs: linear or held between samples, constant outside.
  *
- * A held input jumps at its samples. Its value is frozen while a step is computed, so that the end of a step that lands on a
- * jump sees the value before it; rt_inputs_begin then moves on to the value after it. */
+ * A held input jumps at its samples. Its value is frozen while a step is computed, so that the end of a step that lands
+ * on a jump sees the value before it; rt_inputs_begin then moves on to the value after it. */
 #include <math.h>
 
 #include "session.h"
 
 static int sample_at(const rt_input *in, int guess, double t) {
   int k = guess;
-  while (k > 0 && in->time[k] > t) k--;
-  while (k + 1 < in->n && in->time[k + 1] <= t) k++;
+  while (k > 0 && in->time[k] > t)
+    k--;
+  while (k + 1 < in->n && in->time[k + 1] <= t)
+    k++;
   return k;
 }
 
@@ -53,7 +55,8 @@ double rt_inputs_next_break(const rt_session *s, bool kinks) {
     if (!in->n || !(hold || kinks)) continue;
     int k = sample_at(in, in->cursor, s->t + s->clock.tolerance);
     if (in->time[k] <= s->t + s->clock.tolerance) k++;
-    while (k < in->n && in->time[k] < next && (hold ? k > 0 && in->values[k] == in->values[k - 1] : !is_kink(in, k))) k++;
+    while (k < in->n && in->time[k] < next && (hold ? k > 0 && in->values[k] == in->values[k - 1] : !is_kink(in, k)))
+      k++;
     if (k < in->n) next = fmin(next, in->time[k]);
   }
   return next;

@@ -18,12 +18,15 @@ int rt_lu_factor(int n, double *a, int *pivot) {
     pivot[k] = p;
     if (!(fabs(a[k * n + p]) > 0)) return k + 1;
     if (p != k)
-      for (int j = 0; j < n; j++) swap(&a[j * n + k], &a[j * n + p]);
-    for (int i = k + 1; i < n; i++) a[k * n + i] /= a[k * n + k];
+      for (int j = 0; j < n; j++)
+        swap(&a[j * n + k], &a[j * n + p]);
+    for (int i = k + 1; i < n; i++)
+      a[k * n + i] /= a[k * n + k];
     for (int j = k + 1; j < n; j++) {
       double factor = a[j * n + k];
       if (factor != 0)
-        for (int i = k + 1; i < n; i++) a[j * n + i] -= a[k * n + i] * factor;
+        for (int i = k + 1; i < n; i++)
+          a[j * n + i] -= a[k * n + i] * factor;
     }
   }
   return 0;
@@ -33,9 +36,11 @@ void rt_lu_solve(int n, const double *a, const int *pivot, double *b) {
   for (int k = 0; k < n; k++)
     if (pivot[k] != k) swap(&b[k], &b[pivot[k]]);
   for (int k = 0; k < n; k++)
-    for (int i = k + 1; i < n; i++) b[i] -= a[k * n + i] * b[k];
+    for (int i = k + 1; i < n; i++)
+      b[i] -= a[k * n + i] * b[k];
   for (int k = n - 1; k >= 0; k--) {
     b[k] /= a[k * n + k];
-    for (int i = 0; i < k; i++) b[i] -= a[k * n + i] * b[k];
+    for (int i = 0; i < k; i++)
+      b[i] -= a[k * n + i] * b[k];
   }
 }

@@ -13,8 +13,10 @@ rt_model *rt_model_wrap(const mdl_descriptor *descriptor, char *message, size_t 
     return NULL;
   }
   rt_model *model = calloc(1, sizeof *model);
-  if (model) model->descriptor = descriptor;
-  else snprintf(message, size, "out of memory");
+  if (model)
+    model->descriptor = descriptor;
+  else
+    snprintf(message, size, "out of memory");
   return model;
 }
 
@@ -30,8 +32,10 @@ rt_model *rt_model_open(const char *path, char *message, size_t size) {
   memcpy(&get, &symbol, sizeof get);
   if (!symbol) snprintf(message, size, "%s is not a generated model: it has no mdl_descriptor_get", path);
   rt_model *model = symbol ? rt_model_wrap(get(), message, size) : NULL;
-  if (model) model->library = library;
-  else dlclose(library);
+  if (model)
+    model->library = library;
+  else
+    dlclose(library);
   return model;
 }
 
@@ -41,7 +45,9 @@ void rt_model_close(rt_model *model) {
   free(model);
 }
 
-const mdl_descriptor *rt_model_descriptor(const rt_model *model) { return model->descriptor; }
+const mdl_descriptor *rt_model_descriptor(const rt_model *model) {
+  return model->descriptor;
+}
 
 int rt_model_find(const rt_model *model, const char *name) {
   const mdl_descriptor *d = model->descriptor;

@@ -8,23 +8,24 @@ struct rt_onestep;
 
 typedef struct {
   int stages;
-  int order;  /* the error estimate of a step goes as h^order; 0: there is none */
-  double damping; /* PI control: exponent of the last step's error (Hairer, Norsett & Wanner I, II.4) */
+  int order;                     /* the error estimate of a step goes as h^order; 0: there is none */
+  double damping;                /* PI control: exponent of the last step's error (Hairer, Norsett & Wanner I, II.4) */
   double min_factor, max_factor; /* of the step size from step to step */
+  bool ends_are_stages;          /* the first stage is f at the start of the step, the last f at its end */
   size_t (*work_size)(const mdl_descriptor *d); /* bytes of work space; NULL: none */
-  /* From (t0, x0, f0) a step h: x1, f1 = f(t0 + h, x1) and the error in units of the tolerance. */
-  int (*attempt)(rt_session *s, struct rt_onestep *o, double h, double *error);
+  /* From (t0, x0, f0) a step h: x1, f1 = f(t0 + h, x1) and the local error, of no use where order is 0. */
+  int (*attempt)(rt_session *s, struct rt_onestep *o, double h);
   void (*dense)(const rt_session *s, const struct rt_onestep *o, rt_dense *dense);
 } rt_scheme;
 
 typedef struct rt_onestep {
   const rt_scheme *scheme;
-  void *work;                /* of the scheme, zero at first */
-  double t0, h;              /* the last step */
-  double h_next, last_error; /* step size control */
-  double *x0, *f0, *x1, *f1; /* [n_x] */
-  double *k;                 /* [stages * n_x] */
-  double *x_stage;           /* [n_x] */
+  void *work;                    /* of the scheme, zero at first */
+  double t0, h;                  /* the last step */
+  double h_next, last_log_error; /* step size control */
+  double *x0, *f0, *x1, *f1;     /* [n_x] */
+  double *k;                     /* [stages * n_x] */
+  double *error;                 /* [n_x] */
 } rt_onestep;
 
 void *rt_onestep_create(rt_session *s, const rt_scheme *scheme);
@@ -35,9 +36,21 @@ rt_status rt_onestep_step(rt_session *s, void *memory, double limit);
 void rt_onestep_dense(rt_session *s, void *memory, rt_dense *dense);
 void rt_onestep_count(rt_session *s, void *memory);
 
-/* Root mean square of e_i / (atol_i + rtol max(|x0_i|, |x1_i|)). */
-double rt_error_norm(const rt_session *s, const rt_onestep *o, const double *e);
-/* x_stage = x0 + sum_j (h a_j) k_j over the first n stages. */
-const double *rt_stage(const rt_session *s, rt_onestep *o, double h, int n, const double *a);
+/* x1 = x0 + h sum_j a_j k_j over the first n stages. Inline, so that a known n unrolls. */
+static inline const double *rt_stage(const rt_session *s, rt_onestep *o, double h, int n, const double *a) {
+  int n_x = s->d->n_x;
+  for (int i = 0; i < n_x; i++) {
+    double sum = 0;
+    for (int j = 0; j < n; j++)
+      sum += a[j] * o->k[j * n_x + i];
+    o->x1[i] = o->x0[i] + h * sum;
+  }
+  return o->x1;
+}
+
+/* Explicit stage j at t0 + c h: k_j = f(t0 + c h, x0 + h sum_l a_l k_l), l < j. */
+static inline int rt_explicit_stage(rt_session *s, rt_onestep *o, double h, int j, double c, const double *a) {
+  return rt_rhs(s, o->t0 + c * h, rt_stage(s, o, h, j, a), o->k + j * s->d->n_x, s->data.v);
+}
 
 #endif

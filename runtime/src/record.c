@@ -4,7 +4,9 @@
 
 #include "session.h"
 
-static bool on_grid(const rt_recorder *r) { return r->n_grid > 0 || r->interval > 0; }
+static bool on_grid(const rt_recorder *r) {
+  return r->n_grid > 0 || r->interval > 0;
+}
 
 /* Time of grid point `i`; infinite after the last. */
 static double grid_time(const rt_session *s, long i) {
@@ -16,7 +18,8 @@ static double grid_time(const rt_session *s, long i) {
 
 void rt_record_begin(rt_session *s) {
   s->recorder.next = 0;
-  while (on_grid(&s->recorder) && grid_time(s, s->recorder.next) < s->start - s->clock.tolerance) s->recorder.next++;
+  while (on_grid(&s->recorder) && grid_time(s, s->recorder.next) < s->start - s->clock.tolerance)
+    s->recorder.next++;
 }
 
 static rt_status reserve_row(rt_session *s) {
@@ -25,10 +28,11 @@ static rt_status reserve_row(rt_session *s) {
 }
 
 /* A row from the complete point (t, x, xdot, v). */
-static rt_status write_row(rt_session *s, double t, const double *x, const double *xdot, const double *v, unsigned char event) {
+static rt_status write_row(rt_session *s, double t, const double *x, const double *xdot, const double *v,
+                           unsigned char event) {
   const mdl_data *m = &s->data;
-  const double *storage[] = {[MDL_STATE] = x, [MDL_ALGEBRAIC] = v, [MDL_DISCRETE] = m->d, [MDL_PARAMETER] = m->p, [MDL_INPUT] = m->u,
-                             [MDL_DERIVATIVE] = xdot};
+  const double *storage[] = {[MDL_STATE] = x,        [MDL_ALGEBRAIC] = v, [MDL_DISCRETE] = m->d,
+                             [MDL_PARAMETER] = m->p, [MDL_INPUT] = m->u,  [MDL_DERIVATIVE] = xdot};
   rt_status status = reserve_row(s);
   if (status) return status;
   rt_result *result = s->result;
@@ -42,18 +46,16 @@ static rt_status write_row(rt_session *s, double t, const double *x, const doubl
   return RT_OK;
 }
 
-/* A row inside the last step. States come from its polynomial alone; the rest is computed from them by the explicit form. */
-static rt_status write_interpolated(rt_session *s, double t) {
+/* A row inside the last step. States come from its polynomial; what else is wanted is computed from them by the
+ * explicit form. */
+static rt_status write_interpolated(rt_session *s, double t, bool alone) {
   rt_recorder *r = &s->recorder;
-  int n = s->d->n_x;
-  if (!r->needs_rhs) {
-    for (int j = 0; j < r->n; j++)
-      if (r->outputs[j].storage == MDL_STATE) r->x[r->outputs[j].index] = rt_dense_eval_one(&s->dense, n, r->outputs[j].index, t);
-    rt_inputs_at(s, t);
-  } else {
-    rt_dense_eval(&s->dense, n, t, r->x);
+  rt_dense_point(s, t, alone, r->x);
+  if (r->needs_rhs) {
     memcpy(r->v, s->data.v, (size_t)s->d->n_v * sizeof *r->v);
     if (rt_rhs(s, t, r->x, r->xdot, r->v)) return rt_fail_model(s, t, "evaluating outputs");
+  } else {
+    rt_inputs_at(s, t);
   }
   return write_row(s, t, r->x, r->xdot, r->v, 0);
 }
@@ -67,14 +69,12 @@ rt_status rt_record_step(rt_session *s, bool closed) {
     return event_rows_follow ? RT_OK : write_row(s, s->t, s->data.x, s->data.xdot, s->data.v, 0);
   }
   double end = s->t + (closed ? s->clock.tolerance : -s->clock.tolerance);
-  for (; !status && grid_time(s, r->next) <= end; r->next++) {
-    double t = grid_time(s, r->next);
+  for (double t = grid_time(s, r->next); !status && t <= end; t = grid_time(s, ++r->next)) {
     if (fabs(t - s->t) <= s->clock.tolerance) {
       rt_inputs_at(s, s->t);
       status = write_row(s, t, s->data.x, s->data.xdot, s->data.v, 0);
     } else {
-      rt_dense_prepare(s);
-      status = write_interpolated(s, t);
+      status = write_interpolated(s, t, grid_time(s, r->next + 1) > end);
     }
   }
   return status;
@@ -82,7 +82,8 @@ rt_status rt_record_step(rt_session *s, bool closed) {
 
 /* A row at an event, before or after it; after it, it stands for a grid point at the same instant too. */
 rt_status rt_record_event_row(rt_session *s) {
-  while (on_grid(&s->recorder) && grid_time(s, s->recorder.next) <= s->t + s->clock.tolerance) s->recorder.next++;
+  while (on_grid(&s->recorder) && grid_time(s, s->recorder.next) <= s->t + s->clock.tolerance)
+    s->recorder.next++;
   rt_inputs_at(s, s->t);
   return write_row(s, s->t, s->data.x, s->data.xdot, s->data.v, 1);
 }

@@ -16,7 +16,8 @@ rt_result *rt_result_new(int columns, int parameters, size_t capacity) {
 
 void rt_result_free(rt_result *r) {
   if (!r) return;
-  for (int j = 0; r->columns && j < r->n; j++) free(r->columns[j]);
+  for (int j = 0; r->columns && j < r->n; j++)
+    free(r->columns[j]);
   free(r->columns);
   free(r->time);
   free(r->event);
@@ -36,7 +37,8 @@ bool rt_result_reserve(rt_result *r, size_t rows) {
   if (rows <= r->capacity) return true;
   size_t capacity = rows > 2 * r->capacity ? rows : 2 * r->capacity;
   bool done = grow(&r->time, capacity * sizeof *r->time) && grow(&r->event, capacity);
-  for (int j = 0; done && j < r->n; j++) done = grow(&r->columns[j], capacity * sizeof **r->columns);
+  for (int j = 0; done && j < r->n; j++)
+    done = grow(&r->columns[j], capacity * sizeof **r->columns);
   if (done) r->capacity = capacity;
   return done;
 }
@@ -51,15 +53,31 @@ bool rt_result_log(rt_result *r, double time, int kind, int index, int direction
   return true;
 }
 
-const rt_failure *rt_result_failure(const rt_result *r) { return &r->failure; }
-const char *rt_result_terminated(const rt_result *r) { return r->terminated; }
-const rt_counters *rt_result_counters(const rt_result *r) { return &r->counters; }
-size_t rt_result_rows(const rt_result *r) { return r->rows; }
-const double *rt_result_time(const rt_result *r) { return r->time; }
-const unsigned char *rt_result_event_flags(const rt_result *r) { return r->event; }
-const double *rt_result_column(const rt_result *r, int column) { return column >= 0 && column < r->n ? r->columns[column] : NULL; }
+const rt_failure *rt_result_failure(const rt_result *r) {
+  return &r->failure;
+}
+const char *rt_result_terminated(const rt_result *r) {
+  return r->terminated;
+}
+const rt_counters *rt_result_counters(const rt_result *r) {
+  return &r->counters;
+}
+size_t rt_result_rows(const rt_result *r) {
+  return r->rows;
+}
+const double *rt_result_time(const rt_result *r) {
+  return r->time;
+}
+const unsigned char *rt_result_event_flags(const rt_result *r) {
+  return r->event;
+}
+const double *rt_result_column(const rt_result *r, int column) {
+  return column >= 0 && column < r->n ? r->columns[column] : NULL;
+}
 
-const double *rt_result_parameters(const rt_result *r) { return r->parameters; }
+const double *rt_result_parameters(const rt_result *r) {
+  return r->parameters;
+}
 
 const rt_event_entry *rt_result_events(const rt_result *r, size_t *count) {
   *count = r->n_events;

@@ -1,8 +1,8 @@
 /* RODAS: a stiffly accurate, L-stable Rosenbrock method of order 4(3) with six stages, for stiff models.
  * Hairer & Wanner, Solving Ordinary Differential Equations II, IV.7 and VI.4; dense output of order 3 from there.
  *
- * Its Jacobian J = df/dx of the explicit form comes from the analytic Jacobian of the residual form F(t, [x; z], x') = 0 by the
- * implicit function theorem: [F_x' F_z] [J; dz/dx] = -F_x. */
+ * Its Jacobian J = df/dx of the explicit form comes from the analytic Jacobian of the residual form F(t, [x; z], x') =
+ * 0 by the implicit function theorem: [F_x' F_z] [J; dz/dx] = -F_x. */
 #include <math.h>
 #include <string.h>
 
@@ -26,11 +26,12 @@ static const double c[STAGES][STAGES - 1] = {
     {-0.2430093356833875e+01, -0.2063599157091915e+00},
     {-0.1073529058151375e+00, -0.9594562251023355e+01, -0.2047028614809616e+02},
     {0.7496443313967647e+01, -0.1024680431464352e+02, -0.3399990352819905e+02, 0.1170890893206160e+02},
-    {0.8083246795921522e+01, -0.7981132988064893e+01, -0.3152159432874371e+02, 0.1631930543123136e+02, -0.6058818238834054e+01}};
-static const double d2[STAGES - 1] = {0.1012623508344586e+02, -0.7487995877610167e+01, -0.3480091861555747e+02, -0.7992771707568823e+01,
-                                      0.1025137723295662e+01};
-static const double d3[STAGES - 1] = {-0.6762803392806898e+00, 0.6087714651680015e+01, 0.1643084320892478e+02, 0.2476722511418386e+02,
-                                      -0.6594389125716872e+01};
+    {0.8083246795921522e+01, -0.7981132988064893e+01, -0.3152159432874371e+02, 0.1631930543123136e+02,
+     -0.6058818238834054e+01}};
+static const double d2[STAGES - 1] = {0.1012623508344586e+02, -0.7487995877610167e+01, -0.3480091861555747e+02,
+                                      -0.7992771707568823e+01, 0.1025137723295662e+01};
+static const double d3[STAGES - 1] = {-0.6762803392806898e+00, 0.6087714651680015e+01, 0.1643084320892478e+02,
+                                      0.2476722511418386e+02, -0.6594389125716872e+01};
 
 typedef struct {
   double *jacobian, *matrix; /* [n_x * n_x] df/dx, and I/(h gamma) - df/dx factored */
@@ -45,7 +46,8 @@ typedef struct {
 
 static size_t work_size(const mdl_descriptor *m) {
   size_t n_x = (size_t)m->n_x, n = n_x + (size_t)m->n_z;
-  return sizeof(work) + (2 * n_x * n_x + n * n + n * n_x + 2 * (size_t)m->jac_nnz + n_x) * sizeof(double) + n * sizeof(int);
+  return sizeof(work) + (2 * n_x * n_x + n * n + n * n_x + 2 * (size_t)m->jac_nnz + n_x) * sizeof(double) +
+         n * sizeof(int);
 }
 
 static work *layout(const rt_session *s, void *memory) {
@@ -63,7 +65,8 @@ static work *layout(const rt_session *s, void *memory) {
 }
 
 static int fail_singular(rt_session *s, int row) {
-  s->data.failure = (mdl_failure){.kind = MDL_FAILURE_SINGULAR, .equation = s->d->residual_equation[row], .variable = -1};
+  s->data.failure =
+      (mdl_failure){.kind = MDL_FAILURE_SINGULAR, .equation = s->d->residual_equation[row], .variable = -1};
   return 1;
 }
 
@@ -85,7 +88,8 @@ static int differentiate(rt_session *s, work *w) {
   int n_x = m->n_x, n = n_x + m->n_z, status;
   rt_residual_point(s);
   rt_inputs_at(s, s->t);
-  if ((status = m->jacobian(&s->data, s->t, s->y, s->yp, 0, w->fy)) || (status = m->jacobian(&s->data, s->t, s->y, s->yp, 1, w->fyp)))
+  if ((status = m->jacobian(&s->data, s->t, s->y, s->yp, 0, w->fy)) ||
+      (status = m->jacobian(&s->data, s->t, s->y, s->yp, 1, w->fyp)))
     return status;
   s->result->counters.jacobians++;
   scatter(m, w);
@@ -103,7 +107,8 @@ static int differentiate_time(rt_session *s, rt_onestep *o, work *w, double h) {
   double delta = 1e-4 * h;
   memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
   int status = rt_rhs(s, o->t0 + delta, o->x0, w->dfdt, s->v_trial);
-  for (int i = 0; i < s->d->n_x; i++) w->dfdt[i] = (w->dfdt[i] - o->f0[i]) / delta;
+  for (int i = 0; i < s->d->n_x; i++)
+    w->dfdt[i] = (w->dfdt[i] - o->f0[i]) / delta;
   return status;
 }
 
@@ -113,13 +118,15 @@ static int prepare(rt_session *s, rt_onestep *o, work *w, double h) {
   if (!known && ((status = differentiate(s, w)) || (status = differentiate_time(s, o, w, h)))) return status;
   w->t = o->t0;
   w->run = s->result;
-  for (int i = 0; i < n * n; i++) w->matrix[i] = -w->jacobian[i];
-  for (int i = 0; i < n; i++) w->matrix[i * n + i] += 1 / (h * gamma_);
+  for (int i = 0; i < n * n; i++)
+    w->matrix[i] = -w->jacobian[i];
+  for (int i = 0; i < n; i++)
+    w->matrix[i * n + i] += 1 / (h * gamma_);
   int singular = rt_lu_factor(n, w->matrix, w->pivot);
   return singular ? fail_singular(s, singular - 1) : 0;
 }
 
-static int attempt(rt_session *s, rt_onestep *o, double h, double *error) {
+static int attempt(rt_session *s, rt_onestep *o, double h) {
   int n = s->d->n_x;
   work *w = layout(s, o->work);
   int status = prepare(s, o, w, h);
@@ -127,17 +134,22 @@ static int attempt(rt_session *s, rt_onestep *o, double h, double *error) {
   for (int j = 0; j < STAGES; j++) {
     double *k = o->k + j * n;
     const double *x = rt_stage(s, o, 1, j, a[j]);
-    if (j == 0) memcpy(k, o->f0, (size_t)n * sizeof *k);
-    else if ((status = rt_rhs(s, o->t0 + alpha[j] * h, x, k, s->data.v))) return status;
+    if (j == 0)
+      memcpy(k, o->f0, (size_t)n * sizeof *k);
+    else if ((status = rt_rhs(s, o->t0 + alpha[j] * h, x, k, s->data.v)))
+      return status;
     for (int i = 0; i < n; i++) {
       double sum = 0;
-      for (int l = 0; l < j; l++) sum += c[j][l] * o->k[l * n + i];
+      for (int l = 0; l < j; l++)
+        sum += c[j][l] * o->k[l * n + i];
       k[i] += sum / h + h * d[j] * w->dfdt[i];
     }
     rt_lu_solve(n, w->matrix, w->pivot, k);
   }
-  for (int i = 0; i < n; i++) o->x1[i] = o->x_stage[i] + o->k[(STAGES - 1) * n + i];
-  *error = rt_error_norm(s, o, o->k + (STAGES - 1) * n);
+  for (int i = 0; i < n; i++) {
+    o->error[i] = o->k[(STAGES - 1) * n + i];
+    o->x1[i] += o->error[i];
+  }
   return rt_rhs(s, o->t0 + h, o->x1, o->f1, s->data.v);
 }
 
@@ -166,7 +178,18 @@ static const rt_scheme scheme = {.stages = STAGES,
                                  .attempt = attempt,
                                  .dense = dense};
 
-static void *create(rt_session *s) { return rt_onestep_create(s, &scheme); }
+static void *create(rt_session *s) {
+  return rt_onestep_create(s, &scheme);
+}
 
-const rt_method rt_method_rodas4 = {"rodas4", false, true, create, rt_onestep_destroy, rt_onestep_begin, rt_onestep_restart,
-                                    rt_onestep_step, rt_onestep_dense, rt_onestep_count};
+const rt_method rt_method_rodas4 = {"rodas4",
+                                    false,
+                                    true,
+                                    create,
+                                    rt_onestep_destroy,
+                                    rt_onestep_begin,
+                                    rt_onestep_restart,
+                                    rt_onestep_step,
+                                    rt_onestep_dense,
+                                    NULL,
+                                    rt_onestep_count};

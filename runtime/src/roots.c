@@ -1,17 +1,20 @@
 /* State events: which relations have changed at the end of a step, and when the first of them did.
  *
- * A relation that is true means g > 0. It changes only when its guard has passed zero by more than the hysteresis, so rounding
- * noise of a guard that rests at zero cannot switch it. The instant located is the zero itself; a guard that starts inside the
- * hysteresis on the wrong side is located where it leaves the hysteresis. So the guard used here is never zero at a restart. */
+ * A relation that is true means g > 0. It changes only when its guard has passed zero by more than the hysteresis, so
+ * rounding noise of a guard that rests at zero cannot switch it. The instant located is the zero itself; a guard that
+ * starts inside the hysteresis on the wrong side is located where it leaves the hysteresis. So the guard used here is
+ * never zero at a restart. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "session.h"
 
-/* In the unit of the guard. 1e-10 is far above rounding of operands of 1e4 and far below any physical play; the second part
- * covers guards that run over a larger range. */
-double rt_hysteresis(const rt_session *s, int r) { return 1e-10 + 1e-12 * s->g_span[r]; }
+/* In the unit of the guard. 1e-10 is far above rounding of operands of 1e4 and far below any physical play; the second
+ * part covers guards that run over a larger range. */
+double rt_hysteresis(const rt_session *s, int r) {
+  return 1e-10 + 1e-12 * s->g_span[r];
+}
 
 /* Positive while relation r keeps its value. */
 static double margin(const rt_session *s, int r, double g) {
@@ -20,7 +23,9 @@ static double margin(const rt_session *s, int r, double g) {
   return (holds ? g : -g) + (at_start > 0 ? 0 : rt_hysteresis(s, r));
 }
 
-static bool is_state_relation(const rt_session *s, int r) { return !s->d->relations[r].is_time; }
+static bool is_state_relation(const rt_session *s, int r) {
+  return !s->d->relations[r].is_time;
+}
 
 static bool any_changed(const rt_session *s) {
   for (int r = 0; r < s->d->n_rel; r++)
@@ -41,7 +46,8 @@ static int guards_at(rt_session *s, double t, double *g) {
   return status ? status : s->d->roots(&s->data, t, s->x_trial, s->xdot_trial, s->v_trial, g);
 }
 
-/* Fraction of the bracket [a, b] at which the first guard crosses, by the secants with end values weighted by wa, wb. */
+/* Fraction of the bracket [a, b] at which the first guard crosses, by the secants with end values weighted by wa, wb.
+ */
 static double first_secant(const rt_session *s, const double *ga, double wa, const double *gb, double wb) {
   double fraction = 1;
   for (int r = 0; r < s->d->n_rel; r++) {
@@ -51,10 +57,53 @@ static double first_secant(const rt_session *s, const double *ga, double wa, con
   return fraction;
 }
 
-/* Shrink the step's interval to the first crossing: Illinois variant of regula falsi on the earliest crossing (Dowell & Jarratt
- * 1971), with steps no closer to an end than half the tolerance, so that both ends move in. On return s->g belongs to *crossing. */
+/* Smallest value on [0, 1] of the parabola through (0, a), (1, b) with second derivative c, and where it is. */
+static double lowest(double a, double b, double c, double *where) {
+  double slope = b - a - 0.5 * c;
+  *where = c > 0 ? fmin(1, fmax(0, -slope / c)) : a < b ? 0 : 1;
+  return a + *where * (slope + 0.5 * c * *where);
+}
+
+/* Could a guard have crossed twice inside the step? Judged by the parabola through the last three points with four
+ * times its curvature; there is no third point after a restart, so then it could. */
+static bool may_dip(const rt_session *s) {
+  if (isnan(s->t_before)) return true;
+  double h = s->t - s->t_previous, before = s->t_previous - s->t_before, where;
+  double weight = 2 * h / (h + before), back = weight * h / before;
+  for (int r = 0; r < s->d->n_rel; r++) {
+    double sign = s->data.rel[r] ? 1 : -1, a = sign * s->g_previous[r], b = sign * s->g[r];
+    double c = weight * (b - a) - back * (a - sign * s->g_before[r]);
+    double least = a < b ? a : b;
+    if (c > 1.5 * least && c > 0 && is_state_relation(s, r) && lowest(a, b, 4 * c, &where) < 0.25 * least) return true;
+  }
+  return false;
+}
+
+/* Look inside the step for a guard that crossed twice: at the middle, then at the bottom of each parabola through three
+ * points. Where one is found s->g belongs to *inside, otherwise *inside stays as it is. */
+static int find_dip(rt_session *s, double *inside) {
+  double h = s->t - s->t_previous, where;
+  rt_dense_prepare(s);
+  memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
+  int status = guards_at(s, s->t_previous + 0.5 * h, s->g_low);
+  for (int r = 0; !status && r < s->d->n_rel; r++) {
+    if (!is_state_relation(s, r)) continue;
+    double sign = s->data.rel[r] ? 1 : -1, a = sign * s->g_previous[r], middle = sign * s->g_low[r], b = sign * s->g[r];
+    if (lowest(a, b, 4 * (a - 2 * middle + b), &where) >= -rt_hysteresis(s, r) || where <= 0 || where >= 1) continue;
+    status = guards_at(s, s->t_previous + where * h, s->g_trial);
+    if (status || sign * s->g_trial[r] >= -rt_hysteresis(s, r)) continue;
+    *inside = s->t_previous + where * h;
+    memcpy(s->g, s->g_trial, (size_t)s->d->n_rel * sizeof *s->g);
+    return 0;
+  }
+  return status;
+}
+
+/* Shrink the interval from the start of the step to `end` to the first crossing: Illinois variant of regula falsi on
+ * the earliest crossing (Dowell & Jarratt 1971), with steps no closer to an end than half the tolerance, so that both
+ * ends move in. s->g belongs to *crossing, the end of the interval on entry and the crossing on return. */
 static int locate(rt_session *s, double *crossing) {
-  double a = s->t_previous, b = s->t, wa = 1, wb = 1;
+  double a = s->t_previous, b = *crossing, wa = 1, wb = 1;
   double tolerance = 1e-12 * (b - a) + 4 * DBL_EPSILON * fabs(b);
   int side = 0;
   size_t bytes = (size_t)s->d->n_rel * sizeof *s->g;
@@ -84,17 +133,45 @@ static int locate(rt_session *s, double *crossing) {
 }
 
 static rt_status move_back(rt_session *s, double t) {
+  const mdl_descriptor *d = s->d;
+  memcpy(s->x_end, s->data.x, (size_t)d->n_x * sizeof(double));
+  memcpy(s->xdot_end, s->data.xdot, (size_t)d->n_x * sizeof(double));
+  memcpy(s->v_end, s->data.v, (size_t)d->n_v * sizeof(double));
   s->t = t;
-  rt_dense_eval(&s->dense, s->d->n_x, t, s->data.x);
-  if (rt_evaluate(s)) return rt_fail_model(s, t, "evaluating the model at an event");
-  return RT_OK;
+  rt_dense_eval(&s->dense, d->n_x, t, s->data.x);
+  return rt_evaluate(s) ? rt_fail_model(s, t, "evaluating the model at an event") : RT_OK;
+}
+
+/* Go on to the end of the step that an event without consequences cut short. */
+void rt_resume_step(rt_session *s) {
+  const mdl_descriptor *d = s->d;
+  s->resume = false;
+  s->t = s->t_end;
+  memcpy(s->data.x, s->x_end, (size_t)d->n_x * sizeof(double));
+  memcpy(s->data.xdot, s->xdot_end, (size_t)d->n_x * sizeof(double));
+  memcpy(s->data.v, s->v_end, (size_t)d->n_v * sizeof(double));
 }
 
 static void follow(rt_session *s) {
   for (int r = 0; r < s->d->n_rel; r++) {
-    s->g_span[r] = fmax(s->g_span[r], fabs(s->g[r]));
-    s->g_travel[r] = fmax(s->g_travel[r], fabs(s->g[r]));
+    double size = fabs(s->g[r]);
+    if (size > s->g_span[r]) s->g_span[r] = size;
+    if (size > s->g_travel[r]) s->g_travel[r] = size;
   }
+}
+
+static int search(rt_session *s, double *crossing) {
+  bool located = s->options.locate_events, changed = any_changed(s);
+  int status = 0;
+  if (!changed && located && may_dip(s)) {
+    status = find_dip(s, crossing);
+    changed = *crossing < s->t;
+  }
+  if (!changed) return status;
+  s->pending |= RT_PENDING_STATE;
+  if (!located) return 0;
+  rt_dense_prepare(s);
+  return locate(s, crossing);
 }
 
 /* Guards at the end of the step; where a relation has changed, move the end of the step back to the first change. */
@@ -102,19 +179,19 @@ rt_status rt_find_state_event(rt_session *s) {
   const mdl_descriptor *d = s->d;
   if (!d->n_rel) return RT_OK;
   mdl_data *m = &s->data;
-  memcpy(s->g_previous, s->g, (size_t)d->n_rel * sizeof *s->g);
+  size_t bytes = (size_t)d->n_rel * sizeof *s->g;
+  memcpy(s->g_previous, s->g, bytes);
   s->result->counters.root_evaluations++;
   if (d->roots(m, s->t, m->x, m->xdot, m->v, s->g)) return rt_fail_model(s, s->t, "evaluating relations");
-  if (any_changed(s)) {
-    double crossing = s->t;
-    if (s->options.locate_events) {
-      rt_dense_prepare(s);
-      if (locate(s, &crossing)) return rt_fail_model(s, s->t, "locating an event");
-    }
-    for (int r = 0; r < d->n_rel; r++) s->flip[r] = is_state_relation(s, r) && margin(s, r, s->g[r]) < 0;
-    s->pending |= RT_PENDING_STATE;
+  double crossing = s->t;
+  if (search(s, &crossing)) return rt_fail_model(s, s->t, "locating an event");
+  if (s->pending) {
+    for (int r = 0; r < d->n_rel; r++)
+      s->flip[r] = is_state_relation(s, r) && margin(s, r, s->g[r]) < 0;
     if (crossing < s->t && move_back(s, crossing)) return s->failure.status;
   }
+  memcpy(s->g_before, s->g_previous, bytes);
+  s->t_before = s->t_previous;
   follow(s);
   return RT_OK;
 }

@@ -6,7 +6,8 @@
 
 #include "session.h"
 
-static const rt_method *const methods[] = {&rt_method_ida, &rt_method_dopri5, &rt_method_rodas4, &rt_method_rk4, &rt_method_euler};
+static const rt_method *const methods[] = {&rt_method_ida, &rt_method_dopri5, &rt_method_rodas4, &rt_method_rk4,
+                                           &rt_method_euler};
 enum { N_METHODS = sizeof methods / sizeof *methods };
 
 static const rt_method *find_method(const char *name) {
@@ -30,16 +31,44 @@ static bool allocate_numbers(rt_session *s) {
   const mdl_descriptor *d = s->d;
   mdl_data *m = &s->data;
   const int n_x = d->n_x, n_v = d->n_v, n_rel = d->n_rel, n_y = d->n_x + d->n_z;
-  const numbers wanted[] = {
-      {&m->p, d->n_p}, {&m->u, d->n_u}, {&m->x, n_x}, {&m->xdot, n_x}, {&m->v, n_v}, {&m->d, d->n_d}, {&m->pre_d, d->n_d},
-      {&s->p_run, d->n_p}, {&s->initial_value, n_x}, {&s->atol, n_y}, {&s->y, n_y}, {&s->yp, n_y},
-      {&s->clock.first, d->n_sample}, {&s->clock.interval, d->n_sample}, {&s->dense.c, (RT_DENSE_DEGREE + 1) * n_x},
-      {&s->g, n_rel}, {&s->g_previous, n_rel}, {&s->g_low, n_rel}, {&s->g_trial, n_rel}, {&s->g_span, n_rel}, {&s->g_travel, n_rel},
-      {&s->x_trial, n_x}, {&s->xdot_trial, n_x}, {&s->v_trial, n_v}, {&s->x_before, n_x}, {&s->xdot_before, n_x},
-      {&s->v_before, n_v}, {&s->recorder.x, n_x}, {&s->recorder.xdot, n_x}, {&s->recorder.v, n_v}};
+  const numbers wanted[] = {{&m->p, d->n_p},
+                            {&m->u, d->n_u},
+                            {&m->x, n_x},
+                            {&m->xdot, n_x},
+                            {&m->v, n_v},
+                            {&m->d, d->n_d},
+                            {&m->pre_d, d->n_d},
+                            {&s->p_run, d->n_p},
+                            {&s->initial_value, n_x},
+                            {&s->atol, n_y},
+                            {&s->y, n_y},
+                            {&s->yp, n_y},
+                            {&s->clock.first, d->n_sample},
+                            {&s->clock.interval, d->n_sample},
+                            {&s->dense.c, (RT_DENSE_DEGREE + 1) * n_x},
+                            {&s->g, n_rel},
+                            {&s->g_previous, n_rel},
+                            {&s->g_low, n_rel},
+                            {&s->g_before, n_rel},
+                            {&s->g_trial, n_rel},
+                            {&s->g_span, n_rel},
+                            {&s->g_travel, n_rel},
+                            {&s->x_trial, n_x},
+                            {&s->xdot_trial, n_x},
+                            {&s->v_trial, n_v},
+                            {&s->x_before, n_x},
+                            {&s->xdot_before, n_x},
+                            {&s->v_before, n_v},
+                            {&s->x_end, n_x},
+                            {&s->xdot_end, n_x},
+                            {&s->v_end, n_v},
+                            {&s->recorder.x, n_x},
+                            {&s->recorder.xdot, n_x},
+                            {&s->recorder.v, n_v}};
   const size_t count = sizeof wanted / sizeof *wanted;
   size_t total = 1;
-  for (size_t i = 0; i < count; i++) total += (size_t)wanted[i].n;
+  for (size_t i = 0; i < count; i++)
+    total += (size_t)wanted[i].n;
   double *next = s->numbers = calloc(total, sizeof *next);
   if (!next) return false;
   for (size_t i = 0; i < count; i++) {
@@ -52,9 +81,10 @@ static bool allocate_numbers(rt_session *s) {
 static bool allocate_flags(rt_session *s) {
   const mdl_descriptor *d = s->d;
   mdl_data *m = &s->data;
-  const flags wanted[] = {{&m->rel, d->n_rel}, {&m->tick, d->n_sample}, {&m->when, d->n_when}, {&s->flip, d->n_rel}, {&s->rel_before, d->n_rel}};
+  const flags wanted[] = {{&m->rel, d->n_rel},  {&m->tick, d->n_sample},    {&m->when, d->n_when},
+                          {&s->flip, d->n_rel}, {&s->rel_before, d->n_rel}, {&s->rel_trial, d->n_rel}};
   const size_t count = sizeof wanted / sizeof *wanted;
-  unsigned char *next = s->flags = calloc((size_t)(3 * d->n_rel + d->n_sample + d->n_when) + 1, 1);
+  unsigned char *next = s->flags = calloc((size_t)(4 * d->n_rel + d->n_sample + d->n_when) + 1, 1);
   if (!next) return false;
   for (size_t i = 0; i < count; i++) {
     *wanted[i].place = next;
@@ -75,7 +105,8 @@ static void set_tolerances(rt_session *s) {
   const mdl_descriptor *d = s->d;
   if (!(s->options.rtol > 0)) s->options.rtol = d->tolerance > 0 ? d->tolerance : 1e-6;
   if (!(s->options.atol > 0)) s->options.atol = 0.01 * s->options.rtol;
-  for (int i = 0; i < d->n_x + d->n_z; i++) s->atol[i] = s->options.atol;
+  for (int i = 0; i < d->n_x + d->n_z; i++)
+    s->atol[i] = s->options.atol;
   for (int i = 0; i < d->n_variables; i++) {
     const mdl_variable *v = &d->variables[i];
     if (!(v->nominal > 0)) continue;
@@ -127,9 +158,13 @@ void rt_session_free(rt_session *s) {
   free(s);
 }
 
-const rt_failure *rt_session_failure(const rt_session *s) { return &s->failure; }
+const rt_failure *rt_session_failure(const rt_session *s) {
+  return &s->failure;
+}
 
-static rt_status refuse(rt_session *s, const char *what) { return rt_fail(s, RT_ARGUMENT, 0, -1, NULL, "%s", what); }
+static rt_status refuse(rt_session *s, const char *what) {
+  return rt_fail(s, RT_ARGUMENT, 0, -1, NULL, "%s", what);
+}
 
 static const mdl_variable *variable(const rt_session *s, int row) {
   return row >= 0 && row < s->d->n_variables ? &s->d->variables[row] : NULL;
@@ -141,8 +176,8 @@ rt_status rt_session_parameters(rt_session *s, int n, const int *variables, cons
     const mdl_variable *v = variable(s, variables[i]);
     if (!v || v->storage != MDL_PARAMETER || !v->settable) return refuse(s, "not a parameter that may be set");
     if (!(values[i] >= v->min && values[i] <= v->max))
-      return rt_fail(s, RT_BOUND, 0, variables[i], NULL, "parameter %s = %.9g is outside its bounds [%.9g, %.9g] %s", v->name, values[i],
-                     v->min, v->max, v->unit);
+      return rt_fail(s, RT_BOUND, 0, variables[i], NULL, "parameter %s = %.9g is outside its bounds [%.9g, %.9g] %s",
+                     v->name, values[i], v->min, v->max, v->unit);
     s->p_run[v->index] = v->sign * values[i];
   }
   return RT_OK;
@@ -152,7 +187,8 @@ rt_status rt_session_initial(rt_session *s, int n, const int *variables, const d
   s->n_initial = 0;
   for (int i = 0; i < n; i++) {
     const mdl_variable *v = variable(s, variables[i]);
-    if (!v || v->storage != MDL_STATE || i >= s->d->n_x) return refuse(s, "not a state: its initial value cannot be set");
+    if (!v || v->storage != MDL_STATE || i >= s->d->n_x)
+      return refuse(s, "not a state: its initial value cannot be set");
     s->initial_index[i] = v->index;
     s->initial_value[i] = v->sign * values[i];
     s->n_initial = i + 1;
@@ -160,14 +196,17 @@ rt_status rt_session_initial(rt_session *s, int n, const int *variables, const d
   return RT_OK;
 }
 
-rt_status rt_session_input(rt_session *s, int row, int n, const double *time, const double *values, rt_interpolation interpolation) {
+rt_status rt_session_input(rt_session *s, int row, int n, const double *time, const double *values,
+                           rt_interpolation interpolation) {
   const mdl_variable *v = variable(s, row);
   if (!v || v->storage != MDL_INPUT || v->sign != 1) return refuse(s, "not an input of the model");
   for (int k = 0; k < n; k++) {
     if (k && !(time[k] > time[k - 1]))
-      return rt_fail(s, RT_ARGUMENT, time[k], row, NULL, "samples of input %s: time does not increase at %.9g s", v->name, time[k]);
+      return rt_fail(s, RT_ARGUMENT, time[k], row, NULL, "samples of input %s: time does not increase at %.9g s",
+                     v->name, time[k]);
     if (!isfinite(time[k]) || !isfinite(values[k]))
-      return rt_fail(s, RT_ARGUMENT, time[k], row, NULL, "samples of input %s: not a finite number at %.9g s", v->name, time[k]);
+      return rt_fail(s, RT_ARGUMENT, time[k], row, NULL, "samples of input %s: not a finite number at %.9g s", v->name,
+                     time[k]);
   }
   s->inputs[v->index] = (rt_input){.time = time, .values = values, .n = n, .interpolation = interpolation};
   return RT_OK;

@@ -53,17 +53,20 @@ typedef struct {
   double *x, *xdot, *v;
 } rt_recorder;
 
-/* An integration method. A step starts from data.x, data.xdot at s->t and ends with x, xdot and v of the new s->t there. */
+/* An integration method. A step starts from data.x, data.xdot at s->t and ends with x, xdot and v of the new s->t
+ * there. */
 typedef struct {
   const char *name;
-  bool needs_step;      /* has no step size control */
-  bool lands_on_kinks;  /* loses order where a linear input changes slope inside a step */
+  bool needs_step;     /* has no step size control */
+  bool lands_on_kinks; /* loses order where a linear input changes slope inside a step */
   void *(*create)(struct rt_session *);
   void (*destroy)(void *memory);
   rt_status (*begin)(struct rt_session *, void *memory);   /* a new run */
   rt_status (*restart)(struct rt_session *, void *memory); /* x, xdot or the equations have jumped */
   rt_status (*step)(struct rt_session *, void *memory, double limit);
   void (*dense)(struct rt_session *, void *memory, rt_dense *dense);
+  void (*point)(struct rt_session *, void *memory, double t,
+                double *x);                         /* cheaper than dense for one point; may be NULL */
   void (*count)(struct rt_session *, void *memory); /* add the method's own counters to the result */
 } rt_method;
 
@@ -79,42 +82,47 @@ struct rt_session {
   const rt_method *method;
   void *memory;
 
-  double *numbers;                  /* the block that all arrays of doubles here and in data are slices of */
-  unsigned char *flags;             /* and that of all arrays of flags */
-  double *p_run;                    /* [n_p] parameters of the next run, before dependent ones are computed */
-  int n_initial, *initial_index;    /* states set by the caller */
+  double *numbers;               /* the block that all arrays of doubles here and in data are slices of */
+  unsigned char *flags;          /* and that of all arrays of flags */
+  double *p_run;                 /* [n_p] parameters of the next run, before dependent ones are computed */
+  int n_initial, *initial_index; /* states set by the caller */
   double *initial_value;
-  rt_input *inputs;                 /* [n_u]; n = 0: constant at its start value */
-  double input_time;                /* where data.u was last computed */
-  double *atol;                     /* [n_x + n_z] */
-  double *y, *yp;                   /* [n_x + n_z] scratch for the residual form */
+  rt_input *inputs;  /* [n_u]; n = 0: constant at its start value */
+  double input_time; /* where data.u was last computed */
+  double *atol;      /* [n_x + n_z] */
+  double *y, *yp;    /* [n_x + n_z] scratch for the residual form */
 
   double start, stop;
-  double t_previous, t;             /* the last step; data belongs to t */
+  double t_previous, t;             /* what is being looked at of the last step; data belongs to t */
+  double t_end;                     /* end of the last step; later than t when an event cut it short, and then */
+  double *x_end, *xdot_end, *v_end; /* the point there */
+  bool resume; /* go on to the end of the last step: the event at t changed nothing that is integrated */
   rt_clock clock;
   rt_dense dense;
-  double *g, *g_previous;           /* [n_rel] guards at t and t_previous */
-  double *g_low, *g_trial;          /* [n_rel] while locating a crossing */
-  double *g_span, *g_travel;        /* [n_rel] largest |g| of the run, and since the relation last switched */
+  double *g, *g_previous;     /* [n_rel] guards at t and t_previous */
+  double *g_low, *g_trial;    /* [n_rel] while locating a crossing */
+  double *g_before, t_before; /* [n_rel] guards one step earlier, at t_before; NAN after a restart */
+  double *g_span, *g_travel;  /* [n_rel] largest |g| of the run, and since the relation last switched */
   double *x_trial, *xdot_trial, *v_trial;
   double *x_before, *xdot_before, *v_before;
-  unsigned char *flip;              /* [n_rel] relations that switch at t */
-  unsigned char *rel_before;        /* [n_rel] */
+  unsigned char *flip;                   /* [n_rel] relations that switch at t */
+  unsigned char *rel_before, *rel_trial; /* [n_rel] */
   int pending;
-  double last_event;                /* time of the last event (s) */
-  int futile_events;                /* consecutive events that got nowhere, see check_chattering */
+  double last_event; /* time of the last event (s) */
+  int futile_events; /* consecutive events that got nowhere, see check_chattering */
   rt_recorder recorder;
   rt_failure failure;
   rt_result *result;
 };
 
 /* failure.c */
-rt_status rt_fail(rt_session *s, rt_status status, double time, int variable, const mdl_equation *where, const char *format, ...)
-    __attribute__((format(printf, 6, 7)));
+rt_status rt_fail(rt_session *s, rt_status status, double time, int variable, const mdl_equation *where,
+                  const char *format, ...) __attribute__((format(printf, 6, 7)));
 rt_status rt_fail_model(rt_session *s, double time, const char *doing);
 
 /* evaluate.c: the model's functions, counted and guarded; > 0 recoverable, < 0 not, m->failure says why */
 int rt_rhs(rt_session *s, double t, const double *x, double *xdot, double *v);
+int rt_check_finite(rt_session *s, const double *x);
 int rt_evaluate(rt_session *s);
 void rt_residual_point(rt_session *s);
 rt_status rt_check_forms(rt_session *s);
@@ -130,15 +138,17 @@ rt_status rt_clock_begin(rt_session *s);
 double rt_clock_limit(rt_session *s);
 int rt_clock_due(rt_session *s);
 void rt_clock_tick(rt_session *s);
+bool rt_clock_relations(rt_session *s);
 
 /* dense.c */
 void rt_dense_prepare(rt_session *s);
+void rt_dense_point(rt_session *s, double t, bool alone, double *x);
 void rt_dense_eval(const rt_dense *dense, int n, double t, double *x);
-double rt_dense_eval_one(const rt_dense *dense, int n, int i, double t);
 
 /* roots.c */
 double rt_hysteresis(const rt_session *s, int r);
 rt_status rt_find_state_event(rt_session *s);
+void rt_resume_step(rt_session *s);
 
 /* events.c */
 rt_status rt_event(rt_session *s);

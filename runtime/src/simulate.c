@@ -12,7 +12,8 @@ static rt_status check_asserts(rt_session *s) {
 
 static rt_status begin(rt_session *s) {
   if (!(s->stop > s->start) || !isfinite(s->start) || !isfinite(s->stop))
-    return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "stop time %.9g s is not later than start time %.9g s", s->stop, s->start);
+    return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "stop time %.9g s is not later than start time %.9g s", s->stop,
+                   s->start);
   rt_status status = rt_initialise(s);
   if (!status) status = check_asserts(s);
   if (!status) status = s->method->begin(s, s->memory);
@@ -20,11 +21,22 @@ static rt_status begin(rt_session *s) {
   return status ? status : rt_record_step(s, true);
 }
 
-static rt_status advance(rt_session *s) {
+/* Take a step, or look at what is left of the last one. */
+static rt_status move_on(rt_session *s) {
   s->t_previous = s->t;
-  s->dense.valid = false;
   s->pending = 0;
+  if (s->resume) {
+    rt_resume_step(s);
+    return RT_OK;
+  }
+  s->dense.valid = false;
   rt_status status = s->method->step(s, s->memory, rt_clock_limit(s));
+  s->t_end = s->t;
+  return status;
+}
+
+static rt_status advance(rt_session *s) {
+  rt_status status = move_on(s);
   if (!status) status = rt_find_state_event(s);
   if (!status) status = check_asserts(s);
   if (status) return status;
@@ -60,7 +72,8 @@ rt_result *rt_session_run(rt_session *s, double start, double stop) {
   s->result = rt_result_new(s->recorder.n, s->d->n_p, expected_rows(s));
   if (!s->result) return NULL;
   rt_status status = begin(s);
-  while (!status && s->t < s->stop && !s->data.terminated) status = advance(s);
+  while (!status && s->t < s->stop && !s->data.terminated)
+    status = advance(s);
   finish(s, status);
   return s->result;
 }

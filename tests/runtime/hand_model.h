@@ -1,7 +1,8 @@
 // Models written by hand against the ABI, so that the runtime is tested without the code generator.
 //
-// A model is a struct derived from HandModel that hides the static functions it needs and lists its variables. HandModel supplies the
-// rest: residual form F = x' - f(t, x), its Jacobian by central differences (dense pattern), and functions that do nothing.
+// A model is a struct derived from HandModel that hides the static functions it needs and lists its variables.
+// HandModel supplies the rest: residual form F = x' - f(t, x), its Jacobian by central differences (dense pattern), and
+// functions that do nothing.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,12 +20,13 @@ namespace hand {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline mdl_variable variable(const char *name, mdl_storage storage, int index, double start = 0) {
-  return {name, "", "", "hand.mo", 10 + index, MDL_REAL, storage, index, 1, storage == MDL_PARAMETER, 0, start, -infinity, infinity, 0};
+  return {name, "",    "",        "hand.mo", 10 + index, MDL_REAL, storage, index, 1, storage == MDL_PARAMETER,
+          0,    start, -infinity, infinity,  0};
 }
 
 struct HandModel {
-  static constexpr int n_p = 0, n_u = 0, n_x = 1, n_z = 0, n_v = 0, n_d = 0, n_rel = 0, n_sample = 0, n_when = 0, n_asserts = 0,
-                       n_messages = 0, time_relation = -1;
+  static constexpr int n_p = 0, n_u = 0, n_x = 1, n_z = 0, n_v = 0, n_d = 0, n_rel = 0, n_sample = 0, n_when = 0,
+                       n_asserts = 0, n_messages = 0, time_relation = -1;
   static int parameters(mdl_data *) { return 0; }
   static int samples(const mdl_data *, double *, double *) { return 0; }
   static int roots(mdl_data *, double, const double *, const double *, const double *, double *) { return 0; }
@@ -36,8 +38,7 @@ struct HandModel {
   static std::vector<int> z_index() { return {}; }
 };
 
-template <class M>
-struct Generated {
+template <class M> struct Generated {
   static constexpr int n = M::n_x + M::n_z;
   static int starts(mdl_data *m) {
     for (const mdl_variable &v : M::variables()) {
@@ -52,9 +53,11 @@ struct Generated {
   static int residual(mdl_data *m, double t, const double *y, const double *yp, double *r) {
     std::vector<double> xdot(M::n_x + 1), v(M::n_v + 1);
     int status = M::rhs(m, t, y, xdot.data(), v.data());
-    for (int i = 0; i < M::n_x; i++) r[i] = yp[i] - xdot[i];
+    for (int i = 0; i < M::n_x; i++)
+      r[i] = yp[i] - xdot[i];
     auto z = M::z_index();
-    for (int k = 0; k < M::n_z; k++) r[M::n_x + k] = y[M::n_x + k] - v[z[k]];
+    for (int k = 0; k < M::n_z; k++)
+      r[M::n_x + k] = y[M::n_x + k] - v[z[k]];
     return status;
   }
 
@@ -68,7 +71,8 @@ struct Generated {
       status |= residual(m, t, point.data(), yp, high.data());
       point[j] = y[j];
       if (status) return status;
-      for (int i = 0; i < n; i++) values[j * n + i] = (high[i] - low[i]) / (2 * step) + (i == j && j < M::n_x ? cj : 0);
+      for (int i = 0; i < n; i++)
+        values[j * n + i] = (high[i] - low[i]) / (2 * step) + (i == j && j < M::n_x ? cj : 0);
     }
     return 0;
   }
@@ -76,22 +80,65 @@ struct Generated {
   static const mdl_descriptor *descriptor() {
     static const std::vector<mdl_variable> variables = M::variables();
     static const mdl_equation equation = {"der(x) = f", "hand.mo", 5, ""};
-    static const std::vector<mdl_equation> equations(n, equation), asserts(M::n_asserts + 1, mdl_equation{"x stays small", "hand.mo", 7, ""});
+    static const std::vector<mdl_equation> equations(n, equation),
+        asserts(M::n_asserts + 1, mdl_equation{"x stays small", "hand.mo", 7, ""});
     static const std::vector<double> p_start = M::start_parameters();
     static const std::vector<int> z_index = M::z_index();
     static const char *const messages[] = {"arrived"};
     static std::vector<mdl_relation> relations(M::n_rel, mdl_relation{{"x > 0", "hand.mo", 6, ""}, 0});
-    if (M::time_relation >= 0) relations[M::time_relation].is_time = 1;
+    if constexpr (M::time_relation >= 0) relations[M::time_relation].is_time = 1;
     static std::vector<int> residual_equation(n), colptr(n + 1), rowidx(n * n);
-    for (int i = 0; i < n; i++) residual_equation[i] = i;
-    for (int i = 0; i <= n; i++) colptr[i] = i * n;
-    for (int i = 0; i < n * n; i++) rowidx[i] = i % n;
-    static const mdl_descriptor d = {MDL_ABI_VERSION, "Hand", "hash", M::n_p, M::n_u, M::n_x, M::n_z, M::n_v, M::n_d, M::n_rel,
-                                     M::n_sample, M::n_when, static_cast<int>(variables.size()), n, M::n_asserts, M::n_messages,
-                                     variables.data(), equations.data(), asserts.data(), relations.data(), messages, z_index.data(),
-                                     residual_equation.data(), p_start.data(), 0, 1, 1e-6, 0, n * n, colptr.data(), rowidx.data(),
-                                     M::parameters, M::samples, starts, initial_system, M::rhs, residual, jacobian, nullptr, M::roots, nullptr,
-                                     M::time_relations, M::next_time_event, M::event, M::check};
+    for (int i = 0; i < n; i++)
+      residual_equation[i] = i;
+    for (int i = 0; i <= n; i++)
+      colptr[i] = i * n;
+    for (int i = 0; i < n * n; i++)
+      rowidx[i] = i % n;
+    static const mdl_descriptor d = {MDL_ABI_VERSION,
+                                     "Hand",
+                                     "hash",
+                                     M::n_p,
+                                     M::n_u,
+                                     M::n_x,
+                                     M::n_z,
+                                     M::n_v,
+                                     M::n_d,
+                                     M::n_rel,
+                                     M::n_sample,
+                                     M::n_when,
+                                     static_cast<int>(variables.size()),
+                                     n,
+                                     M::n_asserts,
+                                     M::n_messages,
+                                     variables.data(),
+                                     equations.data(),
+                                     asserts.data(),
+                                     relations.data(),
+                                     messages,
+                                     z_index.data(),
+                                     residual_equation.data(),
+                                     p_start.data(),
+                                     0,
+                                     1,
+                                     1e-6,
+                                     0,
+                                     n * n,
+                                     colptr.data(),
+                                     rowidx.data(),
+                                     M::parameters,
+                                     M::samples,
+                                     starts,
+                                     initial_system,
+                                     M::rhs,
+                                     residual,
+                                     jacobian,
+                                     nullptr,
+                                     M::roots,
+                                     nullptr,
+                                     M::time_relations,
+                                     M::next_time_event,
+                                     M::event,
+                                     M::check};
     return &d;
   }
 };
@@ -108,7 +155,10 @@ struct Result {
   std::vector<rt_event_entry> events() const {
     size_t n = 0;
     const rt_event_entry *e = rt_result_events(handle.get(), &n);
-    return {e, e + n};
+    std::vector<rt_event_entry> copy;
+    for (size_t k = 0; k < n; k++)
+      copy.push_back(e[k]);
+    return copy;
   }
 };
 
@@ -119,9 +169,8 @@ struct Options {
 };
 
 // A session over a hand-written model. Columns are the model's variables in order.
-template <class M>
-class Session {
- public:
+template <class M> class Session {
+public:
   explicit Session(const Options &o = {}) {
     char message[300] = "";
     model_ = {rt_model_wrap(Generated<M>::descriptor(), message, sizeof message), rt_model_close};
@@ -129,7 +178,8 @@ class Session {
     session_ = {rt_session_new(model_.get(), &options, message, sizeof message), rt_session_free};
     EXPECT_NE(session_, nullptr) << message;
     std::vector<int> columns;
-    for (int i = 0; i < Generated<M>::descriptor()->n_variables; i++) columns.push_back(i);
+    for (int i = 0; i < Generated<M>::descriptor()->n_variables; i++)
+      columns.push_back(i);
     EXPECT_EQ(rt_session_outputs(get(), static_cast<int>(columns.size()), columns.data()), RT_OK);
   }
   rt_session *get() const { return session_.get(); }
@@ -138,16 +188,17 @@ class Session {
     return {{rt_session_run(get(), 0, stop), rt_result_free}};
   }
 
- private:
+private:
   std::shared_ptr<rt_model> model_;
   std::shared_ptr<rt_session> session_;
 };
 
-template <class M>
-Result simulate(const Options &options, double stop, double interval = 0) {
+template <class M> Result simulate(const Options &options, double stop, double interval = 0) {
   return Session<M>(options).run(stop, interval);
 }
 
-inline std::vector<std::string> variable_step_solvers() { return {"ida", "dopri5", "rodas4"}; }
+inline std::vector<std::string> variable_step_solvers() {
+  return {"ida", "dopri5", "rodas4"};
+}
 
-}  // namespace hand
+} // namespace hand
