@@ -75,3 +75,12 @@ def plan(seed: int) -> list[tuple[str, Plan, int]]:
     cases += [Plan("one_way", bench, ("friction.coulomb",)) for bench in ("DcServo", "Joint")]
     order = np.random.default_rng([seed, 0]).permutation(len(cases))
     return [(f"c{k + 1:03d}", cases[j], 1000 * seed + int(j)) for k, j in enumerate(order)]
+
+
+def quick(cases: list[tuple[str, Plan, int]]) -> list[tuple[str, Plan, int]]:
+    """One case of each kind, on the bench that is quickest to simulate."""
+    chosen: dict[str, tuple[str, Plan, int]] = {}
+    for case in cases:
+        if case[1].bench in ("DcServo", "Joint"):
+            chosen.setdefault(case[1].kind, case)
+    return list(chosen.values())

@@ -1,0 +1,71 @@
+"""The proof: `python -m tests.proof --out DIR [--seed 2] [--quick]`; resumes, and writes docs/proof.md when whole."""
+
+import argparse
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+import sys
+import time
+
+from tests.proof import baseline
+from tests.proof.generate import generate
+from tests.proof.plan import plan, quick
+from tests.proof.report import page, summary_table
+from tests.proof.runner import ROOT, content_hash, diagnose, run_all, tool_hash
+from tests.proof.score import score_folder
+
+
+def _arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--out", type=Path, default=ROOT / "out" / "prove")
+    parser.add_argument("--seed", type=int, default=2)
+    parser.add_argument("--quick", action="store_true", help="one case of each kind, and no page")
+    parser.add_argument("--jobs", type=int, default=1, help="cases at a time; a diagnosis uses every core by itself")
+    parser.add_argument("--timeout", type=float, default=900.0, help="seconds for a case")
+    parser.add_argument("--command", nargs="+", default=[sys.executable, "-m", "cli.main", "explain"])
+    return parser.parse_args()
+
+
+def _generate(cases: list, out: Path, jobs: int) -> None:
+    """Writes the cases that are not there yet for this version of the generator."""
+    stamp, version = out / "generator", content_hash([Path(__file__).parent])
+    fresh = stamp.exists() and stamp.read_text() == version
+    missing = [(n, p, s, out) for n, p, s in cases if not (fresh and (out / "truth" / f"{n}.toml").exists())]
+    with ProcessPoolExecutor(jobs) as pool:
+        for k, line in enumerate(pool.map(generate, missing)):
+            print(f"[{k + 1}/{len(missing)}] {line}", flush=True)
+    out.mkdir(parents=True, exist_ok=True)
+    stamp.write_text(version)
+
+
+def main() -> int:
+    arguments = _arguments()
+    every = plan(arguments.seed)
+    cases = quick(every) if arguments.quick else every
+    names = [name for name, _, _ in cases]
+    out = arguments.out / f"seed{arguments.seed}"
+    _generate(cases, out, max(arguments.jobs, 2))
+    version, started, done = tool_hash(), time.monotonic(), []
+
+    def tool(name: str) -> str:
+        return diagnose(arguments.command, out / "cases" / name, out / "lacuna" / name, version, arguments.timeout)
+
+    def usual(name: str) -> str:
+        return baseline.diagnose(out / "cases" / name, out / "usual" / name)
+
+    def progress(name: str, status: str) -> None:
+        done.append(name)
+        print(f"[{len(done)}/{len(names)}] {name} {status}, {time.monotonic() - started:.0f} s", flush=True)
+
+    run_all(names, tool, arguments.jobs, progress)
+    run_all(names, usual, 2, lambda name, status: None)
+    scores, alternative = (score_folder(out / k, out / "truth", names) for k in ("lacuna", "usual"))
+    print(summary_table(scores, alternative))
+    text = page(scores, alternative, arguments.seed, len(every))
+    target = arguments.out / "proof.md" if arguments.quick else ROOT / "docs" / "proof.md"
+    target.write_text(text)
+    print(f"written: {target}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
