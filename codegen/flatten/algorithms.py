@@ -9,7 +9,7 @@ from ..expr import BOOLEAN, FALSE, TRUE, Expr
 from ..rewrite import assigned
 from ..syntax import ast
 from .constants import variability
-from .equations import Collected, check_types, origin_of, unroll
+from .equations import Collected, check_target, check_types, origin_of, unroll
 from .lower import lower, lower_scalar
 from .scope import Scope
 from .values import scalars, shape_of, shape_text
@@ -111,8 +111,7 @@ def assignment(item: ast.Assignment, scope: Scope) -> list[flat.Statement]:
             message = f"{shape_text(shape_of(target))} := {shape_text(shape_of(value))}"
             raise Diagnostic("R042", f"the sides differ in size: {message}", item.span, "both need the same size")
         for t, v in zip(scalars(target), scalars(value), strict=True):
-            if not isinstance(t, Expr) or t.op != "var":
-                raise Diagnostic("R058", "the left side is not a variable", item.span, "assign to a variable")
+            check_target(t, item.span, scope)
             check_types(t, v, item.span)
             result.append(flat.Assign(str(t.value), v, item.span))
     if len(result) > 1:

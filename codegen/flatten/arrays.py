@@ -12,7 +12,7 @@ from ..syntax import ast
 from .constants import known
 from .lower import lower, need_numbers
 from .scope import Scope
-from .values import Array, Value, elementwise, integers, scalars, shape_of, shape_text, stack, transpose
+from .values import Array, Value, elementwise, fold, integers, scalars, shape_of, shape_text, stack, transpose
 
 
 def _arguments(e: ast.Call, scope: Scope, least: int, most: int) -> list[Value]:
@@ -58,8 +58,7 @@ def _ndims(e: ast.Call, scope: Scope) -> Value:
 
 def _filled(value: Value, sizes: list[Value], e: ast.Call, scope: Scope) -> Array:
     shape = tuple(_number(s, scope, e.span, "a size") for s in sizes)
-    if prod(shape) > 1_000_000:
-        raise Diagnostic("R043", f"an array of {prod(shape)} elements", e.span, "at most 1000000")
+    scope.context.spend(prod(shape), e.span)
     items = scalars(value)
     return Array(shape + shape_of(value), tuple(items) * prod(shape))
 
@@ -75,11 +74,13 @@ def _constant_array(value: int) -> Callable[[ast.Call, Scope], Value]:
 
 def _identity(e: ast.Call, scope: Scope) -> Value:
     n = _number(_arguments(e, scope, 1, 1)[0], scope, e.span, "a size")
+    scope.context.spend(n * n, e.span)
     return Array((n, n), tuple(ex.const(int(i == j)) for i in range(n) for j in range(n)))
 
 
 def _diagonal(e: ast.Call, scope: Scope) -> Value:
     v = _array(_arguments(e, scope, 1, 1)[0], e, (1,)).items
+    scope.context.spend(len(v) ** 2, e.span)
     n = range(len(v))
     return Array((len(v), len(v)), tuple(v[i] if i == j else ex.const(0) for i in n for j in n))
 
@@ -91,6 +92,7 @@ def _linspace(e: ast.Call, scope: Scope) -> Value:
     n = _number(count, scope, e.span, "the count")
     if n < 2:
         raise Diagnostic("R051", f"linspace of {n} points", e.span, "it needs at least 2")
+    scope.context.spend(n, e.span)
     step = ex.div(ex.sub(last, first), ex.const(float(n - 1)))
     return Array((n,), tuple(ex.add(first, ex.mul(ex.const(float(i)), step)) for i in range(n)))
 
@@ -109,10 +111,7 @@ def _reduction(join: Callable[[Expr, Expr], Expr], empty: Expr | None) -> Callab
         items = list(values.items)
         if not items and empty is None:
             raise Diagnostic("R051", f"{e.function} of an empty array", e.span, "it needs at least one element")
-        result = items.pop(0) if items else empty
-        for item in items:
-            result = join(result, item)
-        return result
+        return fold(join, items) if items else empty
 
     return build
 

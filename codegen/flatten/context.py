@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from .instance import Instance, Leaf
 
 MAX_ERRORS = 10
+MAX_ELEMENTS = 300_000
 
 
 @dataclass
@@ -35,6 +36,7 @@ class Context:
     argument_units: list[tuple[Expr, str, str, Span]] = field(default_factory=list)  # value, unit, what, where
     function_units: dict[str, str] = field(default_factory=dict)  # of the result, by name of a kept function
     call_depth: int = 0
+    elements: int = 0
     files: dict[str, str] = field(default_factory=dict)
     errors: list[Diagnostic] = field(default_factory=list)
     warnings: list[Diagnostic] = field(default_factory=list)
@@ -49,6 +51,13 @@ class Context:
                 self.errors.append(error)
             if len(self.errors) >= MAX_ERRORS:
                 self.finish()
+
+    def spend(self, count: int, span: Span) -> None:
+        """Count array elements and passes of loops. Raises F037 for a model out of all proportion."""
+        self.elements += count
+        if self.elements > MAX_ELEMENTS:
+            hint = "are the sizes and ranges as meant?"
+            raise Diagnostic("F037", f"more than {MAX_ELEMENTS} array elements and loop passes", span, hint)
 
     def finish(self) -> None:
         """Raise the first finding, which carries the others, if there was any."""

@@ -8,6 +8,7 @@ from .. import flat
 from ..errors import Diagnostic, Span
 from ..expr import BOOLEAN, INTEGER, REAL, Expr
 from ..syntax import ast
+from .constants import variability
 from .lower import iterate, lower, lower_scalar
 from .scope import Scope
 from .values import Record, Value, scalars, shape_of, shape_text
@@ -36,7 +37,7 @@ def flatten_item(item: ast.Item, scope: Scope, out: Collected) -> None:
     from .when import flatten_when
 
     if isinstance(item, ast.Equality):
-        out.equations += equalities(item, scope)
+        out.equations += continuous_equalities(item, scope)
     elif isinstance(item, ast.Connect):
         out.connections.append((item, scope))
     elif isinstance(item, ast.If):
@@ -67,6 +68,14 @@ def equalities(item: ast.Equality, scope: Scope) -> list[flat.Equation]:
     return equate(left, right, item.span, origin_of(scope), item.text)
 
 
+def continuous_equalities(item: ast.Equality, scope: Scope) -> list[flat.Equation]:
+    """Equations that hold at all times."""
+    result = equalities(item, scope)
+    for equation in result:
+        check_discrete(equation.lhs, equation.rhs, item.span, scope)
+    return result
+
+
 def equate(left: Value, right: Value, span: Span, origin: str, text: str) -> list[flat.Equation]:
     """The scalar equations of left = right."""
     if isinstance(left, Record) and isinstance(right, Record):
@@ -94,6 +103,25 @@ def check_types(a: Expr | str, b: Expr | str, span: Span) -> None:
     if a.op == "var" and a.type == INTEGER and b.type == REAL:
         hint = "integer(x) gives the whole number at or below x; or declare it Real"
         raise Diagnostic("R024", f"the Integer {a.value} is set to a Real", span, hint)
+
+
+def check_target(target: Expr | str, span: Span, scope: Scope) -> None:
+    """What is assigned is a variable, neither parameter nor constant. Raises R058."""
+    if not isinstance(target, Expr) or target.op != "var":
+        raise Diagnostic("R058", "the left side is not a variable", span, "write: variable, then its value")
+    kind = variability(target, scope.context)
+    if kind in ("parameter", "constant"):
+        hint = "declare it without 'parameter' or 'constant'"
+        raise Diagnostic("R058", f"the {kind} {target.value} is assigned", span, hint)
+
+
+def check_discrete(left: Expr, right: Expr, span: Span, scope: Scope) -> None:
+    """A discrete variable does not follow what varies between events. Raises R063."""
+    for a, b in ((left, right), (right, left)):
+        varies = b.op != "var" and variability(b, scope.context) == "continuous"
+        if a.op == "var" and varies and variability(a, scope.context) == "discrete":
+            hint = "set it at events: when ... then; or drop 'discrete'"
+            raise Diagnostic("R063", f"the discrete {a.value} equals what varies continuously", span, hint)
 
 
 def _several(item: ast.Equality, scope: Scope) -> list[flat.Equation]:

@@ -6,6 +6,7 @@ So `parameter Integer n = 3; Real x[n];` needs no ordering: asking for x asks fo
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import prod
 
 from ..errors import Diagnostic, Span
 from ..suggest import did_you_mean
@@ -91,6 +92,16 @@ class Instance:
         self._collect(cls, modifier)
         if modifier is not None:
             self._refuse_unknown(modifier, self.elements, cls)
+            self._refuse_protected(modifier)
+
+    def _refuse_protected(self, modifier: Modifier) -> None:
+        for name, child in modifier.children.items():
+            declaration = self.elements[name].declaration
+            if declaration.protected:
+                error = Diagnostic("R037", f"{name} is protected in {self.cls.name}", child.span)
+                error.hint = "make it public, or modify it in an extends clause"
+                error.notes.append((declaration.span, "declared here"))
+                raise error
 
     def _collect(self, cls: ast.Class, modifier: Modifier | None, depth: int = 0) -> None:
         if depth > MAX_DEPTH:
@@ -145,7 +156,8 @@ class Instance:
         name = element.declaration.name
         present = self.elements.get(name)
         if present is not None and present.declaration is not element.declaration:
-            if present.cls is element.cls or str(present.declaration.type) != str(element.declaration.type):
+            same_type = str(present.declaration.type) == str(element.declaration.type)
+            if present.cls is element.cls or not same_type:
                 error = Diagnostic("R010", f"{name} is declared twice", element.declaration.span, "rename one of them")
                 error.notes.append((present.declaration.span, "the other declaration"))
                 raise error
@@ -205,6 +217,7 @@ class Instance:
         record = self._record_value()
         if record is not None and (element.modifier is None or element.modifier.value is None):
             modifier = replace(modifier, value=record.fields.get(declaration.name), index=())
+        self.context.spend(prod(sizes), declaration.span)
         name = self.path_of(declaration.name)
         if found.primitive is not None:
             attributes = for_each(found.modifier) if sizes else found.modifier

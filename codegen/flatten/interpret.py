@@ -16,7 +16,7 @@ from .references import apply_subscripts
 from .scope import Scope
 from .values import Array, Record, Value, elementwise, integers, scalars, shape_of, shape_text
 
-MAX_STEPS = 2_000_000
+MAX_STEPS = 50_000
 MAX_SYMBOLIC_STEPS = 400
 
 
@@ -30,6 +30,7 @@ def interpret(cls: ast.Class, declared: list, arguments: dict[str, Value], conte
     from .functions import declared_sizes, fit
 
     run = _Run(cls, context, dict(arguments), span)
+    run.inputs = frozenset(arguments)
     for local in declared:
         if local.declaration.causality == "input":
             continue
@@ -71,6 +72,7 @@ class _Run:
         self.scope = Scope(context, cls, None, values, in_function=True)
         self.locals = values
         self.span = span
+        self.inputs: frozenset[str] = frozenset()
         self.steps = 0
         symbolic = any(isinstance(s, Expr) and s.op != "const" for v in values.values() for s in scalars(v))
         self.symbolic = symbolic
@@ -203,6 +205,8 @@ class _Run:
         name = target.names[0]
         if name not in self.locals:
             raise unknown_target(target, self.locals)
+        if name in self.inputs:
+            raise Diagnostic("R058", f"the input {name} is assigned", span, "copy it to a variable first")
         self.locals[name] = self._updated(self.locals[name], target, 0, value, span)
 
     def _updated(self, old: Value, target: ast.Ref, at: int, value: Value, span: Span) -> Value:

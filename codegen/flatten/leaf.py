@@ -13,7 +13,7 @@ from ..syntax import ast
 from .lower import modifier_value
 from .modifiers import Modifier
 from .types import ATTRIBUTES, Type
-from .values import Array, Value, indices, shape_of, shape_text
+from .values import Array, Record, Value, indices, shape_of, shape_text
 
 if TYPE_CHECKING:
     from .instance import Instance
@@ -42,7 +42,7 @@ class Leaf:
         else:
             self.names = (name,)
         self._binding: Value | None = None
-        self._bound = False
+        self._bound = self._lowering = False
         self._check_attributes()
         for position, scalar in enumerate(self.names):
             instance.context.scalars[scalar] = (self, position)
@@ -81,10 +81,15 @@ class Leaf:
 
     def binding(self) -> Value | None:
         """The value of its declaration equation or binding, checked for size and type; None where it has none."""
+        if self._lowering:
+            raise Diagnostic("F022", f"the value of {self.name} depends on itself", self.span, "break the circle")
         if not self._bound:
-            if self.modifier.value is not None:
-                value = modifier_value(self.modifier)
-                self._binding = self._fit(value, self.modifier, "the binding")
+            self._lowering = True
+            try:
+                if self.modifier.value is not None:
+                    self._binding = self._fit(modifier_value(self.modifier), self.modifier, "the binding")
+            finally:
+                self._lowering = False
             self._bound = True
         return self._binding
 
@@ -96,6 +101,9 @@ class Leaf:
         return self._fit(modifier_value(child), child, name)
 
     def _fit(self, value: Value, modifier: Modifier, what: str) -> Value:
+        if isinstance(value, Record):
+            hint = "use one field of it"
+            raise Diagnostic("R041", f"a record for the {self.primitive} {self.name}", modifier.span, hint)
         if shape_of(value) == self.shape:
             return value
         if not isinstance(value, Array) and modifier.each:

@@ -14,8 +14,6 @@ from .references import read
 from .scope import Scope
 from .values import Array, Record, Value, elementwise, multiply, shape_of, stack
 
-MAX_ELEMENTS = 1_000_000
-
 
 def lower(e: ast.Expression, scope: Scope) -> Value:
     """The value of `e`. Raises R... for names, types and sizes that do not fit."""
@@ -213,8 +211,7 @@ def range_values(e: ast.Range, scope: Scope) -> Array:
     if step == 0:
         raise Diagnostic("R047", "the step of a range is 0", e.span, "it counts up or down by a step other than 0")
     count = max(0, int((last - first) / step + 1e-9) + 1) if (last - first) / step >= 0 else 0
-    if count > MAX_ELEMENTS:
-        raise Diagnostic("R047", f"the range has {count} elements", e.span, f"at most {MAX_ELEMENTS}")
+    scope.context.spend(count, e.span)
     return Array((count,), tuple(ex.const(first + i * step) for i in range(count)))
 
 
@@ -229,6 +226,7 @@ def iterate(iterator: ast.Iterator, scope: Scope) -> tuple[Value, ...]:
     value = lower(iterator.range, scope)
     if not isinstance(value, Array):
         raise Diagnostic("R047", f"{iterator.name} runs over a scalar", iterator.span, "write 1:n or an array")
+    scope.context.spend(value.shape[0], iterator.span)
     return tuple(value.rows())
 
 

@@ -12,7 +12,7 @@ from ..suggest import did_you_mean
 from ..syntax import ast
 from .constants import is_known, known
 from .scope import Scope, find_class, find_first, own_or_inherited, visible_classes
-from .values import Array, Record, Value, shape_of, stack
+from .values import Array, Record, Value, scalars, shape_of, stack
 
 
 def read(ref: ast.Ref, scope: Scope) -> Value:
@@ -131,11 +131,12 @@ def apply_subscripts(value: Value, subscripts: tuple[ast.Expression, ...] | None
     if isinstance(first, ast.Colon):
         return stack([apply_subscripts(r, rest, scope, ref) for r in rows], ref.span)
     index = lower(first, replace(scope, end=len(rows)))
+    for item in scalars(index):
+        if not isinstance(item, Expr) or item.type != INTEGER:
+            raise Diagnostic("R044", f"a subscript of {ref} is not an Integer", first.span, "use a whole number")
     if isinstance(index, Array):
         picked = [_row(rows, i, scope, ref, first) for i in index.items]
         return stack([apply_subscripts(r, rest, scope, ref) for r in picked], ref.span)
-    if not isinstance(index, Expr) or index.type != INTEGER:
-        raise Diagnostic("R044", f"a subscript of {ref} is not an Integer", first.span, "use a whole number")
     if index.op == "const" or (is_known(index, scope.context) and not scope.in_function):
         return apply_subscripts(_row(rows, index, scope, ref, first), rest, scope, ref)
     if scope.in_function:

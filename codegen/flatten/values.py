@@ -74,6 +74,10 @@ def stack(rows: list[Value], span: Span) -> Array:
 
 def elementwise(function: Callable[..., Expr], values: list[Value], span: Span, what: str) -> Value:
     """`function` on corresponding elements; scalars go with every element."""
+    for v in values:
+        if isinstance(v, Record | str) or (isinstance(v, Array) and any(isinstance(i, str) for i in v.items)):
+            found = "a record" if isinstance(v, Record) else "a String"
+            raise Diagnostic("R041", f"{what} of {found}", span, "it works on numbers and Booleans")
     shapes = {v.shape for v in values if isinstance(v, Array)}
     if not shapes:
         return function(*values)
@@ -102,10 +106,18 @@ def multiply(a: Value, b: Value, span: Span) -> Value:
 
 
 def dot(a: tuple[Expr, ...], b: tuple[Expr, ...]) -> Expr:
-    total = ZERO
-    for x, y in zip(a, b, strict=True):
-        total = add(total, mul(x, y))
-    return total
+    return fold(add, [mul(x, y) for x, y in zip(a, b, strict=True)]) if a else ZERO
+
+
+def fold(join: Callable[[Expr, Expr], Expr], items: list[Expr]) -> Expr:
+    """All items joined: from the left, and in halves where they are many, so that no expression is as deep as long."""
+    if len(items) > 64:
+        middle = len(items) // 2
+        return join(fold(join, items[:middle]), fold(join, items[middle:]))
+    result = items[0]
+    for item in items[1:]:
+        result = join(result, item)
+    return result
 
 
 def transpose(a: Array) -> Array:

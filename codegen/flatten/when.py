@@ -6,7 +6,7 @@ from .. import flat
 from ..errors import Diagnostic
 from ..expr import BOOLEAN, FALSE, TRUE, Expr
 from ..syntax import ast
-from .equations import check_types, equalities, lower_assert, origin_of, unroll
+from .equations import check_target, check_types, equalities, lower_assert, origin_of, unroll
 from .lower import lower, lower_scalar
 from .scope import Scope
 from .values import scalars, shape_of, shape_text
@@ -69,9 +69,7 @@ def _assignments(item: ast.Equality, scope: Scope) -> list[flat.Statement]:
         target, value = equation.lhs, equation.rhs
         if target.op != "var" and value.op == "var" and not isinstance(item.left, ast.Tuple):
             target, value = value, target
-        if target.op != "var":
-            hint = "in a when-equation write: variable = expression"
-            raise Diagnostic("R058", "the left side is not a variable", item.span, hint)
+        check_target(target, item.span, scope)
         check_types(target, value, item.span)
         statements.append(flat.Assign(str(target.value), value, item.span))
     return statements
@@ -102,8 +100,7 @@ def _reinit(call: ast.Call, scope: Scope) -> list[flat.Statement]:
         raise Diagnostic("R042", message, call.span, "both need the same size")
     result: list[flat.Statement] = []
     for t, v in zip(scalars(target), scalars(value), strict=True):
-        if not isinstance(t, Expr) or t.op != "var":
-            raise Diagnostic("R058", "reinit sets a state variable", call.args[0].span, "name the variable itself")
+        check_target(t, call.args[0].span, scope)
         check_types(t, v, call.span)
         result.append(flat.Reinit(str(t.value), v, call.span))
     return result

@@ -7,6 +7,7 @@ from ..suggest import did_you_mean
 from .lexer import KEYWORDS, Source
 
 MAX_DEPTH = 100
+MAX_OPERANDS = 1000
 
 
 class Cursor:
@@ -92,6 +93,12 @@ class Cursor:
         if self.depth > MAX_DEPTH:
             hint = "name parts of it with variables of their own"
             raise Diagnostic("P013", f"nested more than {MAX_DEPTH} deep", self.span(), hint)
+
+    def refuse_long(self, operands: int) -> None:
+        """Guard of what walks the tree later: a chain of operators is as deep as it is long."""
+        if operands > MAX_OPERANDS:
+            hint = "use sum of an array, or name parts of it with variables of their own"
+            raise Diagnostic("P013", f"more than {MAX_OPERANDS} operands in one expression", self.span(), hint)
 
     def leave(self) -> None:
         self.depth -= 1

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from ..errors import Diagnostic
 from . import ast
 from .cursor import Cursor
@@ -11,6 +13,8 @@ _RELATIONS = ("<", "<=", ">", ">=", "==", "<>")
 _ADDITIVE = ("+", "-", ".+", ".-")
 _MULTIPLICATIVE = ("*", "/", ".*", "./")
 _POWER = ("^", ".^")
+
+Operand = Callable[[], ast.Expression]
 
 
 class ExpressionParser(Cursor):
@@ -58,21 +62,23 @@ class ExpressionParser(Cursor):
         self.at += 1
         return result
 
-    def _or(self) -> ast.Expression:
-        left = self._and()
-        while self.kind == "or":
-            span = self.span()
+    def _chain(self, operators: tuple[str, ...], left: ast.Expression, operand: Operand) -> ast.Expression:
+        """left op operand op operand ..., grouped from the left."""
+        operands = 1
+        while self.kind in operators:
+            span, op = self.span(), self.kind
             self.at += 1
-            left = ast.Binary(span, "or", left, self._and())
+            self._no_sign()
+            left = ast.Binary(span, op, left, operand())
+            operands += 1
+            self.refuse_long(operands)
         return left
 
+    def _or(self) -> ast.Expression:
+        return self._chain(("or",), self._and(), self._and)
+
     def _and(self) -> ast.Expression:
-        left = self._not()
-        while self.kind == "and":
-            span = self.span()
-            self.at += 1
-            left = ast.Binary(span, "and", left, self._not())
-        return left
+        return self._chain(("and",), self._not(), self._not)
 
     def _not(self) -> ast.Expression:
         if self.kind == "not":
@@ -101,21 +107,10 @@ class ExpressionParser(Cursor):
             left: ast.Expression = ast.Unary(span, op, self._product())
         else:
             left = self._product()
-        while self.kind in _ADDITIVE:
-            span, op = self.span(), self.kind
-            self.at += 1
-            self._no_sign()
-            left = ast.Binary(span, op, left, self._product())
-        return left
+        return self._chain(_ADDITIVE, left, self._product)
 
     def _product(self) -> ast.Expression:
-        left = self._power()
-        while self.kind in _MULTIPLICATIVE:
-            span, op = self.span(), self.kind
-            self.at += 1
-            self._no_sign()
-            left = ast.Binary(span, op, left, self._power())
-        return left
+        return self._chain(_MULTIPLICATIVE, self._power(), self._power)
 
     def _power(self) -> ast.Expression:
         base = self.primary()
@@ -130,7 +125,7 @@ class ExpressionParser(Cursor):
         return result
 
     def _no_sign(self) -> None:
-        if self.kind in _ADDITIVE:
+        if self.kind in _ADDITIVE and self.words[self.at - 1] not in ("and", "or"):
             hint = "put the signed part in parentheses, such as a*(-b)"
             raise Diagnostic("P016", f"a sign directly after '{self.words[self.at - 1]}'", self.span(), hint)
 
@@ -169,7 +164,7 @@ class ExpressionParser(Cursor):
         if self.kind == "." or (self.kind == "op" and self.word == "."):
             return Diagnostic("P011", "a number starts with a digit", self.span(), "write 0.5, not .5")
         found = self.word if self.kind == "eof" else f"'{self.word}'"
-        hint = "'=' compares nothing: use ==" if self.kind == "=" else ""
+        hint = "'=' compares nothing: use ==" if self.kind == "=" else f"say what comes after {self.words[self.at - 1]}"
         return Diagnostic("P007", f"an expression is missing before {found}", self.span(), hint)
 
     def reference(self) -> ast.Ref:

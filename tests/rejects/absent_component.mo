@@ -1,0 +1,15 @@
+// code: R016
+// line: 14
+// hint: same condition
+model Heater
+  Real p;
+equation
+  p = time;
+end Heater;
+model M
+  parameter Boolean heated = false;
+  Heater heater if heated;
+  Real x;
+equation
+  x = heater.p;
+end M;

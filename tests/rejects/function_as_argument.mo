@@ -1,0 +1,8 @@
+// code: R090
+// line: 7
+// hint: call the function
+model M
+  Real x;
+equation
+  x = sin(function cos(u = 1));
+end M;
