@@ -20,7 +20,9 @@ import tempfile
 from .errors import Diagnostic, Span
 from .prepared import Prepared
 
-COMPILER = ("cc", "-std=c11", "-O2", "-fPIC", "-shared", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic", "-Werror")
+COMPILER = (
+    "cc", "-std=c11", "-O2", "-fPIC", "-shared", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic", "-Werror",
+)  # fmt: skip
 _HERE = Path(__file__).resolve().parent
 INCLUDE = _HERE.parent / "runtime" / "include"
 

@@ -57,8 +57,9 @@ def prepare(model: flat.FlatModel, report: Report) -> Prepared:
     aliases = report.run("aliases", eliminate_aliases, model)
     frozen = report.run("hybrid", hybrid.analyse, aliases.model)
     continuous, discrete = report.run("hybrid", events.split, frozen.model)
-    steps = report.run("hybrid", events.order, frozen.model, discrete)
     system = report.run("index reduction", reduce_index, frozen.model, continuous)
+    relations = report.run("hybrid", hybrid.rename, frozen.relations, system.renamed)
+    steps = report.run("hybrid", events.order, system.model, discrete, system.renamed)
     tearing = Tearing(DeclaredValues(system.model).parametric)
     explicit = report.run("matching, BLT, tearing", causalise, system.rows, system.unknowns, tearing)
     residual = report.run("residual form", residual_form, system, tearing)
@@ -66,7 +67,7 @@ def prepare(model: flat.FlatModel, report: Report) -> Prepared:
     initial = report.run("initial system", initial_system, system, system.model.initial_equations, tearing)
     report.warnings += [*model.warnings, *initial.warnings]
     return Prepared(
-        model, aliases.representative, system, Storage(system), frozen.relations, frozen.samples, steps, explicit,
+        model, aliases.representative, system, Storage(system), relations, frozen.samples, steps, explicit,
         residual, matrix, initial,
     )  # fmt: skip
 

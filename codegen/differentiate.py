@@ -10,8 +10,25 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from .expr import (
-    BUILTINS, ONE, REAL, ZERO, Expr, add, array, call, const, div, if_else, is_const, mul, neg, node, power,
-    relation, special, sub,
+    BUILTINS,
+    ONE,
+    REAL,
+    ZERO,
+    Expr,
+    add,
+    array,
+    call,
+    const,
+    div,
+    if_else,
+    is_const,
+    mul,
+    neg,
+    node,
+    power,
+    relation,
+    special,
+    sub,
 )  # fmt: skip
 from .leaves import LEAF_OPS
 

@@ -8,7 +8,7 @@ from . import flat
 from .errors import Diagnostic
 from .expr import REAL, Expr
 from .leaves import leaves
-from .rewrite import assigned, expressions
+from .rewrite import Rewriter, assigned, expressions
 from .structure.blocks import strong_components
 
 
@@ -54,12 +54,13 @@ def _directed(eq: flat.Equation, model: flat.FlatModel, taken: set[str]) -> Disc
                 return DiscreteEquation(v.name, value, eq)
     raise Diagnostic(
         "S010", f"no discrete variable is left for which the equation `{eq.text or eq.lhs}` could be solved", eq.span,
-        "a discrete equation stands as `variable = expression`, one for each variable, and not both there and in a when",
+        "write discrete equations as `variable = expression`, one for each variable that no when clause assigns",
     )  # fmt: skip
 
 
-def order(model: flat.FlatModel, discrete: list[DiscreteEquation]) -> list[EventStep]:
-    """All steps of an event in sorted order; a loop without pre() is refused."""
+def order(model: flat.FlatModel, discrete: list[DiscreteEquation], rewriter: Rewriter) -> list[EventStep]:
+    """All steps of an event in sorted order; a loop without pre() is refused. `rewriter` was applied to `model`."""
+    discrete = [replace(d, value=rewriter.expression(d.value)) for d in discrete]
     steps: list[EventStep] = [*discrete, *(_sorted_bodies(w) for w in model.whens), *model.algorithms]
     writer: dict[str, int] = {}
     for k, step in enumerate(steps):

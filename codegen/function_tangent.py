@@ -1,7 +1,7 @@
 """Derivative of a function of the model: its statements differentiated forward, one by one.
 
-The tangent of y = f(a) is a function f:tangent(a, a:d1) of the inputs and their derivatives, with results (y:d1, y): every
-local gets a companion that is assigned just before it.
+The tangent of y = f(a) is a function f:tangent(a, a:d1) of the inputs and their derivatives, with results (y:d1, y):
+every local gets a companion that is assigned just before it.
 """
 
 from __future__ import annotations

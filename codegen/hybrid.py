@@ -18,11 +18,35 @@ from dataclasses import dataclass, field, replace
 from . import flat
 from .affine import affine
 from .expr import (
-    BOOLEAN, INTEGER, ONE, REAL, RELATIONS, TIME, ZERO, Expr, add, call, const, div, if_else, is_const, logical_and,
-    logical_not, maximum, minimum, mul, neg, node, pre, relation, special, sub, transform, var,
+    BOOLEAN,
+    INTEGER,
+    REAL,
+    RELATIONS,
+    TIME,
+    ZERO,
+    Expr,
+    add,
+    call,
+    const,
+    div,
+    if_else,
+    logical_and,
+    logical_not,
+    maximum,
+    minimum,
+    mul,
+    neg,
+    node,
+    pre,
+    relation,
+    special,
+    sub,
+    transform,
+    var,
 )  # fmt: skip
 from .leaves import leaves
 from .rewrite import Rewriter
+
 
 @dataclass
 class Relation:
@@ -62,6 +86,11 @@ def analyse(model: flat.FlatModel) -> Hybrid:
         asserts=[replace(a, condition=strip(a.condition)) for a in model.asserts],
     )
     return Hybrid(frozen, freezer.relations, freezer.samples)
+
+
+def rename(relations: list[Relation], rewriter: Rewriter) -> list[Relation]:
+    """The relations with other names of derivatives."""
+    return [replace(r, left=rewriter.expression(r.left), right=rewriter.expression(r.right)) for r in relations]
 
 
 def strip(e: Expr) -> Expr:

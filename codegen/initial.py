@@ -108,5 +108,6 @@ def _refuse_start(
     over, _ = matching.overdetermined([matching.row_of[column[row.lhs]]])
     raise Diagnostic(
         "S022", f"{name} has a fixed start value, but other initial conditions determine it already", row.source.span,
-        "drop fixed=true here or on one of the variables below", [(rows[r].source.span, rows[r].text) for r in over[:12]],
+        "drop fixed=true here or on one of the variables below",
+        [(rows[r].source.span, rows[r].text) for r in over[:12]],
     )  # fmt: skip

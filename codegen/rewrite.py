@@ -62,6 +62,10 @@ class Rewriter:
         changed = {f: self.expression(e) for f in fields if (e := getattr(v, f)) is not None}
         return replace(v, **changed)
 
+    def _algorithm(self, a: flat.Algorithm) -> flat.Algorithm:
+        targets = tuple(self._target(name)[0] for name in a.targets)
+        return replace(a, statements=self.statements(a.statements), targets=targets)
+
     def model(self, model: flat.FlatModel) -> flat.FlatModel:
         """A copy with everything rewritten but functions (their names are their own)."""
         return replace(
@@ -70,10 +74,7 @@ class Rewriter:
             equations=[self.equation(e) for e in model.equations],
             initial_equations=[self.equation(e) for e in model.initial_equations],
             whens=[self.statement(w) for w in model.whens],
-            algorithms=[
-                replace(a, statements=self.statements(a.statements), targets=tuple(self._target(t)[0] for t in a.targets))
-                for a in model.algorithms
-            ],
+            algorithms=[self._algorithm(a) for a in model.algorithms],
             asserts=[self.statement(a) for a in model.asserts],
         )
 

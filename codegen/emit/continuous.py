@@ -22,9 +22,7 @@ JACOBIAN = (
     "static int mdl_jacobian(mdl_data *m, double t, const double *y, const double *yp, double cj, double *values)"
 )
 ALGEBRAICS = "static int mdl_algebraics(mdl_data *m, double t, const double *y, const double *yp, double *v)"
-ROOTS = (
-    "static int mdl_roots(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *g)"
-)
+ROOTS = "static int mdl_roots(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *g)"
 DAE_ROOTS = "static int mdl_dae_roots(mdl_data *m, double t, const double *y, const double *yp, double *g)"
 INITIAL = "static int mdl_initial_system(mdl_data *m, double t)"
 CHECK = "static int mdl_check(mdl_data *m, double t, const double *x, const double *xdot, const double *v)"

@@ -113,7 +113,6 @@ def function_name(function: str) -> str:
     return "fn_" + sanitise(function)
 
 
-
 def c_type(e: Expr) -> str:
     return "int" if e.type == BOOLEAN else "double"
 
@@ -121,4 +120,3 @@ def c_type(e: Expr) -> str:
 def is_trivial(e: Expr) -> bool:
     """Not worth a temporary: a constant, or the negation of something that is."""
     return e.op == "const" or (e.op in ("neg", "not", "array") and (e.op == "array" or not e.args[0].args))
-

@@ -96,9 +96,14 @@ static double mdl_next_switch(double g, double slope, double t, double next) {
 }"""
 
 _HELPERS = {
-    **HELPERS, "mdl_fail": _FAIL, "mdl_index": _INDEX, "mdl_solve": _SOLVE, "mdl_newton": _NEWTON, "mdl_time_relation": _TIME,
+    **HELPERS,
+    "mdl_fail": _FAIL,
+    "mdl_index": _INDEX,
+    "mdl_solve": _SOLVE,
+    "mdl_newton": _NEWTON,
+    "mdl_time_relation": _TIME,
     "mdl_next_switch": _NEXT,
-}  # fmt: skip
+}
 
 
 def helpers(code: str) -> str:

@@ -25,7 +25,7 @@ LOOP_LIMIT = 10_000_000
 
 
 def user_functions(functions: dict[str, flat.Function], called: Iterable[str], names: Names) -> str:
-    """C of the functions `called` in expressions and of those that they call, callees first; "" where there are none."""
+    """C of the functions `called` in expressions and of those that they call, callees first."""
     written: dict[str, str] = {}
     values: dict[str, str] = {}
 

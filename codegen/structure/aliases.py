@@ -127,8 +127,8 @@ def _alias_pairs(
         if v.causality == "input" or name in assigned_elsewhere:
             return False
         continuous = v.variability == o.variability == flat.CONTINUOUS and o.causality != "input"
-        return v.type == o.type and (continuous or (v.variability == flat.DISCRETE) <= (o.variability == flat.DISCRETE)
-                                     and name not in differentiated)  # fmt: skip
+        return v.type == o.type and (continuous or ((v.variability == flat.DISCRETE) <= (o.variability == flat.DISCRETE)
+                                     and name not in differentiated))  # fmt: skip
 
     speeds: dict[Expr, tuple[str, int]] = {}
     for eq in model.equations:
@@ -176,7 +176,7 @@ def _merge_attributes(model: flat.FlatModel, pairs: dict[str, tuple[str, int]]) 
         if _is_fixed(a) and _is_fixed(b) and _start(a, sign) is not _start(b, 1):
             raise Diagnostic(
                 "S002", f"{name} and {target} are equal but have different fixed start values", b.span,
-                f"give one of them fixed=false, or the same start ({b.start} against {'-' if sign < 0 else ''}{a.start})",
+                f"give one of them fixed=false, or the same start: {b.start} against {'-' if sign < 0 else ''}{a.start}",
                 [(a.span, f"{name} is {'-' if sign < 0 else ''}{target}")],
             )  # fmt: skip
         if a.start is not None and (b.start is None or (_is_fixed(a) and not _is_fixed(b))):

@@ -34,15 +34,14 @@ def choose_states(model: flat.FlatModel, rows: list[Row], names: list[str]) -> S
               for s in [replacement.get(v, v)]]  # fmt: skip
     all_names = [*names, *(str(n.value) for n in replacement.values() if n.op == "var")]
     state_set = set(states)
-    system = System(
+    return System(
         rewriter.model(model),
         [*new_rows.values(), *extra],
         states,
         [n for n in all_names if n not in state_set],
         [text_of(d) for d in variables if d in dummies],
+        rewriter,
     )
-    system.renamed = replacement
-    return system
 
 
 def text_of(n: Expr) -> str:
@@ -101,7 +100,7 @@ def _pivots(
     """As many candidates as rows, with a regular Jacobian at the start values (Gaussian elimination)."""
     matrix = [[_entry(row, v, values) for v in candidates] for row in rows]
     scale = [max(map(abs, line), default=0.0) or 1.0 for line in matrix]
-    matrix = [[a / s for a in line] for line, s in zip(matrix, scale)]
+    matrix = [[a / s for a in line] for line, s in zip(matrix, scale, strict=True)]
     keys = [_keep(model, v, variables[v], reset) for v in candidates]
     chosen: set[Expr] = set()
     left_rows, left_columns = list(range(len(rows))), list(range(len(candidates)))
@@ -116,7 +115,7 @@ def _pivots(
         chosen.add(candidates[c])
         for other in left_rows:
             factor = matrix[other][c] / matrix[r][c]
-            matrix[other] = [a - factor * b for a, b in zip(matrix[other], matrix[r])]
+            matrix[other] = [a - factor * b for a, b in zip(matrix[other], matrix[r], strict=True)]
     return chosen
 
 

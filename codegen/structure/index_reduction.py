@@ -56,7 +56,8 @@ class TimeDerivative:
         if v.causality == "input":
             raise Diagnostic(
                 "S004", f"the input {v.name} would have to be differentiated: `{self._row.text}` constrains states",
-                self._row.source.span, "let the input act through an inertia or a filter, or add its derivative as an input",
+                self._row.source.span,
+                "let the input act through an inertia or a filter, or add its derivative as an input",
                 [(v.span, f"{v.name} is declared here")],
             )  # fmt: skip
         return der(n) if v.variability == flat.CONTINUOUS else ZERO

@@ -55,7 +55,7 @@ def jacobian(form: ResidualForm, system: System) -> Jacobian:
     derivative share a column: their seeds are 1 and cj."""
     result = Jacobian([], [])
     used = needed(form.assignments, (row.leaves for row in form.residuals))
-    for name, derivative in zip(system.states, system.derivatives):
+    for name, derivative in zip(system.states, system.derivatives, strict=True):
         result.entries.append(_column({var(name): ONE, derivative: CJ}, used, form.residuals, result, name))
     for tear in form.tears:
         result.entries.append(_column({tear: ONE}, used, form.residuals, result, str(tear.value)))

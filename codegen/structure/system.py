@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 from .. import flat
 from ..evaluate import evaluate
 from ..expr import REAL, Expr, der, sub, var
 from ..leaves import leaves
+from ..rewrite import Rewriter
 
 
 @dataclass(eq=False)
@@ -45,7 +46,8 @@ class System:
     rows: list[Row]
     states: list[str]
     algebraics: list[str]
-    dummies: list[str] = field(default_factory=list)  # algebraic variables that were derivatives before
+    dummies: list[str]  # algebraic variables that were derivatives before
+    renamed: Rewriter  # from the derivatives of the flat model to the derivatives and variables of this system
 
     @cached_property
     def derivatives(self) -> list[Expr]:
