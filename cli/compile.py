@@ -23,12 +23,10 @@ def compile(model: Model, dump: Dump = None) -> None:
 
     A model whose files are unchanged is neither translated nor compiled again.
     """
-    from codegen.compile import compile_model, translate
-    from codegen.report import dump as dump_text
+    from codegen.compile import compile_model
 
     if dump:
-        prepared, _ = translate(model)
-        typer.echo(dump_text(prepared, dump), nl=False)
+        typer.echo(_dumped(model, dump), nl=False)
         return
     compiled = compile_model(model)
     for warning in compiled.report.warnings:
@@ -38,6 +36,17 @@ def compile(model: Model, dump: Dump = None) -> None:
     else:
         Console().print(_passes(compiled.name, compiled.report.seconds))
     typer.echo(compiled.path)
+
+
+def _dumped(model: str, dump: str) -> str:
+    """The flat model needs the front end alone, so it can be looked at where later passes refuse it."""
+    from codegen.compile import translate
+    from codegen.flat_text import dump_flat
+    from codegen.flatten import flatten
+    from codegen.library import Library
+    from codegen.report import dump as dumped
+
+    return dump_flat(flatten(Library(), model)) if dump == "flat" else dumped(translate(model)[0], dump)
 
 
 def _passes(name: str, seconds: dict[str, float]) -> Table:

@@ -1,0 +1,157 @@
+"""What a user types, sees, and gets as an exit status."""
+
+from __future__ import annotations
+
+from pathlib import Path
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from cli.main import app
+import runtime
+
+ROOT = Path(__file__).parents[2]
+SERVO = str(ROOT / "tests" / "models" / "SquareWaveServo.mo")
+MOTOR = str(ROOT / "tests" / "models" / "SixStepMotor.mo")
+
+
+@pytest.fixture(autouse=True)
+def in_an_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+def lacuna(*words: str):
+    return CliRunner().invoke(app, list(words))
+
+
+def refused(*words: str) -> str:
+    """Output of a command that must end with status 1, by a message and not by a traceback."""
+    result = lacuna(*words)
+    assert result.exit_code == 1, result.output
+    assert isinstance(result.exception, SystemExit), result.exception
+    return result.output
+
+
+def test_every_command_has_help() -> None:
+    names = [command.name for command in app.registered_commands]
+    assert {"check", "compile", "simulate", "maps", "compare"} <= set(names)
+    for name in names:
+        assert lacuna(name, "--help").exit_code == 0
+        assert lacuna("--help").output.count(name) >= 1
+
+
+def test_help_loads_no_stage() -> None:
+    code = "import sys, cli.main; sys.exit(any(m in sys.modules for m in ('numpy', 'codegen', 'runtime', 'analysis')))"
+    assert subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=False).returncode == 0
+
+
+def test_check_accepts_a_model() -> None:
+    result = lacuna("check", SERVO)
+    assert result.exit_code == 0
+    assert "SquareWaveServo" in result.output
+    assert "no errors" in result.output
+
+
+def test_check_shows_line_caret_and_hint(tmp_path: Path) -> None:
+    file = tmp_path / "Slip.mo"
+    file.write_text("model Slip\n  Real x(start=0, fixed=true);\nequation\n  der(x) = -xx;\nend Slip;\n")
+    output = refused("check", str(file))
+    assert "Slip.mo:4:" in output
+    assert "der(x) = -xx;" in output
+    assert "^" in output
+    assert "hint" in output
+
+
+def test_units_can_be_made_a_warning(tmp_path: Path) -> None:
+    file = tmp_path / "Mixed.mo"
+    file.write_text(
+        'model Mixed\n  Real x(unit="m", start=0, fixed=true);\n  parameter Real t(unit="s") = 1;\n'
+        "equation\n  der(x) = t;\nend Mixed;\n"
+    )
+    assert "Mixed.mo:5" in refused("check", str(file))
+    assert lacuna("check", "--units", "warn", str(file)).exit_code == 0
+
+
+@pytest.mark.parametrize("kind", ["flat", "structure", "c"])
+def test_dump_is_the_same_each_time(kind: str) -> None:
+    first, second = lacuna("compile", MOTOR, "--dump", kind), lacuna("compile", MOTOR, "--dump", kind)
+    assert first.exit_code == 0
+    assert "ia" in first.output
+    assert first.output == second.output
+
+
+def test_compile_reports_the_passes_once(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("LACUNA_CACHE", str(tmp_path / "cache"))
+    assert "in all" in lacuna("compile", SERVO).output
+    assert "unchanged" in lacuna("compile", SERVO).output
+
+
+def test_simulate_writes_csv_metadata_and_figure(tmp_path: Path) -> None:
+    result = lacuna("simulate", SERVO, "--stop", "0.05", "-p", "U=6", "--signal", "w", "--plot", "--out", "run")
+    assert result.exit_code == 0, result.output
+    columns, meta = runtime.read_csv(tmp_path / "run" / "SquareWaveServo.csv")
+    assert columns["time"][-1] == 0.05
+    assert meta["complete"]
+    assert meta["parameters"]["U"] == 6.0
+    assert (tmp_path / "run" / "SquareWaveServo.svg").stat().st_size > 1000
+
+
+def test_structural_parameter_is_translated_anew(tmp_path: Path) -> None:
+    for pairs in (2, 3):
+        assert lacuna("simulate", MOTOR, "--stop", "0.05", "-p", f"pp={pairs}", "--out", f"pp{pairs}").exit_code == 0
+    speeds = [runtime.read_csv(tmp_path / f"pp{pairs}" / "SixStepMotor.csv")[0]["w"][-1] for pairs in (2, 3)]
+    assert abs(speeds[0] - speeds[1]) > 0.1
+
+
+def test_recorded_input_drives_a_model(tmp_path: Path) -> None:
+    (tmp_path / "Lag.mo").write_text(
+        "model Lag\n  input Real u;\n  Real y(start=0, fixed=true);\nequation\n  der(y) = u - y;\nend Lag;\n"
+    )
+    time = np.linspace(0.0, 1.0, 11)
+    np.savetxt(tmp_path / "ramp.csv", np.column_stack([time, time]), delimiter=",", header="time,u", comments="")
+    words = ["simulate", "Lag.mo", "-u", "u=ramp.csv", "--rtol", "1e-9", "--out", "run"]
+    assert lacuna(*words).exit_code == 0
+    y = runtime.read_csv(tmp_path / "run" / "Lag.csv")[0]["y"][-1]
+    assert y == pytest.approx(np.exp(-1.0), rel=1e-6)  # y = t - 1 + exp(-t)
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        (["check", "Actuators.EccentricBldd"], "EccentricBldc"),
+        (["check", "missing.mo"], "missing.mo"),
+        (["simulate", SERVO, "-p", "tauk=1"], "tauc"),
+        (["simulate", SERVO, "-p", "R"], "NAME=VALUE"),
+        (["simulate", SERVO, "-p", "R=big"], "big"),
+        (["simulate", SERVO, "-p", "R=1", "-p", "R=2"], "twice"),
+        (["simulate", SERVO, "--solver", "rk4"], "step"),
+        (["simulate", SERVO, "--rtol", "-1"], "rtol"),
+        (["simulate", SERVO, "--signal", "speed"], "speed"),
+        (["simulate", SERVO, "-u", "u=missing.csv"], "missing.csv"),
+        (["compare", "--only", "helthy"], "helthy"),
+        (["maps", "--settings", "missing.toml"], "missing.toml"),
+    ],
+)
+def test_mistakes_are_said_in_a_sentence(words: list[str], expected: str) -> None:
+    assert expected in refused(*words)
+
+
+def test_failed_run_keeps_what_it_has(tmp_path: Path) -> None:
+    (tmp_path / "Escape.mo").write_text(
+        "model Escape\n  Real x(start=1, fixed=true);\nequation\n  der(x) = x^2;\n"
+        "  annotation(experiment(StopTime=2, Interval=0.1));\nend Escape;\n"
+    )
+    refused("simulate", "Escape.mo", "--out", "run")
+    columns, meta = runtime.read_csv(tmp_path / "run" / "Escape.csv")
+    assert not meta["complete"]
+    assert 0.5 < columns["time"][-1] < 1.0
+
+
+def test_compare_with_a_file_has_a_tolerance(tmp_path: Path) -> None:
+    assert lacuna("simulate", SERVO, "--stop", "0.2", "--signal", "w", "--out", "run").exit_code == 0
+    file = str(tmp_path / "run" / "SquareWaveServo.csv")
+    assert lacuna("compare", SERVO, "--against", file, "--tolerance", "1e-4").exit_code == 0
+    assert "w" in refused("compare", SERVO, "--against", file, "--tolerance", "1e-4", "-p", "R=3.4")
