@@ -4,32 +4,12 @@ from __future__ import annotations
 
 import ctypes
 from dataclasses import dataclass
-from functools import lru_cache
-import os
-from pathlib import Path
 import weakref
 
 import numpy as np
 
 from analysis.errors import AnalysisError
-
-_MESSAGE_SIZE = 500
-_DOUBLES = ctypes.POINTER(ctypes.c_double)
-
-
-class _Channel(ctypes.Structure):
-    _fields_ = [
-        ("rms", ctypes.c_double),
-        ("peak_hz", ctypes.c_double),
-        ("peak_amplitude", ctypes.c_double),
-        ("peak_bin", ctypes.c_longlong),
-        ("frequency", ctypes.c_double),
-        ("harmonic", ctypes.c_double * 4),
-    ]
-
-
-class _Summary(ctypes.Structure):
-    _fields_ = [("rms_mean", ctypes.c_double), ("speed_mean", ctypes.c_double), ("turns", ctypes.c_int)]
+from analysis.library import DOUBLES, MESSAGE_SIZE, CChannel, CSummary, library, pointer
 
 
 @dataclass(frozen=True)
@@ -46,55 +26,7 @@ class Features:
     speed_mean: float  # rad/s over whole turns after the start-up; NaN: not one whole turn, or no angle
     turns: int
     held: np.ndarray  # A, [channels, lines] peak-hold amplitude spectra
-
-
-def library_path() -> Path:
-    """Where the build put liblacuna_analysis.so ($LACUNA_BUILD, default build/ beside this package)."""
-    build = os.environ.get("LACUNA_BUILD") or Path(__file__).resolve().parent.parent / "build"
-    return Path(build) / "lib" / "liblacuna_analysis.so"
-
-
-@lru_cache(maxsize=1)
-def _library() -> ctypes.CDLL:
-    path = library_path()
-    if not path.exists():
-        raise AnalysisError(f"{path} is missing: run `make build`")
-    lib = ctypes.CDLL(str(path))
-    lib.lacuna_chain_new.restype = ctypes.c_void_p
-    lib.lacuna_chain_new.argtypes = [ctypes.c_char_p, ctypes.c_char_p, ctypes.c_size_t]
-    lib.lacuna_chain_free.argtypes = [ctypes.c_void_p]
-    lib.lacuna_chain_free.restype = None
-    for count in ("channels", "samples", "sections", "section_length", "lines"):
-        function = getattr(lib, f"lacuna_chain_{count}")
-        function.argtypes, function.restype = [ctypes.c_void_p], ctypes.c_size_t
-    lib.lacuna_chain_section_start.argtypes = [ctypes.c_void_p, ctypes.c_size_t]
-    lib.lacuna_chain_section_start.restype = ctypes.c_size_t
-    lib.lacuna_chain_resolution.argtypes = [ctypes.c_void_p]
-    lib.lacuna_chain_resolution.restype = ctypes.c_double
-    lib.lacuna_chain_analyse.argtypes = [
-        ctypes.c_void_p,
-        ctypes.POINTER(_DOUBLES),
-        _DOUBLES,
-        ctypes.c_size_t,
-        ctypes.POINTER(_Channel),
-        ctypes.POINTER(_Summary),
-        _DOUBLES,
-        ctypes.c_char_p,
-        ctypes.c_size_t,
-    ]
-    lib.lacuna_chain_section_spectrum.argtypes = [
-        ctypes.c_void_p,
-        _DOUBLES,
-        _DOUBLES,
-        _DOUBLES,
-        ctypes.c_char_p,
-        ctypes.c_size_t,
-    ]
-    return lib
-
-
-def _pointer(array: np.ndarray):
-    return array.ctypes.data_as(_DOUBLES)
+    channels: ctypes.Array  # the same, for the C interface
 
 
 class Chain:
@@ -105,9 +37,9 @@ class Chain:
     """
 
     def __init__(self, settings: str):
-        self._lib = _library()
-        message = ctypes.create_string_buffer(_MESSAGE_SIZE)
-        self._chain = self._lib.lacuna_chain_new(settings.encode(), message, _MESSAGE_SIZE)
+        self._lib = library()
+        message = ctypes.create_string_buffer(MESSAGE_SIZE)
+        self._chain = self._lib.lacuna_chain_new(settings.encode(), message, MESSAGE_SIZE)
         if not self._chain:
             raise AnalysisError(message.value.decode(errors="replace"))
         weakref.finalize(self, self._lib.lacuna_chain_free, self._chain)
@@ -129,19 +61,19 @@ class Chain:
         lengths = {len(row) for row in rows} | ({len(angle)} if angle is not None else set())
         if len(lengths) > 1:
             raise AnalysisError(f"the signals of a recording differ in length: {sorted(lengths)} samples")
-        channels, summary = (_Channel * self.channels)(), _Summary()
+        channels, summary = (CChannel * self.channels)(), CSummary()
         held = np.empty((self.channels, self.lines))
-        message = ctypes.create_string_buffer(_MESSAGE_SIZE)
+        message = ctypes.create_string_buffer(MESSAGE_SIZE)
         failed = self._lib.lacuna_chain_analyse(
             self._chain,
-            (_DOUBLES * len(rows))(*map(_pointer, rows)),
-            _pointer(angle) if angle is not None else None,
+            (DOUBLES * len(rows))(*map(pointer, rows)),
+            pointer(angle) if angle is not None else None,
             lengths.pop(),
             channels,
             ctypes.byref(summary),
-            _pointer(held),
+            pointer(held),
             message,
-            _MESSAGE_SIZE,
+            MESSAGE_SIZE,
         )
         if failed:
             raise AnalysisError(message.value.decode(errors="replace"))
@@ -156,6 +88,7 @@ class Chain:
             speed_mean=summary.speed_mean,
             turns=summary.turns,
             held=held,
+            channels=channels,
         )
 
     def section_spectrum(self, section) -> tuple[np.ndarray, np.ndarray]:
@@ -168,9 +101,16 @@ class Chain:
         if section.shape != (self.section_length,):
             raise AnalysisError(f"a section has {self.section_length} samples, not {section.shape}")
         amplitude, power = np.empty(self.lines), np.empty(self.lines)
-        message = ctypes.create_string_buffer(_MESSAGE_SIZE)
+        message = ctypes.create_string_buffer(MESSAGE_SIZE)
         if self._lib.lacuna_chain_section_spectrum(
-            self._chain, _pointer(section), _pointer(amplitude), _pointer(power), message, _MESSAGE_SIZE
+            self._chain, pointer(section), pointer(amplitude), pointer(power), message, MESSAGE_SIZE
         ):
             raise AnalysisError(message.value.decode(errors="replace"))
         return amplitude, power
+
+
+def signature(features: Features) -> np.ndarray | None:
+    """The vector that a severity is estimated from (include/lacuna/signature.hpp); None where a channel has no peak."""
+    count = len(features.rms)
+    vector = np.empty(library().lacuna_signature_size(count))
+    return None if library().lacuna_signature(features.channels, count, pointer(vector)) else vector

@@ -13,7 +13,8 @@ import zipfile
 
 import numpy as np
 
-from analysis.chain import Chain, library_path
+from analysis.chain import Chain
+from analysis.library import library_path
 from analysis.plant import Plant
 from analysis.settings import Settings
 

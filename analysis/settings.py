@@ -23,6 +23,7 @@ class Band:
     mode: str
     first: float
     last: float
+    action: str = ""  # what to do, a sentence
     published_rise: float | None = None  # A, of the mean RMS
 
 

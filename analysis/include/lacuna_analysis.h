@@ -49,6 +49,29 @@ int lacuna_chain_analyse(const lacuna_chain *chain, const double *const *current
 int lacuna_chain_section_spectrum(const lacuna_chain *chain, const double *section, double *amplitude, double *power,
                                   char *message, size_t message_size);
 
+/* Features of a recording as one vector [lacuna_signature_size(channels)]: see lacuna/signature.hpp.
+ * Non-zero where a channel has no first peak. */
+size_t lacuna_signature_size(size_t channels);
+int lacuna_signature(const lacuna_channel *channels, size_t count, double *signature);
+
+typedef struct lacuna_table lacuna_table;
+
+typedef struct {
+  double severity, low, high; /* most likely, and its 95 % interval */
+  double misfit;              /* squared distance to the map, in standard deviations */
+  double paper;               /* by the mean RMS alone */
+  int band;                   /* row of the table's bands */
+  int covered;                /* 0: the map explains this recording at no severity */
+} lacuna_estimate;
+
+/* A severity table from the bytes of its file: see lacuna/severity_table.hpp. Threads may share it. */
+lacuna_table *lacuna_table_new(const void *bytes, size_t size, char *message, size_t message_size);
+void lacuna_table_free(lacuna_table *table);
+size_t lacuna_table_channels(const lacuna_table *table);
+/* Severity of a recording from its channels' features. Non-zero where a channel has no first peak. */
+int lacuna_table_estimate(const lacuna_table *table, const lacuna_channel *channels, double rms_mean,
+                          lacuna_estimate *estimate);
+
 #ifdef __cplusplus
 }
 #endif

@@ -5,6 +5,12 @@
 #include <exception>
 
 #include "lacuna/chain.hpp"
+#include "lacuna/severity_table.hpp"
+#include "lacuna/signature.hpp"
+
+struct lacuna_table {
+  lacuna::SeverityTable table;
+};
 
 struct lacuna_chain {
   lacuna::Chain chain;
@@ -28,6 +34,18 @@ template <typename Action> int guarded(char *message, size_t size, Action action
     write(error.what(), message, size);
     return -1;
   }
+}
+
+std::vector<lacuna::ChannelFeatures> channels_of(const lacuna_channel *channels, size_t count) {
+  std::vector<lacuna::ChannelFeatures> result;
+  for (const lacuna_channel &c : std::span(channels, count))
+    result.push_back({c.rms,
+                      static_cast<std::ptrdiff_t>(c.peak_bin),
+                      c.peak_hz,
+                      c.peak_amplitude,
+                      c.frequency,
+                      {c.harmonic[0], c.harmonic[1], c.harmonic[2], c.harmonic[3]}});
+  return result;
 }
 
 } // namespace
@@ -96,4 +114,39 @@ int lacuna_chain_section_spectrum(const lacuna_chain *chain, const double *secti
     std::copy(a.begin(), a.end(), amplitude);
     std::copy(p.begin(), p.end(), power);
   });
+}
+
+size_t lacuna_signature_size(size_t channels) {
+  return lacuna::signature_size(channels);
+}
+
+int lacuna_signature(const lacuna_channel *channels, size_t count, double *signature) {
+  const auto features = channels_of(channels, count);
+  return lacuna::signature(features, {signature, lacuna::signature_size(count)}) ? 0 : -1;
+}
+
+lacuna_table *lacuna_table_new(const void *bytes, size_t size, char *message, size_t message_size) {
+  lacuna_table *table = nullptr;
+  guarded(message, message_size, [&] {
+    table = new lacuna_table{lacuna::SeverityTable({static_cast<const std::byte *>(bytes), size})};
+  });
+  return table;
+}
+
+void lacuna_table_free(lacuna_table *table) {
+  delete table;
+}
+
+size_t lacuna_table_channels(const lacuna_table *table) {
+  return table->table.configuration().channels;
+}
+
+int lacuna_table_estimate(const lacuna_table *table, const lacuna_channel *channels, double rms_mean,
+                          lacuna_estimate *estimate) {
+  const size_t count = lacuna_table_channels(table);
+  std::vector<double> signature(lacuna::signature_size(count));
+  if (lacuna_signature(channels, count, signature.data()) != 0) return -1;
+  const lacuna::Estimate e = table->table.estimate(signature, rms_mean);
+  *estimate = {e.severity, e.low, e.high, e.misfit, e.paper, static_cast<int>(e.band), e.covered ? 1 : 0};
+  return 0;
 }

@@ -8,7 +8,8 @@ import subprocess
 import numpy as np
 import pytest
 
-from analysis.chain import Chain, library_path
+from analysis.chain import Chain
+from analysis.library import library_path
 from analysis.settings import PAPER, load_settings
 from tests.analysis.reference import simulate
 

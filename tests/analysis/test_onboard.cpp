@@ -17,7 +17,7 @@
 #include "malloc_trap.h"
 #include "reference_actuator.h"
 
-using lacuna::onboard::Configuration;
+using lacuna::Configuration;
 using lacuna::onboard::Monitor;
 using lacuna::onboard::RealFft;
 

@@ -9,18 +9,9 @@
 
 #include "lacuna/features.hpp"
 #include "lacuna/onboard/fft.hpp"
+#include "lacuna/severity_table.hpp"
 
 namespace lacuna::onboard {
-
-constexpr std::size_t max_channels = 6;
-
-/// How a record is analysed; what the settings file of the desktop chain says, in samples.
-struct Configuration {
-  std::size_t channels, samples, section, hop, padded;
-  double sampling_rate; // Hz
-  double peak_above, peak_threshold;
-  double speed_after; // s
-};
 
 struct RecordFeatures {
   std::array<ChannelFeatures, max_channels> channels; ///< the first `Configuration::channels` of them
