@@ -23,7 +23,7 @@ model StarWinding "Stator of a trapezoidal machine: three windings in star with 
   Types.Energy stored "Magnetic energy";
 protected
   constant Real pi = 3.141592653589793;
-  parameter Types.Angle axis[3] = {0, 2*pi/3, 4*pi/3} "Axes of the phases, electrical";
+  final parameter Types.Angle axis[3] = {0, 2*pi/3, 4*pi/3} "Axes of the phases, electrical";
   Types.PerUnit shape[3] "Trapezoid of each phase";
   Types.PerUnit gap[3] "Modulation of each phase by the air gap";
   Integer step[3](each start=0) "Sector as each phase sees it, 0 to 5";
