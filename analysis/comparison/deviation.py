@@ -13,7 +13,7 @@ Array = np.ndarray
 
 @dataclass(frozen=True)
 class SignalDeviation:
-    """Candidate minus reference of one signal, in its own unit; `scale` is the largest reference magnitude."""
+    """Candidate minus reference of one signal, in its own unit; `scale` is the magnitude it is relative to."""
 
     name: str
     maximum: float
@@ -23,7 +23,7 @@ class SignalDeviation:
 
     @property
     def relative(self) -> float:
-        """Maximum deviation over the largest magnitude of the reference (the deviation itself for a zero signal)."""
+        """Maximum deviation over the scale (the deviation itself for a signal without one)."""
         return self.maximum / self.scale if self.scale > 0 else self.maximum
 
 
@@ -39,9 +39,15 @@ class EventDeviation:
 Events = Sequence[tuple[float, str]]  # time (s) and what happened: the k-th of one kind matches the k-th
 
 
-def signal_deviation(name: str, time: Array, reference: Array, candidate: Array, use: Array) -> SignalDeviation:
-    """Maximum and RMS of the difference over the samples marked in `use` (all arrays [n])."""
-    scale = float(np.max(np.abs(reference))) if reference.size else 0.0
+def signal_deviation(
+    name: str, time: Array, reference: Array, candidate: Array, use: Array, scale: float | None = None
+) -> SignalDeviation:
+    """Maximum and RMS of the difference over the samples marked in `use` (all arrays [n]).
+
+    `scale` defaults to the largest magnitude of the reference.
+    """
+    if scale is None:
+        scale = float(np.nanmax(np.abs(reference), initial=0.0))
     if not use.any():
         return SignalDeviation(name, np.nan, np.nan, scale, np.nan)
     difference = np.abs(candidate - reference)[use]

@@ -20,6 +20,7 @@ from analysis.comparison.deviation import (
 from analysis.comparison.scenarios import Scenario
 import runtime
 
+SMALL_SIGNAL = 1e-3  # of the largest signal with the same unit
 REFERENCE_MARGIN = 30.0  # an error counts for an observed order only this far above the reference's own tolerance
 
 
@@ -80,7 +81,7 @@ def run(scenario: Scenario, model: runtime.Model, tick: Callable[[Lane], None] =
     first = Lane("ida", rtol=scenario.reference_rtol)
     tick(first)
     reference, seconds = _simulate(scenario, model, first, grid)
-    signals = _continuous_signals(model)
+    signals = _scales(model, reference)
     lanes = []
     for lane in lanes_of(scenario):
         tick(lane)
@@ -99,7 +100,19 @@ def _simulate(scenario: Scenario, model: runtime.Model, lane: Lane, grid: np.nda
     return result, clock.perf_counter() - begin
 
 
-def _continuous_signals(model: runtime.Model) -> list[str]:
+def _scales(model: runtime.Model, reference: runtime.Result) -> dict[str, float]:
+    """What a deviation of each signal is relative to: its largest magnitude, but not less than a part of the largest
+    of all signals with its unit. The current of an open leg, zero but for rounding, is thus measured as a current.
+    """
+    own = {name: float(np.max(np.abs(reference[name]), initial=0.0)) for name in _signals(model)}
+    largest: dict[str, float] = {}
+    for name, magnitude in own.items():
+        unit = model.variables[name].unit
+        largest[unit] = max(largest.get(unit, 0.0), magnitude)
+    return {name: max(own[name], SMALL_SIGNAL * largest[model.variables[name].unit]) for name in own}
+
+
+def _signals(model: runtime.Model) -> list[str]:
     """Names of the variables that change with time; of several aliases the first stands for all."""
     seen: set[tuple] = set()
     names = []
@@ -112,13 +125,18 @@ def _continuous_signals(model: runtime.Model) -> list[str]:
 
 
 def _measure(
-    scenario: Scenario, lane: Lane, seconds: float, reference: runtime.Result, result: runtime.Result, names: list[str]
+    scenario: Scenario,
+    lane: Lane,
+    seconds: float,
+    reference: runtime.Result,
+    result: runtime.Result,
+    scales: dict[str, float],
 ) -> LaneResult:
     rows = min(len(reference.time), len(result.time))
     time = reference.time[:rows]
     pairs, _ = event_pairs(_events(reference), _events(result))
     use = outside_event_gaps(time, pairs)
-    signals = [signal_deviation(n, time, reference[n][:rows], result[n][:rows], use) for n in names]
+    signals = [signal_deviation(n, time, reference[n][:rows], result[n][:rows], use, s) for n, s in scales.items()]
     return LaneResult(
         lane, seconds, dict(result.counters), None if result.complete else str(result.failure),
         event_deviation(_events(reference), _events(result)), signals, {n: result[n][:rows] for n in scenario.shown},
