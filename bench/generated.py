@@ -21,7 +21,7 @@ class Lane:
 
     @property
     def label(self) -> str:
-        return f"generated, {self.solver}" + (f", step {self.step:g} s" if self.step else "")
+        return self.solver + (f" at {self.step:g} s" if self.step else "")
 
 
 LANES = (Lane("ida"), Lane("dopri5"), Lane("rodas4"), Lane("rk4", step=1e-5))

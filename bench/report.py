@@ -12,6 +12,7 @@ from rich.console import Console
 from rich.table import Table
 
 Row = dict[str, object]
+WIDTH = 120  # columns, where the terminal has fewer or there is none
 
 
 def show(title: str, rows: Sequence[Row]) -> None:
@@ -21,7 +22,7 @@ def show(title: str, rows: Sequence[Row]) -> None:
         table.add_column(key, justify="left" if isinstance(value, str) else "right")
     for row in rows:
         table.add_row(*(_text(value) for value in row.values()))
-    Console().print(table)
+    Console(width=max(Console().width, WIDTH)).print(table)
 
 
 def _text(value: object) -> str:

@@ -33,3 +33,6 @@ app.command("compile", rich_help_panel=MODELS)(compile.compile)
 app.command("simulate", rich_help_panel=MODELS)(simulate.simulate)
 app.command("compare", rich_help_panel=MODELS)(compare.compare)
 app.command("maps", rich_help_panel=FAULTS)(maps.maps)
+
+if __name__ == "__main__":
+    app()
