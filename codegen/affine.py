@@ -62,6 +62,11 @@ def isolate(lhs: Expr, rhs: Expr, v: Expr) -> tuple[Expr, Expr] | None:
 
 
 UNSAFE = 9
+NEGLIGIBLE = 1e-6  # a branch this much smaller than another is there to regularise; dividing by it loses the digits
+
+
+def _branches(a: Expr) -> list[Expr]:
+    return _branches(a.args[1]) + _branches(a.args[2]) if a.op == "if" else [a]
 
 
 def division_rank(a: Expr, parameter_value: Callable[[Expr], float | None]) -> int:
@@ -70,7 +75,10 @@ def division_rank(a: Expr, parameter_value: Callable[[Expr], float | None]) -> i
     if a.op == "const":
         return 0 if a.value else UNSAFE
     if a.op == "if":
-        return max(division_rank(a.args[1], parameter_value), division_rank(a.args[2], parameter_value))
+        sizes = [abs(size) for branch in _branches(a) if (size := parameter_value(branch)) is not None]
+        if sizes and min(sizes) < NEGLIGIBLE * max(sizes):
+            return UNSAFE
+        return max(division_rank(branch, parameter_value) for branch in _branches(a))
     if a.op == "neg":
         return division_rank(a.args[0], parameter_value)
     if a.op == "*":
