@@ -43,7 +43,8 @@ def dependency_order(model: flat.FlatModel) -> list[str]:
             names = list(path)
             cycle = names[names.index(name) :]
             notes = [(model.variables[n].span, f"{n} = {model.variables[n].binding}") for n in cycle[1:]]
-            raise Diagnostic("S001", f"parameter {name} depends on itself", v.span, notes=notes)
+            hint = "give one of these parameters a value of its own"
+            raise Diagnostic("S001", f"parameter {name} depends on itself", v.span, hint, notes)
         path[name] = None
         for used in sorted(str(leaf.value) for leaf in leaves(v.binding) if leaf.op == "var"):
             visit(used)

@@ -1,0 +1,95 @@
+"""Models without a unique solution: the message names equations and unknowns by source line."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from codegen.compile import translate
+from codegen.emit.source import generate
+from codegen.errors import Diagnostic
+from tests.codegen.generated import write_model
+
+CASES = {
+    "parameters in a cycle": (
+        "S001", 2, "depends on itself",
+        "model Cycle\n  parameter Real a = b; parameter Real b = 2*a; Real x(start=0);\nequation\n"
+        "  der(x) = a;\nend Cycle;",
+    ),
+    "aliases with different starts": (
+        "S002", 2, "equal but have different fixed start",
+        "model Starts\n  Real a(start=1, fixed=true); Real b(start=2, fixed=true);\nequation\n"
+        "  a = b;\n  der(a) = -b;\n"
+        "end Starts;",
+    ),
+    "more equations than unknowns": (
+        "S003", 5, "too many equations: 2 for x",
+        "model Over\n  Real x; Real y(start=0);\nequation\n"
+        "  x = 2*time;\n  x = sin(time/5) + 1;\n  der(y) = x;\nend Over;",
+    ),
+    "fewer equations than unknowns": (
+        "S003", 2, "too few equations: 1 for y, z",
+        "model Under\n  Real y; Real z; Real x(start=0);\nequation\n  y + z = 1;\n  der(x) = -x;\nend Under;",
+    ),
+    "differentiated input": (
+        "S004", 4, "the input u would have to be differentiated",
+        "model Driven\n  input Real u; Real x; Real w;\nequation\n  x = u;\n  w = der(x);\nend Driven;",
+    ),
+    "constraint without a regular pivot": (
+        "S005", 5, "do not determine any of them at the start values",
+        "model Pivot\n  Real x(start=0); Real y(start=0); Real f;\nequation\n  der(x) = f;\n  x^2 + y^2 = 1;\n"
+        "  der(y) = x*f;\nend Pivot;",
+    ),
+    "discrete equation without an unknown": (
+        "S010", 4, "no discrete variable is left",
+        "model Solved\n  Boolean b; Real x(start=0);\nequation\n  not b = x > 1;\n  der(x) = 1;\nend Solved;",
+    ),
+    "discrete variable without an equation": (
+        "S012", 2, "the discrete variable b has no equation",
+        "model Missing\n  Boolean b; Real x(start=0);\nequation\n  der(x) = if b then 1 else -1;\nend Missing;",
+    ),
+    "assigned twice": (
+        "S011", 5, "n is assigned twice",
+        "model Twice\n  Integer n(start=0); Real x(start=0);\nequation\n  when x > 1 then n = 1; end when;\n"
+        "  when x > 2 then n = 2; end when;\n  der(x) = 1;\nend Twice;",
+    ),
+    "discrete loop without pre": (
+        "S013", 4, "depend on each other in a loop: a, b",
+        "model Loop\n  Boolean a; Boolean b; Real x(start=0);\nequation\n"
+        "  a = not b;\n  b = not a;\n  der(x) = 1;\nend Loop;",
+    ),
+    "too many initial equations": (
+        "S020", 5, "too many initial equations",
+        "model Init\n  Real x(start=0);\ninitial equation\n  x = 1;\n  x = 2;\nequation\n  der(x) = -x;\nend Init;",
+    ),
+    "fixed start against an initial equation": (
+        "S022", 2, "x has a fixed start value",
+        "model Fixed\n  Real x(start=0, fixed=true);\ninitial equation\n  der(x) = 0;\nequation\n  der(x) = 1 - x;\n"
+        "end Fixed;",
+    ),
+    "reinit of what is not a state": (
+        "C002", 5, "is not a state here",
+        "model Jump\n  Real x(start=0); Real y;\nequation\n  y = 2*x;\n  when x > 1 then reinit(y, 0); end when;\n"
+        "  der(x) = 1;\nend Jump;",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_refused_with_place_and_reason(case: str, tmp_path: Path) -> None:
+    code, line, message, text = CASES[case]
+    with pytest.raises(Diagnostic) as caught:
+        generate(translate(write_model(tmp_path, text))[0])
+    assert caught.value.code == code, caught.value
+    assert message in caught.value.message
+    assert caught.value.span.line == line
+    assert caught.value.hint
+
+
+def test_notes_list_the_equations_and_unknowns_involved(tmp_path: Path) -> None:
+    with pytest.raises(Diagnostic) as caught:
+        translate(write_model(tmp_path, CASES["fewer equations than unknowns"][3]))
+    assert [(span.line, remark) for span, remark in caught.value.notes] == [
+        (4, "equation  y + z = 1"), (2, "unknown  y"), (2, "unknown  z")
+    ]  # fmt: skip
