@@ -15,7 +15,7 @@ def dump_flat(model: flat.FlatModel) -> str:
     for title, equations in (("initial equation", model.initial_equations), ("equation", model.equations)):
         if equations:
             lines.append(title)
-            lines += [f"  {to_text(e.lhs)} = {to_text(e.rhs)};{_place(e)}" for e in equations]
+            lines += [f"  {equation_text(e)};{_place(e)}" for e in equations]
     for when in model.whens:
         lines += _indent(_statement(when))
     lines += ["  " + line for a in model.asserts for line in _statement(a)]
@@ -26,6 +26,12 @@ def dump_flat(model: flat.FlatModel) -> str:
         lines += _function(function)
     lines.append(f"end {model.name};")
     return "\n".join(lines) + "\n"
+
+
+def equation_text(e: flat.Equation) -> str:
+    """left = right"""
+    left = to_text(e.lhs)
+    return f"({left}) = {to_text(e.rhs)}" if e.lhs.op == "if" else f"{left} = {to_text(e.rhs)}"
 
 
 def _quoted(text: str) -> str:

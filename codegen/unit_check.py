@@ -18,10 +18,12 @@ Argument = tuple[Expr, str, str, Span]  # value, declared unit, which input of w
 def check_units(
     model: flat.FlatModel, arguments: Iterable[Argument] = (), function_units: dict[str, str] | None = None
 ) -> list[Diagnostic]:
-    """Every finding, in order of the model; at most MAX_FINDINGS.
+    """Every finding, one a place, in order of the model; at most MAX_FINDINGS. Without any unit there is no check.
 
     `arguments` are values given to inputs with a unit; `function_units` the units of results by function.
     """
+    if not any(v.unit for v in model.variables.values()):
+        return []
     return _Check(model, function_units or {}).run(arguments)
 
 
@@ -64,7 +66,8 @@ class _Check:
         except UnitError as reason:
             message = reason.message + (f"\n    in the equation {text}" if text else "")
             finding = Diagnostic(reason.code, message, span, reason.hint)
-            if len(self.findings) < MAX_FINDINGS and all(str(f) != str(finding) for f in self.findings):
+            seen = any((f.code, f.span) == (finding.code, finding.span) for f in self.findings)
+            if len(self.findings) < MAX_FINDINGS and not seen:
                 self.findings.append(finding)
         except ValueError as reason:
             self.findings.append(Diagnostic("U005", str(reason), span, 'such as "N.m.s/rad"'))

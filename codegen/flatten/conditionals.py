@@ -22,6 +22,9 @@ def flatten_if(item: ast.If, scope: Scope, out: Collected) -> None:
         return
     try:
         parts = [_branch(body, scope) for _, body in item.branches]
+        if fixed and not _same_unknowns([p.equations for p in parts]):
+            _decided(item, conditions, scope, out)
+            return
         merged = _merge(item, conditions, parts)
     except Diagnostic:
         if not fixed:
@@ -89,11 +92,16 @@ def _merge(item: ast.If, conditions: list[Expr], parts: list[Collected]) -> Coll
     return result
 
 
+def _same_unknowns(branches: list[list[flat.Equation]]) -> bool:
+    """Do all branches have the same left sides, each once?"""
+    sides = {e.lhs for e in branches[0]}
+    return all(len(b) == len(sides) and {e.lhs for e in b} == sides for b in branches)
+
+
 def _merge_equations(conditions: list[Expr], branches: list[list[flat.Equation]]) -> list[flat.Equation]:
     """Equations of the same left side go together, where every branch has the same left sides; else by position."""
-    first = branches[0]
-    sides = [e.lhs for e in first]
-    if len(set(sides)) == len(sides) and all({e.lhs for e in b} == set(sides) for b in branches):
+    if _same_unknowns(branches):
+        sides = [e.lhs for e in branches[0]]
         by_side = [{e.lhs: e for e in b} for b in branches]
         branches = [[b[s] for s in sides] for b in by_side]
     result = []

@@ -99,6 +99,8 @@ def _connect(item: ast.Connect, scope: Scope, sets: ConnectionSets) -> None:
         nodes = _connector(ref, scope)
         sides.append([_ends(node, ref, _is_outside(ref, scope)) for node in nodes])
     left, right = sides
+    if not (left and right):
+        return  # a component that a condition removed
     if len(left) != len(right):
         message = f"connect: {len(left)} connectors with {len(right)}"
         raise Diagnostic("R060", message, item.span, "both sides need the same size")

@@ -49,7 +49,7 @@ class Context:
         except Diagnostic as error:
             if all(str(error) != str(known) for known in self.errors):
                 self.errors.append(error)
-            if len(self.errors) >= MAX_ERRORS:
+            if len(self.errors) >= MAX_ERRORS or self.elements > MAX_ELEMENTS:
                 self.finish()
 
     def spend(self, count: int, span: Span) -> None:

@@ -110,7 +110,7 @@ def check_target(target: Expr | str, span: Span, scope: Scope) -> None:
     if not isinstance(target, Expr) or target.op != "var":
         raise Diagnostic("R058", "the left side is not a variable", span, "write: variable, then its value")
     kind = variability(target, scope.context)
-    if kind in ("parameter", "constant"):
+    if kind == "constant" or (kind == "parameter" and not scope.initial):
         hint = "declare it without 'parameter' or 'constant'"
         raise Diagnostic("R058", f"the {kind} {target.value} is assigned", span, hint)
 

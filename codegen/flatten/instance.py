@@ -75,7 +75,6 @@ class Instance:
     ) -> None:
         self.context, self.cls, self.name, self.parent = context, cls, name, parent
         self.declaration = declaration
-        self.depth = parent.depth + 1 if parent else 0
         self.span = declaration.span if declaration else cls.span
         inherited = parent.variability if parent else ""
         self.variability = (declaration.variability if declaration else "") or inherited
@@ -86,9 +85,11 @@ class Instance:
         self._record: Record | None = None
         self._children: dict[str, Instance | Leaf | ArrayNode | Absent] = {}
         self._building: list[str] = []
-        if self.depth > MAX_DEPTH:
-            hint = f"does {cls.name} contain itself?"
-            raise Diagnostic("R011", f"components are nested more than {MAX_DEPTH} deep", self.span, hint)
+        above = parent
+        while above is not None:
+            if above.cls is cls:
+                raise Diagnostic("R011", f"{cls.name} contains itself", self.span, "break the circle of components")
+            above = above.parent
         self._collect(cls, modifier)
         if modifier is not None:
             self._refuse_unknown(modifier, self.elements, cls)

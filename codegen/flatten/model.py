@@ -120,7 +120,7 @@ def _sections(sections: list[tuple[ast.Section, ast.Class, Instance]]) -> tuple[
     body, initial = Collected(), Collected()
     for section, cls, instance in sections:
         context = instance.context
-        scope = Scope(context, cls, instance)
+        scope = Scope(context, cls, instance, initial=section.initial)
         out = initial if section.initial else body
         with context.attempt():
             if section.algorithm:

@@ -26,6 +26,7 @@ class Scope:
     locals: dict[str, Value] = field(default_factory=dict)
     end: int | None = None  # the value of `end` inside subscripts
     in_function: bool = False
+    initial: bool = False  # in an initial section
 
     def with_locals(self, **values: Value) -> Scope:
         return replace(self, locals={**self.locals, **values})

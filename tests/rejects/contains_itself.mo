@@ -1,6 +1,6 @@
 // code: R011
 // line: 6
-// hint: contain itself
+// hint: break the circle
 model M
   Real x;
   M inner_m;
