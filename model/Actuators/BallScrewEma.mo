@@ -1,9 +1,11 @@
 within Lacuna.Actuators;
 model BallScrewEma "Linear actuator: another motor, a light reducer and a ball screw that moves a mass"
   extends Interfaces.PartialEma(
-    V=270, R_bus=0.2, R=1.6, L=2.2e-3, Ke=0.21, pp=4, Jm=1.1e-4, bm=1e-4, tau_m=0.06, mu=0.04, i_limit=18, Kp_i=12, Ki_i=4000,
+    V=270, R_bus=0.2, R=1.6, L=2.2e-3, Ke=0.21, pp=4, Jm=1.1e-4, bm=1e-4, tau_m=0.06, mu=0.04,
+    i_limit=18, Kp_i=12, Ki_i=4000,
     controller(N=N, Kp=20, w_max=420, Kw=0.08, Ki=1, i_max=15),
-    followingError(limit=12, t_confirm=0.2), overCurrent(limit=17, t_confirm=0.1), overSpeed(limit=470, t_confirm=0.05));
+    followingError(limit=12, t_confirm=0.2),
+    overCurrent(limit=17, t_confirm=0.1), overSpeed(limit=470, t_confirm=0.05));
   parameter Types.PerUnit N(final min=0.1) = 2.5 "Ratio of the reducer";
   parameter Types.Length lead = 5e-3 "Travel of the screw in one turn";
   parameter Types.Stiffness c(final min=0) = 4e7 "Stiffness of screw, nut and bearings";
@@ -40,7 +42,8 @@ equation
   delivered.power = -force.power;
   stored = winding.stored + rotor.stored + mesh.stored + screwInertia.stored + stops.stored + nut.stored + ram.stored;
   annotation(experiment(StopTime=1, Tolerance=1e-6, Interval=1e-4), Documentation(info="<html>
-<p>A 270 V linear actuator from the same components as <code>FlightControlEma</code>: parameters and a ball screw make it
+<p>A 270 V linear actuator from the same components as <code>FlightControlEma</code>: parameters and a ball screw make
+it
 another machine. Position is controlled at the ram and expressed as the angle of the screw.</p>
 </html>"));
 end BallScrewEma;

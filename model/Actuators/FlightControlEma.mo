@@ -1,9 +1,11 @@
 within Lacuna.Actuators;
 model FlightControlEma "Position servo of a flight control surface: the whole closed loop with its progressive faults"
   extends Interfaces.PartialEma(
-    V=48, R=1.05, L=0.35e-3, Ke=0.0375, Jm=2.5e-5, bm=3e-5, tau_m=0.01, i_limit=15, Kp_i=1.5, Ki_i=500,
+    V=48, R=1.05, L=0.35e-3, Ke=0.0375, Jm=2.5e-5, bm=3e-5, tau_m=0.01,
+    i_limit=15, Kp_i=1.5, Ki_i=500,
     controller(N=N, Kp=18, w_max=550, Kw=0.05, Ki=0.5, i_max=12),
-    followingError(limit=0.05, t_confirm=0.2), overCurrent(limit=14, t_confirm=0.1), overSpeed(limit=620, t_confirm=0.05));
+    followingError(limit=0.05, t_confirm=0.2),
+    overCurrent(limit=14, t_confirm=0.1), overSpeed(limit=620, t_confirm=0.05));
   parameter Types.PerUnit N(final min=1) = 160 "Ratio of the reducer";
   parameter Types.RotationalStiffness k(final min=0) = 1e5 "Stiffness of the transmission, at the surface";
   parameter Types.RotationalDamping d(final min=0) = 12 "Damping of the transmission, at the surface";
@@ -42,7 +44,8 @@ equation
   delivered.power = aero.delivered;
   stored = winding.stored + rotor.stored + transmission.stored + surface.stored + stops.stored;
   annotation(experiment(StopTime=1, Tolerance=1e-6, Interval=1e-4), Documentation(info="<html>
-<p>Command, control electronics, drive, machine, two-mass mechanics with reducer, compliance, play, dry friction and stops,
+<p>Command, control electronics, drive, machine, two-mass mechanics with reducer, compliance, play, dry friction and
+stops,
 aerodynamic load, transducer and supervision: the block diagram of Dalla Vedova et al. in components. The default
 variant has continuous control and an averaged drive; <code>Actuators.Scenarios</code> has others.</p>
 </html>"));

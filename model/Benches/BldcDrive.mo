@@ -43,7 +43,8 @@ J der(w)   = ka ia + kb ib + kc ic - b w - T_f                                  
 T_f        = tau_c sign(w) while it turns; at rest whatever in [-tau_c, tau_c] keeps it there
 der(theta) = w
 </pre>
-<p>Two legs are switched by the rotor's sector and by <code>dir</code>, the third has only its diodes (<code>bridge</code>). A
+<p>Two legs are switched by the rotor's sector and by <code>dir</code>, the third has only its diodes
+(<code>bridge</code>). A
 bus at zero is a short circuit of the three phases; the diodes would short a negative one, which is taken as zero.</p>
 </html>"));
 end BldcDrive;

@@ -12,7 +12,8 @@ equation
 <pre>
 F = c v      device
 </pre>
-<p>Displacement and speed are both recorded, so nothing is differentiated and the bench has no states of its own; those of
+<p>Displacement and speed are both recorded, so nothing is differentiated and the bench has no states of its own;
+those of
 an effect in <code>device</code> would be the only ones.</p>
 </html>"));
 end FrictionDevice;

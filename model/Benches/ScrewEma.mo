@@ -17,7 +17,8 @@ model ScrewEma "Position servo: motor, reducer, elastic transmission and control
   parameter Real Ki(final unit="V/rad") = 6 "Integral gain of the speed loop";
   input Types.Angle theta_cmd "Commanded angle of the surface";
   input Types.Torque T_aero "Load on the surface, against positive angle";
-  Components.Control.ServoController controller(N=N, Kp=Kp, wmax=wmax, Kw=Kw, Ki=Ki, Vdc=Vdc) "Position and speed loops";
+  Components.Control.ServoController controller(N=N, Kp=Kp, wmax=wmax, Kw=Kw, Ki=Ki, Vdc=Vdc)
+    "Position and speed loops";
   Components.Electrical.SignalVoltage drive "Power drive";
   Components.Electrical.Ground ground "Reference potential";
   Components.Drives.DcWinding winding(R=R, L=L, Ke=Ke) "Winding";

@@ -27,7 +27,8 @@ algorithm
     y := ys[low] + (ys[high] - ys[low])*(x - xs[low])/(xs[high] - xs[low]);
   end if;
   annotation(Documentation(info="<html>
-<p>Bisection to the interval, then a straight line. Slopes jump at the knots without an event: a solver with error control
+<p>Bisection to the interval, then a straight line. Slopes jump at the knots without an event: a solver with error
+control
 finds them, one with a fixed step loses order there.</p>
 </html>"));
 end interpolate;

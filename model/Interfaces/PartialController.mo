@@ -11,7 +11,8 @@ partial block PartialController "Actuator control electronics: from commanded po
   RealInput speed(unit="rad/s") "Measured speed of the motor";
   RealOutput i_ref(unit="A") "Reference current";
   annotation(Documentation(info="<html>
-<p>Cascade: a proportional position loop gives a reference speed within <code>-+w_max</code>; a proportional-integral speed
+<p>Cascade: a proportional position loop gives a reference speed within <code>-+w_max</code>; a proportional-integral
+speed
 loop gives a reference current within <code>-+i_max</code>, its integral held at the limit.</p>
 </html>"));
 end PartialController;

@@ -16,7 +16,8 @@ equation
   i_pair = pair.y;
   i_set = if i_ref > i_max then i_max elseif i_ref < -i_max then -i_max else i_ref;
   annotation(Documentation(info="<html>
-<p>Base of the drives that regulate current by six steps. A drive adds the law that turns <code>i_set - i_pair</code> into
+<p>Base of the drives that regulate current by six steps. A drive adds the law that turns <code>i_set - i_pair</code>
+into
 commands of the legs.</p>
 </html>"));
 end PartialDrive;

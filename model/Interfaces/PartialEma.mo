@@ -1,5 +1,5 @@
 within Lacuna.Interfaces;
-partial model PartialEma "Motor side of an actuator: controller, drive, bus, machine with friction, supervision, energies"
+partial model PartialEma "Motor side of an actuator: control, drive, bus, machine with friction, supervision, energies"
   parameter Types.Voltage V(start=48) "Bus voltage";
   parameter Types.Resistance R_bus(final min=0) = 0.05 "Source resistance of the bus";
   parameter Types.Resistance R(final min=0, start=1) "Resistance of a phase";
@@ -22,11 +22,12 @@ partial model PartialEma "Motor side of an actuator: controller, drive, bus, mac
   parameter Types.PerUnit short_c(final min=0, final max=0.99) = 0 "Fault: shorted turns of phase c";
   replaceable Components.Control.PositionController controller constrainedby PartialController
     "Actuator control electronics";
-  replaceable Components.Drives.AveragedDrive drive(V=V, Kp=Kp_i, Ki=Ki_i) constrainedby PartialDrive(i_max=i_limit)
-    "Power drive electronics";
+  replaceable Components.Drives.AveragedDrive drive(V=V, Kp=Kp_i, Ki=Ki_i, i_max=i_limit)
+    constrainedby PartialDrive(i_max=i_limit) "Power drive electronics";
   Components.Electrical.Bus supply(V=V, R=R_bus) "Bus";
   Components.Electrical.Ground ground "Reference potential";
-  Components.Drives.StarWinding winding(R=R, L=L, Ke=Ke, pp=pp, zeta=zeta, shorted={short_a, short_b, short_c}) "Stator";
+  Components.Drives.StarWinding winding(R=R, L=L, Ke=Ke, pp=pp, zeta=zeta, shorted={short_a, short_b, short_c})
+    "Stator";
   Components.Mechanics.Inertia rotor(J=Jm, phi(start=0, fixed=true), w(start=0, fixed=true)) "Rotor";
   Components.Mechanics.ViscousFriction bearing(b=bm) "Viscous friction of the motor";
   Components.Mechanics.DryFriction motorFriction(tau_c=friction*tau_m, mu=friction*mu, peak=peak)
@@ -74,9 +75,11 @@ equation
   switched.power = drive.loss;
   unaccounted = supplied.E - copper.E - rubbed.E - switched.E - delivered.E - stored;
   annotation(Documentation(info="<html>
-<p>Everything of an electromechanical actuator up to the output of its motor, <code>motorFriction.flange_b</code>. An actuator
+<p>Everything of an electromechanical actuator up to the output of its motor, <code>motorFriction.flange_b</code>. An
+actuator
 adds the transmission, the output, its load and transducer, and the energies <code>rubbed.power</code>,
-<code>delivered.power</code> and <code>stored</code>. Controller and drive can be redeclared: continuous or sampled control,
+<code>delivered.power</code> and <code>stored</code>. Controller and drive can be redeclared: continuous or sampled
+control,
 averaged or switched current regulation.</p>
 <p>Fault parameters run from healthy (<code>friction = 1</code>, all others 0) to failed.</p>
 </html>"));

@@ -30,14 +30,17 @@ equation
   end when;
   loss = tau_fric*w_fric;
   annotation(Documentation(info="<html>
-<p>Dry friction opposes motion with <code>tau_slide</code>; at rest it takes whatever value keeps the body at rest, up to
+<p>Dry friction opposes motion with <code>tau_slide</code>; at rest it takes whatever value keeps the body at rest, up
+to
 <code>tau_break</code>. Torque is thus no function of speed: while it slides the torque is known and the acceleration
 follows, while it is stuck the acceleration is known and the torque follows; <code>mode</code> says which.</p>
 <p>Sliding ends when the speed passes zero; the speed is then set to exactly zero and its derivative is zero, so a stuck
-element never creeps. In the same event the torque needed to hold it becomes known: if it exceeds <code>tau_break</code> the
+element never creeps. In the same event the torque needed to hold it becomes known: if it exceeds
+<code>tau_break</code> the
 element slides on at once in the sense of that torque. All conditions are strict, so none is exactly on its switching
 point when the integration goes on.</p>
-<p>Why not a smooth law such as <code>tanh(w/w0)</code>: it creeps under a constant load and is stiff near rest. Two stuck
+<p>Why not a smooth law such as <code>tanh(w/w0)</code>: it creeps under a constant load and is stiff near rest. Two
+stuck
 elements on one rigid shaft share their load in no unique way; such a model is refused.</p>
 <p>Reference: M. Otter, H. Elmqvist, S. E. Mattsson: Hybrid modeling in Modelica based on the synchronous data flow
 principle, CACSD 1999.</p>

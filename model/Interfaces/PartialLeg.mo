@@ -52,7 +52,8 @@ again.</p>
 <code>i = 0</code>. What is left of the current when the event is found (below <code>i_off</code>) decays in
 <code>T_open</code>. Currents of three phases at one star point are not independent, so the residue of the third is
 not exactly zero; it is remembered when the leg conducts again, so that rounding cannot put the diode out at once.</p>
-<p>The terminal must be connected to an inductive load. When every leg of an isolated load is open its potential would be
+<p>The terminal must be connected to an inductive load. When every leg of an isolated load is open its potential would
+be
 undetermined; <code>leak</code> then puts its mean midway between the rails, at a current of picoamperes.</p>
 </html>"));
 end PartialLeg;

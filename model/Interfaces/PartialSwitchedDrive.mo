@@ -13,6 +13,7 @@ equation
   connect(bridge.b, b);
   connect(bridge.c, c);
   annotation(Documentation(info="<html>
-<p>Bipolar (hard) chopping: the driven pair sees plus or minus the bus voltage, as <code>commutation.dir</code> says.</p>
+<p>Bipolar (hard) chopping: the driven pair sees plus or minus the bus voltage, as <code>commutation.dir</code>
+says.</p>
 </html>"));
 end PartialSwitchedDrive;

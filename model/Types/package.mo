@@ -16,7 +16,8 @@ package Types "Physical quantities in SI units, and the enumerations of the libr
   type Damping = Real(final quantity="TranslationalDampingConstant", final unit="N.s/m");
   type RotationalStiffness = Real(final quantity="RotationalSpringConstant", final unit="N.m/rad");
   type RotationalDamping = Real(final quantity="RotationalDampingConstant", final unit="N.m.s/rad");
-  type ContactDamping = Real(final quantity="ContactDamping", final unit="s/rad") "Loss factor of a Hunt-Crossley contact";
+  type ContactDamping = Real(final quantity="ContactDamping", final unit="s/rad")
+    "Loss factor of a Hunt-Crossley contact";
   type Lead = Real(final quantity="Lead", final unit="m/rad") "Travel of a screw for one radian";
   type Voltage = Real(final quantity="ElectricPotential", final unit="V");
   type Current = Real(final quantity="ElectricCurrent", final unit="A");

@@ -11,7 +11,8 @@ equation
     y = max(-range, min(range - lsb, lsb*floor(u/lsb + 0.5)));
   end when;
   annotation(Documentation(info="<html>
-<p>Law: the nearest multiple of <code>lsb = 2 range/2^bits</code> within the range, at each sample, held between samples. The
+<p>Law: the nearest multiple of <code>lsb = 2 range/2^bits</code> within the range, at each sample, held between
+samples. The
 error is uniform within <code>lsb/2</code>, of standard deviation <code>lsb/sqrt(12)</code>, until the range ends.</p>
 </html>"));
 end Adc;

@@ -14,7 +14,8 @@ equation
   y = if y_free > y_max then y_max elseif y_free < y_min then y_min else y_free;
   Ti*der(x) = if y_free > y_max and k*u > 0 or y_free < y_min and k*u < 0 then 0 else u;
   annotation(Documentation(info="<html>
-<p>Law: <code>y = k (u + integral(u)/Ti)</code> within the limits. The integral is held while the output is at a limit and
+<p>Law: <code>y = k (u + integral(u)/Ti)</code> within the limits. The integral is held while the output is at a limit
+and
 the input would drive it further in (conditional integration), so it leaves the limit without delay.</p>
 <p>Reference: K. J. Astrom, T. Hagglund: PID Controllers, 2nd ed., ISA 1995, section 3.5.</p>
 </html>"));

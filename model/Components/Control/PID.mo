@@ -19,7 +19,8 @@ equation
   y = if y_free > y_max then y_max elseif y_free < y_min then y_min else y_free;
   Ti*der(x) = if y_free > y_max and k*u > 0 or y_free < y_min and k*u < 0 then 0 else u;
   annotation(Documentation(info="<html>
-<p>Law: <code>y = k (1 + 1/(Ti s) + Td s/(1 + Td/Nd s)) u</code> within the limits; <code>Td = 0</code> is <code>PI</code>.
+<p>Law: <code>y = k (1 + 1/(Ti s) + Td s/(1 + Td/Nd s)) u</code> within the limits; <code>Td = 0</code> is
+<code>PI</code>.
 The filter starts at zero, so a step of the input at the start is differentiated too.</p>
 </html>"));
 end PID;

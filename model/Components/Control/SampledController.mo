@@ -28,7 +28,8 @@ equation
     x = if abs(i_free) > i_max and i_free*error > 0 then pre(x) else pre(x) + T*Ki*error;
   end when;
   annotation(Documentation(info="<html>
-<p>The law of <code>PositionController</code> evaluated at each sample on converted inputs; the reference is held between
+<p>The law of <code>PositionController</code> evaluated at each sample on converted inputs; the reference is held
+between
 samples.</p>
 </html>"));
 end SampledController;

@@ -16,7 +16,8 @@ equation
     x = if (y_free > y_max and k*u > 0) or (y_free < y_min and k*u < 0) then pre(x) else pre(x) + T/Ti*u;
   end when;
   annotation(Documentation(info="<html>
-<p><code>PI</code> with the integral by forward differences: <code>x(n+1) = x(n) + T/Ti u(n)</code>. The output is held between
+<p><code>PI</code> with the integral by forward differences: <code>x(n+1) = x(n) + T/Ti u(n)</code>. The output is
+held between
 samples and appears without computing time.</p>
 </html>"));
 end SampledPI;

@@ -24,8 +24,10 @@ equation
   u = if u_free > Vdc then Vdc elseif u_free < -Vdc then -Vdc else u_free;
   der(xi) = if u_free > Vdc and error > 0 or u_free < -Vdc and error < 0 then 0 else error;
   annotation(Documentation(info="<html>
-<p>Proportional position loop with a limited speed reference, and a proportional-integral speed loop whose integral is held
-while the voltage is at its limit and the error would drive it further in. On <code>N</code>: the position is that of the
+<p>Proportional position loop with a limited speed reference, and a proportional-integral speed loop whose integral is
+held
+while the voltage is at its limit and the error would drive it further in. On <code>N</code>: the position is that of
+the
 output, the speed that of the motor.</p>
 </html>"));
 end ServoController;

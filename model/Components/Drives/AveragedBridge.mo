@@ -23,7 +23,8 @@ equation
   connect(duty, leg_b.duty);
   connect(duty, leg_c.duty);
   annotation(Documentation(info="<html>
-<p>The pair of driven legs puts <code>duty</code> times the bus voltage across its two phases; the third leg floats with its
+<p>The pair of driven legs puts <code>duty</code> times the bus voltage across its two phases; the third leg floats
+with its
 diodes, as in <code>Bridge</code>. <code>duty = 1</code> is full voltage.</p>
 </html>"));
 end AveragedBridge;

@@ -24,6 +24,7 @@ equation
   annotation(Documentation(info="<html>
 <p>Proportional-integral control of the pair's current; the duty saturates at full voltage, and the integral is held
 while it would drive further into saturation. The duty is computed for the nominal bus voltage, as a drive without a
-measurement of its bus does; the loop makes up for a sag. The fast variant: its only events are commutations and limits.</p>
+measurement of its bus does; the loop makes up for a sag. The fast variant: its only events are commutations and
+limits.</p>
 </html>"));
 end AveragedDrive;

@@ -19,7 +19,8 @@ equation
   connect(leg[2], leg_b.u);
   connect(leg[3], leg_c.u);
   annotation(Documentation(info="<html>
-<p>Lossless: the power taken from the rails is the power given to the load. What a real bridge loses is added at its pins
+<p>Lossless: the power taken from the rails is the power given to the load. What a real bridge loses is added at its
+pins
 (a resistance in a line, a source resistance at the rails).</p>
 </html>"));
 end Bridge;

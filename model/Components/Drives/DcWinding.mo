@@ -19,7 +19,8 @@ equation
   loss = R*i*i;
   stored = L*i*i/2;
   annotation(Documentation(info="<html>
-<p>Laws: <code>L der(i) = v - R i - Ke w</code>, torque <code>Ke i</code>. It also stands for a brushless machine with ideal
+<p>Laws: <code>L der(i) = v - R i - Ke w</code>, torque <code>Ke i</code>. It also stands for a brushless machine with
+ideal
 current control, seen from its direct-current side.</p>
 </html>"));
 end DcWinding;

@@ -8,7 +8,8 @@ equation
   raise = if pre(raise) then not i_pair > i_set + band else i_pair < i_set - band;
   commutation.dir = if raise then 1 else -1;
   annotation(Documentation(info="<html>
-<p>The voltage is reversed whenever the current leaves <code>i_set -+ band</code>. Its switching frequency follows from bus
+<p>The voltage is reversed whenever the current leaves <code>i_set -+ band</code>. Its switching frequency follows
+from bus
 voltage, back-EMF and inductance, about <code>V/(8 L band)</code> at rest; a narrow band costs events.</p>
 </html>"));
 end HysteresisDrive;

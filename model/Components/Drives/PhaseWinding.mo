@@ -23,7 +23,8 @@ equation
   stored = turns*turns*L*i*i/2;
   annotation(Documentation(info="<html>
 <p>Laws: <code>L der(i) = v - R i - k w</code> and torque <code>k i</code>; one constant in both, so electrical power
-<code>e i</code> is mechanical power <code>tau w</code>. When a fraction <code>f</code> of the turns is shorted, resistance
+<code>e i</code> is mechanical power <code>tau w</code>. When a fraction <code>f</code> of the turns is shorted,
+resistance
 and back-EMF fall with the turns left, <code>1 - f</code>, and the inductance with their square.</p>
 <p>Reference: M. Battipede, M. D. L. Dalla Vedova, P. Maggiore, S. Romeo: Model based analysis of precursors of
 electromechanical servomechanisms failures using an artificial neural network, AIAA MST 2015.</p>

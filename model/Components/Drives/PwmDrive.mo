@@ -28,7 +28,8 @@ equation
   end when;
   commutation.dir = if high then 1 else -1;
   annotation(Documentation(info="<html>
-<p>At the start of each period a sampled proportional-integral law gives the duty; the pair sees the positive bus voltage
+<p>At the start of each period a sampled proportional-integral law gives the duty; the pair sees the positive bus
+voltage
 for <code>(1 + duty)/2</code> of the period and the negative for the rest. The integral is held while the duty is at its
 limit. The ripple of the current at rest is <code>V T (1 - duty^2)/(4 L)</code> peak to peak for the pair.</p>
 </html>"));

@@ -7,7 +7,8 @@ model StarWinding "Stator of a trapezoidal machine: three windings in star with 
   parameter Integer pp(final min=1) = 2 "Pole pairs";
   parameter Types.PerUnit zeta(final min=0, final max=0.99) = 0 "Static eccentricity over air gap";
   parameter Eccentricity convention = Eccentricity.RotorAngle "How eccentricity modulates the back-EMF";
-  parameter Types.Angle phi_zeta = 0 "Direction of the narrow gap from the axis of phase a, electrical (StatorFixed only)";
+  parameter Types.Angle phi_zeta = 0
+    "Direction of the narrow gap from the axis of phase a, electrical (StatorFixed only)";
   parameter Types.PerUnit shorted[3](each final min=0, each final max=0.99) = {0, 0, 0} "Shorted turns of each phase";
   Interfaces.PositivePin pin_a "Terminal of phase a";
   Interfaces.PositivePin pin_b "Terminal of phase b";
@@ -52,7 +53,8 @@ equation
   loss = a.loss + b.loss + c.loss;
   stored = a.stored + b.stored + c.stored;
   annotation(Documentation(info="<html>
-<p>Phase x has the back-EMF constant <code>k_x = Ke trap(theta_e - axis_x) gap_x</code>. The trapezoid is flat from 30 to 150
+<p>Phase x has the back-EMF constant <code>k_x = Ke trap(theta_e - axis_x) gap_x</code>. The trapezoid is flat from 30
+to 150
 electrical degrees; its corners are the bounds of the sectors, so in every sector it is constant or linear. The
 neutral is isolated: the three currents sum to zero, two of them are states, and the potential of the star point
 follows, also for an unbalanced machine.</p>
@@ -61,7 +63,8 @@ follows, also for an unbalanced machine.</p>
 Battipede et al. (2015) whose constant follows the rotor's angle. <code>StatorFixed</code>:
 <code>gap_x = 1 + zeta cos(phi_zeta - axis_x)</code>, constant for each phase, the first order of the flux in an air gap
 <code>g0 - x0 cos(alpha)</code> that does not turn with the rotor.</p>
-<p>Reference: B. K. Lee, M. Ehsani: Advanced simulation model for brushless DC motor drives, Electric Power Components and
+<p>Reference: B. K. Lee, M. Ehsani: Advanced simulation model for brushless DC motor drives, Electric Power Components
+and
 Systems 31 (2003) 841-868.</p>
 </html>"));
 end StarWinding;

@@ -10,7 +10,8 @@ equation
   power = -V*i;
   loss = R*i*i;
   annotation(Documentation(info="<html>
-<p>Law: <code>v = V + R i</code> with <code>i</code> into the positive pin, so a load that draws current makes the bus sag.
+<p>Law: <code>v = V + R i</code> with <code>i</code> into the positive pin, so a load that draws current makes the bus
+sag.
 <code>R = 0</code> is the ideal bus. It takes current back: a braking drive returns energy.</p>
 </html>"));
 end Bus;

@@ -27,7 +27,8 @@ equation
   annotation(Documentation(info="<html>
 <p>Within the play no torque passes. In contact, <code>tau = c delta + d w_rel</code> with the damping part limited to
 <code>|c delta|</code>.</p>
-<p>Why the limit: the plain sum pulls teeth together when they part quickly, and jumps when they meet at speed. With it the
+<p>Why the limit: the plain sum pulls teeth together when they part quickly, and jumps when they meet at speed. With
+it the
 torque keeps the sign of the deformation, lies between zero and twice the elastic one, and begins at zero. Limit case:
 with <code>b = 0</code> teeth never part and it is the linear spring and damper.</p>
 <p>Reference: Modelica Standard Library, Rotational.Components.ElastoBacklash.</p>

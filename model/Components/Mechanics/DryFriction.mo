@@ -14,7 +14,8 @@ equation
   tau_slide = tau_c + mu*noEvent(abs(flange_b.tau));
   tau_break = peak*tau_slide;
   annotation(Documentation(info="<html>
-<p>Law: <code>tau_c + mu |flange_b.tau|</code> against the motion, <code>peak</code> times as much before it moves. With the
+<p>Law: <code>tau_c + mu |flange_b.tau|</code> against the motion, <code>peak</code> times as much before it moves.
+With the
 load on <code>flange_b</code> the second term is the friction of meshing teeth or of a loaded screw: efficiency
 <code>1 - mu</code> when driving. <code>tau_c = 0, mu = 0</code> is no friction.</p>
 </html>"));

@@ -22,9 +22,11 @@ equation
   loss = (tau - side*c*depth)*w;
   stored = c*depth*depth/2;
   annotation(Documentation(info="<html>
-<p>Contact after Hunt and Crossley: <code>tau = c delta (1 + lambda d|delta|/dt)</code>, never pulling. The torque begins at
+<p>Contact after Hunt and Crossley: <code>tau = c delta (1 + lambda d|delta|/dt)</code>, never pulling. The torque
+begins at
 zero whatever the speed of impact, which the law <code>c delta + d w</code> does not, and ends at zero. A share of about
-<code>2/3 lambda w</code> of the energy of an impact at speed <code>w</code> is lost in each half when <code>lambda w</code>
+<code>2/3 lambda w</code> of the energy of an impact at speed <code>w</code> is lost in each half when <code>lambda
+w</code>
 is small.</p>
 <p>Reference: K. H. Hunt, F. R. E. Crossley: Coefficient of restitution interpreted as damping in vibroimpact, J. Appl.
 Mech. 42 (1975) 440-445.</p>

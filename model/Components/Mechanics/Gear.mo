@@ -6,7 +6,8 @@ equation
   flange_a.phi = ratio*flange_b.phi;
   0 = ratio*flange_a.tau + flange_b.tau;
   annotation(Documentation(info="<html>
-<p>Laws: <code>phi_a = ratio phi_b</code>, <code>tau_b = -ratio tau_a</code>. No power is lost. Inertias on its two sides
+<p>Laws: <code>phi_a = ratio phi_b</code>, <code>tau_b = -ratio tau_a</code>. No power is lost. Inertias on its two
+sides
 become one: their constraint is differentiated.</p>
 </html>"));
 end Gear;

@@ -11,7 +11,8 @@ equation
   flange.tau = tau;
   delivered = tau*der(flange.phi);
   annotation(Documentation(info="<html>
-<p>Law: <code>tau0 + c phi + u(t)</code>, opposing positive deflection: constant, proportional to deflection, and recorded
+<p>Law: <code>tau0 + c phi + u(t)</code>, opposing positive deflection: constant, proportional to deflection, and
+recorded
 or commanded in time (connect a <code>Sources.CsvTable</code> to <code>u</code>). A negative <code>c</code> is an
 overbalanced surface.</p>
 </html>"));

@@ -18,7 +18,8 @@ equation
     t_trip = if pre(tripped) then pre(t_trip) else time;
   end when;
   annotation(Documentation(info="<html>
-<p>Following error, over-current and over-speed are supervised in this way: a short excess is a transient, a confirmed one a
+<p>Following error, over-current and over-speed are supervised in this way: a short excess is a transient, a confirmed
+one a
 fault. The flag is latched and the time of the first trip kept. With <code>t_confirm = 0</code> it trips at once.</p>
 </html>"));
 end Supervisor;

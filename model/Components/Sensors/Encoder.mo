@@ -13,7 +13,8 @@ equation
     y = resolution*floor(flange.phi/resolution);
   end when;
   annotation(Documentation(info="<html>
-<p>Law: the largest multiple of <code>2 pi/steps</code> not above the angle, at each reading. Steps between two readings cost
+<p>Law: the largest multiple of <code>2 pi/steps</code> not above the angle, at each reading. Steps between two
+readings cost
 no event.</p>
 </html>"));
 end Encoder;

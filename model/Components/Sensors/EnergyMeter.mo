@@ -5,7 +5,8 @@ block EnergyMeter "Energy from a power"
 equation
   der(E) = power;
   annotation(Documentation(info="<html>
-<p>Law: <code>der(E) = power</code>. It is integrated with the model and under the same error control, so a balance of meters
+<p>Law: <code>der(E) = power</code>. It is integrated with the model and under the same error control, so a balance of
+meters
 closes to the solver's tolerance.</p>
 </html>"));
 end EnergyMeter;

@@ -27,9 +27,11 @@ equation
     y = std*sqrt(-2*log(1 - u1))*cos(2*pi*u2);
   end when;
   annotation(Documentation(info="<html>
-<p>A new value every <code>T</code>, held between, so the sequence does not depend on the steps of a solver. Uniform numbers
+<p>A new value every <code>T</code>, held between, so the sequence does not depend on the steps of a solver. Uniform
+numbers
 by Wichmann and Hill (period 7e12), made normal by Box and Muller.</p>
-<p>References: B. A. Wichmann, I. D. Hill: Algorithm AS 183, Applied Statistics 31 (1982) 188-190. G. E. P. Box, M. E. Muller:
+<p>References: B. A. Wichmann, I. D. Hill: Algorithm AS 183, Applied Statistics 31 (1982) 188-190. G. E. P. Box, M. E.
+Muller:
 Annals of Mathematical Statistics 29 (1958) 610-611.</p>
 </html>"));
 end Noise;

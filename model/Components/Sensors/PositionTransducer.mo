@@ -13,7 +13,8 @@ equation
   flange.tau = 0;
   der(y)/(2*pi*f_c) = gain*flange.phi + offset - y;
   annotation(Documentation(info="<html>
-<p>Law: <code>gain phi + offset</code> behind a first-order lag, as of an RVDT with its demodulator. In a position loop the
+<p>Law: <code>gain phi + offset</code> behind a first-order lag, as of an RVDT with its demodulator. In a position
+loop the
 output settles at <code>(command - offset)/gain</code>: an offset is invisible to the loop.</p>
 </html>"));
 end PositionTransducer;

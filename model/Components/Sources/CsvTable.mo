@@ -22,7 +22,8 @@ equation
   end when;
   y = y0 + slope*(time - t0);
   annotation(Documentation(info="<html>
-<p>Each sample is a time event, so the corners of the line are met exactly; before the first and after the last sample the
+<p>Each sample is a time event, so the corners of the line are met exactly; before the first and after the last sample
+the
 signal is constant.</p>
 </html>"));
 end CsvTable;

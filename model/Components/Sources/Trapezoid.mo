@@ -20,7 +20,8 @@ equation
   y = offset + amplitude*(if time < t_start then 0 elseif t < rising then t/rising elseif t < rising + width then 1
     elseif t < rising + width + falling then 1 - (t - rising - width)/falling else 0);
   annotation(Documentation(info="<html>
-<p>Rise, upper level, fall, lower level, again and again. Short <code>rising</code> and <code>falling</code> make it a square
+<p>Rise, upper level, fall, lower level, again and again. Short <code>rising</code> and <code>falling</code> make it a
+square
 wave.</p>
 </html>"));
 end Trapezoid;
