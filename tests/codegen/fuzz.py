@@ -27,11 +27,12 @@ PATIENCE = 10.0  # seconds for one small model
 
 _PIECE = re.compile(r'"[^"]*"|[A-Za-z_]\w*|[0-9.]+(?:[eE][+-]?\d+)?|<=|>=|==|<>|:=|\s+|.', re.DOTALL)
 _SPICE = (
-    "end", "if", "then", "else", "for", "loop", "when", "elsewhen", "model", "extends", "connect", "der", "pre", "(", ")",
-    "[", "]", "{", "}", ",", ";", "=", ":=", ":", ".", "-", "+", "*", "/", "^", "0", "-1", "1e308", "99999", "time", "end",
-    "each", "final", "redeclare", "replaceable", "flow", "input", "parameter", "constant", "discrete", "Real", "Integer",
-    "Boolean", "String", "true", "not", "and", "size", "sum", "zeros", "fill", "sample", "reinit", "equation", "algorithm",
-    "initial", "protected", "annotation", "import", "within", "break", "function", "record", "\"", "/*", "'", "\\", "\0", "é",
+    "end", "if", "then", "else", "for", "loop", "when", "elsewhen", "model", "extends", "connect", "der", "pre", "(",
+    ")", "[", "]", "{", "}", ",", ";", "=", ":=", ":", ".", "-", "+", "*", "/", "^", "0", "-1", "1e308", "99999",
+    "time", "end", "each", "final", "redeclare", "replaceable", "flow", "input", "parameter", "constant", "discrete",
+    "Real", "Integer", "Boolean", "String", "true", "not", "and", "size", "sum", "zeros", "fill", "sample", "reinit",
+    "equation", "algorithm", "initial", "protected", "annotation", "import", "within", "break", "function", "record",
+    "\"", "/*", "'", "\\", "\0", "é",
 )  # fmt: skip
 
 

@@ -192,7 +192,9 @@ def test_initial_sections(tmp_path: Path) -> None:
 
 def test_experiment_is_read_and_inherited(tmp_path: Path) -> None:
     text = """
-    model Base Real x = time; annotation(experiment(StopTime = 3, Tolerance = 1e-8), Icon(graphics = {Line()})); end Base;
+    model Base Real x = time;
+      annotation(experiment(StopTime = 3, Tolerance = 1e-8), Icon(graphics = {Line()}));
+    end Base;
     model M extends Base; end M;"""
     experiment = flatten_text(tmp_path, text).experiment
     assert (experiment.stop_time, experiment.tolerance, experiment.interval) == (3.0, 1e-8, None)

@@ -1,0 +1,157 @@
+"""Unit strings, and the check of equations against them."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+from codegen.errors import Diagnostic
+from codegen.units import format_unit, parse_unit
+from tests.codegen.front.helpers import flatten_text
+
+
+@pytest.mark.parametrize(
+    ("text", "same_as", "factor"),
+    [
+        ("N.m", "kg.m2/s2", 1),
+        ("V.s/rad", "Wb", 1),
+        ("N.m.s/rad", "J.s", 1),
+        ("1/s", "Hz", 1),
+        ("W/(m2.K)", "kg/(s3.K)", 1),
+        ("m/s2", "m.s-2", 1),
+        ("kN", "N", 1e3),
+        ("mA", "A", 1e-3),
+        ("uF", "F", 1e-6),
+        ("deg", "rad", math.pi / 180),
+        ("%", "1", 0.01),
+        ("rev/min", "rad/s", 2 * math.pi / 60),
+        ("g.cm2", "kg.m2", 1e-7),
+        ("mOhm", "V/A", 1e-3),
+        ("kW.h", "J", 3.6e6),
+        ("min", "s", 60),
+        ("Pa", "N/m2", 1),
+    ],
+)
+def test_unit_strings(text: str, same_as: str, factor: float) -> None:
+    unit, reference = parse_unit(text), parse_unit(same_as)
+    assert unit.exponents == reference.exponents
+    assert unit.factor == pytest.approx(factor * reference.factor, rel=1e-12)
+
+
+@pytest.mark.parametrize("text", ["furlong", "m//s", "N m", "m/s/s", "2m", "m^2", "kkg", ""])
+def test_what_is_no_unit(text: str) -> None:
+    with pytest.raises(ValueError, match=r".+"):
+        parse_unit(text)
+
+
+def test_names_of_units() -> None:
+    assert [format_unit(parse_unit(t)) for t in ("kg.m2/(s3.A)", "kg.m2/s2", "s-1", "m2", "mm")] == [
+        "V", "N.m", "1/s", "m2", "0.001 m",
+    ]  # fmt: skip
+
+
+DECLARED = """model M
+  parameter Real R(unit = "Ohm") = 2, L(unit = "H") = 1e-3, k(unit = "V.s/rad") = 0.1;
+  parameter Real J(unit = "kg.m2") = 1e-5, d(unit = "N.m.s/rad") = 1e-6, c(unit = "N.m/rad") = 1;
+  parameter Integer pairs = 2;
+  constant Real pi = 3.14159;
+  Real i(unit = "A"), u(unit = "V"), w(unit = "rad/s"), phi(unit = "rad"), tau(unit = "N.m"), x;
+equation
+  {}
+end M;"""
+
+
+@pytest.mark.parametrize(
+    "equation",
+    [
+        "L*der(i) = u - R*i - k*w",
+        "J*der(w) = tau - d*w - c*phi",
+        "tau = k*i",
+        "x = sin(pairs*phi - pi/6)",
+        "x = 0.5*J*w^2 + tau*phi",
+        "w = 2*pi/time",
+        "u = if w > 0 and i < 3 then 12 else R*i",
+        "tau = max(0, min(c*phi, 5))",
+        "phi = atan2(u, R*i)",
+        "x = sqrt(w^2 + 1e-6)*time",
+        "w = w*exp(-phi) + der(phi)",
+        "tau = noEvent(abs(tau))*sign(w)",
+        "phi = mod(phi + pi, 2*pi)",
+        "u = smooth(0, if i > 0 then R*i else 0)",
+        "x = integer(phi/0.1)",
+    ],
+)
+def test_sound_equations_pass(tmp_path: Path, equation: str) -> None:
+    flatten_text(tmp_path, DECLARED.format(equation + ";"))
+
+
+@pytest.mark.parametrize(
+    ("equation", "code", "words"),
+    [
+        ("L*der(i) = u - R*i - k", "U002", "k is in V.s/rad"),
+        ("tau = k*u", "U001", "tau is in N.m"),
+        ("J*w = tau", "U001", "J * w is in N.m.s"),
+        ("x = sin(w)", "U003", "w is in rad/s"),
+        ("x = i + w", "U002", "i is in A, w is in rad/s"),
+        ("x = if u > i then 1 else 2", "U002", "compared"),
+        ("x = 2^tau", "U003", "exponent"),
+        ("x = w^pairs", "U003", "varies"),
+        ("tau = max(u, i)", "U002", "compared by max"),
+        ("phi = mod(phi, tau)", "U002", "arguments of mod"),
+    ],
+)
+def test_unsound_equations_show_both_sides(tmp_path: Path, equation: str, code: str, words: str) -> None:
+    with pytest.raises(Diagnostic) as refused:
+        flatten_text(tmp_path, DECLARED.format(equation + ";"))
+    assert refused.value.code == code
+    assert words in str(refused.value)
+    assert refused.value.span.line == 8
+
+
+def test_units_that_are_not_declared_are_inferred(tmp_path: Path) -> None:
+    """e gets volts from its own equation, so that its use as a torque is refused."""
+    text = DECLARED.format("e = k*w; loss = e*i; tau = e;").replace(" x;", " x, e, loss;")
+    with pytest.raises(Diagnostic) as refused:
+        flatten_text(tmp_path, text)
+    assert refused.value.code == "U001"
+    assert refused.value.others == []
+
+
+def test_the_check_can_warn_or_rest(tmp_path: Path) -> None:
+    text = DECLARED.format("tau = k*u;")
+    (warning,) = flatten_text(tmp_path, text, units="warn").warnings
+    assert (warning.code, warning.severity) == ("U001", "warning")
+    assert "warning[U001]" in str(warning)
+    assert flatten_text(tmp_path, text, units="off").warnings == []
+
+
+def test_arguments_and_results_of_functions(tmp_path: Path) -> None:
+    function = """
+    function drop input Real r(unit = "Ohm"); input Real a(unit = "A"); output Real v(unit = "V");
+    algorithm v := r*a; end drop;
+    """
+    flatten_text(tmp_path, function + DECLARED.format("u = drop(R, i);"))
+    for wrong, words in (("u = drop(R, u);", "input a of drop"), ("tau = drop(R, i);", "left and right")):
+        with pytest.raises(Diagnostic, match=words):
+            flatten_text(tmp_path, function + DECLARED.format(wrong))
+
+
+def test_bindings_starts_and_events_are_checked(tmp_path: Path) -> None:
+    text = """model M
+      parameter Real v0(unit = "m/s") = 1, s0(unit = "m") = 2;
+      parameter Real twice(unit = "m") = 2*v0;
+      Real s(unit = "m", start = v0);
+      Real v(unit = "m/s");
+    equation
+      v = der(s);
+      der(v) = -9.81;
+      when s < v then
+        reinit(v, -s);
+      end when;
+    end M;"""
+    with pytest.raises(Diagnostic) as refused:
+        flatten_text(tmp_path, text)
+    lines = [refused.value.span.line, *(other.span.line for other in refused.value.others)]
+    assert sorted(lines) == [3, 4, 9, 10]
