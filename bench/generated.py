@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bench.by_hand import Problem, T1, T2
+from bench.by_hand import T1, T2, Problem
 
 ROOT = Path(__file__).parents[1]
 RTOL, ATOL = 1e-6, 1e-8

@@ -16,15 +16,15 @@ GOAL = 5.0  # s on two cores: simulation and analysis of the whole map, after se
 
 
 def split(rounds: int) -> list[dict[str, object]]:
-    """One row a part; times in s. The map is drawn anew, without figures for the first rows, `rounds` // 3 times."""
-    settings = load_settings()
+    """One row a part, times in s: the best of `rounds` // 3 maps drawn anew, the first one with figures."""
+    settings, repeats = load_settings(), max(1, rounds // 3)
     with tempfile.TemporaryDirectory() as cache:
         begin = time.perf_counter()
         compiled = compile_model(settings.model, cache_directory=cache)
         rows = [_row("translate and compile the model", time.perf_counter() - begin)]
         plant = ModelPlant(compiled.name, compiled.path, compiled.hash, settings, compiled.report.seconds)
         with tempfile.TemporaryDirectory() as folder:
-            maps = [build_map(plant, settings, Path(folder), resume=False, figures=k == 0) for k in range(rounds // 3 or 1)]
+            maps = [build_map(plant, settings, Path(folder), resume=False, figures=k == 0) for k in range(repeats)]
     best = min((m.seconds for m in maps), key=lambda seconds: seconds["sweep"])
     severities, cores = len(maps[0].rows), os.cpu_count()
     rows += [

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bench.by_hand import Problem, T1, T2, with_ida, with_rk4
-from bench.generated import ATOL, LANES, Lane, RTOL, error_against, model_file
+from bench.by_hand import T1, T2, Problem, with_ida, with_rk4
+from bench.generated import ATOL, LANES, RTOL, Lane, error_against, model_file
 from bench.timing import take_turns
 from codegen.compile import compile_model
 import runtime

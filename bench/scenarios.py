@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from bench.generated import ATOL, LANES, Lane, RTOL, error_against
+from bench.generated import ATOL, LANES, RTOL, Lane, error_against
 from bench.timing import take_turns
 from codegen.compile import compile_model
 import runtime

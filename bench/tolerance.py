@@ -123,7 +123,7 @@ def page(found: Findings) -> str:
             for r, d, s, equal in rows
         ),
         *(f"| rk4, step {step:g} s | | | | {s:.3f} |" for step, s in found.fixed), "",
-        f"The absolute tolerance is {ABSOLUTE:g} times the relative one, for each unit of a variable's nominal value.", "",
+        f"The absolute tolerance is {ABSOLUTE:g} times the relative one, for each unit of a nominal value.", "",
         f"A map is allowed {ALLOWED:g}: on 300 mA that is 3 uA, five thousand times less than the rise of the smallest",
         f"band, 16 mA. The maps use {solver} at {rtol:g}; it deviates by {deviation:.1e}, "
         + ("within what is allowed." if deviation <= ALLOWED else "MORE than what is allowed."), "",

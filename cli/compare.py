@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 @reported
 def compare(
     model: Annotated[str | None, typer.Argument(metavar="[MODEL]", help=MODEL_HELP)] = None,
-    against: Annotated[Path | None, typer.Option(help="A CSV produced elsewhere, time and full names in its header")] = None,
+    against: Annotated[Path | None, typer.Option(help="A CSV produced elsewhere; header: time and full names")] = None,
     tolerance: Annotated[float, typer.Option(help="Largest deviation from the file, of a signal's magnitude")] = 1e-3,
     only: Annotated[list[str] | None, typer.Option(help="Only this scenario; repeat for more")] = None,
     scenarios: Annotated[Path | None, typer.Option(help="Scenarios of your own, a TOML file")] = None,

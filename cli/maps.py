@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 
 @reported
 def maps(
-    actuator: Annotated[str | None, typer.Argument(metavar="[ACTUATOR]", help="Model; default: the settings' own")] = None,
+    actuator: Annotated[
+        str | None, typer.Argument(metavar="[ACTUATOR]", help="Model; default: that of the settings")
+    ] = None,
     settings: Annotated[Path | None, typer.Option(help="Sampling, spectra, fault axis and bands, a TOML file")] = None,
     out: Annotated[Path | None, typer.Option(help="Folder of the map; default: out/maps/NAME of the settings")] = None,
     jobs: Annotated[int | None, typer.Option(min=1, help="Simulations at once; default: one a core")] = None,
@@ -54,7 +56,7 @@ def _report(finished: Map) -> None:
     for row in finished.summary["comparison"]:
         table.add_row(row["quantity"], _text(row["published"]), _text(row["reproduced"]), row["unit"])
     console.print(table)
-    split = ", ".join(f"{name.replace('_cpu', ' (summed over cores)')} {s:.2f} s" for name, s in finished.seconds.items())
+    split = ", ".join(f"{name.replace('_cpu', ' (all cores)')} {s:.2f} s" for name, s in finished.seconds.items())
     console.print(f"{len(finished.rows)} severities: {split}")
     console.print(f"written: {finished.folder}")
 

@@ -26,7 +26,9 @@ Inputs = Annotated[
 @reported
 def simulate(
     model: Model,
-    solver: Annotated[Solver, typer.Option(help="ida: reference; dopri5, rodas4: fast lanes; rk4, euler: fixed step")] = "ida",
+    solver: Annotated[
+        Solver, typer.Option(help="ida: reference; dopri5, rodas4: fast; rk4, euler: fixed step")
+    ] = "ida",
     rtol: Annotated[float | None, typer.Option(help="Relative tolerance; default: the model's experiment")] = None,
     atol: Annotated[float | None, typer.Option(help="Absolute tolerance per nominal value; default: 0.01 rtol")] = None,
     step: Annotated[float | None, typer.Option(help="Fixed step of rk4 and euler, s")] = None,

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bench.by_hand import Problem, T1, T2, with_ida, with_rk4
+from bench.by_hand import T1, T2, Problem, with_ida, with_rk4
 from bench.generated import ATOL, RTOL, error_against
 from codegen.compile import compile_model
 import runtime

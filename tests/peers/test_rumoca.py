@@ -1,4 +1,4 @@
-"""The same Modelica files through rumoca, a translator that shares nothing with ours, must give the same trajectories."""
+"""The same Modelica files through rumoca, a translator that shares nothing with ours, give the same trajectories."""
 
 from __future__ import annotations
 
