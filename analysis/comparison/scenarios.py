@@ -27,7 +27,7 @@ class Scenario:
     steps: tuple[float, ...]
     shown: tuple[str, ...]  # signals of the overlay figure
     parameters: dict[str, float] = field(default_factory=dict)
-    reference_rtol: float = 1e-10
+    reference_rtol: float = 1e-12
     variable_rtol: tuple[float, ...] = (1e-4, 1e-6, 1e-8)
 
     def __post_init__(self) -> None:

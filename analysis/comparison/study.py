@@ -58,6 +58,13 @@ class LaneResult:
         """The worst relative maximum deviation over all signals; infinite for a run that did not end well."""
         return max((s.relative for s in self.signals), default=0.0) if self.failure is None else float("inf")
 
+    @property
+    def rms_error(self) -> float:
+        """The worst RMS deviation over all signals, of their scales: smoother in the step than the maximum, which
+        depends on where a sample falls beside an event. Infinite for a run that did not end well."""
+        errors = (s.rms / s.scale for s in self.signals if s.scale > 0)
+        return max(errors, default=0.0) if self.failure is None else float("inf")
+
 
 @dataclass
 class Study:
@@ -154,7 +161,7 @@ def _orders(scenario: Scenario, lanes: list[LaneResult]) -> dict[str, float]:
             families.setdefault(result.lane.family, []).append(result)
     floor = REFERENCE_MARGIN * scenario.reference_rtol
     return {
-        family: observed_order(np.array([r.lane.step for r in group]), np.array([r.error for r in group]), floor)
+        family: observed_order(np.array([r.lane.step for r in group]), np.array([r.rms_error for r in group]), floor)
         for family, group in families.items()
     }
 
