@@ -36,7 +36,9 @@ class Library:
         self._folders: dict[int, Path] = {}  # id of a package class -> its folder
         self._loose: list[Path] = []
         self._parsed: dict[Path, list[ast.Class]] = {}
-        self._members: dict[tuple[int, str], ast.Class] = {}  # those with files of their own
+        self._members: dict[
+            tuple[int, str], ast.Class | None
+        ] = {}  # None where there is no file
         for path in map(Path, paths):
             self._add(path)
 
@@ -80,7 +82,10 @@ class Library:
         if found is None and cls is self.root:
             found = self._loose_class(name)
         elif found is None and id(cls) in self._folders:
-            found = self._members.get((id(cls), name)) or self._from_folder(cls, self._folders[id(cls)], name)
+            key = id(cls), name
+            if key not in self._members:
+                self._members[key] = self._from_folder(cls, self._folders[id(cls)], name)
+            found = self._members[key]
         return found
 
     def _loose_class(self, name: str) -> ast.Class | None:
@@ -112,7 +117,6 @@ class Library:
             message = f"{name} lies in package {cls.path}, but its file says 'within {found.within}'"
             raise Diagnostic("F004", message, found.span, hint)
         found.parent = cls
-        self._members[id(cls), name] = found
         return found
 
     def members(self, cls: ast.Class) -> list[str]:
