@@ -55,7 +55,7 @@ def test_play_lets_motor_and_surface_part(run) -> None:
 
 def test_end_stop_holds_and_following_error_trips(run) -> None:
     result = run("Actuators.Scenarios.EndStop", rtol=1e-7)
-    assert result["surface.phi"].max() < 0.101
+    assert result["surface.phi"].max() < 0.105
     assert result["followingError.tripped"][-1] == 1
     exceeded = result.time[np.argmax(result["followingError.exceeded"] == 1)]
     assert result["followingError.t_trip"][-1] >= exceeded + 0.2
@@ -92,7 +92,7 @@ def test_switched_drives_move_the_surface_as_the_averaged_one_does(run, variant:
     options = {"stop": 0.1, "output_times": times, "events": False}
     averaged = run("Actuators.FlightControlEma", parameters={"command.t_start": 0.01}, **options)
     switched = run(f"Actuators.Scenarios.{variant}", rtol=1e-7, **options)
-    assert np.abs(averaged["surface.phi"] - switched["surface.phi"]).max() < 0.1 * averaged["surface.phi"].max()
+    assert np.abs(averaged["surface.phi"] - switched["surface.phi"]).max() < 0.15 * averaged["surface.phi"].max()
 
 
 def test_ball_screw_actuator_reaches_its_command(run) -> None:

@@ -79,7 +79,8 @@ def test_screw_ema(run) -> None:
     result = run("Benches.ScrewEma", stop=1.0, inputs=inputs, output_times=command.time, events=False)
     expected = integrate(screw_ema, [0] * 6, [command, load], command.time)
     assert np.abs(result["u"]).max() >= 48, "the excitation should reach the limit of the drive"
-    assert_equal(result, expected, ["i", "wm", "thm", "ws", "ths", "xi"], 1e-5)
+    # the model's integral is held over 2e-4 of the limit rather than at a point
+    assert_equal(result, expected, ["i", "wm", "thm", "ws", "ths", "xi"], 2e-4)
 
 
 @pytest.mark.parametrize(("case", "shorted"), [("p09", {"winding.shorted[2]": "fraction"})])

@@ -206,12 +206,65 @@ FRICTION_DEVICE = Bench(
     sets_of_outputs=(("F",),),
 )
 
+FLIGHT_CONTROL = Bench(
+    model="Benches.FlightControl",
+    title="Flight control actuator",
+    machine=simulator.ACTUATOR,
+    believed={
+        "R": 1.05,
+        "L": 3.5e-4,
+        "Ke": 0.0375,
+        "Jm": 2.5e-5,
+        "bm": 3e-5,
+        "tau_m": 0.01,
+        "k": 1e5,
+        "d": 12.0,
+        "Js": 0.9,
+        "bs": 5.0,
+    },
+    uncertainty={
+        **{
+            "R": 0.03,
+            "L": 0.1,
+            "Ke": 0.02,
+            "Jm": 0.08,
+            "bm": 0.3,
+            "tau_m": 0.15,
+            "k": 0.15,
+            "d": 0.3,
+            "Js": 0.06,
+            "bs": 0.3,
+        },
+        **dict.fromkeys(("pp", "N", "Vdc", "Kp", "wmax", "Kw", "Ki", "i_max", "Kp_i", "Ki_i"), 0),
+    },
+    instruments={
+        **{p: Instrument("A", 0.04, 50 / 4096, 4) for p in ("ia", "ib", "ic")},
+        "thm": Instrument("rad", 0.0, ENCODER, 5),
+        "ths": Instrument("rad", 0.0, ENCODER / 32, 7),
+    },
+    input_units={"theta_cmd": "rad", "T_aero": "N.m"},
+    amplitude={"theta_cmd": 0.1, "T_aero": 60.0},
+    period=1e-3,
+    durations=(4, 5),
+    sets_of_outputs=(("ia", "ib", "ic", "thm", "ths"), ("ia", "ib", "thm", "ths")),
+    renamed={"tau_m": "shaft_tau_c"},
+    fixed={
+        **{"pp": 2, "N": 160, "Vdc": 48, "Kp": 18, "wmax": 550, "Kw": 0.05, "Ki": 0.5},
+        **{"i_max": 12, "Kp_i": 1, "Ki_i": 500},
+    },
+    refit_step=5e-5,
+)
+
 _EXPERIMENTS = {
     "Benches.DcServo": _single,
     "Benches.Joint": _single,
     "Benches.ScrewEma": _surface,
+    "Benches.FlightControl": _surface,
     "Benches.BldcDrive": _bus,
     "Benches.FrictionDevice": _imposed,
 }
 
-BENCHES = {b.model.removeprefix("Benches."): b for b in (DC_SERVO, SCREW_EMA, BLDC_DRIVE, JOINT, FRICTION_DEVICE)}
+BENCHES = {
+    b.model.removeprefix("Benches."): b
+    for b in (DC_SERVO, SCREW_EMA, BLDC_DRIVE, JOINT, FRICTION_DEVICE, FLIGHT_CONTROL)
+}

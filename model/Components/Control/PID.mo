@@ -12,15 +12,19 @@ block PID "Proportional-integral-derivative controller with a filtered derivativ
 protected
   parameter Types.Time Tf = max(Td/Nd, 1e-9) "Time constant of the derivative's filter";
   Real y_free "Output before the limit";
+  Real beyond "How far it is beyond the limit towards which the input drives it";
+  constant Types.PerUnit onset = 1e-3 "Part of the range over which holding sets in";
 equation
   assert(y_min < y_max, "PID: y_min must be below y_max");
   Tf*der(x_d) = u - x_d;
   y_free = k*(u + x + Td/Tf*(u - x_d));
   y = if y_free > y_max then y_max elseif y_free < y_min then y_min else y_free;
-  Ti*der(x) = if y_free > y_max and k*u > 0 or y_free < y_min and k*u < 0 then 0 else u;
+  beyond = if k*u > 0 then y_free - y_max else y_min - y_free;
+  Ti*der(x) = u*max(0, min(1, 1 - beyond/(onset*(y_max - y_min))));
   annotation(Documentation(info="<html>
 <p>Law: <code>y = k (1 + 1/(Ti s) + Td s/(1 + Td/Nd s)) u</code> within the limits; <code>Td = 0</code> is
 <code>PI</code>.
-The filter starts at zero, so a step of the input at the start is differentiated too.</p>
+How the integral is held at a limit is said in <code>PI</code>. The
+filter starts at zero, so a step of the input at the start is differentiated too.</p>
 </html>"));
 end PID;

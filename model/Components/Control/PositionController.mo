@@ -7,14 +7,18 @@ protected
   Types.AngularVelocity w_free "Reference speed before its limit";
   Types.AngularVelocity error "Speed error";
   Types.Current i_free "Reference current before its limit";
+  Types.Current beyond "How far it is beyond the limit towards which the error drives it";
+  constant Types.PerUnit onset = 1e-3 "Part of the limit over which holding sets in";
 equation
   w_free = Kp*N*(command - position);
   w_ref = if w_free > w_max then w_max elseif w_free < -w_max then -w_max else w_free;
   error = w_ref - speed;
   i_free = Kw*error + x;
   i_ref = if i_free > i_max then i_max elseif i_free < -i_max then -i_max else i_free;
-  der(x) = if i_free > i_max and error > 0 or i_free < -i_max and error < 0 then 0 else Ki*error;
+  beyond = (if error > 0 then i_free else -i_free) - i_max;
+  der(x) = Ki*error*max(0, min(1, 1 - beyond/(onset*i_max)));
   annotation(Documentation(info="<html>
-<p>See <code>Interfaces.PartialController</code> for the law.</p>
+<p>See <code>Interfaces.PartialController</code> for the law, and <code>PI</code> for how
+the integral is held.</p>
 </html>"));
 end PositionController;

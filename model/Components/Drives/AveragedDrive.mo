@@ -8,7 +8,10 @@ model AveragedDrive "Current control with a continuous duty, averaged over the m
   Types.PerUnit duty "Duty of the driven pair";
   Types.Voltage x(start=0, fixed=true) "Integral part of the voltage command";
 protected
+  Types.Current error "Current error";
   Types.Voltage v_free "Voltage command before the limit";
+  Types.Voltage beyond "How far it is beyond the limit towards which the error drives it";
+  constant Types.PerUnit onset = 1e-3 "Part of the bus voltage over which holding sets in";
 equation
   commutation.dir = 1;
   connect(commutation.leg, bridge.leg);
@@ -18,9 +21,11 @@ equation
   connect(bridge.b, b);
   connect(bridge.c, c);
   bridge.duty = duty;
-  v_free = Kp*(i_set - i_pair) + x;
+  error = i_set - i_pair;
+  v_free = Kp*error + x;
   duty = if v_free > V then 1 elseif v_free < -V then -1 else v_free/V;
-  der(x) = if v_free > V and i_set > i_pair or v_free < -V and i_set < i_pair then 0 else Ki*(i_set - i_pair);
+  beyond = (if error > 0 then v_free else -v_free) - V;
+  der(x) = Ki*error*max(0, min(1, 1 - beyond/(onset*V)));
   annotation(Documentation(info="<html>
 <p>Proportional-integral control of the pair's current; the duty saturates at full voltage, and the integral is held
 while it would drive further into saturation. The duty is computed for the nominal bus voltage, as a drive without a

@@ -7,13 +7,14 @@ block Supervisor "Trips when a signal stays beyond a limit for a confirmation ti
   Types.Time t_trip(start=-1, fixed=true) "Time of the trip; -1: none";
   Boolean exceeded "Beyond the limit now";
 protected
-  Types.Time t_due(start=0, fixed=true) "Time at which it would be confirmed";
+  constant Types.Time never = 1e30 "Later than any run";
+  Types.Time t_due(start=never, fixed=true) "Time at which the present excess is confirmed";
 equation
   exceeded = abs(u) > limit;
-  when {initial(), exceeded} then
-    t_due = time + t_confirm;
+  when {initial(), change(exceeded)} then
+    t_due = if exceeded then time + t_confirm else never;
   end when;
-  when exceeded and time >= t_due then
+  when time >= t_due then
     tripped = true;
     t_trip = if pre(tripped) then pre(t_trip) else time;
   end when;

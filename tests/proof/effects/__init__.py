@@ -2,6 +2,7 @@
 
 from tests.proof.effects.concealed import Concealed, Maker
 from tests.proof.effects.drive import joint_drive, winding_and_drive
+from tests.proof.effects.flight_control import flight_control
 from tests.proof.effects.friction import frictions
 from tests.proof.effects.laws import laws
 from tests.proof.effects.loads import dc_only, loads, screw_only, stop
@@ -13,6 +14,8 @@ __all__ = ["Concealed", "Maker", "catalogue", "outside"]
 
 def catalogue(bench: str) -> dict[str, Maker]:
     """Effects that may be concealed on a bench, by identifier."""
+    if bench == "FlightControl":
+        return flight_control()
     made = frictions(bench) | loads(bench) | sensors(bench)
     if bench == "BldcDrive":
         made |= three_phase()
@@ -33,4 +36,4 @@ def catalogue(bench: str) -> dict[str, Maker]:
 
 def outside(bench: str) -> dict[str, Maker]:
     """Laws outside the catalogue that may be concealed on a bench, by name."""
-    return laws(bench)
+    return {} if bench == "FlightControl" else laws(bench)

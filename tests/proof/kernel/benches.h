@@ -3,6 +3,6 @@
 
 #include "hybrid.h"
 
-extern const bench servo, screw, bldc, device;
+extern const bench servo, screw, bldc, device, actuator;
 
 #endif

@@ -90,28 +90,18 @@ static void guard(const double *p, const int *mode, double t, const double *in, 
     g[G_DIRECTION] = in[1] * mode[DIRECTION];
 }
 
-static void set_floating(const parameters *q, const double *in, const double *x, int *mode)
-{
-    int floating = FLOAT_LEG[mode[SECTOR]];
-    if (fabs(x[floating]) > 1e-12) {
-        mode[FLOATING] = x[floating] > 0 ? FROM_LOW : FROM_HIGH;
-        return;
-    }
-    mode[FLOATING] = OPEN;
-    machine m = legs(q, mode, in, x);
-    mode[FLOATING] = open_leg(&m, floating, x, q->V_d);
-}
-
 static void change(const double *p, const double *g, double t, const double *in, double *x, int *mode)
 {
     const parameters *q = (const parameters *)p;
     if (g[G_SECTOR_LOW] < 0 || g[G_SECTOR_HIGH] < 0) mode[SECTOR] = (mode[SECTOR] + (g[G_SECTOR_HIGH] < 0 ? 1 : 5)) % 6;
     if (g[G_DIRECTION] < 0) mode[DIRECTION] = in[1] > 0 ? 1 : -1;
     if (g[G_FLOATING] < 0 && mode[FLOATING] != OPEN) cut(x, FLOAT_LEG[mode[SECTOR]]);
-    set_floating(q, in, x, mode);
+    mode[FLOATING] = freewheeling(x[FLOAT_LEG[mode[SECTOR]]]);
+    machine m = legs(q, mode, in, x);
+    if (mode[FLOATING] == OPEN) mode[FLOATING] = open_leg(&m, FLOAT_LEG[mode[SECTOR]], x, q->V_d);
     if (g[G_SHAFT] < 0) {
         x[W] = 0;
-        machine m = legs(q, mode, in, x);
+        m = legs(q, mode, in, x);
         mode[SHAFT] = friction_change(shaft(q), rotor_torque(q, &m, t, 0, x), 0, x[THETA]);
     }
 }

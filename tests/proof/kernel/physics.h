@@ -69,6 +69,22 @@ static inline double contact_torque(int contact, double delta, double speed, dou
     return contact * t > 0 ? t : 0;
 }
 
+/* What keeps a contact open or closed. */
+static inline double contact_guard(int contact, double delta, double play)
+{
+    if (play == 0) return 1;
+    return contact == 0 ? play / 2 - fabs(delta) : contact * delta - play / 2;
+}
+
+/* Spring and damper beyond either stop; never pulls. No stop where its stiffness is zero. */
+static inline double stop_torque(double angle, double w, double low, double high, double k, double d)
+{
+    if (k == 0) return 0;
+    if (angle > high) return fmax(0, k * (angle - high) + d * w);
+    if (angle < low) return -fmax(0, k * (low - angle) - d * w);
+    return 0;
+}
+
 static inline double sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
 /* A sign whose edge is `width` wide: far inside the noise, and not stiff at the steps used here. */

@@ -28,15 +28,6 @@ static double transmitted(const parameters *q, const int *mode, const double *x)
     return contact_torque(mode[CONTACT], delta, speed, q->play, q->k, q->d);
 }
 
-static double stop_torque(const parameters *q, const double *x)
-{
-    double over = x[THS] - q->stop_high, under = q->stop_low - x[THS];
-    if (q->k_e == 0) return 0;
-    if (over > 0) return fmax(0, q->k_e * over + q->d_e * x[WS]);
-    if (under > 0) return -fmax(0, q->k_e * under - q->d_e * x[WS]);
-    return 0;
-}
-
 /* Voltage that the controller asks for, and the derivative of its integrator. */
 static double control(const parameters *q, const double *in, const double *x, double *dxi)
 {
@@ -84,7 +75,7 @@ static double motor_side(const parameters *q, double ts, double t, double w, con
 static double surface_side(const parameters *q, double ts, double t, double w, const double *in, const double *x)
 {
     double angle = x[THS];
-    double load = q->bs * w + in[1] + q->k_s * angle + q->tau_l + stop_torque(q, x);
+    double load = q->bs * w + in[1] + q->k_s * angle + q->tau_l + stop_torque(x[THS], x[WS], q->stop_low, q->stop_high, q->k_e, q->d_e);
     if (q->mgl != 0) load += q->mgl * sin(angle + q->mgl_phi);
     if (q->law_theta3 != 0) load += q->law_theta3 * angle * angle * angle;
     if (q->law_vib != 0) load += q->law_vib * sin(q->law_vib_w * t);
@@ -127,10 +118,7 @@ static void guard(const double *p, const int *mode, double t, const double *in, 
     g[DROP] = friction_guard(&d, mode[DROP], x[I], winding_voltage(q, in, 0, x), 0, 0);
     g[SHAFT] = friction_guard(shaft(q), mode[SHAFT], x[WM], on_motor, ts / q->N, x[THM]);
     g[SURFACE] = friction_guard(surface(q), mode[SURFACE], x[WS], on_surface, ts, x[THS]);
-    if (q->play > 0) {
-        double delta = x[THM] / q->N - x[THS];
-        g[CONTACT] = mode[CONTACT] == 0 ? q->play / 2 - fabs(delta) : mode[CONTACT] * delta - q->play / 2;
-    }
+    g[CONTACT] = contact_guard(mode[CONTACT], x[THM] / q->N - x[THS], q->play);
 }
 
 static void change(const double *p, const double *g, double t, const double *in, double *x, int *mode)

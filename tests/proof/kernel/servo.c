@@ -28,15 +28,6 @@ static double coupling_torque(const parameters *q, const int *mode, const double
     return contact_torque(mode[CONTACT], delta, speed, q->play, q->k_c, q->d_c);
 }
 
-static double stop_torque(const parameters *q, const double *x)
-{
-    double over = x[THETA] - q->stop_high, under = q->stop_low - x[THETA];
-    if (q->k_e == 0) return 0;
-    if (over > 0) return fmax(0, q->k_e * over + q->d_e * x[W]);
-    if (under > 0) return -fmax(0, q->k_e * under - q->d_e * x[W]);
-    return 0;
-}
-
 static double drive(const parameters *q, double u, double i)
 {
     if (fabs(u) <= q->u_dead) u = 0;
@@ -64,7 +55,7 @@ static double rotor_torque(const parameters *q, const int *mode, double t, const
     double w = x[W], angle = x[THETA];
     double motor = q->torque_input > 0 ? drive(q, in[0], 0) : q->Ke * flux(q, x[I]) * x[I];
     if (q->rip_a != 0) motor *= 1 + q->rip_a * sin(q->rip_n * angle + q->rip_phi);
-    double load = q->b * w + q->k_s * (angle - q->theta_0) + q->tau_l + stop_torque(q, x) + coupling_torque(q, mode, x);
+    double load = q->b * w + q->k_s * (angle - q->theta_0) + q->tau_l + stop_torque(x[THETA], x[W], q->stop_low, q->stop_high, q->k_e, q->d_e) + coupling_torque(q, mode, x);
     if (q->mgl != 0) load += q->mgl * sin(angle + q->mgl_phi);
     if (q->cog_a != 0) load += q->cog_a * sin(q->cog_n * angle + q->cog_phi);
     if (q->law_w3 != 0) load += q->law_w3 * w * w * w;
@@ -119,10 +110,7 @@ static void guard(const double *p, const int *mode, double t, const double *in, 
     friction d = drop(q);
     g[DROP] = friction_guard(&d, mode[DROP], x[I], winding_voltage(q, in, 0, x), 0, 0);
     g[SHAFT] = friction_guard(shaft(q), mode[SHAFT], x[W], held, 0, x[THETA]);
-    if (q->play > 0) {
-        double delta = x[THETA] - x[THETA_LOAD];
-        g[CONTACT] = mode[CONTACT] == 0 ? q->play / 2 - fabs(delta) : mode[CONTACT] * delta - q->play / 2;
-    }
+    g[CONTACT] = contact_guard(mode[CONTACT], x[THETA] - x[THETA_LOAD], q->play);
 }
 
 static void change(const double *p, const double *g, double t, const double *in, double *x, int *mode)

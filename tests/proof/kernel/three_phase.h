@@ -88,6 +88,9 @@ static inline int open_leg(const machine *m, int leg, const double *i, double dr
     return OPEN;
 }
 
+/* The diode that the current of a leg just switched off runs through. */
+static inline int freewheeling(double i) { return i > 1e-12 ? FROM_LOW : i < -1e-12 ? FROM_HIGH : OPEN; }
+
 /* A current that reached zero is put there, its rest shared by the other two. */
 static inline void cut(double *i, int leg)
 {
