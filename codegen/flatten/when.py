@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from .. import flat
-from ..errors import Diagnostic
+from ..errors import Diagnostic, Span
 from ..expr import BOOLEAN, FALSE, TRUE, Expr
+from ..rewrite import assigned
 from ..syntax import ast
 from .equations import check_target, check_types, equalities, lower_assert, origin_of, unroll
 from .lower import lower, lower_scalar
@@ -18,7 +19,18 @@ def flatten_when(item: ast.When, scope: Scope) -> flat.When:
     for written, body in item.branches:
         statements = when_body(body, scope)
         branches += [(condition, statements) for condition in when_conditions(written, scope)]
+    _same_targets([body for _, body in branches], item.span, "elsewhen")
     return flat.When(branches, item.span, origin_of(scope))
+
+
+def _same_targets(bodies: list[list[flat.Statement]], span: Span, what: str) -> None:
+    """Branches set the same variables (Modelica 3.6, 8.3.5): else it would be open which equation holds. R065."""
+    sets = [set(assigned(body)) for body in bodies]
+    differing = sorted(set.union(*sets) - set.intersection(*sets))
+    if differing:
+        name = differing[0]
+        hint = f"add {name} = pre({name}) where it is missing, or write separate when-equations"
+        raise Diagnostic("R065", f"'{what}': only some branches set {', '.join(differing)}", span, hint)
 
 
 def when_conditions(written: ast.Expression, scope: Scope) -> list[Expr]:
@@ -60,6 +72,11 @@ def _if(item: ast.If, scope: Scope) -> list[flat.Statement]:
             break
     if branches and branches[0][0] is TRUE:
         return branches[0][1]
+    bodies = [body for _, body in branches]
+    if branches and branches[-1][0] is not TRUE:
+        bodies.append([])
+    if bodies:
+        _same_targets(bodies, item.span, "if")
     return [flat.If(branches, item.span)] if branches else []
 
 

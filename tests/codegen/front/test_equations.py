@@ -93,6 +93,7 @@ def test_when_branches_and_statements(tmp_path: Path) -> None:
         q = {s, 2*s};
       elsewhen on then
         s = 0;
+        q = {1, 1};
         if h > 1 then terminate("high"); end if;
       end when;
       on = edge(on) or change(s) or initial();
@@ -104,7 +105,7 @@ def test_when_branches_and_statements(tmp_path: Path) -> None:
     assert first == second
     assert [type(s) for s in first] == [flat.Reinit, flat.Assign, flat.Assign, flat.Assign]
     assert [s.target for s in first] == ["v", "s", "q[1]", "q[2]"]
-    assert isinstance(third[1], flat.If)
+    assert isinstance(third[-1], flat.If)
     assert model.variables["q[2]"].variability == flat.DISCRETE
 
 
