@@ -45,6 +45,8 @@ class Plant(Protocol):
 
     def run(self, severity: float, **parameters: float) -> Record: ...
 
+    def declared(self, name: str) -> float: ...
+
 
 class ModelPlant:
     """A translated model, solved by the runtime.
@@ -99,3 +101,10 @@ class ModelPlant:
             angle=result[settings.angle],
             counters=dict(result.counters),
         )
+
+    def declared(self, name: str) -> float:
+        """The declared value of a parameter. Raises AnalysisError where the model has none of that name."""
+        parameter = self._model.parameters.get(name)
+        if parameter is None:
+            raise AnalysisError(f"{self._settings.path}: model {self.name} has no parameter {name}")
+        return parameter.start

@@ -7,13 +7,6 @@
 
 namespace lacuna {
 
-namespace {
-
-// Severities come from decimal text and from sums of steps; this is far below any step and above their rounding.
-constexpr double rounding = 1e-9;
-
-} // namespace
-
 SeverityBands::SeverityBands(std::vector<Band> bands) : bands_(std::move(bands)) {
   if (bands_.empty()) throw Error("at least one severity band is needed");
   for (std::size_t k = 0; k < bands_.size(); ++k) {
@@ -24,9 +17,10 @@ SeverityBands::SeverityBands(std::vector<Band> bands) : bands_(std::move(bands))
 }
 
 const Band &SeverityBands::of(double severity) const {
-  const auto reaches = [&](const Band &band) { return severity <= band.last + rounding; };
-  const auto found = std::find_if(bands_.begin(), bands_.end(), reaches);
-  return found == bands_.end() ? bands_.back() : *found;
+  std::size_t b = 0;
+  while (b + 1 < bands_.size() && severity > 0.5 * (bands_[b].last + bands_[b + 1].first))
+    ++b;
+  return bands_[b];
 }
 
 double SeverityBands::rise(const Band &band, std::span<const double> severity, std::span<const double> value) {

@@ -177,10 +177,10 @@ double SeverityTable::by_mean_rms(double rms_mean) const noexcept {
 }
 
 std::size_t SeverityTable::band_of(double severity) const noexcept {
-  constexpr double rounding = 1e-9;
-  for (std::size_t b = 0; b + 1 < bands_.size(); ++b)
-    if (severity <= bands_[b].last + rounding) return b;
-  return bands_.size() - 1;
+  std::size_t b = 0;
+  while (b + 1 < bands_.size() && severity > 0.5 * (bands_[b].last + bands_[b + 1].first))
+    ++b;
+  return b;
 }
 
 } // namespace lacuna

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from analysis.plant import Record, SourceEquation
 from analysis.settings import PAPER, Settings, load_settings
-from tests.analysis.reference import simulate
+from tests.analysis.reference import declared, simulate
 
 
 class ReferencePlant:
@@ -18,11 +18,14 @@ class ReferencePlant:
         self.equations = [SourceEquation("J*a = tau < 0 & b", "rotor", "by hand:1")]
         self._fails_at, self._error = fails_at, error
 
-    def run(self, severity: float) -> Record:
+    def declared(self, name: str) -> float:
+        return declared(name)
+
+    def run(self, severity: float, **parameters: float) -> Record:
         if severity == self._fails_at:
             raise self._error
         self.runs.append(severity)
-        record = simulate(severity)
+        record = simulate(severity, **parameters)
         return Record(record[:3], record[3], record[4], {"steps": 100000, "state_events": 403})
 
 

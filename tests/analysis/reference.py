@@ -21,11 +21,16 @@ def _library() -> ctypes.CDLL:
     return lib
 
 
+def declared(name: str) -> float:
+    return getattr(_library().reference_defaults(), name)
+
+
 @lru_cache(maxsize=64)
-def simulate(zeta: float, step: float = 1e-5, rows: int = 100000) -> np.ndarray:
+def simulate(zeta: float, step: float = 1e-5, rows: int = 100000, **others: float) -> np.ndarray:
     """[5, rows]: filtered currents a, b, c (A), speed (rad/s), angle (rad), every `step` seconds from standstill."""
     parameters = _library().reference_defaults()
-    parameters.zeta = zeta
+    for name, value in {"zeta": zeta, **others}.items():
+        setattr(parameters, name, value)
     out = np.empty((rows, 5))
     events = _library().reference_simulate(
         ctypes.byref(parameters), ctypes.c_double(step), rows, out.ctypes.data_as(ctypes.c_void_p)

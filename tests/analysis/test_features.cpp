@@ -98,11 +98,13 @@ TEST(Harmonics, AreTheLargestLinesNearMultiplesOfTheFundamental) {
   EXPECT_EQ(found, (std::array<double, 4>{7, 5, 4, 0}));
 }
 
-TEST(SeverityBands, GapsBelongToTheWorseSide) {
+TEST(SeverityBands, GapsBelongToTheNearerBand) {
   const SeverityBands bands({{"green", "", 0, 0.10}, {"orange", "", 0.11, 0.26}});
   EXPECT_EQ(bands.of(0.0).name, "green");
   EXPECT_EQ(bands.of(0.10).name, "green");
-  EXPECT_EQ(bands.of(0.105).name, "orange");
+  EXPECT_EQ(bands.of(0.104).name, "green");
+  EXPECT_EQ(bands.of(0.106).name, "orange");
+  EXPECT_EQ(bands.of(-0.1).name, "green");
   EXPECT_EQ(bands.of(0.9).name, "orange");
 }
 

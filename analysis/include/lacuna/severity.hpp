@@ -19,7 +19,8 @@ public:
   explicit SeverityBands(std::vector<Band> bands);
 
   const std::vector<Band> &bands() const { return bands_; }
-  /// The band of a severity. In a gap, and beyond the last band, the worse side counts.
+  /// The band of a severity; in a gap the nearer one (the published edges are whole percents), beyond the ends the
+  /// first or last.
   const Band &of(double severity) const;
   /// Rise of a quantity over `band`, from its values at rising severities (linear between them).
   static double rise(const Band &band, std::span<const double> severity, std::span<const double> value);

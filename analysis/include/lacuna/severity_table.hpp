@@ -38,7 +38,7 @@ struct Estimate {
   double low, high; ///< 95 % interval, within the map
   double misfit;    ///< squared distance to the map there, in standard deviations: chi-squared if the map is right
   double paper;     ///< severity by the paper's method: the mean RMS alone, read back on the map
-  std::size_t band; ///< of `severity`; in a gap, the worse side
+  std::size_t band; ///< of `severity`; in a gap, the nearer one
   bool covered;     ///< misfit is within the limit: the map can explain this record at some severity
 };
 
