@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from ..errors import Diagnostic, Span
+from ..errors import Diagnostic
 from ..library import Library
-from ..suggest import did_you_mean
+from ..suggest import did_you_mean, nearest
 from ..syntax import ast
 from .values import Value
 
@@ -68,7 +68,7 @@ def _full_name(library: Library, item: ast.Import) -> ast.Class:
     for name in item.path.names:
         found = own_or_inherited(library, cls, name)
         if found is None:
-            hint = did_you_mean(name, library.members(cls), "imports are written with the full name")
+            hint = did_you_mean(name, library.members(cls)) or _elsewhere(library, item.path)
             where = f" in {cls.path}" if cls.name else ""
             raise Diagnostic("R002", f"import: there is no class {name}{where}", item.span, hint)
         cls = found
@@ -135,6 +135,18 @@ def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> 
             break
         known, missing = library.members(current), name
         current = own_or_inherited(library, current, name)
-    span: Span = ref.span
-    hint = did_you_mean(missing, known, "declare it, or import its package")
-    return Diagnostic("R001", f"there is no {what} {ref}", span, hint)
+    hint = did_you_mean(missing, known) or _elsewhere(library, ref)
+    return Diagnostic("R001", f"there is no {what} {ref}", ref.span, hint)
+
+
+def _elsewhere(library: Library, ref: ast.Ref) -> str:
+    """A hint where a class of this name lies in a package that was not looked in."""
+    if ref.names[0] == "Modelica":
+        return "the Modelica Standard Library is not part of this; package Lacuna has types, interfaces and components"
+    try:
+        classes = library.all_classes()
+    except Diagnostic:
+        classes = []
+    names = nearest(ref.names[-1], (c.name for c in classes))
+    found = [c.path for name in names for c in classes if c.name == name]
+    return f"did you mean {' or '.join(found[:3])}?" if found else "declare it, or import its package"
