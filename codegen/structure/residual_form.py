@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from ..differentiate import Differentiator
-from ..expr import ONE, ZERO, Expr, is_const, var
+from ..expr import ONE, ZERO, Expr, is_const, substitute, var
 from ..leaves import leaves
 from .system import Row, System
 from .tearing import Assignment, Tearing
@@ -23,8 +23,26 @@ class ResidualForm:
 
 
 def residual_form(system: System, tearing: Tearing) -> ResidualForm:
-    torn = tearing.tear(system.rows, [var(n) for n in system.algebraics])
+    """Derivatives that equal a state (speeds) are taken from it everywhere but in the equation that says so."""
+    speeds = dict(filter(None, (_speed(row, system) for row in system.rows)))
+    rows = [row if _speed(row, system) else _with_speeds(row, speeds) for row in system.rows]
+    rough = [d for d in system.derivatives if d not in speeds]
+    torn = tearing.tear(rows, [var(n) for n in system.algebraics], rough)
     return ResidualForm(torn.assignments, torn.tears, torn.residuals)
+
+
+def _speed(row: Row, system: System) -> tuple[Expr, Expr] | None:
+    """(der(x), w) of an equation w = der(x) between states."""
+    for derivative, value in ((row.lhs, row.rhs), (row.rhs, row.lhs)):
+        if derivative.op == "der" and value.op == "var" and value.value in system.states:
+            return derivative, value
+    return None
+
+
+def _with_speeds(row: Row, speeds: dict[Expr, Expr]) -> Row:
+    if row.leaves.isdisjoint(speeds):
+        return row
+    return Row(substitute(row.lhs, speeds), substitute(row.rhs, speeds), row.source, row.integral)
 
 
 def needed(assignments: Sequence[Assignment], wanted: Iterable[frozenset[Expr]]) -> list[Assignment]:

@@ -2,11 +2,14 @@
 
 H. Elmqvist, M. Otter, Methods for tearing systems of equations in object-oriented modeling, ESM 1994.
 An equation is used for an unknown only where it is affine in it with a coefficient that is safely not zero.
+
+In the residual form derivatives are known, but only as differences of the integrator: what is computed from them
+must not go into a nonlinear function (the exponential of a diode, say), which would amplify their error.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from ..affine import UNSAFE, division_rank, isolate
@@ -36,6 +39,7 @@ class Tearing:
     def __init__(self, parameter_value: Callable[[Expr], float | None]):
         self._parameter_value = parameter_value
         self._explicit: dict[tuple[Row, Expr], tuple[int, Expr | None]] = {}
+        self._linear: dict[tuple[Row, Expr], bool] = {}
 
     def explicit(self, row: Row, unknown: Expr) -> tuple[int, Expr | None]:
         """(rank, value) of `unknown` from `row`; rank UNSAFE and None where it may not be used."""
@@ -46,8 +50,14 @@ class Tearing:
             self._explicit[key] = (rank, div(*parts) if rank < UNSAFE else None)
         return self._explicit[key]
 
-    def tear(self, rows: Sequence[Row], unknowns: Sequence[Expr]) -> Torn:
-        """Order `rows` for `unknowns`; every leaf that is not among them is known."""
+    def _is_linear(self, row: Row, unknown: Expr) -> bool:
+        key = (row, unknown)
+        if key not in self._linear:
+            self._linear[key] = isolate(row.lhs, row.rhs, unknown) is not None
+        return self._linear[key]
+
+    def tear(self, rows: Sequence[Row], unknowns: Sequence[Expr], rough: Iterable[Expr] = ()) -> Torn:
+        """Order `rows` for `unknowns`; every leaf that is not among them is known, `rough` leaves only roughly."""
         position = {u: k for k, u in enumerate(unknowns)}
         missing = {row: {u for u in row.leaves if u in position} for row in rows}
         users: dict[Expr, list[Row]] = {u: [] for u in unknowns}
@@ -65,9 +75,15 @@ class Tearing:
                 if row in unused and len(missing[row]) == 1:
                     ready.append(row)
 
-        users_left, unused = dict(users), dict.fromkeys(rows)
+        users_left, unused, rough = dict(users), dict.fromkeys(rows), set(rough)
+
+        def spoils(row: Row, unknown: Expr) -> bool:
+            """Whether `row` would carry rough values through `unknown` into a nonlinear equation."""
+            others = (other for other in users[unknown] if other in unused and other is not row)
+            return not rough.isdisjoint(row.leaves) and not all(self._is_linear(other, unknown) for other in others)
+
         while users_left:
-            choice = self._best(ready, missing, unused, number)
+            choice = self._best(ready, missing, unused, number, spoils)
             if choice is None:
                 unknown = min(users_left, key=lambda u: (-sum(r in unused for r in users[u]), position[u]))
                 torn.tears.append(unknown)
@@ -75,12 +91,19 @@ class Tearing:
                 row, unknown, value = choice
                 torn.assignments.append(Assignment(unknown, value, row))
                 del unused[row]
+                if not rough.isdisjoint(row.leaves):
+                    rough.add(unknown)
             settle(unknown)
         torn.residuals = list(unused)
         return torn
 
     def _best(
-        self, ready: list[Row], missing: dict[Row, set[Expr]], unused: dict[Row, None], number: dict[Row, int]
+        self,
+        ready: list[Row],
+        missing: dict[Row, set[Expr]],
+        unused: dict[Row, None],
+        number: dict[Row, int],
+        spoils: Callable[[Row, Expr], bool],
     ) -> tuple[Row, Expr, Expr] | None:
         """The explicit equation to use next: constants before parameters as divisors, short before long."""
         ready[:] = [row for row in ready if row in unused and len(missing[row]) == 1]
@@ -88,6 +111,6 @@ class Tearing:
         for row in ready:
             (unknown,) = missing[row]
             rank, value = self.explicit(row, unknown)
-            if value is not None:
+            if value is not None and not spoils(row, unknown):
                 found.append(((rank, any(n.op == "der" for n in row.leaves), number[row]), row, unknown, value))
         return min(found, key=lambda f: f[0])[1:] if found else None

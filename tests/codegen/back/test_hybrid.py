@@ -183,7 +183,8 @@ def test_bounces_at_the_instants_of_the_closed_form(simulate) -> None:
 
 
 INITIAL = """model Initial
-  parameter Real a(unit = "1/s") = 2; parameter Real x0 = 1.5*b; parameter Real b = 2; parameter Real c(unit = "1/s") = 3;
+  parameter Real a(unit = "1/s") = 2; parameter Real x0 = 1.5*b; parameter Real b = 2;
+  parameter Real c(unit = "1/s") = 3;
   Real x(start = 5); Real y(start = x0); Real z; Integer n(start = 7);
   discrete Real first;
 initial equation

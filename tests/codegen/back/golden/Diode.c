@@ -1,0 +1,367 @@
+/* Diode: generated from
+ *   package.mo  sha256 f568f6868f6a2199c591c104f376c5602cb15ccb75a95176575c1ab329782a04
+ *   Diode.mo  sha256 969152f98ee883e40d11b6d751fe55022a837a19c084de58f5d12601fd5d6e29
+ * Do not edit: edit the model. */
+#include "mdl_abi.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+static const mdl_variable mdl_variables[] = {
+  {"R", "Ohm", "", "Diode.mo", 2, MDL_REAL, MDL_PARAMETER, 0, 1, 1, 0, 100.0, -INFINITY, INFINITY, 0.0},
+  {"C", "F", "", "Diode.mo", 3, MDL_REAL, MDL_PARAMETER, 1, 1, 1, 0, 1e-05, -INFINITY, INFINITY, 0.0},
+  {"I_s", "A", "", "Diode.mo", 4, MDL_REAL, MDL_PARAMETER, 2, 1, 1, 0, 1e-09, -INFINITY, INFINITY, 0.0},
+  {"V_t", "V", "", "Diode.mo", 5, MDL_REAL, MDL_PARAMETER, 3, 1, 1, 0, 0.025, -INFINITY, INFINITY, 0.0},
+  {"U", "V", "", "Diode.mo", 6, MDL_REAL, MDL_PARAMETER, 4, 1, 1, 0, 5.0, -INFINITY, INFINITY, 0.0},
+  {"T", "s", "", "Diode.mo", 7, MDL_REAL, MDL_PARAMETER, 5, 1, 1, 0, 0.01, -INFINITY, INFINITY, 0.0},
+  {"u", "V", "", "Diode.mo", 8, MDL_REAL, MDL_ALGEBRAIC, 0, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0},
+  {"v", "V", "", "Diode.mo", 9, MDL_REAL, MDL_ALGEBRAIC, 1, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0},
+  {"i", "A", "", "Diode.mo", 10, MDL_REAL, MDL_ALGEBRAIC, 2, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0},
+  {"u_C", "V", "", "Diode.mo", 11, MDL_REAL, MDL_STATE, 0, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0}
+};
+
+static const mdl_relation mdl_relations[] = {
+  {{"T > time", "Diode.mo", 13, ""}, 1}
+};
+
+static const int mdl_z_index[] = {
+  1
+};
+
+static const int mdl_residual_equation[] = {
+  1,
+  2
+};
+
+static const double mdl_p_start[] = {
+  100.0,
+  1e-05,
+  1e-09,
+  0.025,
+  5.0,
+  0.01
+};
+
+static const int mdl_jac_colptr[] = {
+  0,
+  2,
+  4
+};
+
+static const int mdl_jac_rowidx[] = {
+  0,
+  1,
+  0,
+  1
+};
+
+static const mdl_equation mdl_equations[] = {
+  {"u = if time < T then U else -U", "Diode.mo", 13, ""},
+  {"u = R*i + v + u_C", "Diode.mo", 14, ""},
+  {"i = I_s*(exp(v/V_t) - 1)", "Diode.mo", 15, ""},
+  {"C*der(u_C) = i", "Diode.mo", 16, ""}
+};
+
+static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double value) {
+  m->failure = (mdl_failure){kind, equation, -1, value};
+  return 1;
+}
+
+/* Solve a x = b in place (row-major, n x n) by Gaussian elimination with scaled partial pivoting; b becomes x.
+ * Returns 1 where a is singular to working precision. */
+static int mdl_solve(int n, double *a, double *b) {
+  for (int i = 0; i < n; ++i) {
+    double largest = 0.0;
+    for (int j = 0; j < n; ++j) largest = fmax(largest, fabs(a[i * n + j]));
+    if (!(largest > 0.0) || !isfinite(largest)) return 1;
+    for (int j = 0; j < n; ++j) a[i * n + j] /= largest;
+    b[i] /= largest;
+  }
+  for (int k = 0; k < n; ++k) {
+    int pivot = k;
+    for (int i = k + 1; i < n; ++i)
+      if (fabs(a[i * n + k]) > fabs(a[pivot * n + k])) pivot = i;
+    if (!(fabs(a[pivot * n + k]) > 1e-14)) return 1;
+    if (pivot != k) {
+      for (int j = k; j < n; ++j) {
+        const double swap = a[k * n + j];
+        a[k * n + j] = a[pivot * n + j];
+        a[pivot * n + j] = swap;
+      }
+      const double swap = b[k];
+      b[k] = b[pivot];
+      b[pivot] = swap;
+    }
+    for (int i = k + 1; i < n; ++i) {
+      const double factor = a[i * n + k] / a[k * n + k];
+      if (factor == 0.0) continue;
+      for (int j = k + 1; j < n; ++j) a[i * n + j] -= factor * a[k * n + j];
+      b[i] -= factor * b[k];
+    }
+  }
+  for (int i = n - 1; i >= 0; --i) {
+    for (int j = i + 1; j < n; ++j) b[i] -= a[i * n + j] * b[j];
+    b[i] /= a[i * n + i];
+  }
+  return 0;
+}
+
+typedef struct {
+  int iterations, halvings, converged;
+  double norm;
+} mdl_newton;
+
+/* Whether a Newton step made the residual larger (or not finite), so that it should be halved. A residual of zero
+ * ends the iteration, even where the Jacobian is singular. */
+static int mdl_newton_grows(mdl_newton *s, int n, const double *r) {
+  double norm = 0.0;
+  for (int i = 0; i < n; ++i) norm += r[i] * r[i];
+  s->converged = norm == 0.0;
+  if (s->iterations > 0 && !(norm <= s->norm) && s->halvings < 12) {
+    ++s->halvings;
+    return 1;
+  }
+  s->halvings = 0;
+  s->norm = norm;
+  return 0;
+}
+
+/* Value of a time relation just after t: g is left minus right at t, slope its derivative. */
+static int mdl_time_relation(double g, double slope, double t) {
+  const double tolerance = 1e-12 * (1.0 + fabs(t)) * fabs(slope);
+  return slope > 0.0 ? g >= -tolerance : g > tolerance;
+}
+
+/* The earlier of `next` and the instant after t at which a time relation switches. */
+static double mdl_next_switch(double g, double slope, double t, double next) {
+  const double instant = t - g / slope;
+  return instant > t + 1e-12 * (1.0 + fabs(t)) && instant < next ? instant : next;
+}
+
+static int mdl_parameters(mdl_data *m) {
+  (void)m;
+  return 0;
+}
+
+static int mdl_starts(mdl_data *m) {
+  m->x[0] = 0.0;
+  return 0;
+}
+
+static int mdl_samples(const mdl_data *m, double *start, double *interval) {
+  (void)m;
+  (void)start;
+  (void)interval;
+  return 0;
+}
+
+static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double *v) {
+  (void)t;
+  const double R = m->p[0];
+  const double C = m->p[1];
+  const double I_s = m->p[2];
+  const double V_t = m->p[3];
+  const double U = m->p[4];
+  const int rel0 = m->rel[0];
+  const double u_C = x[0];
+  /* Diode.mo:13  u = if time < T then U else -U */
+  const double u = rel0 ? U : -U;
+  /* nonlinear block of 2, torn to 1 */
+  double v_2 = v[1];
+  double i = 0.0;
+  mdl_newton v_2_block = {0};
+  double v_2_block_step[1] = {0};
+  for (;;) {
+    /* Diode.mo:15  i = I_s*(exp(v/V_t) - 1) */
+    const double tmp1 = exp(v_2 / V_t);
+    i = I_s * (tmp1 - 1.0);
+    if (v_2_block.converged) break;
+    /* Diode.mo:14  u = R*i + v + u_C */
+    double v_2_block_r[1] = {u - (R * i + v_2 + u_C)};
+    if (mdl_newton_grows(&v_2_block, 1, v_2_block_r)) {
+      v_2_block_step[0] *= 0.5;
+      v_2 += v_2_block_step[0];
+      continue;
+    }
+    if (v_2_block.converged) break;
+    double v_2_block_a[1] = {-(R * (I_s * (tmp1 * (1.0 / V_t))) + 1.0)};
+    if (mdl_solve(1, v_2_block_a, v_2_block_r)) return mdl_fail(m, MDL_FAILURE_SINGULAR, 1, 0.0);
+    if (++v_2_block.iterations > 50) return mdl_fail(m, MDL_FAILURE_NEWTON, 1, 0.0);
+    v_2_block.converged = 1;
+    v_2_block_step[0] = v_2_block_r[0];
+    v_2_block.converged &= fabs(v_2_block_r[0]) <= 1e-9 * fabs(v_2) + 1e-12;
+    v_2 -= v_2_block_r[0];
+  }
+  /* Diode.mo:16  C*der(u_C) = i */
+  const double der_u_C = i / C;
+  v[0] = u;
+  v[1] = v_2;
+  v[2] = i;
+  xdot[0] = der_u_C;
+  return 0;
+}
+
+static int mdl_initial_system(mdl_data *m, double t) {
+  /* Diode.mo:11  start of u_C */
+  const double u_C = 0.0;
+  m->x[0] = u_C;
+  return mdl_rhs(m, t, m->x, m->xdot, m->v);
+}
+
+static int mdl_residual(mdl_data *m, double t, const double *y, const double *yp, double *r) {
+  (void)t;
+  const double R = m->p[0];
+  const double C = m->p[1];
+  const double I_s = m->p[2];
+  const double V_t = m->p[3];
+  const double U = m->p[4];
+  const int rel0 = m->rel[0];
+  const double u_C = y[0];
+  const double v_2 = y[1];
+  const double der_u_C = yp[0];
+  /* Diode.mo:13  u = if time < T then U else -U */
+  const double u = rel0 ? U : -U;
+  /* Diode.mo:16  C*der(u_C) = i */
+  const double i = C * der_u_C;
+  /* Diode.mo:14  u = R*i + v + u_C */
+  r[0] = u - (R * i + v_2 + u_C);
+  /* Diode.mo:15  i = I_s*(exp(v/V_t) - 1) */
+  r[1] = i - I_s * (exp(v_2 / V_t) - 1.0);
+  return 0;
+}
+
+static int mdl_jacobian(mdl_data *m, double t, const double *y, const double *yp, double cj, double *values) {
+  (void)t;
+  (void)yp;
+  const double R = m->p[0];
+  const double C = m->p[1];
+  const double I_s = m->p[2];
+  const double V_t = m->p[3];
+  const double v_2 = y[1];
+  const double d_i_d_u_C = C * cj;
+  values[0] = -(R * d_i_d_u_C + 1.0);
+  values[1] = d_i_d_u_C;
+  values[2] = -1.0;
+  values[3] = -(I_s * (exp(v_2 / V_t) * (1.0 / V_t)));
+  return 0;
+}
+
+static int mdl_algebraics(mdl_data *m, double t, const double *y, const double *yp, double *v) {
+  (void)t;
+  const double C = m->p[1];
+  const double U = m->p[4];
+  const int rel0 = m->rel[0];
+  const double v_2 = y[1];
+  const double der_u_C = yp[0];
+  /* Diode.mo:13  u = if time < T then U else -U */
+  const double u = rel0 ? U : -U;
+  /* Diode.mo:16  C*der(u_C) = i */
+  const double i = C * der_u_C;
+  v[1] = v_2;
+  v[0] = u;
+  v[2] = i;
+  return 0;
+}
+
+static int mdl_roots(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *g) {
+  (void)m;
+  (void)t;
+  (void)x;
+  (void)xdot;
+  (void)v;
+  g[0] = 0.0;  /* Diode.mo:13  T > time */
+  return 0;
+}
+
+static int mdl_dae_roots(mdl_data *m, double t, const double *y, const double *yp, double *g) {
+  (void)m;
+  (void)t;
+  (void)y;
+  (void)yp;
+  g[0] = 0.0;  /* Diode.mo:13  T > time */
+  return 0;
+}
+
+static int mdl_time_relations(mdl_data *m, double t) {
+  const double T = m->p[5];
+  m->rel[0] = (unsigned char)mdl_time_relation(T - t, -1.0, t);
+  return 0;
+}
+
+static double mdl_next_time_event(const mdl_data *m, double t) {
+  const double T = m->p[5];
+  double next = INFINITY;
+  next = mdl_next_switch(T - t, -1.0, t, next);
+  return next;
+}
+
+static int mdl_event(mdl_data *m, double t, double *x, const double *xdot, const double *v) {
+  (void)m;
+  (void)t;
+  (void)x;
+  (void)xdot;
+  (void)v;
+  return 0;
+}
+
+static int mdl_check(mdl_data *m, double t, const double *x, const double *xdot, const double *v) {
+  (void)m;
+  (void)t;
+  (void)x;
+  (void)xdot;
+  (void)v;
+  return 0;
+}
+
+static const mdl_descriptor mdl_model = {
+  .abi_version = MDL_ABI_VERSION,
+  .name = "Diode",
+  .hash = "",
+  .jac_nnz = 4,
+  .n_asserts = 0,
+  .n_d = 0,
+  .n_equations = 4,
+  .n_messages = 0,
+  .n_p = 6,
+  .n_rel = 1,
+  .n_sample = 0,
+  .n_u = 0,
+  .n_v = 3,
+  .n_variables = 10,
+  .n_when = 0,
+  .n_x = 1,
+  .n_z = 1,
+  .variables = mdl_variables,
+  .equations = mdl_equations,
+  .asserts = NULL,
+  .relations = mdl_relations,
+  .messages = NULL,
+  .z_index = mdl_z_index,
+  .residual_equation = mdl_residual_equation,
+  .p_start = mdl_p_start,
+  .start_time = 0.0,
+  .stop_time = 1.0,
+  .tolerance = 1e-06,
+  .interval = 0.0,
+  .jac_colptr = mdl_jac_colptr,
+  .jac_rowidx = mdl_jac_rowidx,
+  .starts = mdl_starts,
+  .parameters = mdl_parameters,
+  .samples = mdl_samples,
+  .initial_system = mdl_initial_system,
+  .rhs = mdl_rhs,
+  .residual = mdl_residual,
+  .jacobian = mdl_jacobian,
+  .algebraics = mdl_algebraics,
+  .roots = mdl_roots,
+  .dae_roots = mdl_dae_roots,
+  .time_relations = mdl_time_relations,
+  .next_time_event = mdl_next_time_event,
+  .event = mdl_event,
+  .check = mdl_check,
+};
+
+const mdl_descriptor *mdl_descriptor_get(void);
+
+const mdl_descriptor *mdl_descriptor_get(void) { return &mdl_model; }
