@@ -36,9 +36,7 @@ class Library:
         self._folders: dict[int, Path] = {}  # id of a package class -> its folder
         self._loose: list[Path] = []
         self._parsed: dict[Path, list[ast.Class]] = {}
-        self._members: dict[
-            tuple[int, str], ast.Class | None
-        ] = {}  # None where there is no file
+        self._members: dict[tuple[int, str], ast.Class | None] = {}  # None where there is no file
         for path in map(Path, paths):
             self._add(path)
 
@@ -133,6 +131,7 @@ class Library:
     def find(self, name: str) -> ast.Class:
         """The class called `name`: a full name, a name inside package Lacuna, or a path to a .mo file.
 
+        Of a file it is the class named like the file, else the last one; it sees the files beside it.
         Raises R001 with the nearest names when there is none.
         """
         if name.endswith(".mo"):
@@ -166,7 +165,8 @@ class Library:
         classes = self.parse_file(path)
         for cls in classes:
             self.root.classes.setdefault(cls.name, cls)
-        return classes[-1]
+        self._loose.append(path.parent)
+        return next((cls for cls in classes if cls.name == path.stem), classes[-1])
 
     def all_classes(self, cls: ast.Class | None = None) -> list[ast.Class]:
         """Every class below `cls` (default: everything), packages first; reads all files."""

@@ -131,7 +131,8 @@ def fit(local: Local, value: Value, scope: Scope, span: Span) -> Value:
     sizes = declared_sizes(local, scope, value)
     if sizes != shape_of(value) or isinstance(value, Record):
         message = f"{local.name} has size {shape_text(sizes)}, given {shape_text(shape_of(value))}"
-        raise Diagnostic("R062", message, span, "both need the same size")
+        each = f"for each element: {{f({local.name}) for {local.name} in array}}"
+        raise Diagnostic("R062", message, span, "both need the same size" if sizes else each)
     items = [typed(item, local.type.primitive, local.name, span) for item in scalars(value)]
     return Array(sizes, tuple(items)) if isinstance(value, Array) else items[0]
 

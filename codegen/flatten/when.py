@@ -7,6 +7,7 @@ from ..errors import Diagnostic, Span
 from ..expr import BOOLEAN, FALSE, TRUE, Expr
 from ..rewrite import assigned
 from ..syntax import ast
+from .constants import is_known
 from .equations import check_target, check_types, equalities, lower_assert, origin_of, unroll
 from .lower import lower, lower_scalar
 from .scope import Scope
@@ -72,10 +73,8 @@ def _if(item: ast.If, scope: Scope) -> list[flat.Statement]:
             break
     if branches and branches[0][0] is TRUE:
         return branches[0][1]
-    bodies = [body for _, body in branches]
-    if branches and branches[-1][0] is not TRUE:
-        bodies.append([])
-    if bodies:
+    bodies = [body for _, body in branches] + ([[]] if branches and branches[-1][0] is not TRUE else [])
+    if not all(is_known(condition, scope.context) for condition, _ in branches):
         _same_targets(bodies, item.span, "if")
     return [flat.If(branches, item.span)] if branches else []
 
