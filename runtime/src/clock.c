@@ -1,4 +1,4 @@
-/* Time events: sample() ticks, time relations, jumps of inputs, and the grid of a fixed step. */
+/* Time events: sample() ticks, time relations, and the grid of a fixed step. */
 #include <math.h>
 #include <string.h>
 
@@ -43,7 +43,7 @@ double rt_clock_limit(rt_session *s) {
     if (!s->options.locate_events) return limit;
   }
   limit = fmin(limit, next_event(s));
-  return fmin(limit, rt_inputs_next_break(s, s->method->lands_on_kinks));
+  return fmin(limit, rt_inputs_next_break(s));
 }
 
 /* What has become due at the present time, as RT_PENDING flags. */
@@ -52,15 +52,7 @@ int rt_clock_due(rt_session *s) {
   int pending = s->clock.next_relation <= now ? RT_PENDING_TIME : 0;
   for (int i = 0; i < s->d->n_sample; i++)
     if (tick_time(&s->clock, i) <= now) pending |= RT_PENDING_SAMPLE;
-  for (int i = 0; i < s->d->n_u; i++) {
-    rt_input *in = &s->inputs[i];
-    if (!in->n || in->interpolation != RT_HOLD) continue;
-    while (in->cursor + 1 < in->n && in->time[in->cursor + 1] <= now &&
-           in->values[in->cursor + 1] == in->values[in->cursor])
-      in->cursor++;
-    if (in->cursor + 1 < in->n && in->time[in->cursor + 1] <= now) pending |= RT_PENDING_INPUT;
-  }
-  return pending;
+  return pending | rt_inputs_due(s);
 }
 
 static void log_time_relations(rt_session *s) {

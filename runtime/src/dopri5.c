@@ -70,7 +70,7 @@ static void *create(rt_session *s) {
 
 const rt_method rt_method_dopri5 = {"dopri5",
                                     false,
-                                    true,
+                                    false,
                                     create,
                                     rt_onestep_destroy,
                                     rt_onestep_begin,

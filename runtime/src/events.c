@@ -7,14 +7,17 @@
 
 enum { MAX_PASSES = 100, WATCHED_PASSES = 12, MAX_FUTILE_EVENTS = 100 };
 
-/* Relations with hysteresis: a true one stays true until its guard is below -eps. Whether any changed. */
+/* A relation keeps its value while its guard is within the hysteresis: what is there may be noise, and a relation that
+ * has just been located at its crossing must not fall back. Exactly zero is no noise, and not greater than zero.
+ * Whether any relation changed. */
 static bool update_relations(rt_session *s) {
   bool changed = false;
   for (int r = 0; r < s->d->n_rel; r++) {
     if (s->d->relations[r].is_time) continue;
-    unsigned char *rel = &s->data.rel[r];
-    double eps = rt_hysteresis(s, r);
-    unsigned char now = *rel ? s->g[r] >= -eps : s->g[r] > eps;
+    unsigned char *rel = &s->data.rel[r], now = *rel;
+    double g = s->g[r], eps = rt_hysteresis(s, r);
+    if (g > eps) now = 1;
+    if (g < -eps || (g == 0 && !s->flip[r])) now = 0;
     changed |= now != *rel;
     *rel = now;
   }
@@ -119,27 +122,29 @@ static bool differs(const rt_session *s, const double *x, const double *xdot, co
 /* Has the event changed what is integrated? It has not if x, x' and z are the same as before, to the last bit, both
  * here and with the new relations at the end of the step that the event cut short. Then that step stands. */
 static bool is_inconsequential(rt_session *s) {
-  if (differs(s, s->x_before, s->xdot_before, s->v_before)) return false;
+  if (s->pending & RT_PENDING_KINK || differs(s, s->x_before, s->xdot_before, s->v_before)) return false;
   bool cut = s->t < s->t_end, switched = memcmp(s->data.rel, s->rel_before, (size_t)s->d->n_rel) != 0;
   if (!cut) return !switched;
+  if (rt_clock_limit(s) < s->t_end) return false; /* the event has set a time event within that step */
   memcpy(s->v_trial, s->v_end, (size_t)s->d->n_v * sizeof *s->v_trial);
   if (rt_rhs(s, s->t_end, s->x_end, s->xdot_trial, s->v_trial)) return false;
   for (int k = 0; k < s->d->n_z; k++)
     if (s->v_trial[s->d->z_index[k]] != s->v_end[s->d->z_index[k]]) return false;
   s->resume = memcmp(s->xdot_trial, s->xdot_end, (size_t)s->d->n_x * sizeof(double)) == 0;
+  if (s->resume) memcpy(s->v_end, s->v_trial, (size_t)s->d->n_v * sizeof *s->v_trial);
   return s->resume;
 }
 
 /* What is pending at the present time happens: two rows in the result, and the method restarts where something changed.
  */
 rt_status rt_event(rt_session *s) {
-  bool record = s->options.record_events && s->pending != RT_PENDING_INPUT;
+  bool record = s->options.record_events && s->pending & ~RT_PENDING_INPUT;
   rt_status status = record ? rt_record_event_row(s) : RT_OK;
   if (status) return status;
   double since = s->t - s->last_event;
   s->last_event = s->t;
   remember(s);
-  if (s->pending & RT_PENDING_INPUT) s->result->counters.input_jumps++;
+  if (s->pending & RT_PENDING_JUMP) s->result->counters.input_jumps++;
   rt_inputs_begin(s, s->t);
   if (s->pending & RT_PENDING_STATE) switch_relations(s);
   if (s->pending & (RT_PENDING_TIME | RT_PENDING_SAMPLE)) rt_clock_tick(s);

@@ -1,4 +1,5 @@
 /* Failures: one complete sentence with time, variable or equation, and the line of the model. */
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -81,4 +82,22 @@ rt_status rt_fail_model(rt_session *s, double time, const char *doing) {
   if (f->kind == MDL_FAILURE_BOUND && named) return fail_bound(s, time, f);
   return rt_fail(s, status_of(f->kind), time, variable, where, "%s at time %.9g s: %s%s%s (value %.9g)", doing, time,
                  describe(f->kind), named ? ", variable " : "", named ? d->variables[variable].name : "", f->value);
+}
+
+/* The solver asks for steps of h seconds, too small to get anywhere: the fault is in the state that changes fastest. */
+rt_status rt_fail_collapse(rt_session *s, double h, const char *why) {
+  const mdl_data *m = &s->data;
+  if (m->failure.kind != MDL_FAILURE_NONE) return rt_fail_model(s, s->t, "integrating");
+  int worst = 0;
+  double largest = 0;
+  for (int i = 0; i < s->d->n_x; i++) {
+    double speed = fabs(m->xdot[i]) / (s->atol[i] + s->options.rtol * fabs(m->x[i]));
+    if (speed > largest) worst = i;
+    largest = fmax(largest, speed);
+  }
+  int variable = rt_state_variable(s, worst);
+  const char *name = variable >= 0 ? s->d->variables[variable].name : "a state";
+  return rt_fail(s, RT_STEP_COLLAPSE, s->t, variable, NULL,
+                 "solver %s makes no progress at time %.9g s: %s (step %.3g s); %s changes fastest", s->method->name,
+                 s->t, why, h, name);
 }

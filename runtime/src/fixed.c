@@ -49,7 +49,7 @@ static void *create_rk4(rt_session *s) {
 
 const rt_method rt_method_euler = {"euler",
                                    true,
-                                   true,
+                                   false,
                                    create_euler,
                                    rt_onestep_destroy,
                                    rt_onestep_begin,
@@ -60,7 +60,7 @@ const rt_method rt_method_euler = {"euler",
                                    rt_onestep_count};
 const rt_method rt_method_rk4 = {"rk4",
                                  true,
-                                 true,
+                                 false,
                                  create_rk4,
                                  rt_onestep_destroy,
                                  rt_onestep_begin,

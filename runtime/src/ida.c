@@ -2,7 +2,6 @@
  *
  * Events are located by the runtime on IDA's own interpolating polynomial, so IDA has no root functions. After an event
  * x' and z are known exactly from the explicit form: IDA restarts from them without solving for consistent values. */
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +19,6 @@ typedef struct {
   SUNLinearSolver solver;
   double *values; /* [jac_nnz] */
   bool started;   /* IDA holds counters of this run that are not in the result yet */
-  double limit;
 } memory;
 
 static int residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user) {
@@ -191,22 +189,12 @@ static rt_status begin(rt_session *s, void *p) {
 }
 
 static rt_status fail(rt_session *s, memory *m, int flag) {
-  if (s->data.failure.kind != MDL_FAILURE_NONE) return rt_fail_model(s, s->t, "integrating");
-  int worst = 0;
-  N_Vector weight = m->atol;
-  double *error = N_VGetArrayPointer(m->work);
-  if (IDAGetEstLocalErrors(m->ida, m->work) == IDA_SUCCESS)
-    for (int i = 1; i < s->d->n_x; i++)
-      if (fabs(error[i]) / NV_Ith_S(weight, i) > fabs(error[worst]) / NV_Ith_S(weight, worst)) worst = i;
-  int variable = rt_state_variable(s, worst);
   sunrealtype h = 0;
   IDAGetCurrentStep(m->ida, &h);
-  return rt_fail(s, RT_STEP_COLLAPSE, s->t, variable, NULL,
-                 "IDA makes no progress at time %.9g s: %s (step %.3g s); largest error in %s", s->t,
-                 flag == IDA_ERR_FAIL    ? "the error test fails"
-                 : flag == IDA_CONV_FAIL ? "Newton's method does not converge"
-                                         : "it gave up",
-                 h, variable >= 0 ? s->d->variables[variable].name : "a state");
+  return rt_fail_collapse(s, h,
+                          flag == IDA_ERR_FAIL    ? "the error test fails"
+                          : flag == IDA_CONV_FAIL ? "Newton's method fails"
+                                                  : "it gave up");
 }
 
 static rt_status step(rt_session *s, void *p, double limit) {
@@ -250,4 +238,4 @@ static void point(rt_session *s, void *p, double t, double *x) {
   memcpy(x, N_VGetArrayPointer(m->work), (size_t)s->d->n_x * sizeof *x);
 }
 
-const rt_method rt_method_ida = {"ida", false, false, create, destroy, begin, restart, step, dense, point, count};
+const rt_method rt_method_ida = {"ida", false, true, create, destroy, begin, restart, step, dense, point, count};

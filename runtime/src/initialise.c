@@ -30,7 +30,7 @@ static void clear(rt_session *s) {
   s->t_before = NAN;
   s->resume = false;
   s->dense.valid = false;
-  s->futile_events = s->pending = 0;
+  s->futile_events = s->tiny_steps = s->pending = 0;
 }
 
 static rt_status set_parameters_and_starts(rt_session *s) {

@@ -38,26 +38,54 @@ void rt_inputs_at(rt_session *s, double t) {
   s->input_time = t;
 }
 
-/* Does the slope change at sample k by more than rounding? */
-static bool is_kink(const rt_input *in, int k) {
+/* Does the slope change at sample k? One-step methods land on every kink that is more than rounding, because it would
+ * cost them their order. A multistep method steps over small ones, which its error test absorbs, and restarts at the
+ * others. */
+static bool is_kink(const rt_session *s, const rt_input *in, int k) {
   if (k == 0 || k + 1 >= in->n) return true;
   const double *t = in->time, *v = in->values;
   double expected = v[k] + (v[k] - v[k - 1]) / (t[k] - t[k - 1]) * (t[k + 1] - t[k]);
-  return fabs(v[k + 1] - expected) > 1e-9 * (fabs(v[k - 1]) + fabs(v[k]) + fabs(v[k + 1]));
+  return fabs(v[k + 1] - expected) >
+         (s->method->multistep ? 1e-2 : 1e-9) * (fabs(v[k - 1]) + fabs(v[k]) + fabs(v[k + 1]));
 }
 
-/* The next sample after the present time at which a held input jumps or, with `kinks`, a linear one changes slope. */
-double rt_inputs_next_break(const rt_session *s, bool kinks) {
-  double next = INFINITY;
+/* Does the input jump or bend at sample k? */
+static bool is_break(const rt_session *s, const rt_input *in, int k) {
+  return in->interpolation == RT_HOLD ? k > 0 && in->values[k] != in->values[k - 1] : is_kink(s, in, k);
+}
+
+/* The next sample after the present time at which an input jumps or bends. */
+double rt_inputs_next_break(const rt_session *s) {
+  double next = INFINITY, now = s->t + s->clock.tolerance;
   for (int i = 0; i < s->d->n_u; i++) {
     const rt_input *in = &s->inputs[i];
-    bool hold = in->interpolation == RT_HOLD;
-    if (!in->n || !(hold || kinks)) continue;
-    int k = sample_at(in, in->cursor, s->t + s->clock.tolerance);
-    if (in->time[k] <= s->t + s->clock.tolerance) k++;
-    while (k < in->n && in->time[k] < next && (hold ? k > 0 && in->values[k] == in->values[k - 1] : !is_kink(in, k)))
+    if (!in->n) continue;
+    int k = sample_at(in, in->cursor, now);
+    if (in->time[k] <= now) k++;
+    while (k < in->n && in->time[k] < next && !is_break(s, in, k))
       k++;
     if (k < in->n) next = fmin(next, in->time[k]);
   }
   return next;
+}
+
+/* The jumps that are due at the present time and, for a multistep method, the kinks. */
+int rt_inputs_due(rt_session *s) {
+  int pending = 0;
+  double now = s->t + s->clock.tolerance;
+  for (int i = 0; i < s->d->n_u; i++) {
+    rt_input *in = &s->inputs[i];
+    if (!in->n) continue;
+    if (in->interpolation == RT_HOLD) {
+      for (; in->cursor + 1 < in->n && in->time[in->cursor + 1] <= now; in->cursor++)
+        if (in->values[in->cursor + 1] != in->values[in->cursor]) {
+          pending |= RT_PENDING_JUMP;
+          break;
+        }
+    } else if (s->method->multistep) {
+      int k = sample_at(in, in->cursor, now);
+      if (fabs(in->time[k] - s->t) <= s->clock.tolerance && is_kink(s, in, k)) pending |= RT_PENDING_KINK;
+    }
+  }
+  return pending;
 }

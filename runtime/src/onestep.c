@@ -2,7 +2,6 @@
  */
 #include "onestep.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -88,17 +87,6 @@ rt_status rt_onestep_restart(rt_session *s, void *memory) {
   return RT_OK;
 }
 
-static rt_status fail_collapse(rt_session *s, const rt_onestep *o, double h) {
-  if (s->data.failure.kind != MDL_FAILURE_NONE) return rt_fail_model(s, s->t, "stepping");
-  int worst = 0;
-  for (int i = 1; i < s->d->n_x; i++)
-    if (fabs(o->x1[i] - o->x0[i]) / s->atol[i] > fabs(o->x1[worst] - o->x0[worst]) / s->atol[worst]) worst = i;
-  int variable = rt_state_variable(s, worst);
-  return rt_fail(s, RT_STEP_COLLAPSE, s->t, variable, NULL,
-                 "step size collapsed to %.3g s at time %.9g s; %s changes fastest", h, s->t,
-                 variable >= 0 ? s->d->variables[variable].name : "a state");
-}
-
 /* PI controller for an accepted step of size h; a step that was cut short to land does not shrink the next one. Single
  * precision is enough to choose a step. */
 static void control(rt_onestep *o, double h, double square, bool rejected, bool cut) {
@@ -150,7 +138,7 @@ rt_status rt_onestep_step(rt_session *s, void *memory, double limit) {
     h *= status == 0 && isfinite(square) ? fmax(o->scheme->min_factor, 0.9 * pow(square, -0.5 / o->scheme->order))
                                          : 0.25;
     o->h_next = h;
-    if (h < 16 * DBL_EPSILON * fmax(fabs(s->t), 1e-3 * (s->stop - s->start))) return fail_collapse(s, o, h);
+    if (h < rt_smallest_step(s)) return rt_fail_collapse(s, h, "the error test fails");
   }
 }
 

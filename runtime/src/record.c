@@ -61,13 +61,10 @@ static rt_status write_interpolated(rt_session *s, double t, bool alone) {
 }
 
 /* Grid points of the last step: those before its end, or with `closed` up to its end. */
-rt_status rt_record_step(rt_session *s, bool closed) {
+rt_status rt_record_grid(rt_session *s, bool closed) {
   rt_recorder *r = &s->recorder;
   rt_status status = RT_OK;
-  if (!on_grid(r)) {
-    bool event_rows_follow = s->options.record_events && s->pending & ~RT_PENDING_INPUT;
-    return event_rows_follow ? RT_OK : write_row(s, s->t, s->data.x, s->data.xdot, s->data.v, 0);
-  }
+  if (!on_grid(r)) return status;
   double end = s->t + (closed ? s->clock.tolerance : -s->clock.tolerance);
   for (double t = grid_time(s, r->next); !status && t <= end; t = grid_time(s, ++r->next)) {
     if (fabs(t - s->t) <= s->clock.tolerance) {
@@ -78,6 +75,13 @@ rt_status rt_record_step(rt_session *s, bool closed) {
     }
   }
   return status;
+}
+
+/* What the end of a step adds to the record. What happens at events adds its own rows. */
+rt_status rt_record_step(rt_session *s) {
+  if (on_grid(&s->recorder)) return rt_record_grid(s, !s->pending);
+  bool event_rows_follow = s->options.record_events && s->pending & ~RT_PENDING_INPUT;
+  return event_rows_follow ? RT_OK : write_row(s, s->t, s->data.x, s->data.xdot, s->data.v, 0);
 }
 
 /* A row at an event, before or after it; after it, it stands for a grid point at the same instant too. */

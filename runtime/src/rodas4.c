@@ -184,7 +184,7 @@ static void *create(rt_session *s) {
 
 const rt_method rt_method_rodas4 = {"rodas4",
                                     false,
-                                    true,
+                                    false,
                                     create,
                                     rt_onestep_destroy,
                                     rt_onestep_begin,

@@ -2,6 +2,8 @@
 #ifndef RT_SESSION_H
 #define RT_SESSION_H
 
+#include <float.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -57,8 +59,8 @@ typedef struct {
  * there. */
 typedef struct {
   const char *name;
-  bool needs_step;     /* has no step size control */
-  bool lands_on_kinks; /* loses order where a linear input changes slope inside a step */
+  bool needs_step; /* has no step size control */
+  bool multistep; /* remembers earlier steps: restarts where a linear input bends sharply, but steps over small kinks */
   void *(*create)(struct rt_session *);
   void (*destroy)(void *memory);
   rt_status (*begin)(struct rt_session *, void *memory);   /* a new run */
@@ -72,7 +74,14 @@ typedef struct {
 
 extern const rt_method rt_method_ida, rt_method_dopri5, rt_method_rodas4, rt_method_rk4, rt_method_euler;
 
-enum { RT_PENDING_STATE = 1, RT_PENDING_TIME = 2, RT_PENDING_SAMPLE = 4, RT_PENDING_INPUT = 8 };
+enum {
+  RT_PENDING_STATE = 1,
+  RT_PENDING_TIME = 2,
+  RT_PENDING_SAMPLE = 4,
+  RT_PENDING_JUMP = 8,  /* of a held input */
+  RT_PENDING_KINK = 16, /* of a linear input, where the method restarts at kinks */
+  RT_PENDING_INPUT = RT_PENDING_JUMP | RT_PENDING_KINK
+};
 
 struct rt_session {
   const rt_model *model;
@@ -96,6 +105,7 @@ struct rt_session {
   double t_previous, t;             /* what is being looked at of the last step; data belongs to t */
   double t_end;                     /* end of the last step; later than t when an event cut it short, and then */
   double *x_end, *xdot_end, *v_end; /* the point there */
+  int tiny_steps;                   /* consecutive steps that hardly differ from none */
   bool resume; /* go on to the end of the last step: the event at t changed nothing that is integrated */
   rt_clock clock;
   rt_dense dense;
@@ -115,10 +125,16 @@ struct rt_session {
   rt_result *result;
 };
 
+/* Steps smaller than this (s) are lost in the rounding of time. */
+static inline double rt_smallest_step(const rt_session *s) {
+  return 16 * DBL_EPSILON * fmax(fabs(s->t), 1e-3 * (s->stop - s->start));
+}
+
 /* failure.c */
 rt_status rt_fail(rt_session *s, rt_status status, double time, int variable, const mdl_equation *where,
                   const char *format, ...) __attribute__((format(printf, 6, 7)));
 rt_status rt_fail_model(rt_session *s, double time, const char *doing);
+rt_status rt_fail_collapse(rt_session *s, double h, const char *why);
 
 /* evaluate.c: the model's functions, counted and guarded; > 0 recoverable, < 0 not, m->failure says why */
 int rt_rhs(rt_session *s, double t, const double *x, double *xdot, double *v);
@@ -131,7 +147,8 @@ int rt_state_variable(const rt_session *s, int state);
 /* inputs.c */
 void rt_inputs_begin(rt_session *s, double t);
 void rt_inputs_at(rt_session *s, double t);
-double rt_inputs_next_break(const rt_session *s, bool kinks);
+double rt_inputs_next_break(const rt_session *s);
+int rt_inputs_due(rt_session *s);
 
 /* clock.c */
 rt_status rt_clock_begin(rt_session *s);
@@ -159,7 +176,8 @@ rt_status rt_initialise(rt_session *s);
 
 /* record.c */
 void rt_record_begin(rt_session *s);
-rt_status rt_record_step(rt_session *s, bool closed);
+rt_status rt_record_grid(rt_session *s, bool closed);
+rt_status rt_record_step(rt_session *s);
 rt_status rt_record_event_row(rt_session *s);
 
 /* result.c */

@@ -4,6 +4,8 @@
 
 #include "session.h"
 
+enum { MAX_TINY_STEPS = 100 };
+
 static rt_status check_asserts(rt_session *s) {
   mdl_data *m = &s->data;
   if (!s->d->n_asserts || s->d->check(m, s->t, m->x, m->xdot, m->v) >= 0) return RT_OK;
@@ -18,7 +20,7 @@ static rt_status begin(rt_session *s) {
   if (!status) status = check_asserts(s);
   if (!status) status = s->method->begin(s, s->memory);
   rt_record_begin(s);
-  return status ? status : rt_record_step(s, true);
+  return status ? status : rt_record_step(s);
 }
 
 /* Take a step, or look at what is left of the last one. */
@@ -32,6 +34,8 @@ static rt_status move_on(rt_session *s) {
   s->dense.valid = false;
   rt_status status = s->method->step(s, s->memory, rt_clock_limit(s));
   s->t_end = s->t;
+  s->tiny_steps = s->t - s->t_previous < rt_smallest_step(s) ? s->tiny_steps + 1 : 0;
+  if (s->tiny_steps > MAX_TINY_STEPS) return rt_fail_collapse(s, s->t - s->t_previous, "its steps vanish");
   return status;
 }
 
@@ -41,7 +45,7 @@ static rt_status advance(rt_session *s) {
   if (!status) status = check_asserts(s);
   if (status) return status;
   s->pending |= rt_clock_due(s);
-  if ((status = rt_record_step(s, !s->pending))) return status;
+  if ((status = rt_record_step(s))) return status;
   return s->pending ? rt_event(s) : RT_OK;
 }
 
@@ -52,7 +56,7 @@ static rt_status finish(rt_session *s, rt_status status) {
     s->data.terminal = 1;
     status = rt_iterate_event(s);
   }
-  if (!status) status = rt_record_step(s, true);
+  if (!status) status = rt_record_grid(s, true);
   memcpy(s->result->parameters, s->data.p, (size_t)s->d->n_p * sizeof *s->data.p);
   s->result->failure = s->failure;
   return status;

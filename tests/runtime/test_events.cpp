@@ -262,7 +262,8 @@ TEST(EventOrder, IsKeptWhenEventsAreLocatedAndFallsToOneWhenNot) {
     return std::fabs(result.last(0) - exact);
   };
   EXPECT_GT(std::log2(error("rk4", 0.04, true) / error("rk4", 0.01, true)) / 2, 3.8);
-  EXPECT_GT(std::log2(error("rodas4", 0.04, true) / error("rodas4", 0.01, true)) / 2, 3.5);
+  // its dense output is of order 3, which is what an event sees
+  EXPECT_GT(std::log2(error("rodas4", 0.04, true) / error("rodas4", 0.01, true)) / 2, 3);
   EXPECT_GT(std::log2(error("dopri5", 0.08, true) / error("dopri5", 0.02, true)) / 2, 4);
   EXPECT_NEAR(std::log2(error("euler", 4e-4, true) / error("euler", 1e-4, true)) / 2, 1, 0.15);
   EXPECT_NEAR(std::log2(error("rk4", 1e-2, false) / error("rk4", 1e-2 / 64, false)) / 6, 1, 0.5);

@@ -128,7 +128,7 @@ TEST_P(Failures, DomainError) {
   expect_failure<Negative>(GetParam(), RT_DOMAIN, 0.5, "der(x) = f", 1e-2);
 }
 TEST_P(Failures, Assert) {
-  expect_failure<Asserting>(GetParam(), RT_ASSERT, 0.7, "hand.mo:7", 0.5);
+  expect_failure<Asserting>(GetParam(), RT_ASSERT, 1.25, "hand.mo:7", 0.751);
 }
 TEST_P(Failures, Initialisation) {
   expect_failure<NoStart>(GetParam(), RT_INITIALISATION, 0, "did not converge");

@@ -1,1 +1,0 @@
-#include "hand_model.h"
