@@ -117,6 +117,23 @@ def screw_ema(p: Mapping[str, float], s: Mapping[str, np.ndarray], period: float
     return [_winding(s["u"], i, w, period), shaft] if "u" in s else [shaft]
 
 
+def _shapes(electrical: np.ndarray) -> list[np.ndarray]:
+    """Trapezoids of the three phases, of an electrical angle in degrees."""
+    corners = ([0, 30, 150, 210, 330, 360], [0, 1, 1, -1, -1, 0])
+    return [np.interp((electrical - 120 * n) % 360, *corners) for n in range(3)]
+
+
+def flight_control(p: Mapping[str, float], s: Mapping[str, np.ndarray], period: float) -> list[Equation]:
+    N = 160
+    angle, w, acceleration = s["thm"], smooth(s["thm"], period, 1), smooth(s["thm"], period, 2)
+    phases = [s["ia"], s["ib"], s["ic"] if "ic" in s else -s["ia"] - s["ib"]]
+    i = sum(k * current for k, current in zip(_shapes(np.degrees(2 * angle)), phases, strict=True))
+    library = _mechanical(angle, w, i) | {"load": np.sign(w) * np.abs(s["T_aero"]) / N}
+    del library["sign"]
+    target = p["Ke"] * i - s["T_aero"] / N - p["Js"] / N**2 * acceleration - p["bs"] / N**2 * w
+    return [Equation("shaft", target, {"Jm": acceleration, "bm": w, "tau_m": np.sign(w)}, library)]
+
+
 def bldc_drive(p: Mapping[str, float], s: Mapping[str, np.ndarray], period: float) -> list[Equation]:
     if "theta" not in s:
         return []
@@ -133,7 +150,10 @@ def bldc_drive(p: Mapping[str, float], s: Mapping[str, np.ndarray], period: floa
     pair = sum(np.abs(current) for current in phases)
     steady = (s["v_bus"] > 1) & (pair > 0.3) & (np.min(np.abs(phases), axis=0) < 0.05)
     eccentric = line * np.cos(np.radians(electrical - 60))
-    masked = {f"R{x}": np.abs(c) for x, c in zip("abc", phases, strict=True)} | {"sag": pair / 2, "flux": eccentric}
+    masked = {f"R{x}": np.abs(c) for x, c in zip("abc", phases, strict=True)} | {
+        "sag": pair / 2,
+        "eccentric": eccentric,
+    }
     winding = Equation(
         "winding",
         (s["v_bus"] * np.sign(i) * s["dir"] * steady),
@@ -149,4 +169,5 @@ EQUATIONS = {
     "Benches.FrictionDevice": friction_device,
     "Benches.ScrewEma": screw_ema,
     "Benches.BldcDrive": bldc_drive,
+    "Benches.FlightControl": flight_control,
 }

@@ -6,45 +6,42 @@
 
 typedef struct {
 #define FIELD(name) double name;
-    PARAMETERS(FIELD)
+  PARAMETERS(FIELD)
 } parameters;
 
 enum { Z, UNUSED, STATES };
 
-static double force(const parameters *q, const double *in, double z, double *dz)
-{
-    double x = in[0], v = in[1];
-    const friction *f = (const friction *)&q->device_tau_c;
-    double F = q->c * v + q->k_s * (x - q->x_0) + q->F_0 + q->law_v3 * v * v * v;
-    if (q->law_sqrt != 0) F += q->law_sqrt * sign_of(v) * sqrt(fabs(v));
-    int mode = f->tau_c == 0 && f->tau_e == 0 ? FREE : (int)sign_of(v);
-    return F + friction_torque(f, mode, v, 0, 0, x, z, dz);
+static double force(const parameters *q, const double *in, double z, double *dz) {
+  double x = in[0], v = in[1];
+  const friction *f = (const friction *)&q->device_tau_c;
+  double F = q->c * v + q->k_s * (x - q->x_0) + q->F_0 + q->law_v3 * v * v * v;
+  if (q->law_sqrt != 0) F += q->law_sqrt * sign_of(v) * sqrt(fabs(v));
+  int mode = f->tau_c == 0 && f->tau_e == 0 ? FREE : (int)sign_of(v);
+  return F + friction_torque(f, mode, v, 0, 0, x, z, dz);
 }
 
-static void start(const double *p, const double *in, const double *x, int *mode) { (void)p, (void)in, (void)x, (void)mode; }
-
-static void derivative(const double *p, const int *mode, double t, const double *in, const double *x, double *dx)
-{
-    (void)mode, (void)t;
-    dx[UNUSED] = 0;
-    force((const parameters *)p, in, x[Z], &dx[Z]);
+static void start(const double *p, const double *in, const double *x, int *mode) {
+  (void)p, (void)in, (void)x, (void)mode;
 }
 
-static void guard(const double *p, const int *mode, double t, const double *in, const double *x, double *g)
-{
-    (void)p, (void)mode, (void)t, (void)in, (void)x, (void)g;
+static void derivative(const double *p, const int *mode, double t, const double *in, const double *x, double *dx) {
+  (void)mode, (void)t;
+  dx[UNUSED] = 0;
+  force((const parameters *)p, in, x[Z], &dx[Z]);
 }
 
-static void change(const double *p, const double *g, double t, const double *in, double *x, int *mode)
-{
-    (void)p, (void)g, (void)t, (void)in, (void)x, (void)mode;
+static void guard(const double *p, const int *mode, double t, const double *in, const double *x, double *g) {
+  (void)p, (void)mode, (void)t, (void)in, (void)x, (void)g;
 }
 
-static void output(const double *p, const int *mode, double t, const double *in, const double *x, double *y)
-{
-    double unused;
-    (void)mode, (void)t;
-    y[0] = force((const parameters *)p, in, x[Z], &unused);
+static void change(const double *p, const double *g, double t, const double *in, double *x, int *mode) {
+  (void)p, (void)g, (void)t, (void)in, (void)x, (void)mode;
+}
+
+static void output(const double *p, const int *mode, double t, const double *in, const double *x, double *y) {
+  double unused;
+  (void)mode, (void)t;
+  y[0] = force((const parameters *)p, in, x[Z], &unused);
 }
 
 #define NAME(name) #name " "
