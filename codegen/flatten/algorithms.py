@@ -10,7 +10,7 @@ from ..rewrite import assigned
 from ..syntax import ast
 from .constants import variability
 from .equations import Collected, check_target, check_types, origin_of, unroll
-from .lower import lower, lower_scalar
+from .lower import lower, lower_results, lower_scalar
 from .scope import Scope
 from .values import scalars, shape_of, shape_text
 from .when import procedure, when_conditions
@@ -96,12 +96,8 @@ def _if(item: ast.If, scope: Scope, in_when: bool) -> list[flat.Statement]:
 
 def assignment(item: ast.Assignment, scope: Scope) -> list[flat.Statement]:
     """target := value, scalar by scalar; values are read before any is assigned."""
-    from .calls import call_of_model
-
     if isinstance(item.target, ast.Tuple):
-        if not isinstance(item.value, ast.Call):
-            raise Diagnostic("R023", "a list on the left needs a call on the right", item.span, "(a, b) := f(x)")
-        values = call_of_model(item.value, scope)
+        values = lower_results(item.value, scope)
         pairs = [(lower(t, scope), v) for t, v in zip(item.target.items, values, strict=False) if t is not None]
     else:
         pairs = [(lower(item.target, scope), lower(item.value, scope))]

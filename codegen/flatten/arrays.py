@@ -10,9 +10,21 @@ from ..errors import Diagnostic, Span
 from ..expr import BOOLEAN, INTEGER, Expr
 from ..syntax import ast
 from .constants import known
-from .lower import lower, need_numbers
+from .lower import FUNCTIONS, lower, need_numbers
 from .scope import Scope
-from .values import Array, Value, elementwise, fold, integers, scalars, shape_of, shape_text, stack, transpose
+from .values import (
+    Array,
+    Value,
+    concatenate,
+    elementwise,
+    fold,
+    integers,
+    promote,
+    scalars,
+    shape_of,
+    shape_text,
+    transpose,
+)  # fmt: skip
 
 
 def _arguments(e: ast.Call, scope: Scope, least: int, most: int) -> list[Value]:
@@ -40,7 +52,7 @@ def _array(value: Value, e: ast.Call, dimensions: tuple[int, ...] = ()) -> Array
     return value
 
 
-def _size(e: ast.Call, scope: Scope) -> Value:
+def size_of_array(e: ast.Call, scope: Scope) -> Value:
     arguments = _arguments(e, scope, 1, 2)
     shape = shape_of(arguments[0])
     if len(arguments) == 1:
@@ -141,28 +153,6 @@ def _scalar(e: ast.Call, scope: Scope) -> Value:
     return items[0]
 
 
-def promote(value: Value, dimensions: int) -> Array:
-    """`value` with sizes of 1 added on the right up to so many dimensions."""
-    shape = shape_of(value)
-    return Array(shape + (1,) * (dimensions - len(shape)), tuple(scalars(value)))
-
-
-def concatenate(along: int, parts: list[Array], span: Span) -> Array:
-    """Arrays joined along a dimension (from 1); the other sizes agree. Raises R042."""
-    if along == 1:
-        if len({p.shape[1:] for p in parts}) > 1:
-            found = " and ".join(shape_text(p.shape) for p in parts)
-            raise Diagnostic("R042", f"arrays of sizes {found} side by side", span, "their other sizes must agree")
-        items = tuple(i for p in parts for i in p.items)
-        return Array((sum(p.shape[0] for p in parts), *parts[0].shape[1:]), items)
-    if len({p.shape[0] for p in parts}) > 1:
-        found = " and ".join(shape_text(p.shape) for p in parts)
-        raise Diagnostic("R042", f"arrays of sizes {found} side by side", span, "they need equally many rows")
-    rows = zip(*(p.rows() for p in parts), strict=True)
-    joined = [concatenate(along - 1, list(row), span) for row in rows]
-    return stack(joined, span)
-
-
 def _cat(e: ast.Call, scope: Scope) -> Value:
     along, *parts = _arguments(e, scope, 2, 99)
     dimension = _number(along, scope, e.span, "the dimension")
@@ -185,8 +175,8 @@ def map_call(e: ast.Call, scope: Scope, count: int) -> Value:
     return elementwise(lambda *xs: ex.call(name, *xs), arguments, e.span, f"arguments of {name}")
 
 
-ARRAY_FUNCTIONS: dict[str, Callable[[ast.Call, Scope], Value]] = {
-    "size": _size, "ndims": _ndims, "fill": _fill, "zeros": _constant_array(0), "ones": _constant_array(1),
+FUNCTIONS |= {
+    "size": size_of_array, "ndims": _ndims, "fill": _fill, "zeros": _constant_array(0), "ones": _constant_array(1),
     "identity": _identity, "diagonal": _diagonal, "linspace": _linspace, "transpose": _transpose, "cross": _cross,
     "vector": _vector, "scalar": _scalar, "matrix": _matrix, "cat": _cat,
     "sum": _reduction(ex.add, ex.const(0)), "product": _reduction(ex.mul, ex.const(1)),

@@ -9,11 +9,12 @@ from ..errors import Diagnostic
 from ..expr import BOOLEAN, INTEGER, REAL, Expr
 from ..suggest import did_you_mean
 from ..syntax import ast
-from .arrays import ARRAY_FUNCTIONS, map_call
+from .arrays import map_call, size_of_array
 from .constants import is_known, known, variability
-from .lower import lower, lower_scalar
-from .references import enumeration_literals
-from .scope import Scope, find_class, visible_classes
+from .derivative import time_derivative
+from .functions import call_function, construct_record
+from .lower import FUNCTIONS, gives_results, handles, lower, lower_scalar
+from .scope import Scope, enumeration_literals, find_class, visible_classes
 from .values import Value, elementwise
 
 _OUTSIDE = {
@@ -39,23 +40,17 @@ _OUTSIDE = {
 }
 
 
+@handles(ast.Call)
 def lower_call(e: ast.Call, scope: Scope) -> Value:
     """The value of a call; of several results the first."""
     name = str(e.function)
-    handler = _HANDLERS.get(name)
-    if handler is not None:
-        return handler(e, scope)
-    if name in ARRAY_FUNCTIONS:
-        return ARRAY_FUNCTIONS[name](e, scope)
-    if name in ex.BUILTINS:
-        return map_call(e, scope, ex.BUILTINS[name])
-    return call_of_model(e, scope)[0]
+    handler = FUNCTIONS.get(name)
+    return handler(e, scope) if handler is not None else call_of_model(e, scope)[0]
 
 
+@gives_results
 def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
     """All results of a function or record constructor declared in a model."""
-    from .functions import call_function, construct_record
-
     name = str(e.function)
     cls = find_class(scope.context.library, scope.cls, e.function)
     if cls is not None and cls.kind == "function":
@@ -68,7 +63,7 @@ def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
         raise Diagnostic("R091", f"{name} is outside the subset", e.function.span, _OUTSIDE[name])
     if name in ("reinit", "assert", "terminate"):
         raise Diagnostic("R004", f"{name} has no value", e.function.span, "it stands alone, ended by ';'")
-    known = [*BUILTIN_NAMES, *visible_classes(scope.context.library, scope.cls)]
+    known = [*FUNCTIONS, *visible_classes(scope.context.library, scope.cls)]
     hint = did_you_mean(e.function.names[-1], known, "declare it, or import its package")
     if scope.instance is not None and e.function.names[0] in scope.instance.elements:
         hint = f"{name} is a variable: index it as {name}[i], multiply as {name}*(...)"
@@ -83,8 +78,6 @@ def _take(e: ast.Call, count: int) -> list[ast.Expression]:
 
 
 def _der(e: ast.Call, scope: Scope) -> Value:
-    from .derivative import time_derivative
-
     (written,) = _take(e, 1)
     value = lower(written, scope)
     return elementwise(lambda x: time_derivative(x, scope, e.span), [value], e.span, "der")
@@ -184,13 +177,16 @@ def _size_of_enumeration(e: ast.Call, scope: Scope) -> Value | None:
 
 
 def _size(e: ast.Call, scope: Scope) -> Value:
-    return _size_of_enumeration(e, scope) or ARRAY_FUNCTIONS["size"](e, scope)
+    return _size_of_enumeration(e, scope) or size_of_array(e, scope)
 
 
-_HANDLERS: dict[str, Callable[[ast.Call, Scope], Value]] = {
+def _scalar_function(count: int) -> Callable[[ast.Call, Scope], Value]:
+    return lambda e, scope: map_call(e, scope, count)
+
+
+FUNCTIONS |= {name: _scalar_function(count) for name, count in ex.BUILTINS.items()}
+FUNCTIONS |= {
     "der": _der, "pre": _pre, "edge": _edge, "change": _change, "noEvent": _no_event, "smooth": _smooth,
     "sample": _sample, "initial": _phase("initial"), "terminal": _phase("terminal"), "String": _text_of,
     "Integer": _integer_of, "size": _size,
 }  # fmt: skip
-
-BUILTIN_NAMES = (*_HANDLERS, *ARRAY_FUNCTIONS, *ex.BUILTINS, "reinit", "assert", "terminate")

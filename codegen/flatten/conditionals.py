@@ -2,34 +2,41 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from .. import expr as ex
 from .. import flat
 from ..errors import Diagnostic, Span
 from ..expr import BOOLEAN, TRUE, Expr
 from ..syntax import ast
 from .constants import is_known, known
-from .equations import Collected, flatten_item
+from .equations import Collected
 from .lower import lower_scalar
 from .scope import Scope
 
+Descend = Callable[[ast.Item, Scope, Collected], None]
 
-def flatten_if(item: ast.If, scope: Scope, out: Collected) -> None:
-    """Add the equations of an if-equation. Raises F030 where branches that change in time do not match."""
+
+def flatten_if(item: ast.If, scope: Scope, out: Collected, descend: Descend) -> None:
+    """Add the equations of an if-equation, those of its branches by `descend`.
+
+    Raises F030 where branches that change in time do not match.
+    """
     conditions = [TRUE if c is None else lower_scalar(c, scope, BOOLEAN) for c, _ in item.branches]
     fixed = all(is_known(c, scope.context) for c in conditions)
     if fixed and (all(c.op == "const" for c in conditions) or _structural(item)):
-        _decided(item, conditions, scope, out)
+        _decided(item, conditions, scope, out, descend)
         return
     try:
-        parts = [_branch(body, scope) for _, body in item.branches]
+        parts = [_branch(body, scope, descend) for _, body in item.branches]
         if fixed and not _same_unknowns([p.equations for p in parts]):
-            _decided(item, conditions, scope, out)
+            _decided(item, conditions, scope, out, descend)
             return
         merged = _merge(item, conditions, parts)
     except Diagnostic:
         if not fixed:
             raise
-        _decided(item, conditions, scope, out)
+        _decided(item, conditions, scope, out, descend)
         return
     out.equations += merged.equations
     out.asserts += merged.asserts
@@ -51,18 +58,18 @@ def _has_structure(body: list[ast.Item]) -> bool:
     return False
 
 
-def _decided(item: ast.If, conditions: list[Expr], scope: Scope, out: Collected) -> None:
+def _decided(item: ast.If, conditions: list[Expr], scope: Scope, out: Collected, descend: Descend) -> None:
     for condition, (_, body) in zip(conditions, item.branches, strict=True):
         if known(condition, scope, item.span, "the condition of an if-equation").value:
             for inner in body:
-                flatten_item(inner, scope, out)
+                descend(inner, scope, out)
             return
 
 
-def _branch(body: list[ast.Item], scope: Scope) -> Collected:
+def _branch(body: list[ast.Item], scope: Scope, descend: Descend) -> Collected:
     part = Collected()
     for item in body:
-        flatten_item(item, scope, part)
+        descend(item, scope, part)
     return part
 
 

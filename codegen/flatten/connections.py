@@ -9,6 +9,8 @@ from .. import flat
 from ..errors import Diagnostic, Span
 from ..syntax import ast
 from .context import Context
+from .instance import Absent, ArrayNode
+from .leaf import Leaf
 from .references import apply_subscripts, element_numbers, member, unknown_name
 from .scope import Scope
 from .values import Array, Value
@@ -122,8 +124,6 @@ def _connect(item: ast.Connect, scope: Scope, sets: ConnectionSets) -> None:
 
 
 def _is_outside(ref: ast.Ref, scope: Scope) -> bool:
-    from .instance import ArrayNode
-
     node = scope.instance.child(ref.names[0])
     if isinstance(node, ArrayNode):
         node = node.items[0]
@@ -131,8 +131,6 @@ def _is_outside(ref: ast.Ref, scope: Scope) -> bool:
 
 
 def _is_connector(node: object) -> bool:
-    from .leaf import Leaf
-
     if isinstance(node, Leaf):
         return node.causality in ("input", "output") or node.declaration.flow
     return node.cls.kind == "connector"
@@ -158,9 +156,6 @@ def _connector(ref: ast.Ref, scope: Scope) -> list[object]:
 def _pick(
     node: object, subscripts: tuple[ast.Expression, ...] | None, ref: ast.Ref, at: int, scope: Scope
 ) -> list[object]:
-    from .instance import Absent, ArrayNode
-    from .leaf import Leaf
-
     if isinstance(node, Absent):
         return []
     last = at == len(ref.names) - 1
@@ -189,9 +184,6 @@ def _numbers(leaf: object) -> Array:
 
 def _ends(node: object, ref: ast.Ref, outside: bool, prefix: str = "") -> dict[str, tuple[End, bool]]:
     """The scalars of one connector by their name relative to it."""
-    from .instance import Absent, ArrayNode
-    from .leaf import Leaf
-
     if isinstance(node, tuple):
         leaf, position = node
         return {prefix: (End(leaf.names[position], outside), leaf.declaration.flow)}

@@ -38,9 +38,8 @@ def _constant(n: Expr, context: Context, span: Span, what: str) -> Expr | None:
     if n.op == "var":
         return _value_of(str(n.value), context, span, what)
     if n.op == "call" and n.value in context.functions:
-        from .functions import run
-
-        return run(str(n.value), [evaluate_argument(a, context, span, what) for a in n.args], context, span)
+        arguments = [evaluate_argument(a, context, span, what) for a in n.args]
+        return context.run_function(str(n.value), arguments, context, span)
     return None
 
 

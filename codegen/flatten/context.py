@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,7 +12,6 @@ from ..errors import Diagnostic, Span
 from ..expr import Expr
 from ..flat import Function
 from ..library import Library
-from ..syntax import ast
 
 if TYPE_CHECKING:
     from .instance import Instance, Leaf
@@ -25,6 +24,7 @@ MAX_ELEMENTS = 300_000
 class Context:
     library: Library
     folder: Path  # of the model's file: data files are looked for here
+    run_function: Callable[[str, list[Expr], Context, Span], Expr]  # a kept function on constants
     scalars: dict[str, tuple[Leaf, int]] = field(default_factory=dict)
     packages: dict[int, Instance] = field(default_factory=dict)
     functions: dict[str, Function] = field(default_factory=dict)
@@ -65,12 +65,3 @@ class Context:
             first = self.errors[0]
             first.others = self.errors[1:]
             raise first
-
-    def package(self, cls: ast.Class) -> Instance:
-        """The constants of a package (or of a class around the one at hand)."""
-        from .instance import Instance
-
-        found = self.packages.get(id(cls))
-        if found is None:
-            found = self.packages[id(cls)] = Instance(self, cls, cls.path, None, None)
-        return found

@@ -1,4 +1,4 @@
-"""Equation sections: equalities spread into scalars, loops unrolled, the rest handed on."""
+"""Equalities spread into scalar equations, their types and variabilities checked."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ..errors import Diagnostic, Span
 from ..expr import BOOLEAN, INTEGER, REAL, Expr
 from ..syntax import ast
 from .constants import variability
-from .lower import iterate, lower, lower_scalar
+from .lower import iterate, lower, lower_results
 from .scope import Scope
 from .values import Record, Value, scalars, shape_of, shape_text
 
@@ -23,33 +23,6 @@ class Collected:
     algorithms: list[flat.Algorithm] = field(default_factory=list)
     asserts: list[flat.Assert] = field(default_factory=list)
     connections: list[tuple[ast.Connect, Scope]] = field(default_factory=list)
-
-
-def flatten_items(items: list[ast.Item], scope: Scope, out: Collected) -> None:
-    """Add the equations of `items`; each faulty one is reported and left out."""
-    for item in items:
-        with scope.context.attempt():
-            flatten_item(item, scope, out)
-
-
-def flatten_item(item: ast.Item, scope: Scope, out: Collected) -> None:
-    from .conditionals import flatten_if
-    from .when import flatten_when
-
-    if isinstance(item, ast.Equality):
-        out.equations += continuous_equalities(item, scope)
-    elif isinstance(item, ast.Connect):
-        out.connections.append((item, scope))
-    elif isinstance(item, ast.If):
-        flatten_if(item, scope, out)
-    elif isinstance(item, ast.For):
-        for inner in unroll(item, scope):
-            for body_item in item.body:
-                flatten_item(body_item, inner, out)
-    elif isinstance(item, ast.When):
-        out.whens.append(flatten_when(item, scope))
-    else:
-        out.asserts.append(assertion(item, scope))
 
 
 def unroll(item: ast.For, scope: Scope) -> list[Scope]:
@@ -125,11 +98,7 @@ def check_discrete(left: Expr, right: Expr, span: Span, scope: Scope) -> None:
 
 
 def _several(item: ast.Equality, scope: Scope) -> list[flat.Equation]:
-    from .calls import call_of_model
-
-    if not isinstance(item.right, ast.Call):
-        raise Diagnostic("R023", "a list on the left needs a call on the right", item.span, "(a, b) = f(x)")
-    results = call_of_model(item.right, scope)
+    results = lower_results(item.right, scope)
     if len(item.left.items) > len(results):
         message = f"{item.right.function} has {len(results)} results, {len(item.left.items)} are wanted"
         raise Diagnostic("R023", message, item.left.span, "leave some out")
@@ -142,35 +111,6 @@ def _several(item: ast.Equality, scope: Scope) -> list[flat.Equation]:
 
 def origin_of(scope: Scope) -> str:
     return scope.instance.name if scope.instance is not None else ""
-
-
-def assertion(item: ast.Item, scope: Scope) -> flat.Assert:
-    """assert(condition, message, level) in an equation section. Raises R056 for anything else standing alone."""
-    call = item.call if isinstance(item, ast.Procedure) else None
-    name = str(call.function) if call else ""
-    if name == "assert":
-        return lower_assert(call, scope)
-    if name in ("reinit", "terminate"):
-        hint = f"put it under a condition: when ... then {name}(...); end when;"
-        raise Diagnostic("R056", f"{name} outside of when", item.span, hint)
-    if call is not None and name == "Connections.root":
-        raise Diagnostic("R091", f"{name} is outside the subset", item.span, "write the equations out")
-    hint = "an equation has two sides; assert(...) can stand alone"
-    raise Diagnostic("R056", f"a call of {name} is no equation", item.span, hint)
-
-
-def lower_assert(call: ast.Call, scope: Scope) -> flat.Assert:
-    arguments = dict(zip(("condition", "message", "level"), call.args, strict=False)) | call.named
-    if not {"condition", "message"} <= arguments.keys():
-        hint = 'assert(x > 0, "what is wrong and what to do")'
-        raise Diagnostic("R050", "assert needs a condition and a message", call.span, hint)
-    condition = lower_scalar(arguments["condition"], scope, BOOLEAN)
-    level = lower(arguments["level"], scope) if "level" in arguments else "error"
-    message = lower(arguments["message"], scope)
-    if not isinstance(message, str) or level not in ("error", "warning"):
-        hint = 'assert(x > 0, "text", AssertionLevel.warning)'
-        raise Diagnostic("R020", "the message of assert is not a String", call.span, hint)
-    return flat.Assert(condition, message, call.span, level)
 
 
 def real_or_same(kind: str, value: Expr) -> bool:

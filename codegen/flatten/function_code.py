@@ -9,9 +9,14 @@ from .. import flat
 from ..errors import Diagnostic, Span
 from ..expr import BOOLEAN, FALSE, INTEGER, REAL, TRUE, Expr
 from ..syntax import ast
+from .asserts import lower_assert
 from .constants import AtRunTime
 from .context import Context
-from .lower import iterate, lower, lower_scalar
+from .elements import element, local_value
+from .function_locals import Local, declared_sizes, fit, typed
+from .interpret import unknown_target
+from .lower import iterate, lower, lower_results, lower_scalar
+from .references import apply_subscripts
 from .scope import Scope
 from .values import Array, Record, Value, indices, scalars, shape_of, shape_text
 
@@ -27,20 +32,8 @@ class Source:
     element: int
 
 
-def element(name: str, kind: str, index: tuple[Expr, ...]) -> Expr:
-    """The read of an array element inside a function."""
-    return ex.node("call", (ex.var(name, kind), *index), "[]", kind)
-
-
-def local_value(name: str, kind: str, shape: tuple[int, ...]) -> Value:
-    """A local variable as a value: a scalar, or an array of element reads."""
-    if not shape:
-        return ex.var(name, kind)
-    return Array(shape, tuple(element(name, kind, tuple(map(ex.const, i))) for i in indices(shape)))
-
-
 def emitted_call(
-    cls: ast.Class, declared: list, arguments: dict[str, Value], context: Context, span: Span
+    cls: ast.Class, declared: list[Local], arguments: dict[str, Value], context: Context, span: Span
 ) -> list[Value]:
     """Calls that give the results of the function, one for each scalar of each result."""
     base = _base(cls, declared, arguments, context, span)
@@ -92,7 +85,7 @@ def _argument(name: str, function: flat.Function) -> Expr:
     return ex.array(*value.items) if isinstance(value, Array) else value
 
 
-def _base(cls: ast.Class, declared: list, arguments: dict[str, Value], context: Context, span: Span) -> str:
+def _base(cls: ast.Class, declared: list[Local], arguments: dict[str, Value], context: Context, span: Span) -> str:
     shapes = {n: shape_of(v) for n, v in arguments.items()}
     sizes = ",".join("x".join(map(str, s)) for s in shapes.values() if s)
     name = f"{cls.path}[{sizes}]" if sizes else cls.path
@@ -107,10 +100,8 @@ def _base(cls: ast.Class, declared: list, arguments: dict[str, Value], context: 
 
 
 def _emit(
-    name: str, cls: ast.Class, declared: list, shapes: dict[str, tuple[int, ...]], context: Context, span: Span
+    name: str, cls: ast.Class, declared: list[Local], shapes: dict[str, tuple[int, ...]], context: Context, span: Span
 ) -> None:
-    from .functions import declared_sizes, fit
-
     inputs = tuple(shapes)
     outputs = tuple(d.name for d in declared if d.declaration.causality == "output")
     function = flat.Function(name, inputs, outputs, {}, {}, {}, [], cls.span)
@@ -157,8 +148,6 @@ class _Writer:
         return result
 
     def _item(self, item: ast.Item, result: list[flat.Statement]) -> None:
-        from .equations import lower_assert
-
         if isinstance(item, ast.Assignment):
             self._assignment(item, result)
         elif isinstance(item, ast.If):
@@ -218,20 +207,14 @@ class _Writer:
         return f"{stem}_{self.counter}"
 
     def _assignment(self, item: ast.Assignment, result: list[flat.Statement]) -> None:
-        from .calls import call_of_model
-
         if not isinstance(item.target, ast.Tuple):
             self.assign([(self._target(item.target), lower(item.value, self.scope))], item.span, result)
             return
-        if not isinstance(item.value, ast.Call):
-            raise Diagnostic("R023", "a list on the left needs a call on the right", item.span, "(a, b) := f(x)")
-        values = call_of_model(item.value, self.scope)
+        values = lower_results(item.value, self.scope)
         pairs = zip(item.target.items, values, strict=False)
         self.assign([(self._target(t), v) for t, v in pairs if t is not None], item.span, result)
 
     def _target(self, ref: ast.Ref) -> tuple[str, Value | None]:
-        from .interpret import unknown_target
-
         if len(ref.names) > 1:
             raise Diagnostic("F036", "records in a function that runs at run time", ref.span, "use scalars and arrays")
         if ref.names[0] not in self.function.types:
@@ -240,8 +223,6 @@ class _Writer:
             raise Diagnostic("R058", f"the input {ref.names[0]} is assigned", ref.span, "copy it to a variable first")
         if ref.subscripts[0] is None:
             return ref.names[0], None
-        from .references import apply_subscripts
-
         whole = self.scope.locals[ref.names[0]]
         return ref.names[0], apply_subscripts(whole, ref.subscripts[0], self.scope, ref)
 
@@ -256,8 +237,6 @@ class _Writer:
                 message = f"{name}: {shape_text(shape_of(old))} := {shape_text(shape_of(value))}"
                 raise Diagnostic("R042", f"the sides differ in size: {message}", span, "both need the same size")
             steps += zip(scalars(old), scalars(value), strict=True)
-        from .functions import typed
-
         steps = [(t, typed(v, t.type, ex.to_text(t), span)) for t, v in steps]
         if len(steps) > 1 and any(self._reads(v, pairs) for _, v in steps):
             temporary = self._fresh("before")
@@ -277,21 +256,3 @@ def _store(target: Expr, value: Expr, span: Span) -> flat.Statement:
     if target.op == "var":
         return flat.Assign(str(target.value), value, span)
     return flat.AssignElement(str(target.args[0].value), target.args[1:], value, span)
-
-
-def at_index(value: Value, index: Expr) -> Value | None:
-    """`value` (the first row of an array) with its row number replaced by a run-time `index`; None where it is no
-    array of element reads."""
-
-    def moved(item: Expr | str, dimensions: int) -> Expr | None:
-        if not isinstance(item, Expr) or item.op != "call" or item.value != "[]":
-            return None
-        position = len(item.args) - 1 - dimensions
-        args = item.args[:position] + (index,) + item.args[position + 1 :]
-        return ex.node("call", args, "[]", item.type)
-
-    dimensions = len(shape_of(value))
-    items = [moved(item, dimensions) for item in scalars(value)]
-    if None in items:
-        return None
-    return Array(value.shape, tuple(items)) if isinstance(value, Array) else items[0]

@@ -285,3 +285,11 @@ class Instance:
             if declaration.replaceable:
                 hint = f"redeclare it: {declaration.name}(redeclare CLASS {declaration.name})"
             raise Diagnostic("R015", f"{cls.name} is partial and cannot be a component", declaration.span, hint)
+
+
+def package_of(context: Context, cls: ast.Class) -> Instance:
+    """The constants of a package (or of a class around the one at hand)."""
+    found = context.packages.get(id(cls))
+    if found is None:
+        found = context.packages[id(cls)] = Instance(context, cls, cls.path, None, None)
+    return found

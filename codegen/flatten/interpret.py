@@ -8,10 +8,13 @@ from math import prod
 from .. import expr as ex
 from ..errors import Diagnostic, Span
 from ..expr import BOOLEAN, TRUE, Expr
+from ..suggest import did_you_mean
 from ..syntax import ast
+from .asserts import lower_assert
 from .constants import AtRunTime
 from .context import Context
-from .lower import iterate, lower, lower_scalar
+from .function_locals import Local, declared_locals, declared_sizes, fit, typed
+from .lower import iterate, lower, lower_results, lower_scalar
 from .references import apply_subscripts
 from .scope import Scope
 from .values import Array, Record, Value, elementwise, integers, scalars, shape_of, shape_text
@@ -25,10 +28,10 @@ def unset(kind: str) -> Expr:
     return ex.node("unset", (), None, kind)
 
 
-def interpret(cls: ast.Class, declared: list, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
+def interpret(
+    cls: ast.Class, declared: list[Local], arguments: dict[str, Value], context: Context, span: Span
+) -> list[Value]:
     """Results of the function on `arguments`. Raises AtRunTime where its course depends on unknown values."""
-    from .functions import declared_sizes, fit
-
     run = _Run(cls, context, dict(arguments), span)
     run.inputs = frozenset(arguments)
     for local in declared:
@@ -58,9 +61,7 @@ def interpret(cls: ast.Class, declared: list, arguments: dict[str, Value], conte
     return results
 
 
-def _blank_record(local: object, context: Context) -> Record:
-    from .functions import declared_locals
-
+def _blank_record(local: Local, context: Context) -> Record:
     fields: dict[str, Value] = {}
     for part in declared_locals(local.type.cls, context):
         fields[part.name] = unset(part.type.primitive) if part.type.primitive else _blank_record(part, context)
@@ -119,8 +120,6 @@ class _Run:
         return ""
 
     def _procedure(self, item: ast.Procedure) -> None:
-        from .equations import lower_assert
-
         if str(item.call.function) != "assert":
             hint = "assign its result: y := f(x)"
             raise Diagnostic("R056", f"a call of {item.call.function} is no statement here", item.span, hint)
@@ -189,12 +188,8 @@ class _Run:
         self.locals.update(values)
 
     def _assign(self, item: ast.Assignment) -> None:
-        from .calls import call_of_model
-
         if isinstance(item.target, ast.Tuple):
-            if not isinstance(item.value, ast.Call):
-                raise Diagnostic("R023", "a list on the left needs a call on the right", item.span, "(a, b) := f(x)")
-            results = call_of_model(item.value, self.scope)
+            results = lower_results(item.value, self.scope)
             for target, value in zip(item.target.items, results, strict=False):
                 if target is not None:
                     self._store(target, value, item.span)
@@ -233,16 +228,12 @@ class _Run:
 
 
 def unknown_target(target: ast.Ref, names: dict[str, Value]) -> Diagnostic:
-    from ..suggest import did_you_mean
-
     hint = did_you_mean(target.names[0], names, "declare it under 'protected'")
     return Diagnostic("R002", f"there is no variable {target.names[0]}", target.span, hint)
 
 
 def conform(old: Value, value: Value, span: Span, name: str) -> Value:
     """`value` for a variable that held `old`: the same size, and a type that fits."""
-    from .functions import typed
-
     if shape_of(old) != shape_of(value) or isinstance(old, Record) != isinstance(value, Record):
         message = f"{name} has size {shape_text(shape_of(old))}, given {shape_text(shape_of(value))}"
         raise Diagnostic("R042", message, span, "both need the same size")

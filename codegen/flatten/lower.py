@@ -10,14 +10,41 @@ from ..expr import BOOLEAN, INTEGER, REAL, Expr
 from ..syntax import ast
 from .constants import is_known, known
 from .modifiers import Modifier
-from .references import read
-from .scope import Scope
-from .values import Array, Record, Value, elementwise, multiply, shape_of, stack
+from .scope import Scope, enumeration_literals
+from .values import Array, Record, Value, concatenate, elementwise, multiply, promote, shape_of, stack
+
+Handler = Callable[..., Value]
+HANDLERS: dict[type, Handler] = {}  # by kind of node; names and calls come in from modules of their own
+FUNCTIONS: dict[str, Handler] = {}  # built-in functions by name
+_SEVERAL: list[Callable[[ast.Call, Scope], list[Value]]] = []
+
+
+def handles(kind: type) -> Callable[[Handler], Handler]:
+    """Decorator: this function lowers nodes of `kind`."""
+
+    def enter(handler: Handler) -> Handler:
+        HANDLERS[kind] = handler
+        return handler
+
+    return enter
+
+
+def gives_results(function: Callable[[ast.Call, Scope], list[Value]]) -> Callable[[ast.Call, Scope], list[Value]]:
+    """Decorator: this function finds all results of a call."""
+    _SEVERAL.append(function)
+    return function
 
 
 def lower(e: ast.Expression, scope: Scope) -> Value:
     """The value of `e`. Raises R... for names, types and sizes that do not fit."""
-    return _LOWER[type(e)](e, scope)
+    return HANDLERS[type(e)](e, scope)
+
+
+def lower_results(e: ast.Expression, scope: Scope) -> list[Value]:
+    """All results of a call, for a list of variables on the left. Raises R023 for anything but a call."""
+    if not isinstance(e, ast.Call):
+        raise Diagnostic("R023", "a list on the left needs a call on the right", e.span, "(a, b) = f(x)")
+    return _SEVERAL[0](e, scope)
 
 
 def lower_scalar(e: ast.Expression, scope: Scope, kind: str = "") -> Expr:
@@ -196,8 +223,6 @@ def _array(e: ast.ArrayLiteral, scope: Scope) -> Value:
 
 
 def _matrix(e: ast.MatrixLiteral, scope: Scope) -> Value:
-    from .arrays import concatenate, promote
-
     rows = [concatenate(2, [promote(lower(x, scope), 2) for x in row], e.span) for row in e.rows]
     return concatenate(1, rows, e.span)
 
@@ -217,8 +242,6 @@ def range_values(e: ast.Range, scope: Scope) -> Array:
 
 def iterate(iterator: ast.Iterator, scope: Scope) -> tuple[Value, ...]:
     """The values a loop variable takes, in order."""
-    from .references import enumeration_literals
-
     if isinstance(iterator.range, ast.Ref):
         literals = enumeration_literals(iterator.range, scope)
         if literals is not None:
@@ -251,14 +274,8 @@ def _colon(e: ast.Colon, scope: Scope) -> Value:
     raise Diagnostic("R048", "':' as a value", e.span, "it stands for all elements, inside subscripts only")
 
 
-def _call(e: ast.Call, scope: Scope) -> Value:
-    from .calls import lower_call
-
-    return lower_call(e, scope)
-
-
-_LOWER: dict[type, Callable[..., Value]] = {
-    ast.Literal: _literal, ast.Ref: read, ast.Call: _call, ast.Unary: _unary, ast.Binary: _binary,
-    ast.IfExpression: _if, ast.ArrayLiteral: _array, ast.MatrixLiteral: _matrix, ast.Range: range_values,
-    ast.Comprehension: _comprehension, ast.Colon: _colon, ast.End: _end, ast.Tuple: _tuple,
+HANDLERS |= {
+    ast.Literal: _literal, ast.Unary: _unary, ast.Binary: _binary, ast.IfExpression: _if, ast.ArrayLiteral: _array,
+    ast.MatrixLiteral: _matrix, ast.Range: range_values, ast.Comprehension: _comprehension, ast.Colon: _colon,
+    ast.End: _end, ast.Tuple: _tuple,
 }  # fmt: skip

@@ -18,12 +18,14 @@ from .algorithms import flatten_algorithm
 from .connections import connection_equations
 from .constants import evaluate
 from .context import Context
-from .equations import Collected, flatten_items
+from .equations import Collected
+from .functions import run
 from .instance import ArrayNode, Instance
 from .leaf import Leaf
 from .lower import lower_scalar
 from .modifiers import Modifier
 from .scope import Scope
+from .sections import flatten_items
 from .variables import add_used_constants, flatten_variables, mark_discrete
 
 _MODEL_KINDS = ("model", "block", "class")
@@ -41,7 +43,7 @@ def flatten(
     if cls.kind not in _MODEL_KINDS or cls.partial:
         what = f"partial {cls.kind}" if cls.partial else cls.kind
         raise Diagnostic("F003", f"{cls.path} is a {what}, not a model to simulate", cls.span, "name a complete model")
-    context = Context(library, Path(cls.span.file).resolve().parent)
+    context = Context(library, Path(cls.span.file).resolve().parent, run)
     top = Instance(context, cls, "", None, _outside_modifier(modifications or {}, cls.span))
     leaves, sections = _instantiate(top)
     context.finish()

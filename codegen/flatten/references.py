@@ -11,10 +11,15 @@ from ..expr import INTEGER, Expr
 from ..suggest import did_you_mean
 from ..syntax import ast
 from .constants import is_known, known
+from .elements import at_index
+from .instance import Absent, ArrayNode, Instance, package_of
+from .leaf import Leaf
+from .lower import FUNCTIONS, handles, lower
 from .scope import Scope, find_class, find_first, own_or_inherited, visible_classes
-from .values import Array, Record, Value, scalars, shape_of, stack
+from .values import Array, Record, Value, elementwise, scalars, shape_of, stack
 
 
+@handles(ast.Ref)
 def read(ref: ast.Ref, scope: Scope) -> Value:
     """The value of a name in an expression."""
     first = ref.names[0]
@@ -52,9 +57,6 @@ def _read_local(ref: ast.Ref, scope: Scope) -> Value:
 
 def _walk(node: object, ref: ast.Ref, at: int, scope: Scope) -> Value:
     """From `node`, which name number `at` means, to the value at the end of the name."""
-    from .instance import Absent, ArrayNode, Instance
-    from .leaf import Leaf
-
     subscripts = ref.subscripts[at]
     last = at == len(ref.names) - 1
     if isinstance(node, Absent):
@@ -116,8 +118,6 @@ def element_numbers(node: object) -> Array:
 
 def apply_subscripts(value: Value, subscripts: tuple[ast.Expression, ...] | None, scope: Scope, ref: ast.Ref) -> Value:
     """value[i, :, {1, 3}]: each subscript is a number, `:` or a vector of numbers; rows come first."""
-    from .lower import lower
-
     if subscripts is None:
         return value
     shape = shape_of(value)
@@ -140,8 +140,6 @@ def apply_subscripts(value: Value, subscripts: tuple[ast.Expression, ...] | None
     if index.op == "const" or (is_known(index, scope.context) and not scope.in_function):
         return apply_subscripts(_row(rows, index, scope, ref, first), rest, scope, ref)
     if scope.in_function:
-        from .function_code import at_index
-
         moved = at_index(rows[0], index) if rows else None
         if moved is not None:
             return apply_subscripts(moved, rest, scope, ref)
@@ -157,8 +155,6 @@ def _row(rows: list[Value], index: Expr, scope: Scope, ref: ast.Ref, written: as
 
 def _choose(rows: list[Value], index: Expr, written: ast.Expression, scope: Scope) -> Value:
     """An element by a number known only at run time: an if-expression over all of them."""
-    from .values import elementwise
-
     result = rows[-1]
     for number in range(len(rows) - 1, 0, -1):
         condition = ex.relation("==", index, ex.const(number))
@@ -184,7 +180,7 @@ def _from_class(ref: ast.Ref, scope: Scope) -> Value:
             return _literal(cls, name, ref)
         inner = own_or_inherited(library, cls, name)
         if inner is None:
-            package = scope.context.package(cls)
+            package = package_of(scope.context, cls)
             if name in package.elements and package.elements[name].declaration.variability == "constant":
                 return _walk(package.child(name), ref, at, scope)
             known = [*library.members(cls), *package.elements]
@@ -208,13 +204,13 @@ def _constant_around(ref: ast.Ref, scope: Scope) -> object | None:
                 path = replace(item.path, names=item.path.names[:-1], subscripts=item.path.subscripts[:-1])
                 owner = find_class(library, library.root, path)
                 if owner is not None and own_or_inherited(library, owner, item.path.names[-1]) is None:
-                    return scope.context.package(owner).child(item.path.names[-1])
+                    return package_of(scope.context, owner).child(item.path.names[-1])
             if item.every:
                 owner = find_class(library, library.root, item.path)
-                if owner is not None and name in (package := scope.context.package(owner)).elements:
+                if owner is not None and name in (package := package_of(scope.context, owner)).elements:
                     return package.child(name)
         if current is not scope.cls or scope.instance is None:
-            package = scope.context.package(current)
+            package = package_of(scope.context, current)
             if name in package.elements and package.elements[name].declaration.variability == "constant":
                 return package.child(name)
         current = current.parent
@@ -229,21 +225,11 @@ def _literal(cls: ast.Class, name: str, ref: ast.Ref) -> Expr:
     return ex.const(names.index(name) + 1)
 
 
-def enumeration_literals(ref: ast.Ref, scope: Scope) -> tuple[str, ...] | None:
-    """The literals where `ref` names an enumeration type, else None."""
-    if scope.instance is not None and ref.names[0] in scope.instance.elements:
-        return None
-    cls = find_class(scope.context.library, scope.cls, ref)
-    return tuple(n for n, _ in cls.literals) if cls is not None and cls.literals is not None else None
-
-
 def unknown_name(ref: ast.Ref, scope: Scope) -> Diagnostic:
     """R002: nothing of this name, with the nearest that there are."""
-    from .calls import BUILTIN_NAMES
-
     known = [*scope.locals, *(scope.instance.elements if scope.instance else ())]
     known += visible_classes(scope.context.library, scope.cls)
     hint = did_you_mean(ref.names[0], known)
     if not hint:
-        hint = did_you_mean(ref.names[0], BUILTIN_NAMES, "declare it")
+        hint = did_you_mean(ref.names[0], FUNCTIONS, "declare it")
     return Diagnostic("R002", f"there is no variable {ref.names[0]}", ref.span, hint)

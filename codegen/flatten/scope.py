@@ -150,3 +150,11 @@ def _elsewhere(library: Library, ref: ast.Ref) -> str:
     names = nearest(ref.names[-1], (c.name for c in classes))
     found = [c.path for name in names for c in classes if c.name == name]
     return f"did you mean {' or '.join(found[:3])}?" if found else "declare it, or import its package"
+
+
+def enumeration_literals(ref: ast.Ref, scope: Scope) -> tuple[str, ...] | None:
+    """The literals where `ref` names an enumeration type, else None."""
+    if scope.instance is not None and ref.names[0] in scope.instance.elements:
+        return None
+    cls = find_class(scope.context.library, scope.cls, ref)
+    return tuple(n for n, _ in cls.literals) if cls is not None and cls.literals is not None else None

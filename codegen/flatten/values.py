@@ -127,3 +127,25 @@ def transpose(a: Array) -> Array:
 
 def integers(values: list[int]) -> Array:
     return Array((len(values),), tuple(const(v) for v in values))
+
+
+def promote(value: Value, dimensions: int) -> Array:
+    """`value` with sizes of 1 added on the right up to so many dimensions."""
+    shape = shape_of(value)
+    return Array(shape + (1,) * (dimensions - len(shape)), tuple(scalars(value)))
+
+
+def concatenate(along: int, parts: list[Array], span: Span) -> Array:
+    """Arrays joined along a dimension (from 1); the other sizes agree. Raises R042."""
+    if along == 1:
+        if len({p.shape[1:] for p in parts}) > 1:
+            found = " and ".join(shape_text(p.shape) for p in parts)
+            raise Diagnostic("R042", f"arrays of sizes {found} side by side", span, "their other sizes must agree")
+        items = tuple(i for p in parts for i in p.items)
+        return Array((sum(p.shape[0] for p in parts), *parts[0].shape[1:]), items)
+    if len({p.shape[0] for p in parts}) > 1:
+        found = " and ".join(shape_text(p.shape) for p in parts)
+        raise Diagnostic("R042", f"arrays of sizes {found} side by side", span, "they need equally many rows")
+    rows = zip(*(p.rows() for p in parts), strict=True)
+    joined = [concatenate(along - 1, list(row), span) for row in rows]
+    return stack(joined, span)

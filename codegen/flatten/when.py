@@ -7,8 +7,9 @@ from ..errors import Diagnostic, Span
 from ..expr import BOOLEAN, FALSE, TRUE, Expr
 from ..rewrite import assigned
 from ..syntax import ast
+from .asserts import lower_assert
 from .constants import is_known
-from .equations import check_target, check_types, equalities, lower_assert, origin_of, unroll
+from .equations import check_target, check_types, equalities, origin_of, unroll
 from .lower import lower, lower_scalar
 from .scope import Scope
 from .values import scalars, shape_of, shape_text

@@ -1,0 +1,24 @@
+"""assert(condition, message, level), wherever it stands."""
+
+from __future__ import annotations
+
+from .. import flat
+from ..errors import Diagnostic
+from ..expr import BOOLEAN
+from ..syntax import ast
+from .lower import lower, lower_scalar
+from .scope import Scope
+
+
+def lower_assert(call: ast.Call, scope: Scope) -> flat.Assert:
+    arguments = dict(zip(("condition", "message", "level"), call.args, strict=False)) | call.named
+    if not {"condition", "message"} <= arguments.keys():
+        hint = 'assert(x > 0, "what is wrong and what to do")'
+        raise Diagnostic("R050", "assert needs a condition and a message", call.span, hint)
+    condition = lower_scalar(arguments["condition"], scope, BOOLEAN)
+    level = lower(arguments["level"], scope) if "level" in arguments else "error"
+    message = lower(arguments["message"], scope)
+    if not isinstance(message, str) or level not in ("error", "warning"):
+        hint = 'assert(x > 0, "text", AssertionLevel.warning)'
+        raise Diagnostic("R020", "the message of assert is not a String", call.span, hint)
+    return flat.Assert(condition, message, call.span, level)

@@ -1,0 +1,82 @@
+"""What a function declares: inputs, outputs, protected variables, and what fits them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .. import expr as ex
+from ..errors import Diagnostic, Span
+from ..expr import INTEGER, REAL, Expr
+from ..syntax import ast
+from .context import Context
+from .evaluate import evaluate_dimensions
+from .instance import Instance
+from .modifiers import from_tree, merge
+from .scope import Scope
+from .types import Type, resolve_type
+from .values import Array, Record, Value, scalars, shape_of, shape_text
+
+
+@dataclass
+class Local:
+    """A declared input, output or protected variable of a function."""
+
+    name: str
+    declaration: ast.Component
+    type: Type
+    scope: Scope  # of the class it is declared in
+
+    @property
+    def unit(self) -> str:
+        own = from_tree(self.declaration.modification, self.scope)
+        child = (merge(own, self.type.modifier) or own).children.get("unit")
+        return child.value.value if child is not None and isinstance(child.value, ast.Literal) else ""
+
+
+def declared_locals(cls: ast.Class, context: Context) -> list[Local]:
+    """Everything a function declares, inherited first."""
+    result = []
+    for name, element in Instance(context, cls, cls.path, None, None).elements.items():
+        scope = Scope(context, element.cls, in_function=True)
+        result.append(Local(name, element.declaration, resolve_type(element.declaration.type, scope), scope))
+    return result
+
+
+def fit(local: Local, value: Value, scope: Scope, span: Span) -> Value:
+    """`value` for a declared variable: type and size checked, whole numbers made Real where that is declared."""
+    if local.type.primitive is None:
+        if not isinstance(value, Record):
+            raise Diagnostic("R062", f"{local.name} is a record", span, f"give a {local.declaration.type}")
+        return value
+    sizes = declared_sizes(local, scope, value)
+    if sizes != shape_of(value) or isinstance(value, Record):
+        message = f"{local.name} has size {shape_text(sizes)}, given {shape_text(shape_of(value))}"
+        each = f"for each element: {{f({local.name}) for {local.name} in array}}"
+        raise Diagnostic("R062", message, span, "both need the same size" if sizes else each)
+    items = [typed(item, local.type.primitive, local.name, span) for item in scalars(value)]
+    return Array(sizes, tuple(items)) if isinstance(value, Array) else items[0]
+
+
+def declared_sizes(local: Local, scope: Scope, value: Value | None) -> tuple[int, ...]:
+    """The size of a declared variable; `:` takes that of `value`."""
+    sizes = []
+    for position, dimension in enumerate(local.declaration.dimensions):
+        if isinstance(dimension, ast.Colon):
+            shape = shape_of(value) if value is not None else ()
+            if position >= len(shape):
+                message = f"{local.name} needs an array of {len(local.declaration.dimensions)} dimensions"
+                raise Diagnostic("R062", message, dimension.span, "give a size, or an array")
+            sizes.append(shape[position])
+        else:
+            sizes += evaluate_dimensions([dimension], scope, None, local.name)
+    return (*sizes, *local.type.dimensions)
+
+
+def typed(item: Expr | str, kind: str, name: str, span: Span) -> Expr | str:
+    """`item` as a value of type `kind`. Raises R062."""
+    found = "String" if isinstance(item, str) else item.type
+    if found != kind and (kind, found) != (REAL, INTEGER):
+        raise Diagnostic("R062", f"{name} is {kind}, given {found}", span, f"give a {kind}")
+    if kind == REAL and not isinstance(item, str) and item.op == "const" and item.type == INTEGER:
+        return ex.const(float(item.value))
+    return item

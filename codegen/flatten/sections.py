@@ -1,0 +1,51 @@
+"""Equation sections: each item to the pass that knows it, loops unrolled."""
+
+from __future__ import annotations
+
+from .. import flat
+from ..errors import Diagnostic
+from ..syntax import ast
+from .asserts import lower_assert
+from .conditionals import flatten_if
+from .equations import Collected, continuous_equalities, unroll
+from .scope import Scope
+from .when import flatten_when
+
+
+def flatten_items(items: list[ast.Item], scope: Scope, out: Collected) -> None:
+    """Add the equations of `items`; each faulty one is reported and left out."""
+    for item in items:
+        with scope.context.attempt():
+            flatten_item(item, scope, out)
+
+
+def flatten_item(item: ast.Item, scope: Scope, out: Collected) -> None:
+    if isinstance(item, ast.Equality):
+        out.equations += continuous_equalities(item, scope)
+    elif isinstance(item, ast.Connect):
+        out.connections.append((item, scope))
+    elif isinstance(item, ast.If):
+        flatten_if(item, scope, out, flatten_item)
+    elif isinstance(item, ast.For):
+        for inner in unroll(item, scope):
+            for body_item in item.body:
+                flatten_item(body_item, inner, out)
+    elif isinstance(item, ast.When):
+        out.whens.append(flatten_when(item, scope))
+    else:
+        out.asserts.append(assertion(item, scope))
+
+
+def assertion(item: ast.Item, scope: Scope) -> flat.Assert:
+    """assert(condition, message, level) in an equation section. Raises R056 for anything else standing alone."""
+    call = item.call if isinstance(item, ast.Procedure) else None
+    name = str(call.function) if call else ""
+    if name == "assert":
+        return lower_assert(call, scope)
+    if name in ("reinit", "terminate"):
+        hint = f"put it under a condition: when ... then {name}(...); end when;"
+        raise Diagnostic("R056", f"{name} outside of when", item.span, hint)
+    if call is not None and name == "Connections.root":
+        raise Diagnostic("R091", f"{name} is outside the subset", item.span, "write the equations out")
+    hint = "an equation has two sides; assert(...) can stand alone"
+    raise Diagnostic("R056", f"a call of {name} is no equation", item.span, hint)
