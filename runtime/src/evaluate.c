@@ -5,10 +5,19 @@
 
 #include "session.h"
 
-int rt_state_variable(const rt_session *s, int state) {
+static int find_row(const rt_session *s, mdl_storage storage, int index) {
   for (int i = 0; i < s->d->n_variables; i++)
-    if (s->d->variables[i].storage == MDL_STATE && s->d->variables[i].index == state) return i;
+    if (s->d->variables[i].storage == storage && s->d->variables[i].index == index) return i;
   return -1;
+}
+
+/* Row in the variable table of a state, and of an unknown of the residual form; -1 where it has no name. */
+int rt_state_variable(const rt_session *s, int state) {
+  return find_row(s, MDL_STATE, state);
+}
+
+int rt_unknown_variable(const rt_session *s, int k) {
+  return k < s->d->n_x ? rt_state_variable(s, k) : find_row(s, MDL_ALGEBRAIC, s->d->z_index[k - s->d->n_x]);
 }
 
 /* 0 if all n_x numbers are finite; else 1, with the first state that is not in m->failure. */

@@ -9,7 +9,7 @@
 #include "session.h"
 #include "sundials_compat.h"
 
-enum { DENSE_LIMIT = 40 }; /* unknowns up to which a dense matrix is faster than KLU */
+enum { DENSE_LIMIT = 10 }; /* unknowns up to which a dense matrix is faster than KLU */
 
 typedef struct {
   SUNContext context;

@@ -1,8 +1,10 @@
 /* RODAS: a stiffly accurate, L-stable Rosenbrock method of order 4(3) with six stages, for stiff models.
  * Hairer & Wanner, Solving Ordinary Differential Equations II, IV.7 and VI.4; dense output of order 3 from there.
  *
- * Its Jacobian J = df/dx of the explicit form comes from the analytic Jacobian of the residual form F(t, [x; z], x') =
- * 0 by the implicit function theorem: [F_x' F_z] [J; dz/dx] = -F_x. */
+ * The stages are (I / (h gamma) - J) k = r with the Jacobian J = df/dx of the explicit form. J is never formed: the
+ * residual form F(t, [x; z], x') = 0 gives J = -[F_x' F_z]^-1 F_x for its first rows, so that multiplying a stage by
+ * F_x' leaves [F_x + F_x' / (h gamma)  F_z] [k; .] = F_x' r, whose matrix is the analytic Jacobian of the residual form
+ * with c_j = 1 / (h gamma). */
 #include <math.h>
 #include <string.h>
 
@@ -34,71 +36,44 @@ static const double d3[STAGES - 1] = {-0.6762803392806898e+00, 0.608771465168001
                                       0.2476722511418386e+02, -0.6594389125716872e+01};
 
 typedef struct {
-  double *jacobian, *matrix; /* [n_x * n_x] df/dx, and I/(h gamma) - df/dx factored */
-  double *implicit;          /* [n * n] [F_x' F_z], n = n_x + n_z */
-  double *column;            /* [n * n_x] right sides -F_x */
-  double *fy, *fyp;          /* [jac_nnz] */
-  double *dfdt;              /* [n_x] */
-  int *pivot;                /* [n] */
-  double t;                  /* where the Jacobian was computed */
-  const rt_result *run;      /* and in which run */
+  double *fy, *fyp; /* [jac_nnz] dF/dy and dF/dy' at the start of the step */
+  double *matrix;   /* [n * n] of the stages, factored; n = n_x + n_z */
+  double *right;    /* [n] */
+  double *dfdt;     /* [n_x] */
+  int *pivot;       /* [n] */
+  double t;         /* where fy, fyp and dfdt were computed */
+  bool known;       /* whether they were, in this run */
 } work;
 
 static size_t work_size(const mdl_descriptor *m) {
   size_t n_x = (size_t)m->n_x, n = n_x + (size_t)m->n_z;
-  return sizeof(work) + (2 * n_x * n_x + n * n + n * n_x + 2 * (size_t)m->jac_nnz + n_x) * sizeof(double) +
-         n * sizeof(int);
+  return sizeof(work) + (2 * (size_t)m->jac_nnz + n * n + n + n_x) * sizeof(double) + n * sizeof(int);
 }
 
 static work *layout(const rt_session *s, void *memory) {
   size_t n_x = (size_t)s->d->n_x, n = n_x + (size_t)s->d->n_z, nnz = (size_t)s->d->jac_nnz;
   work *w = memory;
-  w->jacobian = (double *)(w + 1);
-  w->matrix = w->jacobian + n_x * n_x;
-  w->implicit = w->matrix + n_x * n_x;
-  w->column = w->implicit + n * n;
-  w->fy = w->column + n * n_x;
+  w->fy = (double *)(w + 1);
   w->fyp = w->fy + nnz;
-  w->dfdt = w->fyp + nnz;
+  w->matrix = w->fyp + nnz;
+  w->right = w->matrix + n * n;
+  w->dfdt = w->right + n;
   w->pivot = (int *)(w->dfdt + n_x);
   return w;
 }
 
-static int fail_singular(rt_session *s, int row) {
-  s->data.failure =
-      (mdl_failure){.kind = MDL_FAILURE_SINGULAR, .equation = s->d->residual_equation[row], .variable = -1};
-  return 1;
-}
-
-/* Scatter the two parts of the sparse Jacobian of F into [F_x' F_z] and -F_x. */
-static void scatter(const mdl_descriptor *m, work *w) {
-  int n_x = m->n_x, n = n_x + m->n_z;
-  memset(w->implicit, 0, (size_t)(n * n) * sizeof *w->implicit);
-  memset(w->column, 0, (size_t)(n * n_x) * sizeof *w->column);
-  for (int j = 0; j < n; j++)
-    for (int k = m->jac_colptr[j]; k < m->jac_colptr[j + 1]; k++) {
-      int at = j * n + m->jac_rowidx[k];
-      w->implicit[at] = j < n_x ? w->fyp[k] - w->fy[k] : w->fy[k];
-      if (j < n_x) w->column[at] = -w->fy[k];
-    }
-}
-
+/* dF/dy and dF/dy' at the start of the step: the generated Jacobian is linear in c_j. */
 static int differentiate(rt_session *s, work *w) {
   const mdl_descriptor *m = s->d;
-  int n_x = m->n_x, n = n_x + m->n_z, status;
+  int status;
   rt_residual_point(s);
   rt_inputs_at(s, s->t);
+  s->result->counters.jacobians++;
   if ((status = m->jacobian(&s->data, s->t, s->y, s->yp, 0, w->fy)) ||
       (status = m->jacobian(&s->data, s->t, s->y, s->yp, 1, w->fyp)))
     return status;
-  s->result->counters.jacobians++;
-  scatter(m, w);
-  int singular = rt_lu_factor(n, w->implicit, w->pivot);
-  if (singular) return fail_singular(s, singular - 1);
-  for (int j = 0; j < n_x; j++) {
-    rt_lu_solve(n, w->implicit, w->pivot, w->column + j * n);
-    memcpy(w->jacobian + j * n_x, w->column + j * n, (size_t)n_x * sizeof *w->jacobian);
-  }
+  for (int k = 0; k < m->jac_nnz; k++)
+    w->fyp[k] -= w->fy[k];
   return 0;
 }
 
@@ -112,18 +87,41 @@ static int differentiate_time(rt_session *s, rt_onestep *o, work *w, double h) {
   return status;
 }
 
-static int prepare(rt_session *s, rt_onestep *o, work *w, double h) {
-  int n = s->d->n_x, status;
-  bool known = w->t == o->t0 && w->run == s->result && s->result->counters.jacobians > 0;
-  if (!known && ((status = differentiate(s, w)) || (status = differentiate_time(s, o, w, h)))) return status;
-  w->t = o->t0;
-  w->run = s->result;
-  for (int i = 0; i < n * n; i++)
-    w->matrix[i] = -w->jacobian[i];
-  for (int i = 0; i < n; i++)
-    w->matrix[i * n + i] += 1 / (h * gamma_);
+static int factor(rt_session *s, work *w, double h) {
+  const mdl_descriptor *m = s->d;
+  int n = m->n_x + m->n_z;
+  double cj = 1 / (h * gamma_);
+  memset(w->matrix, 0, (size_t)(n * n) * sizeof *w->matrix);
+  for (int j = 0; j < n; j++)
+    for (int k = m->jac_colptr[j]; k < m->jac_colptr[j + 1]; k++)
+      w->matrix[j * n + m->jac_rowidx[k]] = w->fy[k] + cj * w->fyp[k];
   int singular = rt_lu_factor(n, w->matrix, w->pivot);
-  return singular ? fail_singular(s, singular - 1) : 0;
+  if (!singular) return 0;
+  s->data.failure = (mdl_failure){MDL_FAILURE_SINGULAR, -1, rt_unknown_variable(s, singular - 1), 0};
+  return 1;
+}
+
+static int prepare(rt_session *s, rt_onestep *o, work *w, double h) {
+  int status;
+  if (!w->known || w->t != o->t0) {
+    w->known = false;
+    if ((status = differentiate(s, w)) || (status = differentiate_time(s, o, w, h))) return status;
+    w->t = o->t0;
+    w->known = true;
+  }
+  return factor(s, w, h);
+}
+
+/* k := solution of the stage with right side k. */
+static void solve(const rt_session *s, work *w, double *k) {
+  const mdl_descriptor *m = s->d;
+  int n_x = m->n_x, n = n_x + m->n_z;
+  memset(w->right, 0, (size_t)n * sizeof *w->right);
+  for (int j = 0; j < n_x; j++)
+    for (int l = m->jac_colptr[j]; l < m->jac_colptr[j + 1]; l++)
+      w->right[m->jac_rowidx[l]] += w->fyp[l] * k[j];
+  rt_lu_solve(n, w->matrix, w->pivot, w->right);
+  memcpy(k, w->right, (size_t)n_x * sizeof *k);
 }
 
 static int attempt(rt_session *s, rt_onestep *o, double h) {
@@ -144,7 +142,7 @@ static int attempt(rt_session *s, rt_onestep *o, double h) {
         sum += c[j][l] * o->k[l * n + i];
       k[i] += sum / h + h * d[j] * w->dfdt[i];
     }
-    rt_lu_solve(n, w->matrix, w->pivot, k);
+    solve(s, w, k);
   }
   for (int i = 0; i < n; i++) {
     o->error[i] = o->k[(STAGES - 1) * n + i];
@@ -182,14 +180,12 @@ static void *create(rt_session *s) {
   return rt_onestep_create(s, &scheme);
 }
 
-const rt_method rt_method_rodas4 = {"rodas4",
-                                    false,
-                                    false,
-                                    create,
-                                    rt_onestep_destroy,
-                                    rt_onestep_begin,
-                                    rt_onestep_restart,
-                                    rt_onestep_step,
-                                    rt_onestep_dense,
-                                    NULL,
-                                    rt_onestep_count};
+static rt_status begin(rt_session *s, void *memory) {
+  rt_onestep *o = memory;
+  ((work *)o->work)->known = false;
+  return rt_onestep_begin(s, memory);
+}
+
+const rt_method rt_method_rodas4 = {
+    "rodas4",         false, false,           create, rt_onestep_destroy, begin, rt_onestep_restart, rt_onestep_step,
+    rt_onestep_dense, NULL,  rt_onestep_count};

@@ -143,6 +143,7 @@ int rt_evaluate(rt_session *s);
 void rt_residual_point(rt_session *s);
 rt_status rt_check_forms(rt_session *s);
 int rt_state_variable(const rt_session *s, int state);
+int rt_unknown_variable(const rt_session *s, int k);
 
 /* inputs.c */
 void rt_inputs_begin(rt_session *s, double t);
