@@ -5,18 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-SCENARIOS = [
-    "FlightControlEma", "BallScrewEma",
-    *(f"Scenarios.{name}" for name in ("Ramp", "SlowSine", "Reversal", "Eccentric", "ShortedTurns", "EndStop", "LoadStep",
-                                       "Sampled", "Pwm", "Hysteresis")),
-]  # fmt: skip
+VARIANTS = "Ramp SlowSine Reversal Eccentric ShortedTurns EndStop LoadStep Sampled Pwm Hysteresis".split()
+SCENARIOS = ["FlightControlEma", "BallScrewEma", *(f"Scenarios.{name}" for name in VARIANTS)]
 
 
 @pytest.mark.parametrize("name", SCENARIOS)
 def test_energy_and_currents_balance(run, name: str) -> None:
     """Supplied = lost + delivered + stored, to 1e-6 of what was turned over; phase currents sum to zero."""
     result = run(f"Actuators.{name}", rtol=None)
-    turned_over = sum(np.abs(np.diff(result[k])).sum() for k in ("supplied.E", "copper.E", "rubbed.E", "delivered.E", "stored"))
+    turned_over = sum(
+        np.abs(np.diff(result[k])).sum() for k in ("supplied.E", "copper.E", "rubbed.E", "delivered.E", "stored")
+    )
     assert np.abs(result["unaccounted"]).max() < 1e-6 * turned_over
     assert np.abs(result["winding.a.i"] + result["winding.b.i"] + result["winding.c.i"]).max() < 1e-9
     for heat in ("copper.E", "rubbed.E"):
@@ -25,7 +24,10 @@ def test_energy_and_currents_balance(run, name: str) -> None:
 
 def settled(run, **parameters: float) -> dict[str, float]:
     result = run("Actuators.FlightControlEma", stop=1.5, parameters=parameters, rtol=1e-7)
-    return {n: result[n][-1] for n in ("surface.phi", "controller.position", "copper.E", "rubbed.E", "followingError.tripped")}
+    return {
+        n: result[n][-1]
+        for n in ("surface.phi", "controller.position", "copper.E", "rubbed.E", "followingError.tripped")
+    }
 
 
 def test_step_is_followed_and_nothing_trips(run) -> None:

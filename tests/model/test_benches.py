@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 import tomllib
 
@@ -21,7 +22,7 @@ def excitation(seed: int, amplitude: float, stop: float, samples: int = 200) -> 
 def integrate(f, x0, recorded: list[runtime.RecordedInput], times: np.ndarray) -> np.ndarray:
     """Piece by piece between the samples of the inputs, where the right-hand side has corners."""
     knots, states = recorded[0].time, [np.array(x0, dtype=float)]
-    for a, b in zip(knots[:-1], knots[1:], strict=True):
+    for a, b in pairwise(knots):
 
         def right_hand_side(t, x):
             return f(x, *(np.interp(t, r.time, r.values) for r in recorded))

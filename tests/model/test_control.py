@@ -64,7 +64,9 @@ def sampled_pid(u: np.ndarray, T: float, k: float, Ti: float, Td: float, Nd: flo
     return np.array(out)
 
 
-@pytest.mark.parametrize("block", ["SampledPI c(T=0.01, k=2, Ti=0.5, y_max=3)", "SampledPID c(T=0.01, k=2, Ti=0.5, Td=0.05, y_max=3)"])
+@pytest.mark.parametrize(
+    "block", ["SampledPI c(T=0.01, k=2, Ti=0.5, y_max=3)", "SampledPID c(T=0.01, k=2, Ti=0.5, Td=0.05, y_max=3)"]
+)
 def test_sampled_controllers(run, block: str) -> None:
     model = blocks(f"{block}; Sine s(amplitude=1.5, f=0.8);", "connect(s.y, c.u);")
     result = run(model, stop=1.995, output_times=0.005 + 0.01 * np.arange(200), events=False)
@@ -93,14 +95,24 @@ def test_adc_rounds_and_saturates(run) -> None:
 
 
 def test_hysteresis_switches_at_its_two_levels(run) -> None:
-    result = run(blocks("Hysteresis h(u_low=-0.5, u_high=0.7); Sine s;", "connect(s.y, h.u);"), stop=2.0, interval=1e-2, max_step=1e-2)
+    result = run(
+        blocks("Hysteresis h(u_low=-0.5, u_high=0.7); Sine s;", "connect(s.y, h.u);"),
+        stop=2.0,
+        interval=1e-2,
+        max_step=1e-2,
+    )
     switched = result.time[np.flatnonzero(np.diff(result["h.y"])) + 1]
     up, down = np.arcsin(0.7) / (2 * np.pi), (np.pi + np.arcsin(0.5)) / (2 * np.pi)
     assert np.abs(switched - [up, down, 1 + up, 1 + down]).max() < 1e-7
 
 
 def test_limiter(run) -> None:
-    result = run(blocks("Limiter l(y_max=0.5, y_min=-0.2); Sine s;", "connect(s.y, l.u);"), stop=1.0, interval=1e-2, max_step=1e-2)
+    result = run(
+        blocks("Limiter l(y_max=0.5, y_min=-0.2); Sine s;", "connect(s.y, l.u);"),
+        stop=1.0,
+        interval=1e-2,
+        max_step=1e-2,
+    )
     assert np.abs(result["l.y"] - np.clip(result["s.y"], -0.2, 0.5)).max() < 1e-9
 
 
@@ -127,7 +139,7 @@ def test_noise_is_its_seed_and_nothing_else(run, solver: str) -> None:
 
 
 def test_supervisor_confirms_before_it_trips(run) -> None:
-    """A sine above 0.8 for less than the confirmation time does not trip; a slower one does, that time after crossing."""
+    """A sine above 0.8 for less than the confirmation time does not trip; a slower one does, that late."""
     model = blocks("Supervisor m(limit=0.8, t_confirm=0.15); Sine s(f=1);", "connect(s.y, m.u);")
     above = 0.5 - 2 * np.arcsin(0.8) / (2 * np.pi)
     quick = run(model, stop=3.0, max_step=1e-2, parameters={"m.t_confirm": above + 0.01})

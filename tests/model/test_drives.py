@@ -105,8 +105,8 @@ def test_all_legs_open_is_solved(run) -> None:
 @pytest.mark.parametrize("speed", [30.0, -30.0])
 def test_machine_has_the_trapezoids_of_its_definition(run, speed: float) -> None:
     model = drive(
-        "Drives.StarWinding winding(R=1, L=1e-3, Ke=0.05, pp=3, zeta=0.2, shorted={0.1, 0, 0.3}); Mechanics.SpeedSource rotor;"
-        "Electrical.Ground ground;",
+        "Drives.StarWinding winding(R=1, L=1e-3, Ke=0.05, pp=3, zeta=0.2, shorted={0.1, 0, 0.3});"
+        "Mechanics.SpeedSource rotor; Electrical.Ground ground;",
         f"rotor.u = {speed}; connect(rotor.flange, winding.flange); connect(winding.pin_a, ground.p);",
     )
     result = run(model, stop=0.2, interval=1e-4, events=False)
@@ -134,7 +134,8 @@ REGULATED = (
     "Drives.StarWinding winding(R=0.5, L=1e-3, Ke=0.05, pp=1); {drive} drive(i_max=8, {settings});"
 )
 REGULATED_WIRES = (
-    "connect(supply.n, ground.p); connect(supply.p, drive.p); connect(supply.n, drive.n); connect(winding.sector, drive.sector);"
+    "connect(supply.n, ground.p); connect(supply.p, drive.p); connect(supply.n, drive.n);"
+    "connect(winding.sector, drive.sector);"
     "connect(drive.a, winding.pin_a); connect(drive.b, winding.pin_b); connect(drive.c, winding.pin_c);"
     "connect(winding.flange, rotor.flange); drive.i_phase[1] = winding.a.i; drive.i_phase[2] = winding.b.i;"
     "drive.i_phase[3] = winding.c.i; drive.i_ref = if time < 5e-3 then 5 else 20;"

@@ -42,6 +42,8 @@ def test_stator_fixed_eccentricity_makes_the_current_of_phase_a_fall(run) -> Non
     rms = []
     for zeta in (0.0, 0.3):
         parameters = {"zeta": zeta, "convention": 2}
-        result = run("Actuators.EccentricBldc", parameters=parameters, solver="dopri5", rtol=1e-7, outputs=OUTPUTS, events=False)
+        result = run(
+            "Actuators.EccentricBldc", parameters=parameters, solver="dopri5", rtol=1e-7, outputs=OUTPUTS, events=False
+        )
         rms.append(np.sqrt(np.mean(result["filter[1].y"] ** 2)))
     assert rms[1] < rms[0]

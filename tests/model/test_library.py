@@ -12,7 +12,9 @@ from codegen.library import Library
 
 MODEL = Path(__file__).parents[2] / "model"
 FILES = sorted(MODEL.rglob("*.mo"))
-WHOLE = [f for f in FILES if f.parent.parent.name == "Components" or f.parts[-2] in ("Actuators", "Benches", "Scenarios")]
+WHOLE = [
+    f for f in FILES if f.parent.parent.name == "Components" or f.parts[-2] in ("Actuators", "Benches", "Scenarios")
+]
 
 
 def qualified(file: Path) -> str:

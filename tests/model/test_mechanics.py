@@ -80,7 +80,7 @@ def test_friction_breaks_away_at_its_static_level(run) -> None:
 
 
 def test_stick_slip_on_a_moving_belt(run) -> None:
-    """Sticks until the spring pulls with peak tau_c, slips on a circle around tau_c/c in the phase plane, sticks again."""
+    """Sticks until the spring pulls with peak tau_c, slips on a circle around tau_c/c, sticks again."""
     J, c, w_belt, tau_c, peak = 1.0, 100.0, 0.5, 2.0, 1.5
     model = mechanics(
         f"Inertia body(J={J}, phi(start=0, fixed=true)); Spring spring(c={c}); Fixed wall; SpeedSource belt;"
@@ -129,7 +129,7 @@ BACKLASH = mechanics(
 
 
 def test_backlash_moves_nothing_within_its_play_and_never_pulls(run) -> None:
-    """The hub crosses half the play at constant speed; then an elastic impact throws the body off at twice the speed."""
+    """The hub crosses half the play at constant speed; then an elastic impact throws the body off at twice that."""
     model = BACKLASH.format(phi0=0, d=0, speed=0.5, rest=AT_REST)
     result = run(model, stop=0.08, interval=1e-4)
     t_contact = 0.01 / 0.5
@@ -156,14 +156,16 @@ def test_backlash_without_play_is_a_spring_and_damper(run) -> None:
         "connect(k.flange_b, body.flange_b);"
     )
     results = [
-        run(mechanics(parts.format(rest=AT_REST, element=element), wires), stop=0.5, interval=1e-2, events=False)["body.phi"]
+        run(mechanics(parts.format(rest=AT_REST, element=element), wires), stop=0.5, interval=1e-2, events=False)[
+            "body.phi"
+        ]
         for element in ("Backlash k(c=50, d=0.3, b=0)", "SpringDamper k(c=50, d=0.3)")
     ]
     assert np.abs(results[0] - results[1]).max() < 1e-9
 
 
 def test_elastic_end_stop_returns_the_speed_and_a_lossy_one_less(run) -> None:
-    """Deepest point of an elastic stop: w sqrt(J/c); with Hunt-Crossley damping the stop keeps energy but never pulls."""
+    """Deepest point of an elastic stop: w sqrt(J/c); with damping the stop keeps energy but never pulls."""
     J, c, w0 = 0.02, 500.0, 3.0
     model = mechanics(
         f"Inertia body(J={J}, phi(start=0, fixed=true), w(start={w0}, fixed=true));"
@@ -182,7 +184,8 @@ def test_elastic_end_stop_returns_the_speed_and_a_lossy_one_less(run) -> None:
 
 def test_hinge_moment_balances_the_torque_at_rest(run) -> None:
     model = mechanics(
-        f"Inertia body(J=0.1, {AT_REST}); ViscousFriction bearing(b=2); HingeMoment air(tau0=0.5, c=10); TorqueSource drive;",
+        f"Inertia body(J=0.1, {AT_REST}); ViscousFriction bearing(b=2); HingeMoment air(tau0=0.5, c=10);"
+        "TorqueSource drive;",
         "drive.u = 3; air.u = 0.5; connect(drive.flange, body.flange_a); connect(body.flange_b, bearing.flange_a);"
         "connect(bearing.flange_b, air.flange);",
     )
@@ -194,8 +197,9 @@ def test_ball_screw_drives_a_mass_through_a_compliance(run) -> None:
     model = mechanics(
         f"Inertia screwBody(J=1e-4, {AT_REST}); BallScrew screw(lead=5e-3); TorqueSource drive; ForceSource load;"
         "TranslationalSpringDamper nut(c=1e7, d=5e3); Mass ram(m=50, s(start=0, fixed=true), v(start=0, fixed=true));",
-        "drive.u = 1; load.u = -400; connect(drive.flange, screwBody.flange_a); connect(screwBody.flange_b, screw.flange_a);"
-        "connect(screw.flange_b, nut.flange_a); connect(nut.flange_b, ram.flange_a); connect(ram.flange_b, load.flange);",
+        "drive.u = 1; load.u = -400; connect(drive.flange, screwBody.flange_a); "
+        "connect(screwBody.flange_b, screw.flange_a); connect(screw.flange_b, nut.flange_a); "
+        "connect(nut.flange_b, ram.flange_a); connect(ram.flange_b, load.flange);",
     )
     result = run(model, stop=1.0)
     h = 5e-3 / (2 * np.pi)
