@@ -1,8 +1,9 @@
 """The proof: `python -m tests.proof --out DIR [--seed 2] [--quick]`; resumes, and writes docs/proof.md when whole."""
 
 import argparse
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
+import shutil
 import sys
 import time
 
@@ -10,7 +11,7 @@ from tests.proof import baseline
 from tests.proof.generate import generate
 from tests.proof.plan import plan, quick
 from tests.proof.report import page, summary_table
-from tests.proof.runner import ROOT, content_hash, diagnose, run_all, tool_hash
+from tests.proof.runner import ROOT, diagnose, generator_hash, run_all, tool_hash
 from tests.proof.score import score_folder
 
 
@@ -26,15 +27,17 @@ def _arguments() -> argparse.Namespace:
 
 
 def _generate(cases: list, out: Path, jobs: int) -> None:
-    """Writes the cases that are not there yet for this version of the generator."""
-    stamp, version = out / "generator", content_hash([Path(__file__).parent])
-    fresh = stamp.exists() and stamp.read_text() == version
-    missing = [(n, p, s, out) for n, p, s in cases if not (fresh and (out / "truth" / f"{n}.toml").exists())]
+    """Writes the cases that are not there yet; those of another version of the generator go."""
+    stamp, version = out / "generator", generator_hash()
+    if not (stamp.exists() and stamp.read_text() == version):
+        for kind in ("cases", "truth"):
+            shutil.rmtree(out / kind, ignore_errors=True)
+        out.mkdir(parents=True, exist_ok=True)
+        stamp.write_text(version)
+    missing = [(n, p, s, out) for n, p, s in cases if not (out / "truth" / f"{n}.toml").exists()]
     with ProcessPoolExecutor(jobs) as pool:
-        for k, line in enumerate(pool.map(generate, missing)):
-            print(f"[{k + 1}/{len(missing)}] {line}", flush=True)
-    out.mkdir(parents=True, exist_ok=True)
-    stamp.write_text(version)
+        for k, done in enumerate(as_completed([pool.submit(generate, case) for case in missing])):
+            print(f"[{k + 1}/{len(missing)}] {done.result()}", flush=True)
 
 
 def main() -> int:

@@ -11,21 +11,31 @@ import tempfile
 import time
 
 ROOT = Path(__file__).parents[2]
+GENERATOR_SOURCES = (
+    *("kernel", "effects", "benches.py", "excitation.py", "generate.py"),
+    *("plan.py", "refit.py", "simulator.py", "write.py"),
+)
 TOOL_SOURCES = ("discovery", "codegen", "runtime", "model", "cli")
 
 
-def content_hash(folders: Sequence[Path]) -> str:
-    """Of every source or data file below the folders."""
+def content_hash(paths: Sequence[Path]) -> str:
+    """Of every source or data file among and below the paths."""
     digest = hashlib.sha256()
-    for folder in folders:
-        for file in sorted(f for f in folder.rglob("*") if f.is_file() and f.suffix not in (".pyc", ".so")):
-            digest.update(str(file.relative_to(folder)).encode() + b"\0" + file.read_bytes())
+    for path in paths:
+        below = path.rglob("*") if path.is_dir() else [path]
+        for file in sorted(f for f in below if f.is_file() and f.suffix not in (".pyc", ".so")):
+            digest.update(str(file.relative_to(path.parent)).encode() + b"\0" + file.read_bytes())
     return digest.hexdigest()[:20]
 
 
 def tool_hash() -> str:
     """Of the code and the models that a diagnosis depends on."""
     return content_hash([ROOT / name for name in TOOL_SOURCES])
+
+
+def generator_hash() -> str:
+    """Of the code that the cases depend on."""
+    return content_hash([Path(__file__).parent / name for name in GENERATOR_SOURCES])
 
 
 def diagnose(command: Sequence[str], case: Path, out: Path, version: str, timeout: float) -> str:

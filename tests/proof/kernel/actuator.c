@@ -3,12 +3,13 @@
 #include "benches.h"
 #include "three_phase.h"
 
-#define PARAMETERS(X)                                                                                                  \
-  X(R)                                                                                                                 \
-  X(L) X(Ke) X(pp) X(Jm) X(bm) X(N) X(k) X(d) X(Js) X(bs) X(Vdc) X(Kp) X(wmax) X(Kw) X(Ki) X(i_max) X(Kp_i) X(Ki_i)    \
-      FRICTION(X, shaft) FRICTION(X, surface) X(Ra) X(Rb) X(Rc) X(short_a) X(short_b) X(short_c) X(zeta) X(V_d)        \
-          X(u_max) X(play) X(k_s) X(tau_l) X(cog_a) X(cog_n) X(cog_phi) X(rip_a) X(rip_n) X(rip_phi) X(stop_high)      \
-              X(stop_low) X(k_e) X(d_e)
+/* clang-format off */
+#define PARAMETERS(X)                                                                                           \
+    X(R) X(L) X(Ke) X(pp) X(Jm) X(bm) X(N) X(k) X(d) X(Js) X(bs) X(Vdc) X(Kp) X(wmax) X(Kw) X(Ki) X(i_max)      \
+    X(Kp_i) X(Ki_i) FRICTION(X, shaft) FRICTION(X, surface) X(Ra) X(Rb) X(Rc) X(short_a) X(short_b) X(short_c)  \
+    X(zeta) X(V_d) X(u_max) X(play) X(k_s) X(tau_l) X(cog_a) X(cog_n) X(cog_phi) X(rip_a) X(rip_n) X(rip_phi)   \
+    X(stop_high) X(stop_low) X(k_e) X(d_e)
+/* clang-format on */
 
 typedef struct {
 #define FIELD(name) double name;

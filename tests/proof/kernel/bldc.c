@@ -3,11 +3,13 @@
 #include "benches.h"
 #include "three_phase.h"
 
-#define PARAMETERS(X)                                                                                                  \
-  X(R)                                                                                                                 \
-  X(L) X(Ke) X(J) X(b) X(pp) FRICTION(X, shaft) X(Ra) X(Rb) X(Rc) X(La) X(Lb) X(Lc) X(short_a) X(short_b) X(short_c)   \
-      X(zeta) X(V_d) X(sag) X(u_max) X(k_s) X(tau_l) X(mgl) X(mgl_phi) X(cog_a) X(cog_n) X(cog_phi) X(rip_a) X(rip_n)  \
-          X(rip_phi) X(iron) X(i_sat) X(heat_k) X(heat_tau) X(law_w3) X(law_warm) X(law_warm_tau) X(law_sqrt)
+/* clang-format off */
+#define PARAMETERS(X)                                                                                             \
+    X(R) X(L) X(Ke) X(J) X(b) X(pp) FRICTION(X, shaft) X(Ra) X(Rb) X(Rc) X(La) X(Lb) X(Lc) X(short_a) X(short_b)  \
+    X(short_c) X(zeta) X(V_d) X(sag) X(u_max) X(k_s) X(tau_l) X(mgl) X(mgl_phi) X(cog_a) X(cog_n) X(cog_phi)      \
+    X(rip_a) X(rip_n) X(rip_phi) X(iron) X(i_sat) X(heat_k) X(heat_tau) X(law_w3) X(law_warm) X(law_warm_tau)     \
+    X(law_sqrt)
+/* clang-format on */
 
 typedef struct {
 #define FIELD(name) double name;

@@ -9,10 +9,11 @@ enum { STUCK = 0, FREE = 9 }; /* otherwise the mode of a friction is the directi
 /* Parameters of one friction, as names: tau_c both directions, tau_d added when positive and taken away when
    negative, tau_e excess of breakaway over sliding, w_s Stribeck speed, mu per transmitted load, pos_* along the
    stroke, sigma bristles. */
-#define FRICTION(X, site)                                                                                              \
-  X(site##_tau_c)                                                                                                      \
-  X(site##_tau_d) X(site##_tau_e) X(site##_w_s) X(site##_mu) X(site##_pos_a) X(site##_pos_n) X(site##_pos_phi)         \
-      X(site##_sigma0) X(site##_sigma1) X(site##_c2)
+/* clang-format off */
+#define FRICTION(X, site)                                                                                       \
+    X(site##_tau_c) X(site##_tau_d) X(site##_tau_e) X(site##_w_s) X(site##_mu) X(site##_pos_a) X(site##_pos_n)  \
+    X(site##_pos_phi) X(site##_sigma0) X(site##_sigma1) X(site##_c2)
+/* clang-format on */
 
 typedef struct {
   double tau_c, tau_d, tau_e, w_s, mu, pos_a, pos_n, pos_phi, sigma0, sigma1, c2;

@@ -3,12 +3,13 @@
 #include "benches.h"
 #include "physics.h"
 
-#define PARAMETERS(X)                                                                                                  \
-  X(R)                                                                                                                 \
-  X(L) X(Ke) X(Jm) X(bm) X(N) X(k) X(d) X(Js) X(bs) X(Vdc) X(Kp) X(wmax) X(Kw) X(Ki) FRICTION(X, shaft)                \
-      FRICTION(X, surface) X(play) X(k_s) X(tau_l) X(mgl) X(mgl_phi) X(cog_a) X(cog_n) X(cog_phi) X(rip_a) X(rip_n)    \
-          X(rip_phi) X(stop_high) X(stop_low) X(k_e) X(d_e) X(V_d) X(sag) X(u_max) X(u_dead) X(heat_k) X(heat_tau)     \
-              X(i_sat) X(law_w3) X(law_theta3) X(law_vib) X(law_vib_w) X(law_warm) X(law_warm_tau) X(law_sqrt)
+/* clang-format off */
+#define PARAMETERS(X)                                                                                             \
+    X(R) X(L) X(Ke) X(Jm) X(bm) X(N) X(k) X(d) X(Js) X(bs) X(Vdc) X(Kp) X(wmax) X(Kw) X(Ki) FRICTION(X, shaft)    \
+    FRICTION(X, surface) X(play) X(k_s) X(tau_l) X(mgl) X(mgl_phi) X(cog_a) X(cog_n) X(cog_phi) X(rip_a)          \
+    X(rip_n) X(rip_phi) X(stop_high) X(stop_low) X(k_e) X(d_e) X(V_d) X(sag) X(u_max) X(u_dead) X(heat_k)         \
+    X(heat_tau) X(i_sat) X(law_w3) X(law_theta3) X(law_vib) X(law_vib_w) X(law_warm) X(law_warm_tau) X(law_sqrt)
+/* clang-format on */
 
 typedef struct {
 #define FIELD(name) double name;

@@ -3,12 +3,13 @@
 #include "benches.h"
 #include "physics.h"
 
-#define PARAMETERS(X)                                                                                                  \
-  X(R)                                                                                                                 \
-  X(L) X(Ke) X(J) X(b) X(torque_input) FRICTION(X, shaft) X(k_s) X(theta_0) X(tau_l) X(mgl) X(mgl_phi) X(cog_a)        \
-      X(cog_n) X(cog_phi) X(rip_a) X(rip_n) X(rip_phi) X(J_share) X(k_c) X(d_c) X(play) X(stop_high) X(stop_low)       \
-          X(k_e) X(d_e) X(V_d) X(sag) X(u_max) X(u_dead) X(heat_k) X(heat_tau) X(i_sat) X(law_w3) X(law_theta3)        \
-              X(law_wsin) X(law_vib) X(law_vib_w) X(law_warm) X(law_warm_tau) X(law_sqrt) X(law_iw)
+/* clang-format off */
+#define PARAMETERS(X)                                                                                          \
+    X(R) X(L) X(Ke) X(J) X(b) X(torque_input) FRICTION(X, shaft) X(k_s) X(theta_0) X(tau_l) X(mgl) X(mgl_phi)  \
+    X(cog_a) X(cog_n) X(cog_phi) X(rip_a) X(rip_n) X(rip_phi) X(J_share) X(k_c) X(d_c) X(play) X(stop_high)    \
+    X(stop_low) X(k_e) X(d_e) X(V_d) X(sag) X(u_max) X(u_dead) X(heat_k) X(heat_tau) X(i_sat) X(law_w3)        \
+    X(law_theta3) X(law_wsin) X(law_vib) X(law_vib_w) X(law_warm) X(law_warm_tau) X(law_sqrt) X(law_iw)
+/* clang-format on */
 
 typedef struct {
 #define FIELD(name) double name;
