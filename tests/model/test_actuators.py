@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-VARIANTS = "Ramp SlowSine Reversal Eccentric ShortedTurns EndStop LoadStep Sampled Pwm Hysteresis".split()
+VARIANTS = [
+    "Ramp", "SlowSine", "Reversal", "Eccentric", "ShortedTurns", "EndStop", "LoadStep", "Sampled", "Pwm", "Hysteresis",
+]  # fmt: skip
 SCENARIOS = ["FlightControlEma", "BallScrewEma", *(f"Scenarios.{name}" for name in VARIANTS)]
 
 
