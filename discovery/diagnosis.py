@@ -1,0 +1,195 @@
+"""diagnosis.json: the contract of FORMAT.md, written from an explanation."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .evidence import whiteness
+from .explain import Explanation, Finding
+from .fit import Fit
+from .least_squares import Free
+
+
+def build(result: Explanation, amended: Path | None) -> dict[str, Any]:
+    """The diagnosis as plain data."""
+    diagnosis: dict[str, Any] = {
+        "case": result.case.label, "model": result.case.model, "verdict": result.verdict,
+        "findings": [_finding(result, f) for f in result.findings],
+    }  # fmt: skip
+    if result.before is not None:
+        diagnosis["nrmse"] = _nrmse(result.before, result.after)
+        diagnosis["per_signal"] = {
+            c: {"before": result.before.validate[c], "after": result.after.validate[c], "noise_floor": result.floor[c]}
+            for c in result.floor
+        }
+        diagnosis["parameters"] = _parameters(result)
+    if amended is not None:
+        diagnosis["amended_model"] = amended.name
+    diagnosis["sentence"] = sentence(result)
+    if result.reason:
+        diagnosis["reason"] = result.reason
+    if result.experiment:
+        diagnosis["experiment"] = result.experiment
+    if result.problems:
+        diagnosis["recordings"] = [p.as_dict() for p in result.problems]
+    diagnosis["seconds"] = {k: round(v, 2) for k, v in result.seconds.items()}
+    return _rounded(diagnosis)
+
+
+def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
+    path = folder / "diagnosis.json"
+    partial = path.with_suffix(".tmp")
+    partial.write_text(json.dumps(build(result, amended), indent=2) + "\n", encoding="utf-8")
+    partial.replace(path)
+    return path
+
+
+def standard_errors(fit: Fit) -> dict[str, float]:
+    """1-sigma of each free parameter: from the sensitivities, widened for coloured residuals."""
+    covariance = fit.estimate.covariance(fit.inflation())
+    return {f.name: float(math.sqrt(max(covariance[k, k], 0.0))) for k, f in enumerate(fit.estimate.free)}
+
+
+def _finding(result: Explanation, finding: Finding) -> dict[str, Any]:
+    attachment = finding.ranked.attachment
+    errors = standard_errors(result.final)
+    point = result.final.point
+    parameters = {}
+    for parameter in attachment.effect.parameters:
+        full = attachment.full_name(parameter.name)
+        value = point.get(full, dict(attachment.values).get(parameter.name))
+        if value is not None and parameter.name != attachment.effect.interval:
+            parameters[parameter.name] = {"value": value, "std": errors.get(full, 0.0), "unit": parameter.unit}
+    if attachment.effect.polar:
+        _positive_phase(parameters, attachment.effect.polar[1])
+    return {
+        "effect": attachment.effect.identifier,
+        "location": attachment.location,
+        "confidence": _confidence(finding),
+        "where": _where(result, finding),
+        "parameters": parameters,
+        "alternatives": _alternatives(finding),
+        "nrmse": _nrmse(finding.before, finding.after),
+    }
+
+
+def _positive_phase(parameters: dict[str, dict], name: str) -> None:
+    """Angles as people write them: within (-pi, pi]."""
+    if name in parameters:
+        parameters[name]["value"] = math.remainder(parameters[name]["value"], 2 * math.pi)
+
+
+def _by_identity(finding: Finding) -> dict[tuple[str, str], float]:
+    total: dict[tuple[str, str], float] = {}
+    for r in finding.naming.ranked:
+        total[r.identity] = total.get(r.identity, 0.0) + r.confidence
+    return total
+
+
+def _confidence(finding: Finding) -> float:
+    return _by_identity(finding)[finding.ranked.identity]
+
+
+def _alternatives(finding: Finding) -> list[dict[str, Any]]:
+    ordered = sorted(_by_identity(finding).items(), key=lambda item: -item[1])
+    return [
+        {"effect": effect, "location": location, "confidence": confidence}
+        for (effect, location), confidence in ordered if (effect, location) != finding.ranked.identity
+    ][:5]  # fmt: skip
+
+
+def _where(result: Explanation, finding: Finding) -> dict[str, Any]:
+    """Where the model without the effect misses most: the moments of the largest residual."""
+    before = result.base
+    times = []
+    for recording in result.case.fit:
+        weighted = sum(
+            (np.nan_to_num(before.residuals[recording.name][c]) / (before.noise[c].std * before.level[c])) ** 2 for c in before.noise
+        )
+        width = max(1, len(weighted) // 25)
+        power = np.convolve(weighted, np.ones(width) / width, mode="same")
+        k = int(np.argmax(power))
+        times.append((float(power[k]), [float(recording.time[max(k - width, 0)]), float(recording.time[min(k + width, len(power) - 1)])]))
+    times.sort(reverse=True)
+    effect = finding.ranked.attachment.effect
+    return {"variable": _variable(finding), "time": [t for _, t in times[:3]], "text": effect.signature}
+
+
+def _variable(finding: Finding) -> str:
+    """The variable that organises the effect's effort."""
+    attachment = finding.ranked.attachment
+    if attachment.variable:
+        return attachment.variable
+    identifier = attachment.effect.identifier
+    if attachment.shaft is not None:
+        along = ("torque.", "load.", "stiffness", "end_stop", "friction.position")
+        return f"{attachment.location}.phi" if identifier.startswith(along) else f"{attachment.location}.w"
+    if attachment.lines:
+        return f"{attachment.lines[0].load}.i"
+    return f"{attachment.part.name}.phi_rel" if identifier in ("backlash", "compliance") else f"{attachment.part.name}.i"
+
+
+def _nrmse(before: Any, after: Any) -> dict[str, Any]:
+    return {
+        "fit": {"before": before.fit[""], "after": after.fit[""]},
+        "validate": {"before": before.validate[""], "after": after.validate[""]},
+    }
+
+
+def _parameters(result: Explanation) -> dict[str, Any]:
+    errors = standard_errors(result.final)
+    variables = result.final.machine.model.variables
+    table = {}
+    for f in result.base.estimate.free:
+        if f.name.startswith("start:"):
+            continue
+        value = result.final.point[f.name]
+        table[f.name] = {
+            "believed": f.centre, "value": value, "std": errors.get(f.name, 0.0), "unit": variables[f.name].unit or "1",
+            "outside_belief": _outside(f, value),
+        }  # fmt: skip
+    return table
+
+
+def _outside(f: Free, value: float) -> bool:
+    return bool(f.sigma and abs(value - f.centre) > 3 * f.sigma)
+
+
+def sentence(result: Explanation) -> str:
+    """The verdict as an engineer would say it."""
+    if result.verdict == "missing_physics":
+        parts = []
+        for f in result.findings:
+            a = f.ranked.attachment
+            parts.append(f"{a.effect.title[0].lower()}{a.effect.title[1:]} at {a.location}")
+        gain = result.before.validate[""] / max(result.after.validate[""], 1e-12)
+        return f"The model lacks {' and '.join(parts)}; with it the error on unseen recordings falls {gain:.2g} times."
+    if result.verdict == "parameters":
+        names = [n for n, p in _parameters(result).items() if p["outside_belief"]]
+        return f"Nothing is missing; {', '.join(names)} differ{'s' if len(names) == 1 else ''} from what was believed."
+    if result.verdict == "consistent":
+        return "The model explains the recordings: what is left is noise."
+    return "These recordings cannot say what is missing: " + (result.reason or "the residual is not noise") + "."
+
+
+def left_over(result: Explanation) -> list[str]:
+    """Signals whose residual is not noise in the end, as sentences."""
+    return [
+        f"{w.column}: block means over {w.block} samples have {w.ratio:.3g} times the power of noise"
+        for w in whiteness(result.final).values() if not w.passed
+    ]  # fmt: skip
+
+
+def _rounded(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {k: _rounded(v) for k, v in value.items()}
+    if isinstance(value, list):
+        return [_rounded(v) for v in value]
+    if isinstance(value, np.floating | float):
+        return float(f"{float(value):.6g}") if math.isfinite(value) else None
+    return value.item() if isinstance(value, np.generic) else value

@@ -1,0 +1,73 @@
+"""Is a residual noise? And does a richer model pay on recordings it has not seen?"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from .fit import Fit
+
+BLOCKS = (1, 8, 40, 200)  # samples over which a residual is averaged
+SIGMAS = 5.0
+ROUNDING = 2.5  # allowance for rounding errors of a slow signal, which are alike from sample to sample
+TOLERANCE = 0.04  # of the noise level, within which it counts as known
+
+
+@dataclass(frozen=True)
+class Whiteness:
+    """Mean square of block means over what white noise of the known level gives, and its limit, worst block length."""
+
+    column: str
+    block: int
+    ratio: float
+    limit: float
+
+    @property
+    def passed(self) -> bool:
+        return self.ratio <= self.limit
+
+
+def whiteness(fit: Fit) -> dict[str, Whiteness]:
+    """For each signal the block length at which its residual is least like noise (chi-square of block means)."""
+    return {c: max((_blocks(fit, c, b) for b in BLOCKS), key=lambda w: w.ratio / w.limit) for c in fit.noise}
+
+
+def _blocks(fit: Fit, column: str, block: int) -> Whiteness:
+    total, count = 0.0, 0
+    for name, residual in fit.residuals.items():
+        weight = fit.weights[name][column]
+        values = np.nan_to_num(residual[column]) * weight / fit.noise[column].std
+        usable = len(values) // block * block
+        sums = values[:usable].reshape(-1, block).sum(axis=1)
+        power = (weight[:usable] ** 2).reshape(-1, block).sum(axis=1)
+        alive = power > 0.5
+        total += float(np.sum(sums[alive] ** 2 / power[alive]))
+        count += int(alive.sum())
+    count = max(count, 1)
+    noise = fit.noise[column]
+    level = 1.0 + TOLERANCE if noise.given else 1.3
+    colour = ROUNDING if noise.quantum and noise.std < 0.5 * noise.quantum and block > 1 else 1.0
+    return Whiteness(column, block, total / count, colour * level**2 * (1.0 + SIGMAS * np.sqrt(2.0 / count)))
+
+
+def is_noise(fit: Fit) -> bool:
+    """Whether nothing is left in any signal but noise."""
+    return all(w.passed for w in whiteness(fit).values())
+
+
+def outside_belief(fit: Fit, sigmas: float = 3.0) -> dict[str, float]:
+    """Parameters that ended beyond `sigmas` believed sigmas, with how many."""
+    result = {}
+    for f, value in zip(fit.estimate.free, fit.estimate.values, strict=True):
+        if f.sigma and abs(value - f.centre) > sigmas * f.sigma:
+            result[f.name] = float((value - f.centre) / f.sigma)
+    return result
+
+
+def pays(before: Mapping[str, float], after: Mapping[str, float], floor: Mapping[str, float]) -> bool:
+    """Whether a model is better on recordings that it has not seen: NRMSE of the case, above what noise could give."""
+    noise = float(np.sqrt(np.mean([floor[c] ** 2 for c in floor])))
+    gap = before[""] - noise
+    return after[""] < before[""] and (before[""] - after[""]) > 0.02 * max(gap, 0.0)

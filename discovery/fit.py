@@ -1,0 +1,250 @@
+"""Fitting a machine's parameters to recordings by the error of its simulated outputs.
+
+Signals are weighted by noise, but never more than the model deserves: while a signal's residual is above its noise,
+that residual is its weight (maximum likelihood with unknown variances, noise as the lower bound). So a fit is led from
+coarse to fine without a schedule, and a model that lacks physics is not torn to pieces by its most precise sensor.
+Where events make the sum of squares rough, trackers hold recorded shafts near their motion at first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .amend import tracker_name
+from .cases import Case, Recording
+from .least_squares import Estimate, Free, Problem, solve
+from .machine import Machine
+from .noise import Noise, correlation_time, estimate, sample_weights
+from .tracking import noise_bandwidth
+
+LOWER_SHARE = 0.02  # of its believed value, below which no positive parameter is tried
+STAGES = 10
+SETTLED = 0.02  # relative change of a signal's level at which weights are taken to have settled
+
+
+@dataclass
+class Fit:
+    """A fitted machine. `level` is each signal's residual RMS in units of its noise, at least one."""
+
+    machine: Machine
+    estimate: Estimate
+    level: dict[str, float]
+    residuals: dict[str, dict[str, np.ndarray]]  # recording -> column -> (n,) measured minus simulated, SI; NaN: missing
+    weights: dict[str, dict[str, np.ndarray]]  # of the samples, in the same layout
+    noise: dict[str, Noise]
+    simulations: int
+    fixed: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def point(self) -> dict[str, float]:
+        return self.fixed | self.estimate.point
+
+    def counts(self) -> dict[str, float]:
+        """Independent samples of each signal, were its residual white."""
+        return {c: float(sum(np.sum(w[c] ** 2) for w in self.weights.values())) for c in self.noise}
+
+    def correlation(self) -> dict[str, float]:
+        """Samples that carry the information of one, for each signal, from this fit's residual."""
+        result = {}
+        for column in self.noise:
+            times = [correlation_time(np.nan_to_num(r[column]) * self.weights[n][column]) for n, r in self.residuals.items()]
+            result[column] = float(np.mean(times))
+        return result
+
+    def deviance(self, correlation: Mapping[str, float] | None = None) -> float:
+        """Minus twice the log likelihood (up to a constant) with unknown levels, beliefs included.
+
+        `correlation` discounts the samples of each signal; pass that of the best fit when comparing several.
+        """
+        total = self.estimate.cost - self.estimate.data_cost
+        for column, count in self.counts().items():
+            mean_square = self._mean_square(column)
+            level = max(1.0, mean_square)
+            total += count / (correlation or {}).get(column, 1.0) * (np.log(level) + mean_square / level)
+        return float(total)
+
+    def _mean_square(self, column: str) -> float:
+        total = sum(np.sum((self.weights[n][column] * np.nan_to_num(r[column])) ** 2) for n, r in self.residuals.items())
+        return float(total) / self.counts()[column] / self.noise[column].std ** 2
+
+    def inflation(self) -> float:
+        """Factor on the covariance for what noise alone does not explain: misfit level and colour, mean over signals."""
+        colour = self.correlation()
+        return float(np.mean([colour[c] for c in self.noise]))
+
+
+def noise_of(case: Case) -> dict[str, Noise]:
+    """Noise of every output, as given or as estimated from the recordings that may be fitted."""
+    return {s.column: estimate([r.columns[s.column] for r in case.fit], s.noise_std) for s in case.outputs}
+
+
+def believed(case: Case, machine: Machine) -> tuple[list[Free], dict[str, float]]:
+    """(free parameters, exact ones) of the believed model: what case.toml names and the model's own defaults."""
+    free, fixed = [], {}
+    for name, variable in machine.model.parameters.items():
+        if "." in name or "[" in name or variable.type != "Real":
+            continue
+        value = case.parameters.get(name, variable.start)
+        sigma = case.sigma(name, value)
+        if sigma <= 0:
+            fixed[name] = value
+            continue
+        low, high = (LOWER_SHARE * value, np.inf) if value > 0 else (-np.inf, np.inf)
+        free.append(
+            Free(name, value, sigma, max(low, variable.min), min(high, variable.max), sigma, step=min(1e-2, 3e-4 * abs(value) / sigma))
+        )
+    fixed |= {n: v for n, v in case.parameters.items() if n not in fixed and n not in [f.name for f in free]}
+    for name in machine.unknown_states():
+        free.append(Free(f"start:{name}", 0.0, 1.0, step=1e-3))
+    return free, fixed
+
+
+class Objective:
+    """Residuals of one machine on some recordings, in units of noise, and the weights that lead a fit."""
+
+    def __init__(self, machine: Machine, recordings: Sequence[Recording], noise: Mapping[str, Noise]):
+        self.machine, self.recordings, self.noise = machine, list(recordings), dict(noise)
+        self.columns = list(noise)
+        self.samples = [{c: sample_weights(r.columns[c], self.noise[c]) for c in self.columns} for r in recordings]
+        self.stiffness: dict[str, float] = {}
+        self._trackers = [tracker_name(k) for k in range(len(machine.amendment.trackers))]
+        self.level = dict.fromkeys([*self.columns, *self._trackers], 1.0)
+        self.torque_scale = dict.fromkeys(self._trackers, 1.0)
+
+    def sections(self) -> list[str]:
+        return self.columns + (self._trackers if self.stiffness else [])
+
+    def __call__(self, values: dict[str, float], piece: int) -> np.ndarray | None:
+        recording = self.recordings[piece]
+        simulated = self.machine.simulate(values | self.stiffness, recording)
+        if simulated is None:
+            return None
+        parts = [
+            np.nan_to_num(recording.columns[c] - simulated[c]) * self.samples[piece][c] / self.noise[c].std
+            for c in self.columns
+        ]
+        if self.stiffness:
+            parts += [simulated[t] / self.torque_scale[t] for t in self._trackers]
+        return np.concatenate(parts)
+
+    def measure(self, parts: list[np.ndarray]) -> dict[str, float]:
+        """RMS of each section over all pieces (unweighted parts)."""
+        names = self.sections()
+        split = [np.split(p, len(names)) for p in parts]
+        squares = [sum(float(s[k] @ s[k]) for s in split) for k in range(len(names))]
+        counts = [sum(float(np.sum(w[n] ** 2)) if n in w else len(r.time) for w, r in zip(self.samples, self.recordings, strict=True)) for n in names]
+        return {n: float(np.sqrt(s / c)) for n, s, c in zip(names, squares, counts, strict=True)}
+
+    def weights(self, level: Mapping[str, float]) -> list[np.ndarray]:
+        names = self.sections()
+        return [np.concatenate([np.full(len(r.time), 1.0 / level[n]) for n in names]) for r in self.recordings]
+
+    def track(self, bandwidth: float, parameters: Mapping[str, float]) -> None:
+        """Set the trackers to a bandwidth (rad/s); zero takes them away."""
+        self.stiffness = {}
+        if not bandwidth:
+            return
+        constants = self.machine.constants(parameters)
+        for name, shaft in zip(self._trackers, self.machine.amendment.trackers, strict=True):
+            inertia = constants[f"{shaft.location}.J"]
+            self.stiffness |= {f"{name}.c": inertia * bandwidth**2, f"{name}.d": 1.4 * inertia * bandwidth}
+            self.torque_scale[name] = inertia * bandwidth
+
+
+def anneal(
+    objective: Objective, problem: Problem, start: np.ndarray, *, stages: int = STAGES, iterations: int = 4, floor: float = 1.0
+) -> tuple[Estimate | None, dict[str, float]]:
+    """Alternate weights from the residuals and a few steps of least squares until both have settled."""
+    level: dict[str, float] = {}
+    values, best = start, None
+    for _ in range(stages):
+        problem.weights = None
+        here = problem.evaluate(values)
+        if here is None:
+            return best, level
+        new = {n: max(floor if n in objective.noise else 1e-6, v) for n, v in objective.measure(here[2]).items()}
+        if best is not None and best.converged and all(abs(np.log(new[n] / level[n])) < SETTLED for n in new):
+            break
+        level = new
+        problem.weights = objective.weights(level)
+        found = solve(problem, values, iterations=iterations, damping=1e-6, tolerance=1e-3)
+        if found is None:
+            return best, level
+        best, values = found, found.values
+    return best, level
+
+
+def fit(
+    machine: Machine,
+    recordings: Sequence[Recording],
+    noise: Mapping[str, Noise],
+    free: list[Free],
+    fixed: Mapping[str, float],
+    *,
+    start: Mapping[str, float] | None = None,
+    bandwidths: Sequence[float] = (0.0,),
+    stages: int = STAGES,
+    iterations: int = 4,
+) -> Fit | None:
+    """Fit `free` to the recordings, tracking shafts with each bandwidth in turn (the last one 0). None if it cannot run."""
+    objective = Objective(machine, recordings, noise)
+    problem = Problem(free, objective, len(objective.recordings), dict(fixed))
+    first = dict(start or {})
+    values = np.array([f.clip(first.get(f.name, f.centre if f.start is None else f.start)) for f in free])
+    found, level = None, {}
+    for bandwidth in bandwidths:
+        objective.track(bandwidth, dict(fixed) | {f.name: v for f, v in zip(free, values, strict=True)})
+        result, level_here = anneal(objective, problem, values, stages=stages, iterations=iterations)
+        if result is not None:
+            found, level, values = result, level_here, result.values
+    if found is None or objective.stiffness:
+        return None
+    return _finish(machine, recordings, dict(noise), found, level, problem.simulations, dict(fixed))
+
+
+def _finish(
+    machine: Machine, recordings: Sequence[Recording], noise: dict[str, Noise], found: Estimate, level: dict[str, float],
+    simulations: int, fixed: dict[str, float],
+) -> Fit | None:  # fmt: skip
+    residuals = residuals_of(machine, recordings, fixed | found.point)
+    if residuals is None:
+        return None
+    weights = {r.name: {c: sample_weights(r.columns[c], n) for c, n in noise.items()} for r in recordings}
+    return Fit(machine, found, {c: level.get(c, 1.0) for c in noise}, residuals, weights, noise, simulations, fixed)
+
+
+def residuals_of(
+    machine: Machine, recordings: Sequence[Recording], values: Mapping[str, float]
+) -> dict[str, dict[str, np.ndarray]] | None:
+    """Measured minus simulated of each recording and column; None where a run fails."""
+    result = {}
+    for recording in recordings:
+        simulated = machine.simulate(values, recording)
+        if simulated is None:
+            return None
+        result[recording.name] = {s.column: recording.columns[s.column] - simulated[s.column] for s in machine.case.outputs}
+    return result
+
+
+def nrmse(case: Case, recordings: Sequence[Recording], residuals: Mapping[str, Mapping[str, np.ndarray]]) -> dict[str, float]:
+    """NRMSE of each output column, pooled over recordings, and of the case under the key "" (FORMAT.md)."""
+    result = {}
+    for signal in case.outputs:
+        error = np.concatenate([residuals[r.name][signal.column] for r in recordings])
+        measured = np.concatenate([r.columns[signal.column] for r in recordings])
+        spread = float(np.nanstd(measured))
+        result[signal.column] = float(np.sqrt(np.nanmean(error**2)) / spread) if spread > 0 else float("inf")
+    result[""] = float(np.sqrt(np.mean([result[s.column] ** 2 for s in case.outputs])))
+    return result
+
+
+def bandwidths_for(case: Case, machine: Machine, values: Mapping[str, float]) -> tuple[float, ...]:
+    """The bandwidths that lead a fit: just 0, or falling ones where events make the sum of squares rough."""
+    motions = [m for m in machine.motions() if m is not None]
+    if not motions or machine.events_per_second(values, case.fit[0]) < 20:
+        return (0.0,)
+    top = min(noise_bandwidth(case, m) for m in motions)
+    return (top / 8, top / 25, 0.0)

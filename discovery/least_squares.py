@@ -1,0 +1,230 @@
+"""Weighted nonlinear least squares: Levenberg-Marquardt with bounds and Gaussian beliefs.
+
+The residual is split into pieces (one a recording), so that a Jacobian by finite differences is a list of
+independent tasks: a simulation releases the interpreter lock, and threads use all cores. Work is done in the
+scaled coordinates z = (value - centre) / scale of each parameter, where one unit is a believed sigma.
+
+Reference: J. J. More, The Levenberg-Marquardt algorithm: implementation and theory, 1978.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+import os
+
+import numpy as np
+
+WORKERS = os.cpu_count() or 2
+_pool = ThreadPoolExecutor(max_workers=WORKERS)
+
+Residual = Callable[[dict[str, float], int], np.ndarray | None]
+
+
+@dataclass(frozen=True)
+class Free:
+    """A parameter to estimate. `sigma` is its believed 1-sigma around `centre`; None means no belief (flat).
+
+    `scale` (> 0) is the size of a typical change; finite differences use `step` of it.
+    """
+
+    name: str
+    centre: float
+    scale: float
+    lower: float = -np.inf
+    upper: float = np.inf
+    sigma: float | None = None
+    step: float = 1e-2
+    start: float | None = None
+
+    def clip(self, value: float) -> float:
+        return float(min(max(value, self.lower), self.upper))
+
+
+@dataclass
+class Estimate:
+    """Where a fit ended. `cost` is the sum of squares of data and belief; `data_cost` of the data alone."""
+
+    free: list[Free]
+    values: np.ndarray
+    cost: float
+    data_cost: float
+    residuals: list[np.ndarray]
+    normal: np.ndarray  # J'J of data and belief in scaled coordinates, at `values`
+    converged: bool
+    iterations: int
+    simulations: int
+    jacobian: list[np.ndarray] = field(default_factory=list, repr=False)
+
+    def __getitem__(self, name: str) -> float:
+        return float(self.values[[f.name for f in self.free].index(name)])
+
+    @property
+    def point(self) -> dict[str, float]:
+        return {f.name: float(v) for f, v in zip(self.free, self.values, strict=True)}
+
+    def at_bound(self, name: str) -> bool:
+        k = [f.name for f in self.free].index(name)
+        f, v = self.free[k], self.values[k]
+        return min(v - f.lower, f.upper - v) < 1e-6 * f.scale
+
+    def covariance(self, inflation: float = 1.0) -> np.ndarray:
+        """Covariance (p, p) in the parameters' units; `inflation` multiplies it (misfit, coloured residuals).
+
+        Parameters at a bound are held: their rows are zero.
+        """
+        held = [self.at_bound(f.name) for f in self.free]
+        inside = np.flatnonzero(~np.array(held, dtype=bool))
+        result = np.zeros((len(self.free),) * 2)
+        scales = np.array([self.free[k].scale for k in inside])
+        block = np.linalg.pinv(self.normal[np.ix_(inside, inside)], hermitian=True)
+        result[np.ix_(inside, inside)] = block * np.outer(scales, scales) * inflation
+        return result
+
+
+class Problem:
+    """Pieces of whitened residuals as a function of the free parameters."""
+
+    def __init__(self, free: list[Free], residual: Residual, pieces: int, fixed: dict[str, float] | None = None):
+        self.free, self.residual, self.pieces = free, residual, pieces
+        self.fixed = dict(fixed or {})
+        self.weights: list[np.ndarray] | None = None  # of each sample of each piece; None: all one
+        self.simulations = 0
+
+    def _evaluate(self, points: list[np.ndarray]) -> list[list[np.ndarray] | None]:
+        tasks = [(self._named(p), k) for p in points for k in range(self.pieces)]
+        self.simulations += len(tasks)
+        parts = list(_pool.map(self._weighted, tasks))
+        groups = [parts[k : k + self.pieces] for k in range(0, len(parts), self.pieces)]
+        return [None if any(r is None or not np.all(np.isfinite(r)) for r in group) else group for group in groups]
+
+    def _weighted(self, task: tuple[dict[str, float], int]) -> np.ndarray | None:
+        result = self.residual(*task)
+        return result if result is None or self.weights is None else result * self.weights[task[1]]
+
+    def _named(self, values: np.ndarray) -> dict[str, float]:
+        return self.fixed | {f.name: float(v) for f, v in zip(self.free, values, strict=True)}
+
+    def _beliefs(self, values: np.ndarray) -> np.ndarray:
+        return np.array([(v - f.centre) / f.sigma if f.sigma else 0.0 for f, v in zip(self.free, values, strict=True)])
+
+    def evaluate(self, values: np.ndarray) -> tuple[float, float, list[np.ndarray]] | None:
+        """(cost, data cost, residuals) at a point; None where the simulation fails."""
+        (parts,) = self._evaluate([values])
+        if parts is None:
+            return None
+        data = float(sum(r @ r for r in parts))
+        return data + float(np.sum(self._beliefs(values) ** 2)), data, parts
+
+    def jacobian(self, values: np.ndarray, parts: list[np.ndarray], columns: list[int]) -> dict[int, list[np.ndarray]]:
+        """Forward differences of the chosen columns, stepping away from a near bound; failed columns are zero."""
+        points, steps = [], []
+        for k in columns:
+            f = self.free[k]
+            h = f.step * f.scale
+            if values[k] + h > f.upper:
+                h = -h
+            point = values.copy()
+            point[k] += h
+            points.append(point)
+            steps.append(h / f.scale)
+        result = {}
+        for k, h, moved in zip(columns, steps, self._evaluate(points), strict=True):
+            result[k] = [np.zeros_like(r) for r in parts] if moved is None else [
+                (m - r) / h for m, r in zip(moved, parts, strict=True)
+            ]  # fmt: skip
+        return result
+
+
+def solve(
+    problem: Problem,
+    start: np.ndarray | None = None,
+    *,
+    iterations: int = 30,
+    tolerance: float = 1e-4,
+    known: dict[int, list[np.ndarray]] | None = None,
+    damping: float = 1e-3,
+) -> Estimate | None:
+    """Minimise the cost from `start` (default: each parameter's start or centre). None if it cannot be simulated there.
+
+    Stops when a step is predicted to lower the cost by less than `tolerance` times the number of parameters.
+    `known` columns of the Jacobian (in scaled coordinates) are used as they are while they still lead downhill.
+    """
+    free = problem.free
+    values = np.array([f.clip(f.centre if f.start is None else f.start) for f in free]) if start is None else start.copy()
+    here = problem.evaluate(values)
+    if here is None:
+        return None
+    cost, data, parts = here
+    frozen = dict(known or {})
+    scales = np.array([f.scale for f in free])
+    converged, count, normal, columns = False, 0, np.zeros((len(free),) * 2), {}
+    while count < iterations and free:
+        count += 1
+        fresh = [k for k in range(len(free)) if k not in frozen]
+        columns = frozen | problem.jacobian(values, parts, fresh)
+        normal, gradient = _normal_equations(problem, values, parts, columns)
+        accepted = False
+        for _ in range(8):
+            step = _bounded_step(free, values, normal, gradient, damping)
+            predicted = -(2 * gradient @ step + step @ normal @ step)
+            if predicted < tolerance * len(free):
+                converged = not frozen
+                break
+            moved = np.array([f.clip(v) for f, v in zip(free, values + step * scales, strict=True)])
+            there = problem.evaluate(moved)
+            if there is not None and there[0] < cost:
+                ratio = (cost - there[0]) / predicted
+                values, (cost, data, parts) = moved, there
+                damping = max(damping * (0.1 if ratio > 0.5 else 1.0 if ratio > 0.1 else 4.0), 1e-9)
+                accepted = True
+                break
+            damping = max(damping, 1e-6) * 8
+        if not accepted:
+            if not frozen:
+                break
+            frozen, damping = {}, 1e-3
+        elif frozen and ratio < 0.3:
+            frozen = {}
+    return Estimate(
+        free, values, cost, data, parts, normal, converged, count, problem.simulations,
+        [np.column_stack([columns[k][piece] for k in range(len(free))]) for piece in range(problem.pieces)] if columns else [],
+    )  # fmt: skip
+
+
+def _normal_equations(problem: Problem, values: np.ndarray, parts: list[np.ndarray], columns: dict[int, list[np.ndarray]]):
+    size = len(problem.free)
+    normal, gradient = np.zeros((size, size)), np.zeros(size)
+    for piece, residual in enumerate(parts):
+        block = np.column_stack([columns[k][piece] for k in range(size)])
+        normal += block.T @ block
+        gradient += block.T @ residual
+    beliefs = problem._beliefs(values)
+    for k, f in enumerate(problem.free):
+        if f.sigma:
+            weight = f.scale / f.sigma
+            normal[k, k] += weight**2
+            gradient[k] += weight * beliefs[k]
+    return normal, gradient
+
+
+def _bounded_step(free: list[Free], values: np.ndarray, normal: np.ndarray, gradient: np.ndarray, damping: float) -> np.ndarray:
+    """Damped Gauss-Newton step; parameters that would leave their bounds are set onto them one by one."""
+    size = len(free)
+    step, active = np.zeros(size), np.ones(size, dtype=bool)
+    lower = np.array([(f.lower - v) / f.scale for f, v in zip(free, values, strict=True)])
+    upper = np.array([(f.upper - v) / f.scale for f, v in zip(free, values, strict=True)])
+    damped = normal + damping * np.diag(np.maximum(np.diag(normal), 1e-12 * np.max(np.diag(normal), initial=1e-30)))
+    for _ in range(size):
+        index = np.flatnonzero(active)
+        if not len(index):
+            break
+        load = -gradient[index] - damped[np.ix_(index, ~active)] @ step[~active]
+        step[index] = np.linalg.lstsq(damped[np.ix_(index, index)], load, rcond=1e-14)[0]
+        outside = index[(step[index] < lower[index]) | (step[index] > upper[index])]
+        if not len(outside):
+            break
+        step[outside] = np.clip(step[outside], lower[outside], upper[outside])
+        active[outside] = False
+    return step

@@ -1,0 +1,218 @@
+"""A compiled model bound to a case: parameters in, simulated output signals out, on each recording's own samples."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+import hashlib
+import os
+from pathlib import Path
+import queue
+import threading
+
+import numpy as np
+
+from codegen.cache import CompilerError
+from codegen.compile import compile_model
+from codegen.errors import Diagnostic
+from runtime import Model, RecordedInput, Session, SimulationError
+
+from .amend import Amendment, tracker_name
+from .cases import Case, CaseError, Recording, Signal
+from .tracking import Motion, recorded_motion
+
+RTOL = 1e-6
+_compile_lock = threading.Lock()
+
+
+class Machine:
+    """The believed model of a case with an amendment, compiled; safe to simulate from several threads."""
+
+    def __init__(self, case: Case, amendment: Amendment, solver: str = "dopri5", source: Path | None = None):
+        self.case, self.amendment, self.solver = case, amendment, solver
+        self.path = source or write_source(amendment)
+        with _compile_lock:
+            self.compiled = compile_model(str(self.path))
+        self.model = Model(self.compiled.path)
+        self.columns = {s.column: amendment.output(s.variable) for s in case.outputs}
+        self._check_signals()
+        self._sessions: dict[str, queue.SimpleQueue[Session]] = {}
+        self._inputs: dict[str, dict[str, RecordedInput]] = {}
+        self._initial: dict[str, dict[str, float]] = {}
+        self._lock = threading.Lock()
+
+    def _check_signals(self) -> None:
+        for signal in self.case.signals.values():
+            among = self.model.inputs if signal.role == "input" else self.model.variables
+            variable = among.get(signal.variable)
+            where = f"{self.case.folder / 'case.toml'}: [signals.{signal.column}]"
+            if variable is None:
+                kind = "input" if signal.role == "input" else "variable"
+                raise CaseError(f"{where} model {self.case.model} has no {kind} `{signal.variable}`")
+            if not _same_unit(variable.unit, signal.si_unit):
+                raise CaseError(f"{where} unit {signal.unit} does not fit {signal.variable}, which is in {variable.unit}")
+        for name in self.case.parameters:
+            if name not in self.model.variables:
+                raise CaseError(f"{self.case.folder / 'case.toml'}: [parameters] the model has no parameter `{name}`")
+        driven = {self.model.inputs[s.variable].index for s in self.case.inputs}
+        for name, variable in self.model.inputs.items():  # aliases of an input share its index
+            if variable.index not in driven and not name.startswith("tracker_"):
+                raise CaseError(f"{self.case.folder / 'case.toml'}: input `{name}` of the model is not recorded")
+            driven.add(variable.index)
+
+    def motions(self) -> list[Motion | None]:
+        """For each tracker of the amendment, which recorded signals give the motion of its shaft."""
+        return [recorded_motion(self.case, self.model, shaft) for shaft in self.amendment.trackers]
+
+    def unknown_states(self) -> list[str]:
+        """States whose value at the first sample has to be fitted, by the variable that case.toml names."""
+        return [name for name, value in self.case.initial.items() if value == "unknown"]
+
+    def simulate(self, parameters: Mapping[str, float], recording: Recording) -> dict[str, np.ndarray] | None:
+        """Output columns (n,) in SI, and the torque of each tracker under its name; None where the run fails.
+
+        `parameters` may hold `start:<variable>` for states with unknown start values.
+        """
+        values = _plain(parameters)
+        initial = self._initial_of(recording) | {
+            self._state(k.removeprefix("start:")): v for k, v in parameters.items() if k.startswith("start:")
+        }
+        session = self._session(recording)
+        try:
+            time = recording.time
+            result = session.run(parameters=values, initial=initial, start=float(time[0]), stop=float(time[-1]))
+        except SimulationError:
+            return None
+        finally:
+            self._sessions[recording.name].put(session)
+        if not result.complete or len(result) != len(recording.time):
+            return None
+        names = self.columns | {t: f"{t}.tau" for t in self._trackers()}
+        return {column: np.array(result[name]) for column, name in names.items()}
+
+    def trajectory(self, parameters: Mapping[str, float], recording: Recording, names: list[str]) -> dict[str, np.ndarray]:
+        """Any variables of the model along a recording; raises SimulationError where the run fails."""
+        session = Session(
+            self.model, solver=self.solver, rtol=RTOL, outputs=names, output_times=recording.time, events=False,
+            inputs=self._inputs_of(recording),
+        )  # fmt: skip
+        time = recording.time
+        values = _plain(parameters)
+        result = session.run(
+            parameters=values, initial=self._initial_of(recording), start=float(time[0]), stop=float(time[-1])
+        )
+        if not result.complete:
+            raise SimulationError(str(result.failure))
+        return {name: np.array(result[name]) for name in names}
+
+    def events_per_second(self, parameters: Mapping[str, float], recording: Recording) -> float:
+        session = self._session(recording)
+        time = recording.time
+        result = session.run(
+            parameters=_plain(parameters), initial=self._initial_of(recording), start=float(time[0]), stop=float(time[-1])
+        )
+        self._sessions[recording.name].put(session)
+        return float(result.counters.get("events", 0)) / float(time[-1] - time[0])
+
+    def constants(self, parameters: Mapping[str, float]) -> dict[str, float]:
+        """Every parameter of the model, dependent ones included, at these values of the free ones."""
+        recording = self.case.fit[0]
+        session = self._session(recording)
+        begin = float(recording.time[0])
+        result = session.run(parameters=_plain(parameters), start=begin, stop=begin + recording.interval)
+        self._sessions[recording.name].put(session)
+        return result.parameters
+
+    def _trackers(self) -> list[str]:
+        return [tracker_name(k) for k in range(len(self.amendment.trackers))]
+
+    def _session(self, recording: Recording) -> Session:
+        with self._lock:
+            pool = self._sessions.setdefault(recording.name, queue.SimpleQueue())
+        try:
+            return pool.get_nowait()
+        except queue.Empty:
+            outputs = list(dict.fromkeys([*self.columns.values(), *(f"{t}.tau" for t in self._trackers())]))
+            return Session(
+                self.model, solver=self.solver, rtol=RTOL, outputs=outputs, output_times=recording.time, events=False,
+                inputs=self._inputs_of(recording),
+            )  # fmt: skip
+
+    def _inputs_of(self, recording: Recording) -> dict[str, RecordedInput]:
+        with self._lock:
+            found = self._inputs.get(recording.name)
+            if found is None:
+                found = {s.variable: _recorded(s, recording) for s in self.case.inputs}
+                for tracker, motion in zip(self._trackers(), self.motions(), strict=True):
+                    angle, speed = motion.of(recording)
+                    found[f"{tracker}_phi"] = RecordedInput(recording.time, angle)
+                    found[f"{tracker}_w"] = RecordedInput(recording.time, speed)
+                self._inputs[recording.name] = found
+        return found
+
+    def _initial_of(self, recording: Recording) -> dict[str, float]:
+        found = self._initial.get(recording.name)
+        if found is None:
+            found = {}
+            for name, value in self.case.initial.items():
+                if value == "recorded":
+                    found[self._state(name)] = self._first_sample(recording, name)
+                elif value != "unknown":
+                    found[self._state(name)] = float(value)
+            self._initial[recording.name] = found
+        return found
+
+    def _first_sample(self, recording: Recording, name: str) -> float:
+        for signal in self.case.signals.values():
+            if name in (signal.column, signal.variable):
+                values = recording.columns[signal.column]
+                return float(values[np.flatnonzero(np.isfinite(values))[0]])
+        raise CaseError(f'{self.case.folder / "case.toml"}: [initial] {name} = "recorded", but no column records it')
+
+    def _state(self, name: str) -> str:
+        variable = self.model.variables.get(name)
+        if variable is None or variable.kind != "state":
+            raise CaseError(f"{self.case.folder / 'case.toml'}: [initial] {name} is no state of {self.case.model}")
+        return next(n for n, v in self.model.states.items() if v.index == variable.index)
+
+
+def _plain(parameters: Mapping[str, float]) -> dict[str, float]:
+    """Without the start values of states."""
+    return {k: v for k, v in parameters.items() if not k.startswith("start:")}
+
+
+def _recorded(signal: Signal, recording: Recording) -> RecordedInput:
+    values = recording.columns[signal.column]
+    good = np.isfinite(values)
+    return RecordedInput(recording.time[good], values[good], signal.interpolation)
+
+
+def _same_unit(model: str, column: str) -> bool:
+    """Whether two SI units agree as text, up to order and the names of one."""
+
+    def parts(unit: str) -> tuple[list[str], list[str]]:
+        top, _, bottom = unit.replace("Ohm", "ohm").replace("(", "").replace(")", "").partition("/")
+        return sorted(t for t in top.split(".") if t not in ("", "1")), sorted(b for b in bottom.split(".") if b)
+
+    return not model or parts(model) == parts(column)
+
+
+def write_source(amendment: Amendment) -> Path:
+    """The search model as a file in the cache, named by its content, so equal hypotheses share one compiled model."""
+    text = amendment.text("Candidate")
+    folder = Path(os.environ.get("LACUNA_CACHE", Path.home() / ".cache" / "lacuna")) / "candidates"
+    folder.mkdir(parents=True, exist_ok=True)
+    name = "Candidate_" + hashlib.sha256(text.encode()).hexdigest()[:16]
+    path = folder / f"{name}.mo"
+    if not path.exists():
+        partial = path.with_suffix(f".{os.getpid()}.{threading.get_ident()}.tmp")
+        partial.write_text(text.replace("Candidate", name), encoding="utf-8")
+        partial.rename(path)
+    return path
+
+
+def try_machine(case: Case, amendment: Amendment, solver: str = "dopri5") -> tuple[Machine | None, str]:
+    """A machine, or None and why the amended model cannot be built (a hypothesis that does not fit this model)."""
+    try:
+        return Machine(case, amendment, solver), ""
+    except (Diagnostic, CompilerError, SimulationError) as error:
+        return None, str(error)

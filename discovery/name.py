@@ -1,0 +1,175 @@
+"""Naming: hypotheses as amended models, fitted by output error, ranked by evidence.
+
+Every hypothesis is screened to first order; the promising ones are fitted for a few steps, the better half goes on
+(successive halving), the last few are polished. They are compared by the deviance of the data with a price for each
+parameter (Schwarz 1978), samples discounted for the colour of the best residual.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from .amend import Amendment, Attachment
+from .cases import Case
+from .fit import Fit, Objective, fit
+from .least_squares import WORKERS, Free
+from .machine import try_machine
+from .screen import Candidate, Screen, prepare
+
+MIN_GAIN = 30.0  # drop of the deviance, prices paid, below which nothing is believed missing
+TIE = 8.0  # difference of two scores below which the data does not tell them apart
+FIRST_ROUND = 12
+
+Progress = Callable[[str], None]
+
+
+@dataclass
+class Ranked:
+    """A fitted hypothesis. `score` is its deviance and price less the base's: negative is better than nothing missing."""
+
+    candidate: Candidate
+    fit: Fit
+    score: float
+    confidence: float = 0.0
+
+    @property
+    def attachment(self) -> Attachment:
+        return self.candidate.attachment
+
+    @property
+    def identity(self) -> tuple[str, str]:
+        return self.attachment.effect.identifier, self.attachment.location
+
+    def effect_values(self) -> dict[str, float]:
+        """Value of each of the effect's parameters, by its own name."""
+        point = self.fit.point
+        names = [p.name for p in self.attachment.effect.parameters]
+        values = {n: point[self.attachment.full_name(n)] for n in names if self.attachment.full_name(n) in point}
+        return values | dict(self.attachment.values)
+
+
+@dataclass
+class Naming:
+    """What one round of naming found, best first, and what was screened out with the share it could have explained."""
+
+    ranked: list[Ranked]
+    screened: list[tuple[str, float]]
+    failures: list[tuple[str, str]] = field(default_factory=list)
+    correlation: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def best(self) -> Ranked | None:
+        return self.ranked[0] if self.ranked else None
+
+    def rivals(self) -> list[Ranked]:
+        """Hypotheses of other physics or another place that the data does not tell from the best."""
+        best = self.best
+        return [r for r in self.ranked[1:] if r.identity != best.identity and r.score - best.score < TIE]
+
+
+def screen_all(
+    case: Case, amendment: Amendment, attachments: list[Attachment], base: Fit, progress: Progress
+) -> tuple[list[Candidate], list[tuple[str, str]]]:
+    """Candidates with their first-order promise, best first, and the hypotheses that do not fit this model."""
+    objective = Objective(base.machine, case.fit, base.noise)
+    screen = Screen(base, objective)
+    failures: list[tuple[str, str]] = []
+
+    def one(attachment: Attachment) -> Candidate | None:
+        amended = replace(amendment, attachments=[*amendment.attachments, attachment])
+        machine, why = try_machine(case, amended, base.machine.solver)
+        if machine is None:
+            failures.append((attachment.label, why))
+            return None
+        candidate = prepare(screen, attachment, machine)
+        progress(f"screened {attachment.label}: {candidate.predicted:.1%}" if candidate else f"no use: {attachment.label}")
+        return candidate
+
+    with ThreadPoolExecutor(WORKERS) as pool:
+        candidates = [c for c in pool.map(one, attachments) if c is not None]
+    return sorted(candidates, key=lambda c: -c.predicted), failures
+
+
+def rank(
+    case: Case, amendment: Amendment, attachments: list[Attachment], base: Fit, *,
+    bandwidths: tuple[float, ...] = (0.0,), progress: Progress = lambda text: None,
+) -> Naming:  # fmt: skip
+    """Screen, fit and rank hypotheses on top of `base`, the fit of the amendment so far."""
+    candidates, failures = screen_all(case, amendment, attachments, base, progress)
+    screened = [(c.attachment.label, c.predicted) for c in candidates]
+    pool = _first_round(candidates)
+    rounds = [(3, 2, len(pool)), (4, 3, 6), (10, 4, 3)]
+    for stages, iterations, keep in rounds:
+        pool = pool[:keep]
+        with ThreadPoolExecutor(WORKERS) as workers:
+            fits = workers.map(lambda c: fit_candidate(case, base, c, bandwidths, stages, iterations), pool)
+            for candidate, found in zip(pool, fits, strict=True):
+                better = candidate.fit is None or (found is not None and found.deviance() < candidate.fit.deviance())
+                candidate.fit = found if better else candidate.fit
+        pool = [c for c in pool if c.fit is not None]
+        if not pool:
+            break
+        correlation = _best_correlation(pool)
+        pool.sort(key=lambda c: _score(c, base, correlation))
+        for c in pool:
+            progress(f"fitted {c.attachment.label}: {_score(c, base, correlation):.1f}")
+    fitted = [c for c in candidates if c.fit is not None]
+    if not fitted:
+        return Naming([], screened, failures)
+    correlation = _best_correlation(fitted)
+    ranked = [Ranked(c, c.fit, _score(c, base, correlation)) for c in fitted]
+    ranked.sort(key=lambda r: r.score)
+    _confidences(ranked)
+    return Naming(ranked, screened, failures, correlation)
+
+
+def _first_round(candidates: list[Candidate]) -> list[Candidate]:
+    """The most promising hypotheses, and the best of each physics that explains at least a quarter of the best."""
+    chosen = candidates[:FIRST_ROUND]
+    seen = {c.attachment.effect.identifier for c in chosen}
+    for candidate in candidates[FIRST_ROUND:]:
+        identifier = candidate.attachment.effect.identifier
+        if identifier not in seen and candidate.predicted > 0.25 * candidates[0].predicted:
+            chosen.append(candidate)
+            seen.add(identifier)
+    return chosen
+
+
+def fit_candidate(
+    case: Case, base: Fit, candidate: Candidate, bandwidths: tuple[float, ...], stages: int, iterations: int
+) -> Fit | None:
+    """Fit the base's parameters and the effect's together, from the base's values and the screened start."""
+    free: list[Free] = [*base.estimate.free, *candidate.free]
+    if candidate.fit is not None:
+        start = candidate.fit.point
+        bandwidths = bandwidths[-1:]
+    else:
+        start = base.point | candidate.start
+    fixed = base.fixed | candidate.fixed
+    return fit(
+        candidate.machine, case.fit, base.noise, free, fixed, start=start, bandwidths=bandwidths, stages=stages,
+        iterations=iterations,
+    )  # fmt: skip
+
+
+def _best_correlation(candidates: list[Candidate]) -> dict[str, float]:
+    return min((c.fit for c in candidates), key=lambda f: f.deviance()).correlation()
+
+
+def _score(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> float:
+    counts = base.counts()
+    informative = sum(counts[c] / correlation[c] for c in counts)
+    price = len(candidate.free) * np.log(max(informative, 2.0))
+    return candidate.fit.deviance(correlation) + price - base.deviance(correlation)
+
+
+def _confidences(ranked: list[Ranked]) -> None:
+    """Posterior probability of each hypothesis among those tried (equal beliefs before), tempered to admit misfit."""
+    scores = np.array([r.score for r in ranked])
+    weights = np.exp(-np.minimum((scores - scores.min()) / 4.0, 700.0))
+    for r, weight in zip(ranked, weights / weights.sum(), strict=True):
+        r.confidence = float(weight)

@@ -1,0 +1,95 @@
+"""The noise of a recorded signal, estimated from the recording alone.
+
+Level: a signal that is smooth from sample to sample leaves in its third differences only noise; the median
+absolute difference ignores the few places where the signal itself jumps (J. W. Tukey's MAD). Quantisation: the
+smallest step between the values that occur; its uniform error has the variance q^2 / 12. Colour: the sum of
+autocorrelations of a residual says how many samples carry the information of one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+_THIRD = np.array([1.0, -3.0, 3.0, -1.0])
+_MAD_TO_SIGMA = 1.4826
+
+
+@dataclass(frozen=True)
+class Noise:
+    """`std` is the level that weights a residual; `quantum` the resolution of the column (0: none seen)."""
+
+    std: float
+    quantum: float
+    given: bool
+
+
+def quantum(values: np.ndarray) -> float:
+    """Resolution of a column: the step that all its values are whole multiples of; 0 where there is none.
+
+    Values are printed with few digits, so the step is refined on ever larger differences before it is believed.
+    """
+    levels = np.unique(values[np.isfinite(values)])
+    if len(levels) < 8:
+        return float(np.min(np.diff(levels))) if len(levels) > 1 else 0.0
+    gaps = np.sort(np.diff(levels))
+    gaps = gaps[gaps > 1e-9 * (levels[-1] - levels[0])]
+    step = float(np.median(gaps[gaps < 1.5 * gaps[0]]))
+    for gap in gaps[:: max(1, len(gaps) // 200)]:
+        count = round(gap / step)
+        if abs(gap / step - count) > 0.2:
+            return 0.0
+        if count < 200:
+            step += (gap / count - step) * min(1.0, count / 200)
+    return step
+
+
+def level(pieces: list[np.ndarray]) -> float:
+    """Standard deviation of white noise on a smooth signal, pooled over recordings (each with NaN where missing)."""
+    differences = np.concatenate([np.convolve(p, _THIRD, mode="valid") for p in pieces])
+    differences = differences[np.isfinite(differences)]
+    if not len(differences):
+        return 0.0
+    spread = float(np.median(np.abs(differences)))
+    if spread == 0.0:  # quantised and mostly at rest: the few moving samples decide
+        spread = float(np.mean(np.abs(differences)))
+    return _MAD_TO_SIGMA * spread / float(np.linalg.norm(_THIRD))
+
+
+def estimate(pieces: list[np.ndarray], given: float | None = None) -> Noise:
+    """Noise of one signal from all its recordings; a given level stands, but never below the quantisation's."""
+    step = max((quantum(p) for p in pieces), default=0.0)
+    floor = step / np.sqrt(12)
+    if given is not None:
+        return Noise(max(given, floor * 0.99), step, True)
+    spread = float(np.nanstd(np.concatenate(pieces)))
+    return Noise(max(level(pieces), floor, 1e-9 * spread, 1e-300), step, False)
+
+
+def sample_weights(values: np.ndarray, noise: Noise) -> np.ndarray:
+    """Weight (n,) of each sample: 0 where missing; 1/sqrt(k) in a run of k equal samples of a signal without dither.
+
+    Where noise is well below the resolution, equal samples in a row carry one and the same rounding error.
+    """
+    weights = np.isfinite(values).astype(float)
+    if noise.quantum == 0 or noise.std > 0.5 * noise.quantum:
+        return weights
+    change = np.flatnonzero(np.diff(np.nan_to_num(values, nan=np.inf)) != 0) + 1
+    lengths = np.diff(np.concatenate([[0], change, [len(values)]]))
+    return weights / np.sqrt(np.repeat(lengths, lengths))
+
+
+def correlation_time(residual: np.ndarray) -> float:
+    """Samples that count as one: 1 + 2 sum of autocorrelations, up to their first zero (>= 1)."""
+    r = residual[np.isfinite(residual)]
+    r = r - r.mean() if len(r) else r
+    power = float(r @ r)
+    if len(r) < 16 or power <= 0:
+        return 1.0
+    size = 1 << (2 * len(r) - 1).bit_length()
+    spectrum = np.abs(np.fft.rfft(r, size)) ** 2
+    correlation = np.fft.irfft(spectrum)[: len(r) // 2] / power
+    negative = np.flatnonzero(correlation <= 0)
+    end = negative[0] if len(negative) else len(correlation)
+    return float(max(1.0, 1.0 + 2.0 * correlation[1:end].sum()))

@@ -1,0 +1,222 @@
+"""Screening: what each hypothesis could explain, to first order, before any of them is fitted.
+
+The residual r of the fitted model and its sensitivities J to the parameters are known. A hypothesis adds columns D: the
+response of the outputs to a small amount of the effect. What it could explain is the drop of the cost
+min |r + J x + D y|^2 + belief(x) over x and y against y = 0 (a score test). One or two simulations a hypothesis.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from itertools import product
+import math
+
+import numpy as np
+
+from .amend import Attachment
+from .catalogue import Effect, EffectParameter
+from .fit import Fit, Objective
+from .least_squares import Free
+from .machine import Machine
+
+RESPONSE = 0.1  # of the residual: size of the response from which a column is taken
+PROBES = 5
+RANGE = 10.0  # how far beyond its start values a parameter without a neutral value may go
+
+
+@dataclass
+class Candidate:
+    """A hypothesis ready to be fitted: its machine, the effect's free parameters and where they start."""
+
+    attachment: Attachment
+    machine: Machine
+    free: list[Free]
+    fixed: dict[str, float] = field(default_factory=dict)
+    start: dict[str, float] = field(default_factory=dict)
+    predicted: float = 0.0  # share of the cost that it is expected to explain
+    fit: Fit | None = None
+
+
+class Screen:
+    """The linearised base fit against which hypotheses are measured."""
+
+    def __init__(self, base: Fit, objective: Objective):
+        self.base = base
+        self.noise = base.noise
+        objective.track(0.0, {})
+        self.recordings = objective.recordings
+        self.weights = objective.weights(base.level)
+        parts = [objective(base.point, k) * w for k, w in enumerate(self.weights)]
+        self.residual = np.concatenate(parts)
+        self.norm = float(np.linalg.norm(self.residual))
+        estimate = base.estimate
+        beliefs = [(f, v) for f, v in zip(estimate.free, estimate.values, strict=True)]
+        rows = np.diag([f.scale / f.sigma if f.sigma else 0.0 for f, _ in beliefs])
+        pulls = np.array([(v - f.centre) / f.sigma if f.sigma else 0.0 for f, v in beliefs])
+        self.jacobian = np.vstack([*estimate.jacobian, rows]) if estimate.jacobian else np.zeros((len(self.residual), 0))
+        self.load = np.concatenate([self.residual, pulls]) if estimate.jacobian else self.residual
+        self.orthogonal, _ = np.linalg.qr(self.jacobian)
+        self.cost = float(np.sum(self._project(self.load) ** 2))
+
+    def _project(self, vector: np.ndarray) -> np.ndarray:
+        return vector - self.orthogonal @ (self.orthogonal.T @ vector)
+
+    def outputs(self, machine: Machine, values: Mapping[str, float]) -> np.ndarray | None:
+        """Weighted residual of a machine at a point, in the units of the base's."""
+        objective = Objective(machine, self.recordings, self.noise)
+        parts = [objective(dict(values), k) for k in range(len(self.recordings))]
+        if any(p is None for p in parts):
+            return None
+        return np.concatenate([p * w for p, w in zip(parts, self.weights, strict=True)])
+
+    def explained(self, columns: list[np.ndarray], offset: np.ndarray | None = None) -> tuple[float, np.ndarray]:
+        """(share of the cost explained, coefficients) of columns; `offset` moves the residual itself."""
+        pad = np.zeros(len(self.load) - len(self.residual))
+        target = self._project(self.load if offset is None else np.concatenate([offset, self.load[len(self.residual) :]]))
+        if not columns:
+            return 1.0 - float(target @ target) / self.cost, np.zeros(0)
+        stack = np.column_stack([self._project(np.concatenate([c, pad])) for c in columns])
+        raw = np.array([np.linalg.norm(c) for c in columns])
+        alive = np.linalg.norm(stack, axis=0) > 1e-3 * np.maximum(raw, 1e-300)
+        solution = np.zeros(len(columns))
+        if alive.any():
+            solution[alive] = np.linalg.lstsq(stack[:, alive], -target, rcond=1e-8)[0]
+        left = target + stack @ solution
+        return 1.0 - float(left @ left) / self.cost, solution
+
+
+def prepare(screen: Screen, attachment: Attachment, machine: Machine) -> Candidate | None:
+    """The candidate with its most promising start; None where the effect does nothing that a parameter could not."""
+    effect = attachment.effect
+    point = dict(screen.base.point)
+    bound = _bound_parameters(machine, attachment)
+    names = [p.name for p in effect.parameters if p.name not in (*effect.fixed, *effect.variants, effect.interval, *bound)]
+    if not names:
+        return None
+    shapes = _shape_starts(screen, attachment, machine, names, point)
+    best: Candidate | None = None
+    for shape in shapes:
+        found = _linearised(screen, attachment, machine, names, point, shape, _limits(shapes))
+        if found is not None and (best is None or found.predicted > best.predicted):
+            best = found
+    return best
+
+
+def _bound_parameters(machine: Machine, attachment: Attachment) -> set[str]:
+    """Parameters of the effect that the amended model ties to parameters of the believed one."""
+    settable = machine.model.parameters
+    return {p.name for p in attachment.effect.parameters if attachment.full_name(p.name) not in settable}
+
+
+def _shape_starts(
+    screen: Screen, attachment: Attachment, machine: Machine, names: list[str], point: dict[str, float]
+) -> list[dict[str, float]]:
+    """Combinations of start values of the parameters that have no neutral value, by full name."""
+    effect = attachment.effect
+    shape = [n for n in names if n not in effect.neutral and n not in effect.polar]
+    shape += [n for n in effect.fixed if n in effect.starts]
+    size = {}
+    for name in shape:
+        if name in effect.relative:
+            size[name] = _range(screen, machine, f"{attachment.component}.{effect.relative[name]}", point)
+    lists = []
+    for name in shape:
+        starts = effect.starts.get(name, [effect.parameter(name).default])
+        factor = size.get(name, 1.0)
+        lists.append([(attachment.full_name(name), s * factor) for s in starts])
+    return [dict(combination) for combination in product(*lists)]
+
+
+def _range(screen: Screen, machine: Machine, variable: str, point: dict[str, float]) -> float:
+    largest = 0.0
+    for recording in screen.recordings:
+        values = machine.trajectory(point, recording, [variable])[variable]
+        largest = max(largest, float(np.nanmax(np.abs(values))))
+    return largest or 1.0
+
+
+def _linearised(
+    screen: Screen, attachment: Attachment, machine: Machine, names: list[str], point: dict[str, float],
+    shape: dict[str, float], limits: dict[str, tuple[float, float]],
+) -> Candidate | None:  # fmt: skip
+    effect = attachment.effect
+    neutral = {attachment.full_name(n): effect.neutral[n] for n in names if n in effect.neutral}
+    origin = point | shape | neutral
+    polar = effect.polar if effect.polar and effect.polar[0] in names else ()
+    columns, amounts, moved = [], [], []
+    base = None if neutral else screen.outputs(machine, origin)
+    if not neutral and base is None:
+        return None
+    reference = screen.residual if neutral else base
+    for name in [n for n in names if n in effect.neutral]:
+        phases = (0.0, math.pi / 2) if polar and name == polar[0] else (None,)
+        for phase in phases:
+            here = origin | ({attachment.full_name(polar[1]): phase} if phase is not None else {})
+            column, amount = _response(screen, machine, here, attachment.full_name(name), effect.parameter(name), reference)
+            if column is None:
+                return None
+            columns.append(column)
+            amounts.append(amount)
+            moved.append(name)
+    share, solution = screen.explained([c / a for c, a in zip(columns, amounts, strict=True)], base)
+    if columns and not np.any(solution):
+        return None
+    start = dict(shape)
+    scales = {n: a for n, a in zip(moved, amounts, strict=True)}
+    if polar:
+        start[attachment.full_name(polar[0])] = float(np.hypot(*solution[:2]))
+        start[attachment.full_name(polar[1])] = float(np.arctan2(solution[1], solution[0]))
+        scales |= {polar[0]: max(amounts), polar[1]: 1.0}
+    else:
+        for name, value in zip(moved, solution, strict=True):
+            start[attachment.full_name(name)] = effect.neutral[name] + float(value)
+    fixed = {n: v for n, v in shape.items() if n.rsplit(".", 1)[-1] in (*effect.whole, *effect.fixed)}
+    free = [_free(attachment, effect, n, start, scales, limits) for n in names if attachment.full_name(n) not in fixed]
+    return Candidate(attachment, machine, free, fixed, {k: v for k, v in start.items() if k not in fixed}, share)
+
+
+def _response(
+    screen: Screen, machine: Machine, origin: dict[str, float], name: str, parameter: EffectParameter, reference: np.ndarray
+) -> tuple[np.ndarray | None, float]:
+    """(change of the weighted residual, amount of the parameter that makes it), the amount chosen for a fair response."""
+    amount, target = 1e-4, RESPONSE * screen.norm
+    best: tuple[np.ndarray | None, float] = (None, amount)
+    value = origin.get(name, parameter.default)
+    for _ in range(PROBES):
+        step = amount if value + amount <= parameter.upper else -amount
+        there = screen.outputs(machine, origin | {name: value + step})
+        if there is None:
+            amount *= 0.03
+            continue
+        best = (there - reference, step)
+        size = float(np.linalg.norm(best[0]))
+        if target / 4 < size < target * 4 or amount > 1e9:
+            break
+        amount *= min(max(target / size, 1e-4), 1e4) if size > 0 else 1e4
+    return best
+
+
+def _limits(shapes: list[dict[str, float]]) -> dict[str, tuple[float, float]]:
+    """Bounds of the parameters without a neutral value: the range of their starts, widened on a logarithmic scale."""
+    limits = {}
+    for name in shapes[0]:
+        values = [s[name] for s in shapes]
+        sizes = [abs(v) for v in values]
+        low, high = min(sizes) / RANGE, max(sizes) * RANGE
+        limits[name] = (low, high) if values[0] > 0 else (-high, -low)
+    return limits
+
+
+def _free(
+    attachment: Attachment, effect: Effect, name: str, start: dict[str, float], scales: dict[str, float],
+    limits: dict[str, tuple[float, float]],
+) -> Free:  # fmt: skip
+    full, parameter = attachment.full_name(name), effect.parameter(name)
+    value = start.get(full, parameter.default)
+    scale = abs(scales.get(name, 0.0)) or 0.3 * abs(value) or 1.0
+    lower, upper = max(parameter.lower, limits.get(full, (-math.inf, 0.0))[0]), parameter.upper
+    if full in limits:
+        upper = min(upper, limits[full][1])
+    free = Free(full, value, scale, lower, upper, None, step=2e-2)
+    return replace(free, start=free.clip(value))
