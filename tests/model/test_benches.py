@@ -138,3 +138,23 @@ def test_weak_bus_holds_the_rotor_in_its_friction(run) -> None:
     result = bldc(run, v_bus, 1.0, stop=100.0, interval=1.0)
     assert np.all(result["w"] == 0.0) and np.all(result["theta"] == 0.0)
     assert abs(result["ib"][-1]) == pytest.approx(v_bus / (2 * 2.13), rel=1e-6)
+
+
+@pytest.mark.parametrize("t_restart", [0.0031, 0.0512, 0.0777, 0.0931])
+def test_bldc_drive_goes_on_from_any_state(run, t_restart: float) -> None:
+    """A run started from the states of another continues it: modes, sectors and diodes follow from them."""
+    options = {"events": False, "stop": 0.12, "rtol": 1e-8}
+    whole = bldc(run, 28.0, 1.0, output_times=np.linspace(t_restart, 0.12, 200), **options)
+    start = {name: whole[name][0] for name in ("ia", "ib", "w", "theta")}
+    rest = bldc(run, 28.0, 1.0, initial=start, start=t_restart, output_times=whole.time, **options)
+    for name in ("ia", "ib", "ic", "w"):
+        assert np.abs(rest[name] - whole[name]).max() < 2e-5 * np.abs(whole[name]).max()
+
+
+@pytest.mark.parametrize(
+    ("bench", "parameter", "value"),
+    [("DcServo", "J", -1e-6), ("DcServo", "L", 0.0), ("BldcDrive", "tau_c", -0.1), ("ScrewEma", "N", 0.0)],
+)
+def test_impossible_parameters_are_refused(run, bench: str, parameter: str, value: float) -> None:
+    with pytest.raises(runtime.SimulationError, match=parameter):
+        run(f"Benches.{bench}", parameters={parameter: value}, stop=0.1)

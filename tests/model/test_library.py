@@ -47,3 +47,12 @@ def test_is_one_documented_class_in_its_package(file: Path) -> None:
 def test_parses_in_another_translator(file: Path) -> None:
     rumoca = pytest.importorskip("rumoca", reason="needs rumoca, another translator of the same language")
     rumoca.format(file.read_text(encoding="utf-8"), filename=file.name)
+
+
+@pytest.mark.parametrize(
+    "model", ["Benches.DcServo", "Benches.ScrewEma", "Benches.BldcDrive", "Actuators.EccentricBldc"]
+)
+def test_compiles_in_another_translator(model: str) -> None:
+    rumoca = pytest.importorskip("rumoca", reason="needs rumoca, another translator of the same language")
+    loaded = rumoca.Session(roots=[str(MODEL)]).load(str(MODEL / "package.mo"), model=f"Lacuna.{model}")
+    assert loaded.structure().is_balanced
