@@ -52,11 +52,12 @@ class ModelPlant:
     """A translated model, solved by the runtime.
 
     `path` is its shared object, `model_hash` the hash of its sources and `passes` the seconds that each pass of the
-    translation took; all three come from the compiler's result.
+    translation took; all three come from the compiler's result. `solver`: another one than the settings'.
     """
 
-    def __init__(self, name: str, path: Path | str, model_hash: str, settings: Settings, passes=None):
+    def __init__(self, name: str, path: Path | str, model_hash: str, settings: Settings, passes=None, solver=None):
         self.name, self.passes, self._settings = name, dict(passes or {}), settings
+        self._solver = solver or settings.solver
         self._model = runtime.Model(path)
         self._times = np.arange(settings.samples) / settings.sampling_rate
         self._outputs = [*settings.currents, settings.speed, settings.angle]
@@ -64,8 +65,8 @@ class ModelPlant:
         missing = [v for v in [settings.fault.parameter, *self._outputs] if v not in self._model.variables]
         if missing:
             raise AnalysisError(f"{settings.path}: model {name} has no variable {', '.join(missing)}")
-        solver = hashlib.sha256(runtime_library_path().read_bytes()).hexdigest()
-        self.hash = f"{model_hash} {solver[:16]}"
+        runtime_hash = hashlib.sha256(runtime_library_path().read_bytes()).hexdigest()
+        self.hash = f"{model_hash} {runtime_hash[:16]} {self._solver}"
         self.equations = [
             SourceEquation(e.text, e.origin, f"{Path(e.file).name}:{e.line}") for e in self._model.equations
         ]
@@ -76,7 +77,7 @@ class ModelPlant:
             settings = self._settings
             self._of_thread.session = runtime.Session(
                 self._model,
-                solver=settings.solver,
+                solver=self._solver,
                 rtol=settings.relative_tolerance,
                 atol=settings.absolute_tolerance,
                 outputs=self._outputs,

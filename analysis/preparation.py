@@ -8,12 +8,12 @@ import os
 import numpy as np
 from scipy.stats import chi2
 
-from analysis.chain import Chain, Features, signature
+from analysis.chain import Chain, signature
 from analysis.errors import AnalysisError
 from analysis.files import published_together
 from analysis.maps import Map
 from analysis.plant import Plant
-from analysis.sensitivities import nuisance_covariances
+from analysis.sensitivities import at_level, conditions, nuisance_covariances
 from analysis.settings import Settings
 from analysis.severity_table import TableContents, table_bytes
 
@@ -25,28 +25,34 @@ START_RATE = 5000.0  # Hz
 def prepare_assessment(plant: Plant, settings: Settings, finished: Map, *, jobs: int | None = None) -> None:
     """Write severity.table and start.npz beside the map's files.
 
-    Simulates the map's severities again, for their full signature, and the nuisances of the settings: about three
-    times the work of the map itself. Raises AnalysisError where a severity has no complete signature.
+    Simulates the map's severities at every level of the first nuisance, and around them the other nuisances. Raises
+    AnalysisError where a severity has no complete signature.
     """
     chain, severities = Chain(settings.text), settings.fault.severities
-    with ThreadPoolExecutor(max_workers=jobs or os.cpu_count()) as pool:
-        features = list(pool.map(lambda severity: _features(plant, chain, severity), severities))
-    signatures = [signature(found) for found in features]
-    lost = [severity for severity, found in zip(severities, signatures, strict=True) if found is None]
-    if lost:
-        raise AnalysisError(
-            f"no first peak at {settings.fault.symbol} = {lost[0]:g}: the map cannot be read back there"
-        )
-    contents = _contents(settings, chain, np.array(signatures), [found.rms_mean for found in features])
-    covariance = nuisance_covariances(plant, settings, severities, jobs)
+    levels = conditions(settings)
+    signatures = np.array([_signatures(plant, settings, chain, severities, level, jobs) for level in levels])
+    covariance = np.array([nuisance_covariances(plant, settings, severities, level, jobs) for level in levels])
+    contents = _contents(settings, chain, [row.rms_mean for row in finished.rows], signatures, covariance)
     with published_together(finished.folder) as scratch:
-        (scratch / TABLE_FILE).write_bytes(table_bytes(TableContents(**contents, covariance=covariance)))
+        (scratch / TABLE_FILE).write_bytes(table_bytes(contents))
         np.savez(scratch / START_FILE, rate=START_RATE, currents=_starts(plant, settings, severities))
 
 
-def _features(plant: Plant, chain: Chain, severity: float) -> Features:
-    record = plant.run(severity)
-    return chain.analyse(record.currents, record.angle)
+def _signatures(
+    plant: Plant, settings: Settings, chain: Chain, severities: list[float], level: float, jobs: int | None
+) -> np.ndarray:
+    """[severities, n] at one level of the first nuisance."""
+    parameters = at_level(plant, settings, level)
+
+    def of(severity: float) -> np.ndarray:
+        record = plant.run(severity, **parameters)
+        found = signature(chain.analyse(record.currents, record.angle))
+        if found is None:
+            raise AnalysisError(f"no first peak at {settings.fault.text(severity)}: the map cannot be read back there")
+        return found
+
+    with ThreadPoolExecutor(max_workers=jobs or os.cpu_count()) as pool:
+        return np.array(list(pool.map(of, severities)))
 
 
 def _starts(plant: Plant, settings: Settings, severities: list[float]) -> np.ndarray:
@@ -56,19 +62,22 @@ def _starts(plant: Plant, settings: Settings, severities: list[float]) -> np.nda
     return np.array([plant.run(severity).currents[:, :samples:stride] for severity in chosen])
 
 
-def _contents(settings: Settings, chain: Chain, signatures: np.ndarray, rms_mean: list[float]) -> dict:
+def _contents(
+    settings: Settings, chain: Chain, rms_mean: list[float], signatures: np.ndarray, covariance: np.ndarray
+) -> TableContents:
     rule, hop = settings.raw["first_peak"], np.diff(chain.section_starts[:2])
     sections = (chain.samples, chain.section_length, int(hop[0]) if len(hop) else chain.samples, 2 * (chain.lines - 1))
-    freedom = signatures.shape[1] - 1
-    return {
-        "channels": chain.channels,
-        "sections": sections,
-        "sampling_rate": settings.sampling_rate,
-        "peak_rule": (rule["above"], rule["threshold"]),
-        "speed_after": settings.speed_after,
-        "misfit_limit": float(chi2.isf(settings.raw["assessment"]["improbable"], freedom)),
-        "severity": np.array(settings.fault.severities),
-        "rms_mean": np.array(rms_mean),
-        "signature": signatures,
-        "bands": [(band.name, band.first, band.last) for band in settings.bands],
-    }
+    freedom = signatures.shape[-1] - 1
+    return TableContents(
+        channels=chain.channels,
+        sections=sections,
+        sampling_rate=settings.sampling_rate,
+        peak_rule=(rule["above"], rule["threshold"]),
+        speed_after=settings.speed_after,
+        misfit_limit=float(chi2.isf(settings.raw["assessment"]["improbable"], freedom)),
+        severity=np.array(settings.fault.severities),
+        rms_mean=np.array(rms_mean),
+        signature=signatures,
+        covariance=covariance,
+        bands=[(band.name, band.first, band.last) for band in settings.bands],
+    )

@@ -19,17 +19,35 @@ from analysis.plant import Plant, Record
 from analysis.settings import Settings
 
 
+def conditions(settings: Settings) -> list[float]:
+    """Levels of the first nuisance, as its normal number, over the whole range of a uniform one: +-sqrt(3)."""
+    count = settings.raw["assessment"]["conditions"]
+    return np.linspace(-np.sqrt(3), np.sqrt(3), count).tolist() if count > 1 else [0.0]
+
+
+def at_level(plant: Plant, settings: Settings, level: float) -> dict[str, float]:
+    """The model's parameters at a level of the first nuisance."""
+    nuisances = settings.raw.get("nuisances", [])
+    return moved(plant, nuisances[0], level) if nuisances else {}
+
+
+def moved(plant: Plant, nuisance: dict, z: float) -> dict[str, float]:
+    """The parameters of a nuisance at its normal number `z`."""
+    spread = zip(nuisance["parameters"], nuisance["spread"], strict=True)
+    return {name: plant.declared(name) * exp(z * sigma) for name, sigma in spread}
+
+
 def nuisance_covariances(
-    plant: Plant, settings: Settings, severities: Sequence[float], jobs: int | None = None
+    plant: Plant, settings: Settings, severities: Sequence[float], level: float, jobs: int | None = None
 ) -> np.ndarray:
-    """Covariance [severities, n, n] of the signature under all nuisances of the settings.
+    """Covariance [severities, n, n] of the signature under all nuisances, at a level of the first one.
 
     Columns a and c are simulated at every `assessment.every`-th severity and interpolated between.
     """
     chain, every = Chain(settings.text), settings.raw["assessment"]["every"]
     knots = sorted({*severities[::every], severities[-1]})
     with ThreadPoolExecutor(max_workers=jobs or os.cpu_count()) as pool:
-        columns = np.array(list(pool.map(lambda knot: _columns(plant, settings, chain, knot), knots)))
+        columns = np.array(list(pool.map(lambda knot: _columns(plant, settings, chain, level, knot), knots)))
     between = _interpolated(np.array(severities), np.array(knots), columns)
     floors = np.full(between.shape[2], settings.raw["assessment"]["floor"])
     floors[-1] = settings.raw["assessment"]["frequency_floor"]
@@ -43,18 +61,18 @@ def _interpolated(at: np.ndarray, knots: np.ndarray, columns: np.ndarray) -> np.
     return (1 - weight) * columns[place] + weight * columns[place + 1]
 
 
-def _columns(plant: Plant, settings: Settings, chain: Chain, severity: float) -> np.ndarray:
+def _columns(plant: Plant, settings: Settings, chain: Chain, level: float, severity: float) -> np.ndarray:
     """[q, n] columns of one severity: a and sqrt(3) c of each nuisance, then those of the sensors."""
-    record = plant.run(severity)
+    base = at_level(plant, settings, level)
+    record = plant.run(severity, **base)
     centre = _signature(chain, record, record.currents)
 
     def pair(at: Callable[[int], np.ndarray]) -> list[np.ndarray]:
         plus, minus = at(+1), at(-1)
         return [(plus - minus) / 2, np.sqrt(3) * (plus + minus - 2 * centre) / 2]
 
-    def moved(nuisance: dict, z: int) -> np.ndarray:
-        spread = zip(nuisance["parameters"], nuisance["spread"], strict=True)
-        run = plant.run(severity, **{name: plant.declared(name) * exp(z * sigma) for name, sigma in spread})
+    def simulated(nuisance: dict, z: float) -> np.ndarray:
+        run = plant.run(severity, **(base | moved(plant, nuisance, z)))
         return _signature(chain, run, run.currents)
 
     def sensed(channel: int, z: int) -> np.ndarray:
@@ -63,8 +81,10 @@ def _columns(plant: Plant, settings: Settings, chain: Chain, severity: float) ->
         return _signature(chain, record, currents)
 
     columns: list[np.ndarray] = []
-    for nuisance in settings.raw.get("nuisances", []):
-        columns += pair(lambda z, nuisance=nuisance: moved(nuisance, z))
+    for place, nuisance in enumerate(settings.raw.get("nuisances", [])):
+        # The first one only has to reach half-way to the next level; the others vary by all of their spread.
+        start, reach = (level, _half_step(settings)) if place == 0 else (0.0, 1.0)
+        columns += pair(lambda z, nuisance=nuisance, start=start, reach=reach: simulated(nuisance, start + z * reach))
     per_channel = (len(centre) - 1) // len(settings.currents)
     for channel in range(len(settings.currents)):
         columns += pair(lambda z, channel=channel: sensed(channel, z))
@@ -72,6 +92,11 @@ def _columns(plant: Plant, settings: Settings, chain: Chain, severity: float) ->
         gain[per_channel * channel : per_channel * channel + 2] = settings.raw["assessment"]["sensor_gain"]
         columns.append(gain)
     return np.array(columns)
+
+
+def _half_step(settings: Settings) -> float:
+    levels = conditions(settings)
+    return (levels[1] - levels[0]) / 2 if len(levels) > 1 else 1.0
 
 
 def _signature(chain: Chain, record: Record, currents: np.ndarray) -> np.ndarray:

@@ -21,7 +21,7 @@ from analysis.library import MESSAGE_SIZE, CEstimate, library
 
 @dataclass(frozen=True)
 class TableContents:
-    """What a severity table holds; m severities, n features a signature."""
+    """What a severity table holds; c conditions, m severities, n features a signature."""
 
     channels: int
     sections: tuple[int, int, int, int]  # samples of a record, of a section, of a hop, of a padded section
@@ -31,23 +31,25 @@ class TableContents:
     misfit_limit: float
     severity: np.ndarray  # [m]
     rms_mean: np.ndarray  # A, [m]
-    signature: np.ndarray  # [m, n]
-    covariance: np.ndarray  # [m, n, n] of the signature, at each severity
+    signature: np.ndarray  # [c, m, n]
+    covariance: np.ndarray  # [c, m, n, n] of the signature
     bands: list[tuple[str, float, float]]
 
 
 def table_bytes(contents: TableContents) -> bytes:
     """The file. Raises AnalysisError where a covariance is not positive definite."""
-    m, n = contents.signature.shape
+    c, m, n = contents.signature.shape
     try:
         factors = np.linalg.cholesky(contents.covariance)
     except np.linalg.LinAlgError:
         raise AnalysisError("the covariance of the features is singular: give [assessment] floors above zero") from None
-    whitening = np.linalg.inv(factors)[(slice(None), *np.tril_indices(n))]
-    log_determinant = 2 * np.log(np.diagonal(factors, axis1=1, axis2=2)).sum(axis=1)
-    head = struct.pack("<8s7I", b"LACUNAM1", contents.channels, m, len(contents.bands), *contents.sections)
+    whitening = np.linalg.inv(factors)[(..., *np.tril_indices(n))]
+    log_determinant = 2 * np.log(np.diagonal(factors, axis1=-2, axis2=-1)).sum(axis=-1)
+    head = struct.pack("<8s8I", b"LACUNAM2", contents.channels, m, c, len(contents.bands), *contents.sections)
     numbers = [contents.sampling_rate, *contents.peak_rule, contents.speed_after, contents.misfit_limit]
-    arrays = [contents.severity, contents.rms_mean, contents.signature, whitening, log_determinant]
+    arrays = [contents.severity, contents.rms_mean]
+    for condition in zip(contents.signature, whitening, log_determinant, strict=True):
+        arrays += condition
     body = [head, struct.pack("<5d", *numbers), *(np.ascontiguousarray(a, dtype="<f8").tobytes() for a in arrays)]
     body += [struct.pack("<16s2d", name.encode()[:15], first, last) for name, first, last in contents.bands]
     data = b"".join(body)

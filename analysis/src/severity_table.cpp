@@ -10,7 +10,7 @@ namespace lacuna {
 
 namespace {
 
-constexpr std::size_t max_severities = 10000, max_bands = 16;
+constexpr std::size_t max_severities = 10000, max_bands = 16, max_conditions = 16;
 constexpr double normal_95 = 1.959964; // half width of a 95 % interval, in standard deviations
 
 std::uint32_t crc32(std::span<const std::byte> bytes) {
@@ -72,23 +72,29 @@ private:
 SeverityTable::SeverityTable(std::span<const std::byte> file) {
   if (file.size() < 12) throw std::runtime_error("severity table: the file is truncated");
   Reader tail(file.last(4)), reader(file.first(file.size() - 4));
-  if (std::memcmp(reader.take(8).data(), "LACUNAM1", 8) != 0)
+  if (std::memcmp(reader.take(8).data(), "LACUNAM2", 8) != 0)
     throw std::runtime_error("severity table: this is not a severity table, or one of another version");
   if (crc32(file.first(file.size() - 4)) != tail.whole<std::uint32_t>())
     throw std::runtime_error("severity table: the checksum does not match, the file is damaged");
-  const std::size_t channels = reader.count(), rows = reader.count(), bands = reader.count();
+  const std::size_t channels = reader.count(), rows = reader.count(), conditions = reader.count(),
+                    bands = reader.count();
   const std::size_t samples = reader.count(), section = reader.count(), hop = reader.count(), padded = reader.count();
-  if (channels < 1 || channels > max_channels || rows < 3 || rows > max_severities || bands < 1 || bands > max_bands)
-    throw std::runtime_error("severity table: impossible number of channels, severities or bands");
+  if (channels < 1 || channels > max_channels || rows < 3 || rows > max_severities || conditions < 1 ||
+      conditions > max_conditions || bands < 1 || bands > max_bands)
+    throw std::runtime_error("severity table: impossible number of channels, severities, conditions or bands");
   const double rate = reader.number(), above = reader.number(), threshold = reader.number(), after = reader.number();
   configuration_ = {channels, samples, section, hop, padded, rate, above, threshold, after};
   misfit_limit_ = reader.number();
   const std::size_t n = signature_size(channels);
   severity_ = reader.numbers(rows);
   rms_mean_ = reader.numbers(rows);
-  signature_ = reader.numbers(rows * n);
-  whitening_ = reader.numbers(rows * n * (n + 1) / 2);
-  log_determinant_ = reader.numbers(rows);
+  for (std::size_t c = 0; c < conditions; ++c) {
+    Condition condition;
+    condition.signature = reader.numbers(rows * n);
+    condition.whitening = reader.numbers(rows * n * (n + 1) / 2);
+    condition.log_determinant = reader.numbers(rows);
+    conditions_.push_back(std::move(condition));
+  }
   for (std::size_t b = 0; b < bands; ++b) {
     Band band{};
     std::memcpy(band.name, reader.take(sizeof band.name).data(), sizeof band.name - 1);
@@ -112,9 +118,10 @@ void SeverityTable::check() const {
 }
 
 /// Squared distance of `signature` to a row of the map, in standard deviations.
-double SeverityTable::distance(std::size_t row, std::span<const double> signature) const noexcept {
+double SeverityTable::distance(const Condition &condition, std::size_t row,
+                               std::span<const double> signature) noexcept {
   const std::size_t n = signature.size();
-  const double *mean = &signature_[row * n], *w = &whitening_[row * n * (n + 1) / 2];
+  const double *mean = &condition.signature[row * n], *w = &condition.whitening[row * n * (n + 1) / 2];
   double sum = 0;
   for (std::size_t i = 0; i < n; ++i) {
     double component = 0;
@@ -125,41 +132,59 @@ double SeverityTable::distance(std::size_t row, std::span<const double> signatur
   return sum;
 }
 
-/// Minus twice the logarithm of the likelihood of a row's severity.
-double SeverityTable::cost(std::size_t row, std::span<const double> signature) const noexcept {
-  return distance(row, signature) + log_determinant_[row];
-}
-
-/// The most likely severity is the vertex of the parabola through the best row and its neighbours, the interval follows
-/// from its curvature.
-Estimate SeverityTable::estimate(std::span<const double> signature, double rms_mean) const noexcept {
+/// Generalised least squares over severity. Cost is minus twice the logarithm of the likelihood: the most likely
+/// severity is the vertex of the parabola through the best row and its neighbours, and its deviation follows from the
+/// curvature.
+SeverityTable::Reading SeverityTable::read(const Condition &condition,
+                                           std::span<const double> signature) const noexcept {
+  const auto cost = [&](std::size_t row) {
+    return distance(condition, row, signature) + condition.log_determinant[row];
+  };
   const std::size_t last = severity_.size() - 1;
   std::size_t best = 0;
-  double lowest = cost(0, signature);
+  double lowest = cost(0);
   for (std::size_t row = 1; row <= last; ++row)
-    if (const double found = cost(row, signature); found < lowest) {
+    if (const double found = cost(row); found < lowest) {
       lowest = found;
       best = row;
     }
   const std::size_t k = std::clamp<std::size_t>(best, 1, last - 1);
-  const double left = severity_[k - 1] - severity_[k], right = severity_[k + 1] - severity_[k];
-  const double slope_left = (cost(k - 1, signature) - cost(k, signature)) / left;
-  const double slope_right = (cost(k + 1, signature) - cost(k, signature)) / right;
-  const double curvature = (slope_right - slope_left) / (right - left); // of cost = c0 + slope x + curvature x^2
-  const double slope = slope_left - curvature * left;
-  const double first = severity_.front(), end = severity_.back();
-  Estimate found{severity_[best], first, end, distance(best, signature), by_mean_rms(rms_mean), 0, false};
-  if (curvature > 0) {
-    const double half = normal_95 / std::sqrt(curvature);
-    found.severity = std::clamp(severity_[k] - slope / (2 * curvature), first, end);
-    found.low = std::max(first, found.severity - half);
-    found.high = std::min(end, found.severity + half);
-    const double x = found.severity - severity_[k];
-    found.misfit = std::max(0.0, distance(k, signature) + (slope + curvature * x) * x);
+  const double left = severity_[k - 1] - severity_[k], right = severity_[k + 1] - severity_[k], centre = cost(k);
+  const double slope_left = (cost(k - 1) - centre) / left, slope_right = (cost(k + 1) - centre) / right;
+  const double curvature = (slope_right - slope_left) / (right - left); // cost = centre + slope x + curvature x^2
+  const double slope = slope_left - curvature * left, range = severity_.back() - severity_.front();
+  if (!(curvature > 0)) return {severity_[best], range, distance(condition, best, signature), lowest};
+  const double x =
+      std::clamp(severity_[k] - slope / (2 * curvature), severity_.front(), severity_.back()) - severity_[k];
+  const double change = (slope + curvature * x) * x;
+  return {severity_[k] + x, 1 / std::sqrt(curvature), std::max(0.0, distance(condition, k, signature) + change),
+          centre + change};
+}
+
+/// The conditions' readings, weighted by their likelihoods.
+Estimate SeverityTable::estimate(std::span<const double> signature, double rms_mean) const noexcept {
+  std::array<Reading, max_conditions> readings{};
+  const std::span<Reading> all = std::span(readings).first(conditions_.size());
+  for (std::size_t c = 0; c < all.size(); ++c)
+    all[c] = read(conditions_[c], signature);
+  const double lowest = std::ranges::min_element(all, {}, &Reading::cost)->cost;
+  double total = 0, mean = 0, square = 0;
+  for (const Reading &r : all) {
+    const double weight = std::exp(-0.5 * (r.cost - lowest));
+    total += weight;
+    mean += weight * r.severity;
+    square += weight * (r.deviation * r.deviation + r.severity * r.severity);
   }
-  found.band = band_of(found.severity);
-  found.covered = found.misfit <= misfit_limit_;
-  return found;
+  mean /= total;
+  const double half = normal_95 * std::sqrt(std::max(0.0, square / total - mean * mean));
+  const double misfit = std::ranges::min_element(all, {}, &Reading::misfit)->misfit;
+  return {mean,
+          std::max(severity_.front(), mean - half),
+          std::min(severity_.back(), mean + half),
+          misfit,
+          by_mean_rms(rms_mean),
+          band_of(mean),
+          misfit <= misfit_limit_};
 }
 
 /// The largest severity whose mean RMS, made monotonous, does not exceed the measured one: near zero severity the

@@ -39,8 +39,8 @@ def contents(features):
         misfit_limit=30.0,
         severity=severity,
         rms_mean=features.rms_mean + (severity - 0.3),
-        signature=signature(features) + np.outer(severity - 0.2, direction),
-        covariance=np.tile(SIGMA**2 * np.eye(16), (51, 1, 1)),
+        signature=(signature(features) + np.outer(severity - 0.2, direction))[None],
+        covariance=np.tile(SIGMA**2 * np.eye(16), (1, 51, 1, 1)),
         bands=[("green", 0.0, 0.1), ("orange", 0.11, 0.26), ("red", 0.27, 0.5)],
     )
 
@@ -65,13 +65,26 @@ def test_estimate_is_the_weighted_least_squares_one(tmp_path, contents, features
     root = random.normal(size=(16, 16)) * SIGMA
     covariance = root @ root.T + SIGMA**2 * np.eye(16)
     offset = SIGMA * random.normal(size=16)
-    moved = replace(contents, signature=contents.signature - offset, covariance=np.tile(covariance, (51, 1, 1)))
+    moved = replace(contents, signature=contents.signature - offset, covariance=np.tile(covariance, (1, 51, 1, 1)))
     found = table(tmp_path, moved).estimate(features)
     direction, inverse = np.linspace(-1, 1, 16), np.linalg.inv(covariance)
     step = direction @ inverse @ offset / (direction @ inverse @ direction)
     rest = offset - step * direction
     assert found.severity == pytest.approx(0.2 + step, abs=1e-9)
     assert found.misfit == pytest.approx(rest @ inverse @ rest, rel=1e-6)
+
+
+def test_conditions_are_weighted_by_their_likelihood(tmp_path, contents, features):
+    """Two equally likely conditions that read 2 points apart: their mean, and an interval that spans both."""
+    apart = 0.01 * np.linspace(-1, 1, 16)
+    both = np.concatenate([contents.signature - apart, contents.signature + apart])
+    two = replace(contents, signature=both, covariance=np.tile(contents.covariance, (2, 1, 1, 1)))
+    found = table(tmp_path, two).estimate(features)
+    within = SIGMA**2 / (np.linspace(-1, 1, 16) ** 2).sum()
+    assert found.severity == pytest.approx(0.2, abs=1e-9)
+    assert found.high - 0.2 == pytest.approx(1.959964 * np.sqrt(within + 0.01**2), rel=1e-6)
+    far = replace(two, signature=np.concatenate([contents.signature, contents.signature + 1.0]))
+    assert table(tmp_path, far).estimate(features).severity == pytest.approx(0.2, abs=1e-9)
 
 
 def test_what_lies_off_the_map_is_not_covered(tmp_path, contents, features):
@@ -97,7 +110,7 @@ def test_mean_rms_is_read_back_monotonously(tmp_path, contents, features):
 
 def test_a_singular_covariance_is_refused(contents):
     with pytest.raises(AnalysisError, match="singular"):
-        table_bytes(replace(contents, covariance=np.zeros((51, 16, 16))))
+        table_bytes(replace(contents, covariance=np.zeros((1, 51, 16, 16))))
 
 
 @given(data=st.data())

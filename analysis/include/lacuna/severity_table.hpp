@@ -2,14 +2,16 @@
 // Standard library only; reading allocates, estimating does not.
 //
 // File, little-endian, no padding:
-//   "LACUNAM1"
-//   uint32  channels, severities m, bands, samples, section, hop, padded
+//   "LACUNAM2"
+//   uint32  channels, severities m, conditions, bands, samples, section, hop, padded
 //   double  sampling_rate, peak_above, peak_threshold, speed_after, misfit_limit
-//   double  severity[m], rms_mean[m], signature[m][n], whitening[m][n(n+1)/2], log_determinant[m]
+//   double  severity[m], rms_mean[m]
+//   conditions x { double signature[m][n], whitening[m][n(n+1)/2], log_determinant[m] }
 //   bands x { char name[16]; double first, last }
 //   uint32  CRC-32 (IEEE 802.3) of all that precedes it
 // n = signature_size(channels). whitening is the inverse W of the Cholesky factor of the signature's covariance C, row
-// by row: |W d|^2 = d' C^-1 d.
+// by row: |W d|^2 = d' C^-1 d. A condition is a level of the nuisance that moves a signature most, dry friction for
+// instance; all are equally likely.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +38,7 @@ struct Configuration {
 struct Estimate {
   double severity;  ///< most likely, between the first and the last of the map
   double low, high; ///< 95 % interval, within the map
-  double misfit;    ///< squared distance to the map there, in standard deviations: chi-squared if the map is right
+  double misfit;    ///< least squared distance to the map, in standard deviations: chi-squared if the map is right
   double paper;     ///< severity by the paper's method: the mean RMS alone, read back on the map
   std::size_t band; ///< of `severity`; in a gap, the nearer one
   bool covered;     ///< misfit is within the limit: the map can explain this record at some severity
@@ -59,15 +61,23 @@ public:
   Estimate estimate(std::span<const double> signature, double rms_mean) const noexcept;
 
 private:
-  double cost(std::size_t row, std::span<const double> signature) const noexcept;
-  double distance(std::size_t row, std::span<const double> signature) const noexcept;
+  struct Condition {
+    std::vector<double> signature, whitening, log_determinant;
+  };
+  struct Reading { // of one condition
+    double severity, deviation, misfit, cost;
+  };
+
+  static double distance(const Condition &condition, std::size_t row, std::span<const double> signature) noexcept;
+  Reading read(const Condition &condition, std::span<const double> signature) const noexcept;
   double by_mean_rms(double rms_mean) const noexcept;
   std::size_t band_of(double severity) const noexcept;
   void check() const;
 
   Configuration configuration_{};
   double misfit_limit_ = 0;
-  std::vector<double> severity_, rms_mean_, signature_, whitening_, log_determinant_;
+  std::vector<double> severity_, rms_mean_;
+  std::vector<Condition> conditions_;
   std::vector<Band> bands_;
 };
 
