@@ -39,14 +39,14 @@ void rt_inputs_at(rt_session *s, double t) {
 }
 
 /* Does the slope change at sample k? One-step methods land on every kink that is more than rounding, because it would
- * cost them their order. A multistep method steps over small ones, which its error test absorbs, and restarts at the
- * others. */
+ * cost them their order. A multistep method restarts at a kink that is larger than its tolerance, and steps over
+ * smaller ones. */
 static bool is_kink(const rt_session *s, const rt_input *in, int k) {
   if (k == 0 || k + 1 >= in->n) return true;
   const double *t = in->time, *v = in->values;
   double expected = v[k] + (v[k] - v[k - 1]) / (t[k] - t[k - 1]) * (t[k + 1] - t[k]);
-  return fabs(v[k + 1] - expected) >
-         (s->method->multistep ? 1e-2 : 1e-9) * (fabs(v[k - 1]) + fabs(v[k]) + fabs(v[k + 1]));
+  double negligible = s->method->multistep ? s->options.rtol : 1e-9;
+  return fabs(v[k + 1] - expected) > negligible * (fabs(v[k - 1]) + fabs(v[k]) + fabs(v[k + 1]));
 }
 
 /* Does the input jump or bend at sample k? */
