@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 import sys
+import threading
 import time
 from typing import TypeVar
 
@@ -13,7 +14,7 @@ from .emit.source import generate
 from .errors import Diagnostic
 from .expr import Expr
 from .flatten import flatten
-from .initial import initial_system
+from .initial import discrete_starts, initial_system
 from .library import Library
 from .prepared import Prepared
 from .storage import Storage
@@ -25,6 +26,7 @@ from .structure.system import DeclaredValues
 from .structure.tearing import Tearing
 
 T = TypeVar("T")
+_translating = threading.Lock()  # expressions are shared by all threads; one translation at a time keeps them unique
 Modifications = Mapping[str, Expr | float]
 
 
@@ -51,13 +53,14 @@ class CompiledModel:
     report: Report
 
 
-def prepare(model: flat.FlatModel, report: Report) -> Prepared:
+def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     """The structural passes, in order."""
     sys.setrecursionlimit(max(sys.getrecursionlimit(), 20000))
-    aliases = report.run("aliases", eliminate_aliases, model)
+    aliases = report.run("aliases", eliminate_aliases, declared)
     frozen = report.run("hybrid", hybrid.analyse, aliases.model)
-    continuous, discrete = report.run("hybrid", events.split, frozen.model)
-    system = report.run("index reduction", reduce_index, frozen.model, continuous)
+    model = report.run("initial system", discrete_starts, frozen.model)
+    continuous, discrete = report.run("hybrid", events.split, model)
+    system = report.run("index reduction", reduce_index, model, continuous)
     relations = report.run("hybrid", hybrid.rename, frozen.relations, system.renamed)
     steps = report.run("hybrid", events.order, system.model, discrete, system.renamed)
     tearing = Tearing(DeclaredValues(system.model).parametric)
@@ -65,9 +68,9 @@ def prepare(model: flat.FlatModel, report: Report) -> Prepared:
     residual = report.run("residual form", residual_form, system, tearing)
     matrix = report.run("jacobian", jacobian, residual, system)
     initial = report.run("initial system", initial_system, system, system.model.initial_equations, tearing)
-    report.warnings += [*model.warnings, *initial.warnings]
+    report.warnings += [*declared.warnings, *initial.warnings]
     return Prepared(
-        model, aliases.representative, system, Storage(system), relations, frozen.samples, steps, explicit,
+        declared, aliases.representative, system, Storage(system), relations, frozen.samples, steps, explicit,
         residual, matrix, initial,
     )  # fmt: skip
 
@@ -98,9 +101,10 @@ def compile_model(
     found = store.find(request)
     if found:
         return CompiledModel(found.name, found.library, found.hash, Report(cached=True, warnings=found.warnings))
-    prepared, report = translate(name, search_path=search_path, modifications=modifications)
-    prepared.hash = cache.content_hash(prepared.declared.files, request)
-    source = report.run("C", generate, prepared)
+    with _translating:
+        prepared, report = translate(name, search_path=search_path, modifications=modifications)
+        prepared.hash = cache.content_hash(prepared.declared.files, request)
+        source = report.run("C", generate, prepared)
     library = report.run("compile", store.build, prepared.hash, source)
     store.remember(request, prepared, library, report.warnings)
     return CompiledModel(prepared.declared.name, library, prepared.hash, report)

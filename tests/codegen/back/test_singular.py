@@ -68,6 +68,16 @@ CASES = {
         "model Fixed\n  Real x(start=0, fixed=true);\ninitial equation\n  der(x) = 0;\nequation\n  der(x) = 1 - x;\n"
         "end Fixed;",
     ),
+    "parameter to be solved for": (
+        "S023", 2, "p has fixed=false",
+        "model Free\n  parameter Real p(fixed=false); Real x(start=1);\ninitial equation\n  p = 2;\nequation\n"
+        "  der(x) = -p*x;\nend Free;",
+    ),
+    "discrete initial value from a state": (
+        "S024", 4, "n does not follow from parameters",
+        "model Counted\n  Real x(start=1); Integer n; Integer k = if x > 2 then 1 else 0;\ninitial equation\n  n = k + 1;\n"
+        "equation\n  der(x) = -x; when x < 0 then n = pre(n) + 1; end when;\nend Counted;",
+    ),
     "reinit of what is not a state": (
         "C002", 5, "is not a state here",
         "model Jump\n  Real x(start=0); Real y;\nequation\n  y = 2*x;\n  when x > 1 then reinit(y, 0); end when;\n"
