@@ -131,7 +131,8 @@ class Library:
     def find(self, name: str) -> ast.Class:
         """The class called `name`: a full name, a name inside package Lacuna, or a path to a .mo file.
 
-        Of a file it is the class named like the file, else the last one; it sees the files beside it.
+        Of a file it is the class named like the file, else the last one; it sees the files beside it, and the
+        package that its `within` names.
         Raises R001 with the nearest names when there is none.
         """
         if name.endswith(".mo"):
@@ -165,6 +166,8 @@ class Library:
         classes = self.parse_file(path)
         for cls in classes:
             self.root.classes.setdefault(cls.name, cls)
+            if cls.within:
+                cls.parent = self.find(cls.within)
         self._loose.append(path.parent)
         return next((cls for cls in classes if cls.name == path.stem), classes[-1])
 

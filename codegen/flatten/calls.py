@@ -59,8 +59,9 @@ def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
         return [construct_record(cls, e, scope)]
     if cls is not None:
         raise Diagnostic("R004", f"{name} is a {cls.kind} and cannot be called", e.function.span, "call a function")
-    if name in _OUTSIDE:
-        raise Diagnostic("R091", f"{name} is outside the subset", e.function.span, _OUTSIDE[name])
+    if name in _OUTSIDE or name.startswith("Connections."):
+        hint = _OUTSIDE.get(name, "write the equations out")
+        raise Diagnostic("R091", f"{name} is outside the subset", e.function.span, hint)
     if name in ("reinit", "assert", "terminate"):
         raise Diagnostic("R004", f"{name} has no value", e.function.span, "it stands alone, ended by ';'")
     known = [*FUNCTIONS, *visible_classes(scope.context.library, scope.cls)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from .. import expr as ex
@@ -13,7 +14,7 @@ from .asserts import lower_assert
 from .constants import AtRunTime
 from .context import Context
 from .elements import element, local_value
-from .function_locals import Local, declared_sizes, fit, typed
+from .function_locals import Signature, declared_sizes, fit, typed
 from .interpret import unknown_target
 from .lower import iterate, lower, lower_results, lower_scalar
 from .references import apply_subscripts
@@ -25,21 +26,19 @@ from .values import Array, Record, Value, indices, scalars, shape_of, shape_text
 class Source:
     """What a kept function was made of, to run it on constants: result number `output`, its scalar `element`."""
 
-    cls: ast.Class
+    signature: Signature
     inputs: tuple[str, ...]
     shapes: dict[str, tuple[int, ...]]
     output: int
     element: int
 
 
-def emitted_call(
-    cls: ast.Class, declared: list[Local], arguments: dict[str, Value], context: Context, span: Span
-) -> list[Value]:
+def emitted_call(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
     """Calls that give the results of the function, one for each scalar of each result."""
-    base = _base(cls, declared, arguments, context, span)
+    base = _base(signature, arguments, context, span)
     function = context.functions[base]
     call_arguments = [ex.array(*v.items) if isinstance(v, Array) else v for v in arguments.values()]
-    units = {d.name: d.unit for d in declared}
+    units = {d.name: d.unit for d in signature.locals}
     context.function_units[base] = units[function.outputs[0]] if function.outputs else ""
     results: list[Value] = []
     for number, name in enumerate(function.outputs):
@@ -49,14 +48,14 @@ def emitted_call(
             continue
         items = []
         for position, index in enumerate(indices(shape) if shape else [()]):
-            selected = _selected(function, cls, name, number, position, index, units[name], context)
+            selected = _selected(function, signature, name, number, position, index, units[name], context)
             items.append(ex.call(selected, *call_arguments, type=kind))
         results.append(Array(shape, tuple(items)) if shape else items[0])
     return results
 
 
 def _selected(
-    function: flat.Function, cls: ast.Class, name: str, number: int, position: int, index: tuple[int, ...],
+    function: flat.Function, signature: Signature, name: str, number: int, position: int, index: tuple[int, ...],
     unit: str, context: Context,
 ) -> str:  # fmt: skip
     """A function that calls `function` and gives one scalar of one of its results."""
@@ -75,7 +74,7 @@ def _selected(
         {**types, name: kind, "result": kind}, {},
         [flat.AssignCall(targets, call, function.span), flat.Assign("result", picked, function.span)], function.span,
     )  # fmt: skip
-    context.function_sources[selected] = Source(cls, function.inputs, inputs, number, position)
+    context.function_sources[selected] = Source(signature, function.inputs, inputs, number, position)
     context.function_units[selected] = unit
     return selected
 
@@ -85,7 +84,8 @@ def _argument(name: str, function: flat.Function) -> Expr:
     return ex.array(*value.items) if isinstance(value, Array) else value
 
 
-def _base(cls: ast.Class, declared: list[Local], arguments: dict[str, Value], context: Context, span: Span) -> str:
+def _base(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> str:
+    cls = signature.cls
     shapes = {n: shape_of(v) for n, v in arguments.items()}
     sizes = ",".join("x".join(map(str, s)) for s in shapes.values() if s)
     name = f"{cls.path}[{sizes}]" if sizes else cls.path
@@ -95,21 +95,19 @@ def _base(cls: ast.Class, declared: list[Local], arguments: dict[str, Value], co
                 what = "record" if isinstance(v, Record) else "String"
                 hint = "give its fields one by one" if what == "record" else "decide by an enumeration or a Boolean"
                 raise Diagnostic("F036", f"{cls.name} has the {what} input {n} and runs at run time", span, hint)
-        _emit(name, cls, declared, shapes, context, span)
+        _emit(name, signature, shapes, context, span)
     return name
 
 
-def _emit(
-    name: str, cls: ast.Class, declared: list[Local], shapes: dict[str, tuple[int, ...]], context: Context, span: Span
-) -> None:
-    inputs = tuple(shapes)
-    outputs = tuple(d.name for d in declared if d.declaration.causality == "output")
+def _emit(name: str, signature: Signature, shapes: dict[str, tuple[int, ...]], context: Context, span: Span) -> None:
+    cls, inputs = signature.cls, tuple(shapes)
+    outputs = tuple(d.name for d in signature.outputs)
     function = flat.Function(name, inputs, outputs, {}, {}, {}, [], cls.span)
     context.functions[name] = function
-    context.function_sources[name] = Source(cls, inputs, shapes, 0, 0)
+    context.function_sources[name] = Source(signature, inputs, shapes, 0, 0)
     writer = _Writer(function, Scope(context, cls, None, {}, in_function=True))
     try:
-        for d in declared:
+        for d in signature.locals:
             if d.type.primitive not in (REAL, INTEGER, BOOLEAN):
                 hint = "use scalars and arrays in functions with loops of unknown length"
                 raise Diagnostic("F036", f"{d.name} is no number or Boolean", d.declaration.span, hint)
@@ -120,8 +118,7 @@ def _emit(
             if shape is None and default is not None:
                 value = fit(d, lower(default, scope), scope, default.span)
                 writer.assign([((d.name, None), value)], default.span, function.body)
-        for section in cls.sections:
-            function.body += writer.block(section.items)
+        function.body += writer.block(signature.body)
     except AtRunTime as reason:
         del context.functions[name], context.function_sources[name]
         message = f"in {cls.name}, {reason.args[0]} depends on an argument's value"
@@ -141,7 +138,7 @@ class _Writer:
         self.function.shapes[name], self.function.types[name] = shape, kind
         self.scope.locals[name] = local_value(name, kind, shape)
 
-    def block(self, items: list[ast.Item]) -> list[flat.Statement]:
+    def block(self, items: Sequence[ast.Item]) -> list[flat.Statement]:
         result: list[flat.Statement] = []
         for item in items:
             self._item(item, result)

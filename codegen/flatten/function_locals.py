@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from .. import expr as ex
 from ..errors import Diagnostic, Span
@@ -33,13 +33,39 @@ class Local:
         return child.value.value if child is not None and isinstance(child.value, ast.Literal) else ""
 
 
-def declared_locals(cls: ast.Class, context: Context) -> list[Local]:
-    """Everything a function declares, inherited first."""
-    result = []
-    for name, element in Instance(context, cls, cls.path, None, None).elements.items():
-        scope = Scope(context, element.cls, in_function=True)
-        result.append(Local(name, element.declaration, resolve_type(element.declaration.type, scope), scope))
-    return result
+@dataclass(frozen=True)
+class Signature:
+    """A function (or record) with everything it declares and does, inherited first."""
+
+    cls: ast.Class
+    locals: tuple[Local, ...]
+    body: tuple[ast.Item, ...]
+
+    @property
+    def inputs(self) -> list[Local]:
+        return [d for d in self.locals if d.declaration.causality == "input"]
+
+    @property
+    def outputs(self) -> list[Local]:
+        return [d for d in self.locals if d.declaration.causality == "output"]
+
+
+def signature_of(cls: ast.Class, context: Context) -> Signature:
+    """What `cls` declares; a modification in an extends clause or a short definition replaces a default."""
+    found = context.signatures.get(id(cls))
+    if found is None:
+        instance = Instance(context, cls, cls.path, None, None)
+        declared = []
+        for name, element in instance.elements.items():
+            scope = Scope(context, element.cls, in_function=True)
+            declaration, outer = element.declaration, element.modifier
+            if outer is not None and isinstance(outer.value, ast.Expression):
+                changed = replace(declaration.modification, value=outer.value)
+                declaration = replace(declaration, modification=changed)
+            declared.append(Local(name, declaration, resolve_type(declaration.type, scope), scope))
+        body = tuple(item for section, _ in instance.sections for item in section.items)
+        found = context.signatures[id(cls)] = Signature(cls, tuple(declared), body)
+    return found
 
 
 def fit(local: Local, value: Value, scope: Scope, span: Span) -> Value:

@@ -17,7 +17,7 @@ from .constants import AtRunTime
 from .context import Context
 from .external import call_external
 from .function_code import emitted_call
-from .function_locals import Local, declared_locals, fit
+from .function_locals import Local, fit, signature_of
 from .interpret import interpret
 from .lower import lower
 from .scope import Scope
@@ -33,27 +33,25 @@ def call_function(cls: ast.Class, e: ast.Call, scope: Scope) -> list[Value]:
     context = scope.context
     if cls.partial:
         raise Diagnostic("R015", f"the function {cls.name} is partial", e.function.span, "call one that extends it")
-    declared = declared_locals(cls, context)
-    inputs = [d for d in declared if d.declaration.causality == "input"]
-    arguments = bind_arguments(cls, inputs, e, scope)
+    signature = signature_of(cls, context)
+    arguments = bind_arguments(cls, signature.inputs, e, scope)
     if cls.external is not None:
         return call_external(cls, arguments, e, context)
     known = all(isinstance(a, str) or a.op == "const" for v in arguments.values() for a in scalars(v))
     if known or (context.call_depth < MAX_INLINE_DEPTH and not _has_events(arguments)):
         context.call_depth += 1
         try:
-            results = interpret(cls, declared, arguments, context, e.span)
+            results = interpret(signature, arguments, context, e.span)
             if known or _is_small(results, arguments):
                 results = [_without_events(r) for r in results]
-                outputs = [d for d in declared if d.declaration.causality == "output"]
-                for local, value in zip(outputs, results, strict=True):
+                for local, value in zip(signature.outputs, results, strict=True):
                     note_units(local, value, e.span, f"output {local.name} of {cls.name}", scope)
                 return results
         except AtRunTime:
             pass
         finally:
             context.call_depth -= 1
-    return emitted_call(cls, declared, arguments, context, e.span)
+    return emitted_call(signature, arguments, context, e.span)
 
 
 def bind_arguments(cls: ast.Class, inputs: list[Local], e: ast.Call, scope: Scope) -> dict[str, Value]:
@@ -133,10 +131,12 @@ def _is_small(results: list[Value], arguments: dict[str, Value]) -> bool:
 
 def construct_record(cls: ast.Class, e: ast.Call, scope: Scope) -> Record:
     """Record(a, field = b): fields by position and name, the rest by their defaults."""
-    fields = declared_locals(cls, scope.context)
-    fields = [f for f in fields if f.declaration.variability != "constant"]
-    for f in fields:
-        f.scope.in_function = scope.in_function
+    declared = signature_of(cls, scope.context).locals
+    fields = [
+        replace(f, scope=replace(f.scope, in_function=scope.in_function))
+        for f in declared
+        if f.declaration.variability != "constant"
+    ]
     return Record(cls.path, bind_arguments(cls, fields, e, scope))
 
 
@@ -147,7 +147,7 @@ def run(name: str, arguments: list[Expr], context: Context, span: Span) -> Expr:
     for local, value in zip(source.inputs, arguments, strict=True):
         bound[local] = Array(source.shapes[local], value.args) if value.op == "array" else value
     try:
-        results = interpret(source.cls, declared_locals(source.cls, context), bound, context, span)
+        results = interpret(source.signature, bound, context, span)
     except AtRunTime as reason:
         raise Diagnostic("F021", f"{name} cannot be evaluated at translation: {reason.args[0]}", span) from None
     return scalars(results[source.output])[source.element]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from math import prod
 
@@ -13,7 +14,7 @@ from ..syntax import ast
 from .asserts import lower_assert
 from .constants import AtRunTime
 from .context import Context
-from .function_locals import Local, declared_locals, declared_sizes, fit, typed
+from .function_locals import Local, Signature, declared_sizes, fit, signature_of, typed
 from .lower import iterate, lower, lower_results, lower_scalar
 from .references import apply_subscripts
 from .scope import Scope
@@ -28,13 +29,11 @@ def unset(kind: str) -> Expr:
     return ex.node("unset", (), None, kind)
 
 
-def interpret(
-    cls: ast.Class, declared: list[Local], arguments: dict[str, Value], context: Context, span: Span
-) -> list[Value]:
+def interpret(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
     """Results of the function on `arguments`. Raises AtRunTime where its course depends on unknown values."""
-    run = _Run(cls, context, dict(arguments), span)
+    run = _Run(signature.cls, context, dict(arguments), span)
     run.inputs = frozenset(arguments)
-    for local in declared:
+    for local in signature.locals:
         if local.declaration.causality == "input":
             continue
         scope = replace(local.scope, locals=run.locals)
@@ -47,23 +46,18 @@ def interpret(
             shape = declared_sizes(local, scope, None)
             blank = unset(local.type.primitive)
             run.locals[local.name] = Array(shape, (blank,) * prod(shape)) if shape else blank
-    for section in cls.sections:
-        run.block(section.items)
-    results = []
-    for local in declared:
-        if local.declaration.causality == "output":
-            value = run.locals[local.name]
-            for item in scalars(value):
-                if isinstance(item, Expr) and any(n.op == "unset" for n in ex.walk(item)):
-                    message = f"the output {local.name} of {cls.name} is not assigned in every case"
-                    raise Diagnostic("F033", message, local.declaration.span, "assign it, or give it a value first")
-            results.append(value)
+    run.block(signature.body)
+    results = [run.locals[local.name] for local in signature.outputs]
+    for local, value in zip(signature.outputs, results, strict=True):
+        if any(isinstance(s, Expr) and any(n.op == "unset" for n in ex.walk(s)) for s in scalars(value)):
+            message = f"the output {local.name} of {signature.cls.name} is not assigned in every case"
+            raise Diagnostic("F033", message, local.declaration.span, "assign it, or give it a value first")
     return results
 
 
 def _blank_record(local: Local, context: Context) -> Record:
     fields: dict[str, Value] = {}
-    for part in declared_locals(local.type.cls, context):
+    for part in signature_of(local.type.cls, context).locals:
         fields[part.name] = unset(part.type.primitive) if part.type.primitive else _blank_record(part, context)
     return Record(local.name, fields)
 
@@ -79,7 +73,7 @@ class _Run:
         self.symbolic = symbolic
         self.limit = MAX_SYMBOLIC_STEPS if symbolic else MAX_STEPS
 
-    def block(self, items: list[ast.Item]) -> str:
+    def block(self, items: Sequence[ast.Item]) -> str:
         """Run statements; "break" or "return" where one of these ended the block."""
         for item in items:
             self.steps += 1

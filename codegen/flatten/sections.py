@@ -45,7 +45,7 @@ def assertion(item: ast.Item, scope: Scope) -> flat.Assert:
     if name in ("reinit", "terminate"):
         hint = f"put it under a condition: when ... then {name}(...); end when;"
         raise Diagnostic("R056", f"{name} outside of when", item.span, hint)
-    if call is not None and name == "Connections.root":
+    if name.startswith("Connections."):
         raise Diagnostic("R091", f"{name} is outside the subset", item.span, "write the equations out")
     hint = "an equation has two sides; assert(...) can stand alone"
     raise Diagnostic("R056", f"a call of {name} is no equation", item.span, hint)

@@ -195,3 +195,13 @@ def test_a_faulty_csv_is_refused(tmp_path: Path, content: str, words: str) -> No
     with pytest.raises(Diagnostic, match=words) as refused:
         flatten_text(tmp_path, CSV)
     assert refused.value.code == "F041"
+
+
+def test_functions_inherit_declarations_and_statements(tmp_path: Path) -> None:
+    text = """
+    partial function Law input Real x; input Real gain = 1; output Real y; end Law;
+    function line extends Law; algorithm y := gain*x; end line;
+    function steep = line(gain = 5);
+    function steeper extends line(gain = 7); end steeper;
+    model M Real a = line(time), b = steep(time), c = steeper(time, 2); end M;"""
+    assert equations(flatten_text(tmp_path, text)) == ["a = time", "b = 5.0 * time", "c = 2.0 * time"]
