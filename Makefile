@@ -9,6 +9,9 @@ OUT ?= out
 PYTHON := .venv/bin/python
 LACUNA := .venv/bin/lacuna
 PYTEST := LACUNA_CACHE=$(abspath $(BUILD))/cache $(PYTHON) -m pytest -q -n 2
+# Silent but for ctest's closing lines; where a test fails, everything it printed.
+run_ctest = ctest --test-dir $(1) --output-on-failure -j 2 > $(1)/ctest.log && tail -n 3 $(1)/ctest.log \
+  || { cat $(1)/ctest.log; exit 1; }
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp')
 
 .PHONY: help setup build test maps compare explain assess bench check fuzz prove robustness tolerance-study \
@@ -48,7 +51,9 @@ explain: setup ## CASE=folder: what a recording knows and the model does not, in
 
 assess: setup ## RECORDING=file [MAP=folder]: severity of a recorded pre-flight test, into out/assess/
 	@[[ -n "$(RECORDING)" ]] || { echo "usage: make assess RECORDING=file.csv [MAP=out/maps/paper]" >&2; exit 2; }
-	@$(LACUNA) assess "$(RECORDING)" --map "$(or $(MAP),$(OUT)/maps/paper)" --out $(OUT)/assess
+	@[[ -n "$(MAP)" || -f $(OUT)/maps/paper/severity.table ]] || $(LACUNA) maps --out $(OUT)/maps/paper --prepare
+	@$(LACUNA) assess "$(RECORDING)" --map "$(or $(MAP),$(OUT)/maps/paper)" \
+	  --out "$(OUT)/assess/$(basename $(notdir $(RECORDING)))"
 
 robustness: setup ## Thousands of simulated pre-flight tests over nuisances (long), writes docs/robustness.md
 	@$(PYTHON) -m analysis.robustness --out $(OUT)/robustness
@@ -70,7 +75,7 @@ figures: maps ## Copy the map's figures that the documentation shows into docs/f
 test: ctest pytest ## Pass the tests: C, C++ and Python
 
 ctest: setup
-	@ctest --test-dir $(BUILD) --output-on-failure -j 2 | tail -n 12
+	@$(call run_ctest,$(BUILD))
 
 pytest: setup
 	@$(PYTEST) -m "not slow"
@@ -87,7 +92,7 @@ lint: setup
 sanitize: $(BUILD)/.debian
 	@cmake -S . -B $(BUILD)/sanitize -G Ninja -DCMAKE_BUILD_TYPE=Debug -DLACUNA_SANITIZE=ON > $(BUILD)/sanitize.log
 	@ninja -C $(BUILD)/sanitize --quiet | sed '/no work to do/d'
-	@ASAN_OPTIONS=detect_leaks=1 ctest --test-dir $(BUILD)/sanitize --output-on-failure -j 2 | tail -n 6
+	@$(call run_ctest,$(BUILD)/sanitize)
 
 fuzz: setup ## [FUZZ_SECONDS=180] random and mutated models through the parser, for a traceback
 	@$(PYTHON) -m tests.codegen.fuzz --seconds $(or $(FUZZ_SECONDS),180)

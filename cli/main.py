@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from cli import check, compare, compile, maps, simulate
+from cli import assess, check, compare, compile, explain, maps, simulate
 
 app = typer.Typer(
     name="lacuna",
@@ -23,16 +23,20 @@ lacuna check My.mo: every finding with its line
 
 lacuna simulate My.mo --plot: trajectories, CSV and figure
 
-lacuna maps: operating maps of the paper's actuator""",
+lacuna maps: operating maps of the paper's actuator
+
+lacuna explain CASE: what a recording knows and the model does not""",
 )
 
-MODELS, FAULTS = "Models", "Maps and severity"
+MODELS, FAULTS, PHYSICS = "Models", "Maps and severity", "Missing physics"
 
 app.command("check", rich_help_panel=MODELS)(check.check)
 app.command("compile", rich_help_panel=MODELS)(compile.compile)
 app.command("simulate", rich_help_panel=MODELS)(simulate.simulate)
 app.command("compare", rich_help_panel=MODELS)(compare.compare)
 app.command("maps", rich_help_panel=FAULTS)(maps.maps)
+app.command("assess", rich_help_panel=FAULTS)(assess.assess)
+app.command("explain", rich_help_panel=PHYSICS)(explain.explain)
 
 if __name__ == "__main__":
     app()

@@ -25,6 +25,9 @@ def maps(
     jobs: Annotated[int | None, typer.Option(min=1, help="Simulations at once; default: one a core")] = None,
     fresh: Annotated[bool, typer.Option("--fresh", help="Compute every row again, also those already there")] = False,
     figures: Annotated[bool, typer.Option(help="Draw the figures and report.html")] = True,
+    prepare: Annotated[
+        bool, typer.Option("--prepare", help="Add what `lacuna assess` needs: three more maps' work")
+    ] = False,
 ) -> None:
     """Simulate a pre-flight test at every severity of a fault and write the map, its figures and a report.
 
@@ -33,6 +36,7 @@ def maps(
     """
     from analysis.maps import build_map
     from analysis.plant import ModelPlant
+    from analysis.preparation import prepare_assessment
     from analysis.progress import progress_bar
     from analysis.settings import PAPER, load_settings
     from codegen.compile import compile_model
@@ -43,6 +47,8 @@ def maps(
     folder = out or Path("out/maps") / (settings or PAPER).stem
     with progress_bar(f"map of {compiled.name}") as progress:
         finished = build_map(plant, chosen, folder, jobs=jobs, progress=progress, resume=not fresh, figures=figures)
+        if prepare:
+            prepare_assessment(plant, chosen, finished, jobs=jobs)
     _report(finished)
 
 

@@ -36,6 +36,7 @@ def simulate(
     stop: Annotated[float | None, typer.Option(help="Stop time, s; default: the model's experiment")] = None,
     interval: Annotated[float | None, typer.Option(help="Output interval, s; default: the model's experiment")] = None,
     locate_events: Annotated[bool, typer.Option(help="Find events inside a step, or take them at its end")] = True,
+    event_rows: Annotated[bool, typer.Option(help="Add a row before and a row after each event")] = True,
     parameter: Assignments = None,
     inputs: Inputs = None,
     hold: Annotated[bool, typer.Option("--hold", help="Hold recorded inputs between samples, not linear")] = False,
@@ -59,6 +60,7 @@ def simulate(
     result = runtime.simulate(
         loaded, solver=solver, parameters=values, inputs=_recorded(inputs, hold), start=start, stop=stop,
         rtol=rtol, atol=atol, step=step, locate_events=locate_events, interval=interval, outputs=signal,
+        events=event_rows,
     )  # fmt: skip
     seconds = time.perf_counter() - begin
     path = (out or default_folder("simulate", model)) / f"{loaded.name.rsplit('.', 1)[-1]}.csv"

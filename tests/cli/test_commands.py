@@ -37,7 +37,7 @@ def refused(*words: str) -> str:
 
 def test_every_command_has_help() -> None:
     names = [command.name for command in app.registered_commands]
-    assert {"check", "compile", "simulate", "maps", "compare"} <= set(names)
+    assert {"check", "compile", "simulate", "compare", "maps", "assess", "explain"} <= set(names)
     for name in names:
         assert lacuna(name, "--help").exit_code == 0
         assert lacuna("--help").output.count(name) >= 1
@@ -133,6 +133,8 @@ def test_recorded_input_drives_a_model(tmp_path: Path) -> None:
         (["simulate", SERVO, "-u", "u=missing.csv"], "missing.csv"),
         (["compare", "--only", "helthy"], "helthy"),
         (["maps", "--settings", "missing.toml"], "missing.toml"),
+        (["assess", "missing.csv", "--map", "nowhere"], "nowhere"),
+        (["explain", "nowhere"], "nowhere"),
     ],
 )
 def test_mistakes_are_said_in_a_sentence(words: list[str], expected: str) -> None:

@@ -1,0 +1,37 @@
+"""`lacuna explain`: what a recording knows and the model does not."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+from rich.console import Console
+import typer
+
+from cli.errors import reported
+
+
+@reported
+def explain(
+    case: Annotated[Path, typer.Argument(metavar="CASE", help="Folder with case.toml and its recordings")],
+    out: Annotated[Path | None, typer.Option(help="Folder of the results; default: out/explain/CASE")] = None,
+) -> None:
+    """Say which physics the believed model of CASE lacks, or that it lacks none, or that the data cannot tell.
+
+    Fits the believed model, ranks effects of the catalogue, writes the amended model and judges it on recordings that
+    nothing was fitted to. Writes diagnosis.json and, where there is one, the amended model; prints the verdict.
+    """
+    from discovery import cases, diagnosis
+    from discovery.explain import explain as explained
+    from discovery.explain import write_amended
+
+    loaded = cases.load(case)
+    folder = out or Path("out/explain") / case.resolve().name
+    with Console(stderr=True).status("") as status:
+        result = explained(loaded, progress=status.update)
+    folder.mkdir(parents=True, exist_ok=True)
+    amended = write_amended(result, folder)
+    written = diagnosis.write(result, folder, amended)
+    typer.echo(diagnosis.sentence(result))
+    for path in filter(None, (written, amended)):
+        typer.echo(f"written: {path}")
