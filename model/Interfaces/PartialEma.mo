@@ -30,7 +30,7 @@ partial model PartialEma "Motor side of an actuator: control, drive, bus, machin
     "Stator";
   Components.Mechanics.Inertia rotor(J=Jm, phi(start=0, fixed=true), w(start=0, fixed=true)) "Rotor";
   Components.Mechanics.ViscousFriction bearing(b=bm) "Viscous friction of the motor";
-  Components.Mechanics.DryFriction motorFriction(tau_c=friction*tau_m, mu=friction*mu, peak=peak)
+  Components.Mechanics.LoadFriction motorFriction(tau_c=friction*tau_m, mu=friction*mu, peak=peak)
     "Dry friction of motor and reducer";
   Components.Sensors.SpeedSensor speedSensor "Speed of the motor";
   Components.Control.ThreeStageFilter filter[3](each f_c=f_filter) "Filters of the currents of phases a, b, c";

@@ -102,7 +102,7 @@ def test_load_dependent_friction_costs_a_share_of_the_torque(run) -> None:
     """Driving against a constant load with flange_b on the load: tau = (1 + mu) load + tau_c at constant speed."""
     model = mechanics(
         "Inertia body(J=0.1, phi(start=0, fixed=true), w(start=2, fixed=true)); TorqueSource drive; TorqueSource load;"
-        "DryFriction friction(tau_c=0.1, mu=0.2);",
+        "LoadFriction friction(tau_c=0.1, mu=0.2);",
         "drive.u = 1.2*3 + 0.1; load.u = -3; connect(drive.flange, body.flange_a);"
         "connect(body.flange_b, friction.flange_a); connect(friction.flange_b, load.flange);",
     )

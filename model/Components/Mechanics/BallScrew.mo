@@ -11,6 +11,6 @@ equation
   0 = flange_a.tau + h*flange_b.f;
   annotation(Documentation(info="<html>
 <p>Laws: <code>s = lead/(2 pi) phi</code>, <code>tau = -lead/(2 pi) f</code>. Friction of the screw is a
-<code>DryFriction</code> that grows with load, on its shaft.</p>
+<code>LoadFriction</code> on its shaft.</p>
 </html>"));
 end BallScrew;
