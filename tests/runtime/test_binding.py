@@ -120,7 +120,7 @@ def test_recorded_input_drives_the_model(bench: runtime.Model):
     for run in runs:
         # two thousand restarts add up their local errors
         np.testing.assert_allclose(run["theta"], runs[1]["theta"], rtol=0, atol=2e-4 * np.max(runs[1]["theta"]))
-    assert runs[1].counters["steps"] < 2100
+    assert runs[1].counters["steps"] < 2300
 
 
 @pytest.mark.parametrize(
