@@ -74,8 +74,9 @@ CASES = {
         "  der(x) = -p*x;\nend Free;",
     ),
     "discrete initial value from a state": (
-        "S024", 4, "n does not follow from parameters",
-        "model Counted\n  Real x(start=1); Integer n; Integer k = if x > 2 then 1 else 0;\ninitial equation\n  n = k + 1;\n"
+        "S024", 5, "n does not follow from parameters",
+        "model Counted\n  Real x(start=1); Integer n;\n  Integer k = if x > 2 then 1 else 0;\n"
+        "initial equation\n  n = k + 1;\n"
         "equation\n  der(x) = -x; when x < 0 then n = pre(n) + 1; end when;\nend Counted;",
     ),
     "reinit of what is not a state": (
