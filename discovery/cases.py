@@ -18,6 +18,8 @@ DEFAULT_UNCERTAINTY = 0.05  # believed relative 1-sigma of a parameter that case
 class CaseError(Exception):
     """A case that cannot be read: the message names the file and, where there is one, the column and the line."""
 
+    user_error = True
+
 
 @dataclass(frozen=True)
 class Signal:

@@ -16,6 +16,8 @@ ATTACHMENTS = ("flange", "line", "star", "phases", "phase", "replace", "sensor")
 class CatalogueError(Exception):
     """An effect whose annotation is not understood: the message names the file."""
 
+    user_error = True
+
 
 @dataclass(frozen=True)
 class EffectParameter:

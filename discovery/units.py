@@ -22,6 +22,8 @@ _FACTOR = re.compile(r"^(?P<symbol>[A-Za-z%]+|1)(?P<power>-?\d+)?$")
 class UnitError(ValueError):
     """A unit that is not understood."""
 
+    user_error = True
+
 
 def _atom(symbol: str) -> tuple[float, str]:
     if symbol in _ATOMS:
