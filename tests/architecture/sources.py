@@ -14,7 +14,9 @@ _INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 
 
 def files(folder: str, *suffixes: str) -> list[Path]:
-    return sorted(p for p in (ROOT / folder).rglob("*") if p.suffix in suffixes and "__pycache__" not in p.parts)
+    """What people wrote below `folder`: no caches, no golden files."""
+    found = (ROOT / folder).rglob("*")
+    return sorted(p for p in found if p.suffix in suffixes and not {"__pycache__", "golden"} & set(p.parts))
 
 
 def imports(path: Path) -> Iterator[tuple[int, str]]:
