@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from cli import assess, check, compare, compile, explain, maps, simulate
+from cli import assess, check, compare, compile, explain, maps, simulate, sweep
 
 app = typer.Typer(
     name="lacuna",
@@ -35,6 +35,7 @@ app.command("compile", rich_help_panel=MODELS)(compile.compile)
 app.command("simulate", rich_help_panel=MODELS)(simulate.simulate)
 app.command("compare", rich_help_panel=MODELS)(compare.compare)
 app.command("maps", rich_help_panel=FAULTS)(maps.maps)
+app.command("sweep", rich_help_panel=FAULTS)(sweep.sweep)
 app.command("assess", rich_help_panel=FAULTS)(assess.assess)
 app.command("explain", rich_help_panel=PHYSICS)(explain.explain)
 
