@@ -116,6 +116,11 @@ static void set_tolerances(rt_session *s) {
   }
 }
 
+static void declared_parameters(rt_session *s) {
+  for (int i = 0; i < s->d->n_p; i++)
+    s->p_run[i] = s->d->p_start[i];
+}
+
 rt_session *rt_session_new(const rt_model *model, const rt_options *options, char *message, size_t size) {
   const rt_method *method = find_method(options->solver);
   if (!method) {
@@ -136,7 +141,7 @@ rt_session *rt_session_new(const rt_model *model, const rt_options *options, cha
   s->options.solver = s->method->name;
   bool done = allocate_session(s);
   if (done) {
-    memcpy(s->p_run, s->d->p_start, (size_t)s->d->n_p * sizeof *s->p_run);
+    declared_parameters(s);
     set_tolerances(s);
     s->memory = s->method->create(s);
   }
@@ -171,7 +176,7 @@ static const mdl_variable *variable(const rt_session *s, int row) {
 }
 
 rt_status rt_session_parameters(rt_session *s, int n, const int *variables, const double *values) {
-  memcpy(s->p_run, s->d->p_start, (size_t)s->d->n_p * sizeof *s->p_run);
+  declared_parameters(s);
   for (int i = 0; i < n; i++) {
     const mdl_variable *v = variable(s, variables[i]);
     if (!v || v->storage != MDL_PARAMETER || !v->settable) return refuse(s, "not a parameter that may be set");
