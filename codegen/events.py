@@ -38,12 +38,13 @@ def split(model: flat.FlatModel) -> tuple[list[flat.Equation], list[DiscreteEqua
 
 
 def _is_continuous(eq: flat.Equation, model: flat.FlatModel) -> bool:
+    """Real, and not between discrete variables only."""
     if eq.lhs.type != REAL and eq.rhs.type != REAL:
         return False
-    names = [str(n.value) for side in (eq.lhs, eq.rhs) for n in leaves(side) if n.op == "var"]
-    unknowns = [model.variables[n] for n in names if model.variables[n].causality != "input"]
-    has_derivative = any(n.op == "der" for side in (eq.lhs, eq.rhs) for n in leaves(side))
-    return has_derivative or any(v.variability == flat.CONTINUOUS and v.type == REAL for v in unknowns)
+    used = leaves(eq.lhs) | leaves(eq.rhs)
+    unknowns = [v for n in used if n.op == "var" and (v := model.variables[str(n.value)]).causality != "input"]
+    continuous = any(v.variability == flat.CONTINUOUS and v.type == REAL for v in unknowns)
+    return continuous or any(n.op == "der" for n in used) or not any(v.variability == flat.DISCRETE for v in unknowns)
 
 
 def _directed(eq: flat.Equation, model: flat.FlatModel, taken: set[str]) -> DiscreteEquation:
