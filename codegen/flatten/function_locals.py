@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from .. import expr as ex
 from ..errors import Diagnostic, Span
 from ..expr import INTEGER, REAL, Expr
 from ..syntax import ast
+from ..units import parse_unit
 from .context import Context
 from .evaluate import evaluate_dimensions
 from .instance import Instance
@@ -26,11 +28,21 @@ class Local:
     type: Type
     scope: Scope  # of the class it is declared in
 
-    @property
+    @cached_property
     def unit(self) -> str:
+        """The declared unit, "" where there is none. Raises U005 for what is no unit."""
         own = from_tree(self.declaration.modification, self.scope)
         child = (merge(own, self.type.modifier) or own).children.get("unit")
-        return child.value.value if child is not None and isinstance(child.value, ast.Literal) else ""
+        if child is None:
+            return ""
+        text = child.value.value if isinstance(child.value, ast.Literal) else None
+        try:
+            if not isinstance(text, str):
+                raise ValueError("the unit is not a String")
+            parse_unit(text)
+        except ValueError as reason:
+            raise Diagnostic("U005", f"{self.name}: {reason}", child.span, 'such as "N.m.s/rad"') from None
+        return text
 
 
 @dataclass(frozen=True)
