@@ -6,102 +6,17 @@ DIR/cases/NAME is a recording case as the tool reads it; DIR/truth/NAME.toml is 
 import argparse
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, replace
 import os
 from pathlib import Path
 
 import numpy as np
 
 from tests.proof.benches import BENCHES, Bench
+from tests.proof.case import Case, measure, noise_std, place_stops, simulate
 from tests.proof.effects import Concealed, catalogue, outside
 from tests.proof.plan import Plan, plan
 from tests.proof.refit import Refit, case_nrmse
 from tests.proof.write import write_case, write_truth
-
-
-@dataclass
-class Case:
-    """A case in memory: machine, instruments and recordings, with the truth."""
-
-    name: str
-    plan: Plan
-    bench: Bench
-    outputs: tuple[str, ...]
-    believed: dict[str, float]
-    true: dict[str, float]
-    concealed: list[Concealed]
-    inputs: list[np.ndarray]
-    fit: int  # recordings before this one are for fitting
-    noise_scale: float
-    colour: float
-    unknown_noise: bool
-    clean: list[np.ndarray] = None
-    measured: list[np.ndarray] = None
-    refit: dict = None
-
-
-def simulate(case: Case) -> list[np.ndarray]:
-    """What ideal instruments (but for concealed sensor errors) would have recorded."""
-    bench, machine = case.bench, case.bench.machine
-    kernel = bench.kernel(case.true)
-    lag, delay = {}, 0.0
-    for c in case.concealed:
-        kernel |= c.kernel
-        lag |= c.lag
-        delay += c.delay
-    hold = [name in bench.hold for name in machine.inputs]
-    columns = [machine.outputs.index(name) for name in case.outputs]
-    recorded = []
-    for u in case.inputs:
-        y = machine.simulate(kernel, bench.period, u, hold=hold, delay=delay, lags=lag)[:, columns]
-        for c in case.concealed:
-            for j, name in enumerate(case.outputs):
-                if name in c.once_per_rev:
-                    amplitude, phase = c.once_per_rev[name]
-                    y[:, j] += amplitude * np.sin(y[:, j] + phase) - amplitude * np.sin(phase)
-                y[:, j] = y[:, j] * c.gain.get(name, 1.0) + c.offset.get(name, 0.0)
-        recorded.append(y)
-    return recorded
-
-
-def place_stops(case: Case) -> None:
-    """Puts end stops within the stroke that the recordings reach without them."""
-    for k, c in enumerate(case.concealed):
-        if not c.stop_share:
-            continue
-        machine, others = case.bench.machine, [o for o in case.concealed if o is not c]
-        angle = "ths" if "ths" in machine.outputs else "theta"
-        free = replace(case, concealed=others, outputs=(angle,))
-        at = c.stop_share * max(float(y.max()) for y in simulate(free)[: case.fit])
-        case.concealed[k] = replace(
-            c,
-            kernel={**c.kernel, "stop_high": at},
-            parameters={"position": (at, "rad", ("stop", "limit", "theta_max", "phi_max"))},
-        )
-
-
-def noise_std(case: Case, name: str) -> float:
-    """Of a signal, with its quantisation."""
-    instrument = case.bench.instruments[name]
-    return float(np.hypot(instrument.noise * case.noise_scale, instrument.quantum / np.sqrt(12)))
-
-
-def measure(case: Case, rng: np.random.Generator) -> list[np.ndarray]:
-    """Noise of the case's colour and quantisation on the clean recordings."""
-    measured = []
-    for clean in case.clean:
-        y = np.empty_like(clean)
-        for j, name in enumerate(case.outputs):
-            instrument = case.bench.instruments[name]
-            white = rng.standard_normal(len(clean))
-            coloured = np.empty_like(white)
-            coloured[0] = white[0]
-            for k in range(1, len(white)):
-                coloured[k] = case.colour * coloured[k - 1] + np.sqrt(1 - case.colour**2) * white[k]
-            noisy = clean[:, j] + instrument.noise * case.noise_scale * coloured
-            y[:, j] = np.round(noisy / instrument.quantum) * instrument.quantum
-        measured.append(y)
-    return measured
 
 
 def _outputs(bench: Bench, rng: np.random.Generator, drawn: Sequence[Concealed], fewest: int) -> tuple[str, ...]:
@@ -145,14 +60,15 @@ def _prepare(name: str, item: Plan, seed: int, variant: int) -> Case:
     rng = np.random.default_rng([seed, 4, variant])
     fits = int(rng.integers(2, 4)) if item.bench not in ("BldcDrive",) else 3
     first = int(rng.integers(0, 4)) if item.bench != "BldcDrive" else 0
-    kinds = [("one_way" if item.kind == "one_way" else "fit", first + k) for k in range(fits)]
-    kinds.append(("one_way" if item.kind == "one_way" else "validate", int(rng.integers(0, 3))))
+    one_way = item.kind in ("one_way", "rivals")
+    kinds = [("one_way" if one_way else "fit", first + k) for k in range(fits)]
+    kinds.append(("one_way" if one_way else "validate", int(rng.integers(0, 3))))
     inputs = [bench.experiment(rng, kind, index) for kind, index in kinds]
     return Case(
         name,
         item,
         bench,
-        _outputs(bench, rng, concealed, 2 if item.off else 1),
+        item.outputs or _outputs(bench, rng, concealed, 2 if item.off else 1),
         believed,
         true,
         concealed,
@@ -170,7 +86,7 @@ def _judge(case: Case, seed: int, start: dict[str, float]) -> float:
     case.measured = measure(case, np.random.default_rng([seed, 3]))
     pairs = list(zip(case.inputs, case.measured, strict=True))
     refit = Refit(case.bench, case.outputs, pairs[: case.fit])
-    fitted, _ = refit.fit(start)
+    fitted, _ = refit.fit(start, iterations=8)
     every = Refit(case.bench, case.outputs, pairs)
     case.refit = {"parameters": fitted}
     simulated = {
@@ -180,6 +96,9 @@ def _judge(case: Case, seed: int, start: dict[str, float]) -> float:
     }
     for part, of in (("fit", slice(0, case.fit)), ("validate", slice(case.fit, None))):
         case.refit[part] = {k: case_nrmse(case.measured[of], s[of]) for k, s in simulated.items()}
+    if case.plan.rival:
+        _, error = refit.fit(case.true | case.plan.rival)
+        case.refit["rival"] = {"fit": error / case.refit["fit"]["floor"]}
     return case.refit["fit"]["refit_believed"] / case.refit["fit"]["floor"]
 
 
@@ -226,8 +145,10 @@ def build(name: str, item: Plan, seed: int) -> Case:
             continue
         validate = case.refit["validate"]["refit_believed"] / case.refit["validate"]["floor"]
         unseen = item.gain[0] > 1.3 and validate < 1.3
-        if distance + unseen < least:
-            best, least = case, distance + unseen
+        told_apart = bool(item.rival) and case.refit["rival"]["fit"] > 1.01
+        distance += unseen + told_apart
+        if distance < least:
+            best, least = case, distance
         if least < 0.4:
             break
     if best is None:

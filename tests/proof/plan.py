@@ -1,6 +1,7 @@
 """Which cases the proof consists of: kinds, benches and effects, in an order that tells nothing."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -11,11 +12,13 @@ from tests.proof.effects import catalogue
 class Plan:
     """One case to be: its kind, the bench, what is concealed, which parameters are off, and the wanted misfit."""
 
-    kind: str  # effect | consistent | parameters | two | law | weak | one_way
+    kind: str  # effect | consistent | parameters | two | law | weak | one_way | rivals
     bench: str
     effects: tuple[str, ...] = ()
     off: tuple[str, ...] = ()
     gain: tuple[float, float] = (1.7, 6.0)  # range of the refitted believed model's NRMSE over the floor
+    outputs: tuple[str, ...] = ()  # the recorded ones, where it matters
+    rival: Mapping[str, float] = field(default_factory=dict)  # simulator parameters that must explain the data as well
 
 
 PAIRS = (
@@ -69,6 +72,15 @@ def _nulls() -> list[Plan]:
     return consistent + [Plan("parameters", bench, off=(name,)) for bench, names in OFF.items() for name in names]
 
 
+def _rivals() -> list[Plan]:
+    """Something is missing, and nothing in the data tells a voltage drop from a friction: no current, no reversal."""
+    drop, friction = ("drive.dead_time", {"shaft_tau_c": 0.002}), ("friction.coulomb", {"V_d": 0.2})
+    return [
+        Plan("rivals", "DcServo", (effect,), gain=(2.0, 4.0), outputs=("w",), rival=rival)
+        for effect, rival in (drop, friction, drop, friction)
+    ]
+
+
 def plan(seed: int) -> list[tuple[str, Plan, int]]:
     """Every case of the proof as (name, plan, seed of its own)."""
     rng = np.random.default_rng([seed, 0])
@@ -77,6 +89,7 @@ def plan(seed: int) -> list[tuple[str, Plan, int]]:
     cases += [Plan("law", bench, (law,), gain=(2.5, 6.0)) for bench, law in LAWS]
     cases += [Plan("weak", b, ("friction.coulomb",), gain=(1.02, 1.06)) for b in ("DcServo", "ScrewEma", "Joint")]
     cases += [Plan("one_way", bench, ("friction.coulomb",)) for bench in ("DcServo", "Joint")]
+    cases += _rivals()
     return [(f"c{k + 1:03d}", cases[j], 1000 * seed + int(j)) for k, j in enumerate(rng.permutation(len(cases)))]
 
 

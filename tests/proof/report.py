@@ -24,7 +24,8 @@ KINDS = {
     "consistent": "nothing missing",
     "parameters": "only a parameter",
     "weak": "an effect at the noise's level",
-    "one_way": "an experiment that cannot tell",
+    "one_way": "an experiment that never reverses",
+    "rivals": "two explanations that the data cannot tell apart",
 }
 
 

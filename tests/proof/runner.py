@@ -12,7 +12,7 @@ import time
 
 ROOT = Path(__file__).parents[2]
 GENERATOR_SOURCES = (
-    *("kernel", "effects", "benches.py", "excitation.py", "generate.py"),
+    *("kernel", "effects", "benches.py", "case.py", "excitation.py", "generate.py"),
     *("plan.py", "refit.py", "simulator.py", "write.py"),
 )
 TOOL_SOURCES = ("discovery", "codegen", "runtime", "model", "cli")

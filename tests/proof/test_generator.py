@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from tests.proof.benches import BENCHES
-from tests.proof.generate import build, generate, noise_std
+from tests.proof.case import noise_std
+from tests.proof.generate import build, generate
 from tests.proof.plan import Plan, plan, quick
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from tests.proof.generate import Case
+    from tests.proof.case import Case
 
 
 def _toml(value: object) -> str:
@@ -69,6 +69,7 @@ VERDICTS = {
     "parameters": ("parameters",),
     "weak": ("undetermined", "missing_physics", "consistent"),
     "one_way": ("missing_physics", "undetermined"),
+    "rivals": ("undetermined",),
 }
 
 
