@@ -43,7 +43,8 @@ static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Ve
   (void)r, (void)t1, (void)t2, (void)t3;
   rt_session *s = user;
   const mdl_descriptor *d = s->d;
-  double *values = ((memory *)s->memory)->values;
+  memory *m = s->memory;
+  double *values = m->values;
   rt_inputs_at(s, t);
   int status = d->jacobian(&s->data, t, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), cj, values);
   if (status) return status;
@@ -54,7 +55,8 @@ static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Ve
     for (int k = 0; k < d->jac_nnz; k++)
       SUNSparseMatrix_IndexValues(matrix)[k] = d->jac_rowidx[k];
     memcpy(SUNSparseMatrix_Data(matrix), values, (size_t)d->jac_nnz * sizeof *values);
-    return 0;
+    /* Pivots are chosen anew: after an event other equations hold, and the old pivots may have become tiny. */
+    return SUNLinSol_KLUReInit(m->solver, matrix, d->jac_nnz, SUNKLU_REINIT_PARTIAL);
   }
   for (int j = 0; j < n; j++)
     for (int k = d->jac_colptr[j]; k < d->jac_colptr[j + 1]; k++)
