@@ -46,7 +46,7 @@ class Session:
     `output_times`, or every `interval` seconds, or (interval 0) at the end of every step; by default the model's own
     interval. With `events`, a row before and one after each event is added. `locate_events=False` takes state and
     time events at the end of the step in which they fall, which is what fixed-step simulations usually do.
-    `atol` is per unit of a variable's nominal value. Raises SimulationError for what cannot be used.
+    A run that takes more than `max_steps` ends with a failure. `atol` is per unit of a variable's nominal value. Raises SimulationError for what cannot be used.
     """
 
     def __init__(
@@ -58,6 +58,7 @@ class Session:
         atol: float | None = None,
         step: float | None = None,
         max_step: float | None = None,
+        max_steps: int | None = None,
         locate_events: bool = True,
         outputs: Sequence[str] | None = None,
         output_times: np.ndarray | None = None,
@@ -71,7 +72,8 @@ class Session:
                 raise SimulationError(f"{name} must be greater than zero, not {value}")
         self.settings = {"solver": solver, "rtol": rtol, "atol": atol, "step": step, "max_step": max_step,
                          "locate_events": locate_events}  # fmt: skip
-        options = COptions(solver.encode(), rtol or 0, atol or 0, step or 0, max_step or 0, locate_events, events)
+        options = COptions(solver.encode(), rtol or 0, atol or 0, step or 0, max_step or 0, locate_events, events,
+            max_steps or 0)  # fmt: skip
         message = ctypes.create_string_buffer(MESSAGE_SIZE)
         self._handle = self._lib.rt_session_new(model.handle, ctypes.byref(options), message, MESSAGE_SIZE)
         if not self._handle:

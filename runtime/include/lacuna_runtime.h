@@ -72,6 +72,7 @@ typedef struct {
   double max_step;    /* <= 0: none */
   int locate_events;  /* 0: state and time events are taken at the end of the step in which they fall */
   int record_events;  /* 1: a row before and a row after each event */
+  long max_steps;     /* <= 0: none; a run that needs more ends as RT_STEP_COLLAPSE */
 } rt_options;
 
 typedef enum { RT_LINEAR, RT_HOLD } rt_interpolation;

@@ -76,8 +76,12 @@ rt_result *rt_session_run(rt_session *s, double start, double stop) {
   s->result = rt_result_new(s->recorder.n, s->d->n_p, expected_rows(s));
   if (!s->result) return NULL;
   rt_status status = begin(s);
-  while (!status && s->t < s->stop && !s->data.terminated)
-    status = advance(s);
+  for (long taken = 0; !status && s->t < s->stop && !s->data.terminated; taken++) {
+    if (s->options.max_steps > 0 && taken >= s->options.max_steps)
+      status = rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "more than %ld steps up to time %.9g s", taken, s->t);
+    else
+      status = advance(s);
+  }
   finish(s, status);
   return s->result;
 }
