@@ -21,6 +21,7 @@ from .cases import Case, CaseError, Recording, Signal
 from .tracking import Motion, recorded_motion
 
 RTOL = 1e-6
+STEPS_PER_SAMPLE = 40  # a run that needs more is given up: the parameters are absurd or the effect does not fit
 _compile_lock = threading.Lock()
 
 
@@ -93,7 +94,7 @@ class Machine:
         """Any variables of the model along a recording; raises SimulationError where the run fails."""
         session = Session(
             self.model, solver=self.solver, rtol=RTOL, outputs=names, output_times=recording.time, events=False,
-            inputs=self._inputs_of(recording),
+            inputs=self._inputs_of(recording), max_steps=STEPS_PER_SAMPLE * len(recording.time),
         )  # fmt: skip
         time = recording.time
         values = _plain(parameters)
@@ -134,7 +135,7 @@ class Machine:
             outputs = list(dict.fromkeys([*self.columns.values(), *(f"{t}.tau" for t in self._trackers())]))
             return Session(
                 self.model, solver=self.solver, rtol=RTOL, outputs=outputs, output_times=recording.time, events=False,
-                inputs=self._inputs_of(recording),
+                inputs=self._inputs_of(recording), max_steps=STEPS_PER_SAMPLE * len(recording.time),
             )  # fmt: skip
 
     def _inputs_of(self, recording: Recording) -> dict[str, RecordedInput]:

@@ -13,6 +13,7 @@ import re
 
 from codegen.flatten.context import Context
 from codegen.flatten.instance import Instance, written
+from codegen.flatten.model import run
 from codegen.library import Library
 from codegen.syntax import ast
 
@@ -77,7 +78,7 @@ class Structure:
 def read(library: Library, model: str) -> Structure:
     """The places of class `model` (a name that `Library.find` knows). Raises Diagnostic."""
     cls = library.find(model)
-    top = Instance(Context(library, Path(cls.span.file).resolve().parent), cls, "", None, None)
+    top = Instance(Context(library, Path(cls.span.file).resolve().parent, run), cls, "", None, None)
     structure = Structure(model, cls.path)
     instances: dict[str, Instance] = {}
     for name, element in top.elements.items():
