@@ -56,7 +56,7 @@ assess: setup ## RECORDING=file [MAP=folder]: severity of a recorded pre-flight 
 	  --out "$(OUT)/assess/$(basename $(notdir $(RECORDING)))"
 
 robustness: setup ## Thousands of simulated pre-flight tests over nuisances (long), writes docs/robustness.md
-	@$(PYTHON) -m analysis.robustness --out $(OUT)/robustness
+	@$(PYTHON) -m bench.robustness --out $(OUT)/robustness
 
 prove: setup ## The blind proof of the diagnosis (long, resumes), writes docs/proof.md
 	@$(PYTHON) -m tests.proof --out $(OUT)/prove
