@@ -21,8 +21,11 @@ def distance(a: str, b: str) -> int:
 
 
 def nearest(name: str, known: Iterable[str], count: int = 3) -> list[str]:
-    """Up to `count` names at most about a third of the length away, the nearest first; case counts little."""
-    limit = max(1, len(name) // 3)
+    """Up to `count` names at most about a third of the length away, the nearest first; case counts little.
+
+    Of a single letter only the case may differ.
+    """
+    limit = max(min(len(name) - 1, 1), len(name) // 3)
     scored = []
     for candidate in set(known):
         if abs(len(candidate) - len(name)) <= limit:

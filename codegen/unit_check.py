@@ -16,20 +16,26 @@ Argument = tuple[Expr, str, str, Span]  # value, declared unit, which input of w
 
 
 def check_units(
-    model: flat.FlatModel, arguments: Iterable[Argument] = (), function_units: dict[str, str] | None = None
+    model: flat.FlatModel,
+    arguments: Iterable[Argument] = (),
+    function_units: dict[str, str] | None = None,
+    places: dict[tuple[str, str], Span] | None = None,
 ) -> list[Diagnostic]:
     """Every finding, one a place, in order of the model; at most MAX_FINDINGS. Without any unit there is no check.
 
-    `arguments` are values given to inputs with a unit; `function_units` the units of results by function.
+    `arguments` are values given to inputs with a unit; `function_units` the units of results by function;
+    `places` says where the binding or an attribute of a variable was written, where not in its declaration.
     """
     if not any(v.unit for v in model.variables.values()):
         return []
-    return _Check(model, function_units or {}).run(arguments)
+    return _Check(model, function_units or {}, places or {}).run(arguments)
 
 
 class _Check:
-    def __init__(self, model: flat.FlatModel, function_units: dict[str, str]) -> None:
-        self.model, self.function_units = model, function_units
+    def __init__(
+        self, model: flat.FlatModel, function_units: dict[str, str], places: dict[tuple[str, str], Span]
+    ) -> None:
+        self.model, self.function_units, self.places = model, function_units, places
         self.findings: list[Diagnostic] = []
         self.units: dict[str, Finding] = {}
         for v in model.variables.values():
@@ -88,7 +94,8 @@ class _Check:
         for what in ("binding", "start", "min", "max", "nominal"):
             value = getattr(v, what)
             if value is not None and value.op != "const":
-                self._guarded(v.span, lambda x=value, w=what: self._value(inference, v.name, own, x, w))
+                span = self.places.get((v.name, what), v.span)
+                self._guarded(span, lambda x=value, w=what: self._value(inference, v.name, own, x, w))
 
     @staticmethod
     def _value(inference: UnitInference, name: str, own: Finding, value: Expr, what: str) -> None:

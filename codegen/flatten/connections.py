@@ -108,9 +108,12 @@ def _connect(item: ast.Connect, scope: Scope, sets: ConnectionSets) -> None:
         raise Diagnostic("R060", message, item.span, "both sides need the same size")
     for a, b in zip(left, right, strict=True):
         if a.keys() != b.keys():
-            only = sorted(k or "a scalar" for k in a.keys() ^ b.keys())
+            kinds = [
+                f"{ref} has {', '.join(k.lstrip('.') or 'one value' for k in e)}"
+                for ref, e in ((item.left, a), (item.right, b))
+            ]
             hint = "connect connectors of the same kind"
-            raise Diagnostic("R060", f"the connectors do not match: {', '.join(only)}", item.span, hint)
+            raise Diagnostic("R060", f"the connectors do not match: {'; '.join(kinds)}", item.span, hint)
         for key, (end, flow) in a.items():
             other, other_flow = b[key]
             if flow != other_flow:

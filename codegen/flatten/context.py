@@ -35,6 +35,7 @@ class Context:
     variabilities: dict[Expr, str] = field(default_factory=dict)
     signatures: dict[int, Signature] = field(default_factory=dict)  # of functions, by id of the class
     function_sources: dict[str, object] = field(default_factory=dict)  # name -> function_code.Source
+    places: dict[tuple[str, str], Span] = field(default_factory=dict)  # of bindings and attributes: (variable, which)
     argument_units: list[tuple[Expr, str, str, Span]] = field(default_factory=list)  # value, unit, what, where
     function_units: dict[str, str] = field(default_factory=dict)  # of the result, by name of a kept function
     call_depth: int = 0

@@ -73,7 +73,7 @@ def flatten(
 def _check_units(model: flat.FlatModel, context: Context, mode: str) -> None:
     if mode == "off":
         return
-    findings = check_units(model, context.argument_units, context.function_units)
+    findings = check_units(model, context.argument_units, context.function_units, context.places)
     if mode == "warn":
         context.warnings += [replace(f, severity="warning") for f in findings]
     else:

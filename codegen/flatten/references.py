@@ -100,7 +100,8 @@ def _field(node: object, ref: ast.Ref, scope: Scope) -> Value:
 
 def _walk_array(node: object, ref: ast.Ref, at: int, scope: Scope) -> Value:
     subscripts = ref.subscripts[at]
-    picked = apply_subscripts(element_numbers(node), subscripts, scope, ref)
+    part = replace(ref, names=ref.names[: at + 1])
+    picked = apply_subscripts(element_numbers(node), subscripts, scope, part)
     inner = ref.subscripts[:at] + (None,) + ref.subscripts[at + 1 :]
     plain = replace(ref, subscripts=inner)
     if isinstance(picked, Expr):

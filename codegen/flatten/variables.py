@@ -25,6 +25,7 @@ def flatten_variables(leaf: Leaf, model: flat.FlatModel) -> None:
     values = {name: leaf.attribute(name) for name in leaf.modifier.children}
     binding = leaf.binding()
     for position, name in enumerate(leaf.names):
+        _note_places(leaf, name)
         attributes = {k: leaf.element(v, position) for k, v in values.items() if v is not None}
         variable = _variable(leaf, name, attributes)
         value = leaf.element(binding, position)
@@ -37,6 +38,13 @@ def flatten_variables(leaf: Leaf, model: flat.FlatModel) -> None:
             text = f"{name} = {ex.to_text(checked)}"
             model.equations.append(flat.Equation(v, checked, leaf.span, leaf.instance.name, text))
         model.variables[name] = variable
+
+
+def _note_places(leaf: Leaf, name: str) -> None:
+    places = leaf.instance.context.places
+    if leaf.modifier.value is not None:
+        places[name, "binding"] = leaf.modifier.span
+    places |= {(name, key): child.span for key, child in leaf.modifier.children.items()}
 
 
 def _variable(leaf: Leaf, name: str, attributes: dict[str, Expr | str]) -> flat.Variable:

@@ -85,6 +85,7 @@ class Cursor:
         if self.kind == "id":
             hint = did_you_mean(self.word, [k for k in KEYWORDS if f"'{k}'" in wanted])
         found = self.word if self.kind == "eof" else f"'{self.word}'"
+        hint = hint or f"put {wanted} before {found}, or remove {found}"
         return Diagnostic("P003", f"expected {wanted}, found {found}", self.span(), hint)
 
     def enter(self) -> None:

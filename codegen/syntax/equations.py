@@ -18,7 +18,8 @@ class EquationParser(ModificationParser):
         initial = self.accept("initial")
         algorithm = self.kind == "algorithm"
         if not self.accept("equation", "algorithm"):
-            raise self.unexpected("'equation' or 'algorithm'")
+            self.errors.append(self.unexpected("'equation' or 'algorithm'"))
+            self.at += self.kind == "id"
         section = ast.Section(self.span(start), algorithm, initial, [])
         while self.kind not in (*SECTION_STARTS, "end", "eof") or (self.kind == "initial" and self._is_call()):
             self._item_into(section.items, algorithm, (*SECTION_STARTS, "end"))
