@@ -102,3 +102,19 @@ def test_switched_drives_move_the_surface_as_the_averaged_one_does(run, variant:
 def test_ball_screw_actuator_reaches_its_command(run) -> None:
     result = run("Actuators.BallScrewEma", rtol=1e-7)
     assert result["ram.s"][-1] == pytest.approx(0.02, abs=1e-5)
+
+
+def test_load_and_command_from_files(run, tmp_path) -> None:
+    """A recorded hinge moment and a recorded command, by redeclaration alone."""
+    (tmp_path / "flight.csv").write_text("time,command,moment\n0,0,0\n0.1,0.05,0\n0.3,0.05,40\n1.0,0.05,40\n")
+    model = """
+    model Test
+      extends Lacuna.Actuators.FlightControlEma(
+        redeclare Lacuna.Components.Sources.CsvTable command(fileName="flight.csv", column="command"),
+        redeclare Lacuna.Components.Sources.CsvTable gust(fileName="flight.csv", column="moment"));
+    end Test;
+    """.strip()
+    result = run(model, stop=1.0, interval=0.05, rtol=1e-7, events=False)
+    moment = np.interp(result.time, [0.1, 0.3], [0, 40])
+    assert np.abs(result["aero.tau"] - moment - 30 * result["surface.phi"]).max() < 1e-9
+    assert result["surface.phi"][-1] == pytest.approx(0.05, abs=2e-3)
