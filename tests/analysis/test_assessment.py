@@ -11,25 +11,13 @@ from scipy.io import savemat
 
 from analysis.assessment import assess, chain_at, low_pass
 from analysis.library import library_path
-from analysis.maps import build_map
-from analysis.preparation import prepare_assessment
 from analysis.recordings import Refusal
 from analysis.settings import load_settings
 from analysis.severity_table import SeverityTable
-from tests.analysis.plants import ReferencePlant, paper_settings
 from tests.analysis.reference import declared, simulate
 
 COLUMNS = ["ia", "ib", "ic"]
 ONBOARD = library_path().parents[1] / "bin" / "lacuna-onboard"
-
-
-@pytest.fixture(scope="module")
-def map_folder(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("assessment")
-    settings = paper_settings(folder, ("step = 0.01", "step = 0.02"))
-    plant = ReferencePlant()
-    prepare_assessment(plant, settings, build_map(plant, settings, folder / "map", figures=False))
-    return folder / "map"
 
 
 def write(path, currents, rate=100000):
