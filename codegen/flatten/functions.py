@@ -149,5 +149,6 @@ def run(name: str, arguments: list[Expr], context: Context, span: Span) -> Expr:
     try:
         results = interpret(source.signature, bound, context, span)
     except AtRunTime as reason:
-        raise Diagnostic("F021", f"{name} cannot be evaluated at translation: {reason.args[0]}", span) from None
+        message = f"{name} cannot be evaluated at translation: {reason.args[0]}"
+        raise Diagnostic("F021", message, span, "give it constants and parameters only") from None
     return scalars(results[source.output])[source.element]

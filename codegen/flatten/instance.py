@@ -99,8 +99,8 @@ class Instance:
         for name, child in modifier.children.items():
             declaration = self.elements[name].declaration
             if declaration.protected:
-                error = Diagnostic("R037", f"{name} is protected in {self.cls.name}", child.span)
-                error.hint = "make it public, or modify it in an extends clause"
+                hint = "make it public, or modify it in an extends clause"
+                error = Diagnostic("R037", f"{name} is protected in {self.cls.name}", child.span, hint)
                 error.notes.append((declaration.span, "declared here"))
                 raise error
 

@@ -121,9 +121,8 @@ class _Run:
         if check.condition.op != "const":
             raise AtRunTime("an assert", item.span)
         if not check.condition.value and check.level == "error":
-            error = Diagnostic("F035", f"the function failed: {check.message}", self.span)
+            error = Diagnostic("F035", f"the function failed: {check.message}", self.span, "change the arguments")
             error.notes.append((item.span, "by this assert"))
-            error.hint = "change the arguments"
             raise error
 
     def _decided(self, written: ast.Expression) -> bool:

@@ -92,7 +92,7 @@ def _need(value: Value, kinds: tuple[str, ...], span: Span, op: str) -> None:
         if not isinstance(item, Expr) or item.type not in kinds:
             found = item.type if isinstance(item, Expr) else "String" if isinstance(item, str) else "record"
             wanted = " or ".join(kinds)
-            hint = _conversion(found, kinds[0]) if isinstance(item, Expr) else ""
+            hint = _conversion(found, kinds[0]) if isinstance(item, Expr) else "use numbers, or fields of the record"
             raise Diagnostic("R021", f"{op} is applied to a {found}; it needs {wanted}", span, hint)
 
 

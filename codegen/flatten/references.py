@@ -60,8 +60,8 @@ def _walk(node: object, ref: ast.Ref, at: int, scope: Scope) -> Value:
     subscripts = ref.subscripts[at]
     last = at == len(ref.names) - 1
     if isinstance(node, Absent):
-        error = Diagnostic("R016", f"{node.name} does not exist here: its condition is false", ref.span)
-        error.hint = "use it under an if with the same condition"
+        hint = "use it under an if with the same condition"
+        error = Diagnostic("R016", f"{node.name} does not exist here: its condition is false", ref.span, hint)
         error.notes.append((node.span, "declared here"))
         raise error
     if isinstance(node, Leaf):
@@ -105,12 +105,19 @@ def _walk_array(node: object, ref: ast.Ref, at: int, scope: Scope) -> Value:
     inner = ref.subscripts[:at] + (None,) + ref.subscripts[at + 1 :]
     plain = replace(ref, subscripts=inner)
     if isinstance(picked, Expr):
-        if picked.op != "const":
-            raise Diagnostic("F021", f"the element of {node.name} is not known at translation", ref.span)
-        return _walk(node.items[picked.value - 1], plain, at, scope)
+        return _numbered(node, picked, plain, at, scope)
     values = [_walk(node.items[p.value - 1], plain, at, scope) for p in picked.items]
     stacked = stack(values, ref.span)
     return Array(picked.shape + stacked.shape[1:], stacked.items)
+
+
+def _numbered(node: ArrayNode, number: Expr, ref: ast.Ref, at: int, scope: Scope) -> Value:
+    """From the element of that number; where it changes at run time, `number` chooses among constants."""
+    if number.op == "const":
+        return _walk(node.items[number.value - 1], ref, at, scope)
+    condition, *numbers = number.args
+    values = [_numbered(node, n, ref, at, scope) for n in numbers]
+    return elementwise(lambda a, b: ex.if_else(condition, a, b), values, ref.span, "elements")
 
 
 def element_numbers(node: object) -> Array:

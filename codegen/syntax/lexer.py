@@ -112,7 +112,7 @@ def _unreadable(source: Source, position: int) -> Diagnostic:
 
 
 def _wrong_operator(source: Source, position: int, word: str) -> Diagnostic:
-    hint = _INSTEAD.get(word, "")
+    hint = _INSTEAD.get(word, "the operators are + - * / ^ and or not < <= > >= == <>")
     if word.endswith("=") and word != "!=":
         hint = f"write the assignment out: x := x {word[0]} ..."
     return Diagnostic("P010", f"{word} is no operator of Modelica", source.span(position, len(word)), hint)

@@ -87,6 +87,8 @@ def try_model(text: str, path: Path) -> str:
     except Diagnostic as refused:
         outcome = refused.code
         assert str(refused)
+        for finding in (refused, *refused.others):
+            assert finding.hint, f"no hint in {finding}"
     if time.perf_counter() - start > PATIENCE:
         raise TimeoutError(f"took {time.perf_counter() - start:.1f} s")
     return outcome

@@ -70,6 +70,15 @@ def test_arrays_of_components_take_their_own_values(tmp_path: Path) -> None:
     assert [variables[f"a[{i}].w"].fixed.value for i in (1, 2)] == [True, False]
 
 
+def test_an_index_that_changes_chooses_among_components(tmp_path: Path) -> None:
+    text = """
+    model Part parameter Real k = 1; Real x = k*time; end Part;
+    model M Part p[3](k = {1, 2, 3}); Integer n(start = 1); Real y = p[n].x;
+    equation when time > 1 then n = 3; end when; end M;"""
+    found = equations(flatten_text(tmp_path, text))
+    assert found[-1] == "y = if n == 1 then p[1].x else if n == 2 then p[2].x else p[3].x"
+
+
 def test_redeclaration_keeps_the_constraint(tmp_path: Path) -> None:
     text = """
     partial model Load Real tau; end Load;
