@@ -20,6 +20,7 @@ from .prepared import Prepared
 from .storage import Storage
 from .structure.aliases import eliminate_aliases
 from .structure.causal import causalise
+from .structure.constants import precompute
 from .structure.index_reduction import reduce_index
 from .structure.residual_form import jacobian, residual_form
 from .structure.system import DeclaredValues
@@ -61,6 +62,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     model = report.run("initial system", discrete_starts, frozen.model)
     continuous, discrete = report.run("hybrid", events.split, model)
     system = report.run("index reduction", reduce_index, model, continuous)
+    system = report.run("aliases", precompute, system)
     relations = report.run("hybrid", hybrid.rename, frozen.relations, system.renamed)
     steps = report.run("hybrid", events.order, system.model, discrete, system.renamed)
     tearing = Tearing(DeclaredValues(system.model).parametric)

@@ -16,6 +16,8 @@ _FUNCTIONS = {
     "abs": "fabs", "integer": "floor", "sign": "mdl_sign", "mod": "mdl_mod", "rem": "mdl_rem", "div": "mdl_div",
 }  # fmt: skip
 HELPERS = {
+    "mdl_min": "static inline double mdl_min(double a, double b) { return a < b ? a : b; }",
+    "mdl_max": "static inline double mdl_max(double a, double b) { return a > b ? a : b; }",
     "mdl_sign": "static inline double mdl_sign(double a) { return (a > 0.0) - (a < 0.0); }",
     "mdl_mod": "static inline double mdl_mod(double a, double b) { return a - floor(a / b) * b; }",
     "mdl_rem": "static inline double mdl_rem(double a, double b) { return a - trunc(a / b) * b; }",
@@ -73,7 +75,7 @@ def _print(e: Expr, name: Lookup) -> tuple[str, int]:
         condition, a, b = e.args
         return f"{to_c(condition, name, 2)} ? {to_c(a, name, 2)} : {to_c(b, name, 1)}", 1
     if e.op in ("min", "max"):
-        return f"f{e.op}({_list(e.args, name)})", _PRIMARY
+        return f"mdl_{e.op}({_list(e.args, name)})", _PRIMARY
     if e.op == "^":
         return f"pow({_list(e.args, name)})", _PRIMARY
     if e.op == "array":

@@ -28,7 +28,7 @@ class Names:
     def identifier(self, name: str) -> str:
         """The identifier of a Modelica name."""
         if name not in self._of:
-            stem = sanitise(name)
+            stem = sanitise(name)[:60].rstrip("_")
             self._of[name] = self._unique(stem + "_" if _GENERATED.match(stem) else stem)
         return self._of[name]
 

@@ -7,9 +7,10 @@ from dataclasses import replace
 
 from .. import flat
 from ..errors import Diagnostic
-from ..expr import Expr
+from ..expr import BUILTINS, REAL, Expr, to_text, var, walk
 from ..leaves import leaves
 from ..rewrite import Rewriter
+from .system import Row, System
 
 
 def evaluate_constants(model: flat.FlatModel) -> flat.FlatModel:
@@ -89,3 +90,25 @@ def _definition(
             if local and is_parametric(value, variables):
                 return v.name, value
     return None, eq.rhs
+
+
+def precompute(system: System) -> System:
+    """Costly subexpressions in parameters only become dependent parameters, computed once before a run."""
+    model, names = system.model, dict(system.model.variables)
+
+    def rule(n: Expr) -> Expr | None:
+        if not n.args or n.op in ("der", "pre", "array") or n.type != REAL or not is_parametric(n, model.variables):
+            return None
+        operations = [part for part in walk(n) if part.op in ("call", "^", "/")]
+        if not operations or any(part.op == "call" and part.value not in BUILTINS for part in operations):
+            return None  # cheap, or a function of the model, which might fail where it is not wanted
+        name = to_text(n)
+        names.setdefault(name, flat.Variable(name, model.span, variability=flat.PARAMETER, binding=n, final=True))
+        return var(name)
+
+    rewriter = Rewriter(rule)
+    rows: dict[Row, Row] = {}
+    for row in system.rows:
+        integral = rows[row.integral] if row.integral else None
+        rows[row] = Row(rewriter.expression(row.lhs), rewriter.expression(row.rhs), row.source, integral)
+    return replace(system, rows=list(rows.values()), model=replace(model, variables=names))

@@ -6,7 +6,7 @@ import ctypes
 import math
 from pathlib import Path
 
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import HealthCheck, Phase, assume, given, settings
 from hypothesis import strategies as st
 
 from codegen import expr as ex
@@ -16,6 +16,7 @@ from codegen.differentiate import Differentiator, partial
 from codegen.emit.body import Body
 from codegen.emit.expression import number
 from codegen.emit.names import Names
+from codegen.emit.prelude import helpers
 from codegen.evaluate import evaluate
 from tests.codegen.back.expressions import EXPRESSIONS, NAMES, POINTS, SMOOTH, VARIABLES
 
@@ -37,12 +38,13 @@ def compiled(expressions: list[ex.Expr], folder: Path) -> ctypes.CDLL:
     functions = [c_function(k, e) for k, e in enumerate(expressions)]
     declarations = [f"double f{k}(const double *p);" for k in range(len(expressions))]
     source = folder / "expressions.c"
-    source.write_text("#include <math.h>\n" + "\n".join([*declarations, *functions]) + "\n")
+    code = "\n".join(functions)
+    source.write_text("\n".join(["#include <math.h>", helpers(code), *declarations, code, ""]))
     compile_c(source, folder / "expressions.so")
     return ctypes.CDLL(str(folder / "expressions.so"))
 
 
-@settings(max_examples=4, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=4, deadline=None, suppress_health_check=list(HealthCheck), phases=[Phase.generate])
 @given(st.lists(EXPRESSIONS, min_size=BATCH, max_size=BATCH), st.lists(POINTS, min_size=3, max_size=3))
 def test_printed_c_computes_the_expression(
     tmp_path_factory, expressions: list[ex.Expr], points: list[tuple[float, ...]]

@@ -73,10 +73,12 @@ static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double val
 static int mdl_solve(int n, double *a, double *b) {
   for (int i = 0; i < n; ++i) {
     double largest = 0.0;
-    for (int j = 0; j < n; ++j) largest = fmax(largest, fabs(a[i * n + j]));
+    for (int j = 0; j < n; ++j)
+      if (fabs(a[i * n + j]) > largest) largest = fabs(a[i * n + j]);
     if (!(largest > 0.0) || !isfinite(largest)) return 1;
-    for (int j = 0; j < n; ++j) a[i * n + j] /= largest;
-    b[i] /= largest;
+    const double scale = 1.0 / largest;
+    for (int j = 0; j < n; ++j) a[i * n + j] *= scale;
+    b[i] *= scale;
   }
   for (int k = 0; k < n; ++k) {
     int pivot = k;
