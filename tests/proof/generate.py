@@ -80,7 +80,7 @@ def _prepare(name: str, item: Plan, seed: int, variant: int) -> Case:
     )
 
 
-def _judge(case: Case, seed: int, start: dict[str, float]) -> float:
+def judge(case: Case, seed: int, start: dict[str, float]) -> float:
     """Simulates, measures and refits; returns the believed model's misfit over the floor on the fit recordings."""
     case.clean = simulate(case)
     case.measured = measure(case, np.random.default_rng([seed, 3]))
@@ -119,7 +119,7 @@ def _tune(case: Case, seed: int, target: float) -> float:
         case.concealed = _conceal(case.plan.bench, case.plan, seed, size)
         try:
             place_stops(case)
-            gain = _judge(case, seed, case.true)
+            gain = judge(case, seed, case.true)
         except ArithmeticError:
             gain = np.inf
         if abs(np.log(gain / target)) < 0.25:
@@ -134,7 +134,7 @@ def build(name: str, item: Plan, seed: int) -> Case:
     experiments are drawn again when they do not show it, in the fit or in the validation recordings."""
     if not item.effects:
         case = _prepare(name, item, seed, 0)
-        _judge(case, seed, case.true)
+        judge(case, seed, case.true)
         return case
     target = float(np.exp(np.random.default_rng([seed, 2]).uniform(*np.log(item.gain))))
     best, least = None, np.inf

@@ -45,6 +45,7 @@ class Score:
     all_right: bool  # every concealed effect is among the findings, and nothing else
     false_finding: bool  # on a null case
     gain_share: float | None
+    misfit: float  # the refitted believed model's error on the fit recordings, over the floor
     estimates: tuple[Estimate, ...] = field(default=())
     seconds: float = math.nan
 
@@ -86,7 +87,7 @@ def _effect_estimates(finding: Mapping, effect: Mapping) -> Iterable[Estimate]:
     reported = {k.lower(): v for k, v in finding.get("parameters", {}).items()}
     for name, truth in effect.get("parameters", {}).items():
         found = next((reported[n.lower()] for n in (name, *truth["aliases"]) if n.lower() in reported), None)
-        same_unit = found is not None and found.get("unit", truth["unit"]) == truth["unit"]
+        same_unit = found is not None and found.get("unit", "1") in (truth["unit"], "1")
         if found is not None and same_unit and found.get("value") is not None:
             yield _estimate(name, truth["value"], truth["unit"], found)
 
@@ -125,6 +126,7 @@ def score(case: str, diagnosis: Mapping, truth: Mapping, seconds: float = math.n
         all_right=len(pairs) == len(effects) == len(findings),
         false_finding=kind in NULL and (verdict == "missing_physics" or bool(findings)),
         gain_share=share,
+        misfit=truth["nrmse"]["fit"]["refit_believed"] / truth["nrmse"]["fit"]["floor"],
         estimates=tuple(estimates),
         seconds=seconds,
     )

@@ -28,7 +28,7 @@ def _truth(kind="effect", verdict="missing_physics", effects=("friction.coulomb"
         "accept_verdicts": [verdict],
         "effects": listed,
         "true_parameters": {"R": 3.5},
-        "nrmse": {"validate": {"refit_believed": 0.1, "floor": 0.01}},
+        "nrmse": {k: {"refit_believed": 0.1, "floor": 0.01} for k in ("fit", "validate")},
     }
 
 

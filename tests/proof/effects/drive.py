@@ -40,7 +40,7 @@ def winding_and_drive(bench: str) -> dict[str, Maker]:
             "drive.deadband",
             "drive",
             {"u_dead": v},
-            {"width": value(v, "V", "u_dead", "deadband")},
+            {"width": value(v, "V", "u_dead", "deadband", "band")},
             ("drive", "winding"),
             law="0 while |u| <= width, else u",
         )
@@ -61,7 +61,7 @@ def winding_and_drive(bench: str) -> dict[str, Maker]:
             "motor.heating",
             "winding",
             {"heat_k": k, "heat_tau": tau},
-            {"k": value(k, "1/W"), "tau": value(tau, "s", "T")},
+            {"k": value(k, "1/W"), "tau": value(tau, "s", "T", "tau_th")},
             law="R (1 + r), tau der(r) = k R (1 + r) i^2 - r",
         )
 
@@ -71,7 +71,7 @@ def winding_and_drive(bench: str) -> dict[str, Maker]:
             "motor.saturation",
             "winding",
             {"i_sat": i_s},
-            {"i_sat": value(i_s, "A", "I_s")},
+            {"i_sat": value(i_s, "A", "I_s"), "k_sat": value(1 / i_s**2, "1/A2")},
             ("winding", "shaft"),
             law="Ke / (1 + (i / i_sat)^2)",
         )
@@ -97,7 +97,7 @@ def joint_drive() -> dict[str, Maker]:
     def deadband(rng, s):
         v = 0.004 * s
         return Concealed(
-            "drive.deadband", "drive", {"u_dead": v}, {"width": value(v, "N.m", "deadband")}, ("drive", "shaft")
+            "drive.deadband", "drive", {"u_dead": v}, {"width": value(v, "N.m", "deadband", "band")}, ("drive", "shaft")
         )
 
     return {"drive.saturation": saturation, "drive.deadband": deadband}

@@ -53,6 +53,7 @@ def frictions(bench: str) -> dict[str, Maker]:
             {
                 level: value(t * s, force, "F_c", "tau_c"),
                 "sigma_0": value(t * s / micro, f"{force}/{angle}", "sigma0", "k", "stiffness"),
+                "x_s": value(micro, angle, "s", "x_0"),
             },
             law="sigma_0 z, der(z) = w - sigma_0 |w| z / tau_c",
         )

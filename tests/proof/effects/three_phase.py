@@ -30,7 +30,7 @@ def three_phase() -> dict[str, Maker]:
             "motor.eccentricity",
             "winding",
             {"zeta": z},
-            {"zeta": value(z, "1", "eps", "e")},
+            {"zeta": value(z, "1", "eps", "e", "zeta_e")},
             ("winding", "shaft"),
             law="k_x (1 + zeta cos(theta_e - 60 deg))",
         )
@@ -71,7 +71,7 @@ def three_phase() -> dict[str, Maker]:
             "motor.heating",
             "winding",
             {"heat_k": k, "heat_tau": tau},
-            {"k": value(k, "1/W"), "tau": value(tau, "s", "T")},
+            {"k": value(k, "1/W"), "tau": value(tau, "s", "T", "tau_th")},
             law="R (1 + r), tau der(r) = k sum(R i^2) - r",
         )
 
