@@ -45,7 +45,13 @@ class Plant(Protocol):
 
     def run(self, severity: float, **parameters: float) -> Record: ...
 
-    def declared(self, name: str) -> float: ...
+    def declared(self, name: str) -> float:
+        """The declared value of a parameter."""
+        ...
+
+    def with_solver(self, solver: str) -> Plant:
+        """The same plant, solved in another way."""
+        ...
 
 
 class ModelPlant:
@@ -56,6 +62,7 @@ class ModelPlant:
     """
 
     def __init__(self, name: str, path: Path | str, model_hash: str, settings: Settings, passes=None, solver=None):
+        self._path, self._model_hash = path, model_hash
         self.name, self.passes, self._settings = name, dict(passes or {}), settings
         self._solver = solver or settings.solver
         self._model = runtime.Model(path)
@@ -70,6 +77,9 @@ class ModelPlant:
         self.equations = [
             SourceEquation(e.text, e.origin, f"{Path(e.file).name}:{e.line}") for e in self._model.equations
         ]
+
+    def with_solver(self, solver: str) -> ModelPlant:
+        return ModelPlant(self.name, self._path, self._model_hash, self._settings, self.passes, solver)
 
     def _session(self) -> runtime.Session:
         """A session of this thread's own, set up once."""

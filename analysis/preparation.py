@@ -29,7 +29,7 @@ def prepare_assessment(plant: Plant, settings: Settings, finished: Map, *, jobs:
     AnalysisError where a severity has no complete signature.
     """
     chain, severities = Chain(settings.text), settings.fault.severities
-    levels = conditions(settings)
+    plant, levels = plant.with_solver(settings.raw["assessment"]["solver"]), conditions(settings)
     signatures = np.array([_signatures(plant, settings, chain, severities, level, jobs) for level in levels])
     covariance = np.array([nuisance_covariances(plant, settings, severities, level, jobs) for level in levels])
     contents = _contents(settings, chain, [row.rms_mean for row in finished.rows], signatures, covariance)

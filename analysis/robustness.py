@@ -55,6 +55,7 @@ def run_tests(
 ) -> Results:
     """Simulate and assess `count` tests (a power of two keeps the design balanced) with the severity table `table`."""
     nuisances = settings.raw.get("nuisances", [])
+    plant = plant.with_solver(settings.raw["assessment"]["solver"])
     design = qmc.Sobol(1 + len(nuisances), seed=SEED).random(count)
     reader, chain = SeverityTable(table), Chain(settings.text)
     key = hashlib.sha256(json.dumps([plant.hash, settings.text, CHUNK, SEED]).encode() + table.read_bytes()).hexdigest()

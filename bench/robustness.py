@@ -23,8 +23,7 @@ def main() -> None:
     arguments = parser.parse_args()
     settings = load_settings()
     compiled = compile_model(settings.model)
-    solver = settings.raw["assessment"]["solver"]
-    plant = ModelPlant(compiled.name, compiled.path, compiled.hash, settings, solver=solver)
+    plant = ModelPlant(compiled.name, compiled.path, compiled.hash, settings, compiled.report.seconds)
     with progress_bar("map") as progress:
         finished = build_map(plant, settings, arguments.out / "map", progress=progress, figures=False)
     prepare_assessment(plant, settings, finished)

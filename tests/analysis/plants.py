@@ -21,6 +21,9 @@ class ReferencePlant:
     def declared(self, name: str) -> float:
         return declared(name)
 
+    def with_solver(self, solver: str) -> ReferencePlant:
+        return self
+
     def run(self, severity: float, **parameters: float) -> Record:
         if severity == self._fails_at:
             raise self._error
