@@ -108,7 +108,7 @@ def assignment(item: ast.Assignment, scope: Scope) -> list[flat.Statement]:
             raise Diagnostic("R042", f"the sides differ in size: {message}", item.span, "both need the same size")
         for t, v in zip(scalars(target), scalars(value), strict=True):
             check_target(t, item.span, scope)
-            check_types(t, v, item.span)
+            check_types(t, v, item.span, scope)
             result.append(flat.Assign(str(t.value), v, item.span))
     if len(result) > 1:
         result = _simultaneous(result)

@@ -12,9 +12,10 @@ from ..syntax import ast
 from .arrays import map_call, size_of_array
 from .constants import is_known, known, variability
 from .derivative import time_derivative
+from .enumerations import as_integer
 from .functions import call_function, construct_record
 from .lower import FUNCTIONS, gives_results, handles, lower, lower_scalar
-from .scope import Scope, enumeration_literals, find_class, visible_classes
+from .scope import Scope, enumeration, find_class, visible_classes
 from .values import Value, elementwise
 
 _OUTSIDE = {
@@ -166,14 +167,14 @@ def _text_of(e: ast.Call, scope: Scope) -> Value:
 def _integer_of(e: ast.Call, scope: Scope) -> Value:
     """Integer(e): the number of an enumeration literal, from 1."""
     (written,) = _take(e, 1)
-    return lower_scalar(written, scope, INTEGER)
+    return as_integer(lower_scalar(written, scope, INTEGER))
 
 
 def _size_of_enumeration(e: ast.Call, scope: Scope) -> Value | None:
     if e.args and isinstance(e.args[0], ast.Ref):
-        literals = enumeration_literals(e.args[0], scope)
-        if literals is not None:
-            return ex.const(len(literals))
+        cls = enumeration(e.args[0], scope)
+        if cls is not None:
+            return ex.const(len(cls.literals))
     return None
 
 

@@ -9,6 +9,7 @@ from ..errors import Diagnostic, Span
 from ..expr import BOOLEAN, INTEGER, REAL, Expr
 from ..syntax import ast
 from .constants import variability
+from .enumerations import require_same
 from .lower import iterate, lower, lower_results
 from .scope import Scope
 from .values import Record, Value, scalars, shape_of, shape_text
@@ -38,7 +39,7 @@ def equalities(item: ast.Equality, scope: Scope) -> list[flat.Equation]:
     if isinstance(item.left, ast.Tuple):
         return _several(item, scope)
     left, right = lower(item.left, scope), lower(item.right, scope)
-    return equate(left, right, item.span, origin_of(scope), item.text)
+    return equate(left, right, item.span, scope, item.text)
 
 
 def continuous_equalities(item: ast.Equality, scope: Scope) -> list[flat.Equation]:
@@ -49,7 +50,7 @@ def continuous_equalities(item: ast.Equality, scope: Scope) -> list[flat.Equatio
     return result
 
 
-def equate(left: Value, right: Value, span: Span, origin: str, text: str) -> list[flat.Equation]:
+def equate(left: Value, right: Value, span: Span, scope: Scope, text: str) -> list[flat.Equation]:
     """The scalar equations of left = right."""
     if isinstance(left, Record) and isinstance(right, Record):
         if set(left.fields) != set(right.fields):
@@ -60,12 +61,12 @@ def equate(left: Value, right: Value, span: Span, origin: str, text: str) -> lis
         raise Diagnostic("R042", f"the sides differ in size: {message}", span, "both sides need the same size")
     result = []
     for a, b in zip(scalars(left), scalars(right), strict=True):
-        check_types(a, b, span)
-        result.append(flat.Equation(a, b, span, origin, text))
+        check_types(a, b, span, scope)
+        result.append(flat.Equation(a, b, span, origin_of(scope), text))
     return result
 
 
-def check_types(a: Expr | str, b: Expr | str, span: Span) -> None:
+def check_types(a: Expr | str, b: Expr | str, span: Span, scope: Scope) -> None:
     """Both sides Boolean, both Integer, or at least one Real with numbers only."""
     if isinstance(a, str) or isinstance(b, str):
         raise Diagnostic("R024", "an equation between Strings", span, "Strings are parameters only")
@@ -76,6 +77,7 @@ def check_types(a: Expr | str, b: Expr | str, span: Span) -> None:
     if a.op == "var" and a.type == INTEGER and b.type == REAL:
         hint = "integer(x) gives the whole number at or below x; or declare it Real"
         raise Diagnostic("R024", f"the Integer {a.value} is set to a Real", span, hint)
+    require_same(a, b, scope.context, span)
 
 
 def check_target(target: Expr | str, span: Span, scope: Scope) -> None:
@@ -105,7 +107,7 @@ def _several(item: ast.Equality, scope: Scope) -> list[flat.Equation]:
     equations = []
     for target, value in zip(item.left.items, results, strict=False):
         if target is not None:
-            equations += equate(lower(target, scope), value, item.span, origin_of(scope), item.text)
+            equations += equate(lower(target, scope), value, item.span, scope, item.text)
     return equations
 
 

@@ -8,7 +8,7 @@ from ..syntax import ast
 from .constants import known
 from .lower import lower, modifier_value
 from .modifiers import Modifier
-from .scope import Scope, enumeration_literals
+from .scope import Scope, enumeration
 from .values import Array, Value, shape_of
 
 MAX_SIZE = 100_000
@@ -62,7 +62,7 @@ def evaluate_dimensions(
 
 def _dimension(e: ast.Expression, scope: Scope, name: str) -> int:
     if isinstance(e, ast.Ref):
-        literals = enumeration_literals(e, scope)
-        if literals is not None:
-            return len(literals)
+        cls = enumeration(e, scope)
+        if cls is not None:
+            return len(cls.literals)
     return evaluate_integer(e, scope, f"the size of {name}")

@@ -9,8 +9,9 @@ from ..errors import Diagnostic, Span
 from ..expr import BOOLEAN, INTEGER, REAL, Expr
 from ..syntax import ast
 from .constants import is_known, known
+from .enumerations import literal, require_same
 from .modifiers import Modifier
-from .scope import Scope, enumeration_literals
+from .scope import Scope, enumeration
 from .values import Array, Record, Value, concatenate, elementwise, multiply, promote, shape_of, stack
 
 Handler = Callable[..., Value]
@@ -138,6 +139,7 @@ def _relation(e: ast.Binary, left: Value, right: Value, scope: Scope) -> Expr:
             raise Diagnostic("R021", f"{e.op} compares scalars", e.span, "compare element by element")
     if (left.type == BOOLEAN) != (right.type == BOOLEAN) or (left.type == BOOLEAN and e.op not in ("==", "<>")):
         raise Diagnostic("R021", f"{e.op} between {left.type} and {right.type}", e.span, "compare like with like")
+    require_same(left, right, scope.context, e.span)
     exact = e.op in ("==", "<>") and REAL in (left.type, right.type) and not scope.in_function
     if exact and not (is_known(left, scope.context) and is_known(right, scope.context)):
         hint = "compare with a tolerance, abs(a - b) < eps, or use Integers"
@@ -243,9 +245,9 @@ def range_values(e: ast.Range, scope: Scope) -> Array:
 def iterate(iterator: ast.Iterator, scope: Scope) -> tuple[Value, ...]:
     """The values a loop variable takes, in order."""
     if isinstance(iterator.range, ast.Ref):
-        literals = enumeration_literals(iterator.range, scope)
-        if literals is not None:
-            return tuple(ex.const(i + 1) for i in range(len(literals)))
+        cls = enumeration(iterator.range, scope)
+        if cls is not None:
+            return tuple(literal(cls, number) for number in range(1, len(cls.literals) + 1))
     value = lower(iterator.range, scope)
     if not isinstance(value, Array):
         raise Diagnostic("R047", f"{iterator.name} runs over a scalar", iterator.span, "write 1:n or an array")

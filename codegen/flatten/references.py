@@ -12,6 +12,7 @@ from ..suggest import did_you_mean
 from ..syntax import ast
 from .constants import is_known, known
 from .elements import at_index
+from .enumerations import literal
 from .instance import Absent, ArrayNode, Instance, package_of
 from .leaf import Leaf
 from .lower import FUNCTIONS, handles, lower
@@ -230,7 +231,7 @@ def _literal(cls: ast.Class, name: str, ref: ast.Ref) -> Expr:
     if name not in names:
         hint = did_you_mean(name, names, f"{cls.name} has {', '.join(names)}")
         raise Diagnostic("R019", f"{name} is no literal of {cls.name}", ref.span, hint)
-    return ex.const(names.index(name) + 1)
+    return literal(cls, names.index(name) + 1)
 
 
 def unknown_name(ref: ast.Ref, scope: Scope) -> Diagnostic:

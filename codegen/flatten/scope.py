@@ -152,9 +152,9 @@ def _elsewhere(library: Library, ref: ast.Ref) -> str:
     return f"did you mean {' or '.join(found[:3])}?" if found else "declare it, or import its package"
 
 
-def enumeration_literals(ref: ast.Ref, scope: Scope) -> tuple[str, ...] | None:
-    """The literals where `ref` names an enumeration type, else None."""
+def enumeration(ref: ast.Ref, scope: Scope) -> ast.Class | None:
+    """The enumeration type that `ref` names, if it names one."""
     if scope.instance is not None and ref.names[0] in scope.instance.elements:
         return None
     cls = find_class(scope.context.library, scope.cls, ref)
-    return tuple(n for n, _ in cls.literals) if cls is not None and cls.literals is not None else None
+    return cls if cls is not None and cls.literals is not None else None

@@ -10,6 +10,7 @@ from ..errors import Diagnostic, Span
 from ..expr import BOOLEAN, INTEGER, REAL, Expr
 from .constants import is_known
 from .context import Context
+from .enumerations import require_same
 from .equations import real_or_same
 from .leaf import Leaf
 
@@ -33,7 +34,7 @@ def flatten_variables(leaf: Leaf, model: flat.FlatModel) -> None:
             variable.binding = _parameter_value(leaf, variable, value, context)
         elif value is not None:
             span = leaf.modifier.span
-            checked = _typed(value, leaf.primitive, name, span)
+            checked = _typed(value, leaf, name, span)
             v = ex.var(name, leaf.primitive)
             text = f"{name} = {ex.to_text(checked)}"
             model.equations.append(flat.Equation(v, checked, leaf.span, leaf.instance.name, text))
@@ -59,13 +60,13 @@ def _variable(leaf: Leaf, name: str, attributes: dict[str, Expr | str]) -> flat.
     )
     for key in _NUMERIC:
         if key in attributes:
-            value = _typed(attributes[key], leaf.primitive, f"{key} of {name}", leaf.modifier.children[key].span)
+            value = _typed(attributes[key], leaf, f"{key} of {name}", leaf.modifier.children[key].span)
             if not is_known(value, context):
                 hint = "use parameters and constants"
                 raise Diagnostic("R055", f"{key} of {name} varies in time", leaf.modifier.children[key].span, hint)
             setattr(result, key, value)
     if "fixed" in attributes:
-        result.fixed = _typed(attributes["fixed"], BOOLEAN, f"fixed of {name}", leaf.modifier.children["fixed"].span)
+        result.fixed = _of_type(attributes["fixed"], BOOLEAN, f"fixed of {name}", leaf.modifier.children["fixed"].span)
     for key in ("unit", "quantity"):
         if key in attributes:
             setattr(result, key, _text(attributes[key], key, leaf))
@@ -88,8 +89,15 @@ def _text(value: Expr | str, key: str, leaf: Leaf) -> str:
     return value
 
 
-def _typed(value: Expr | str, kind: str, what: str, span: Span) -> Expr:
-    """`value` for a variable of type `kind`; a whole number becomes a Real constant where that is needed."""
+def _typed(value: Expr | str, leaf: Leaf, what: str, span: Span) -> Expr:
+    """`value` for the variable `leaf`; a whole number becomes a Real constant where that is needed."""
+    kind = leaf.primitive
+    checked = _of_type(value, kind, what, span)
+    require_same(ex.var(leaf.names[0], kind), checked, leaf.instance.context, span)
+    return checked
+
+
+def _of_type(value: Expr | str, kind: str, what: str, span: Span) -> Expr:
     if isinstance(value, str) or not real_or_same(kind, value):
         found = "String" if isinstance(value, str) else value.type
         hint = "integer(x) gives the whole number at or below x" if (kind, found) == (INTEGER, REAL) else ""
@@ -102,7 +110,7 @@ def _typed(value: Expr | str, kind: str, what: str, span: Span) -> Expr:
 def _parameter_value(leaf: Leaf, variable: flat.Variable, value: Expr | None, context: Context) -> Expr | None:
     span = leaf.modifier.span if leaf.modifier.value is not None else leaf.span
     if value is not None:
-        checked = _typed(value, leaf.primitive, variable.name, span)
+        checked = _typed(value, leaf, variable.name, span)
         if not is_known(checked, context):
             message = f"the {leaf.variability} {variable.name} depends on what varies: {ex.to_text(checked)}"
             raise Diagnostic("R055", message, span, "remove 'parameter', or use parameters and constants only")

@@ -87,7 +87,7 @@ def _assignments(item: ast.Equality, scope: Scope) -> list[flat.Statement]:
         if target.op != "var" and value.op == "var" and not isinstance(item.left, ast.Tuple):
             target, value = value, target
         check_target(target, item.span, scope)
-        check_types(target, value, item.span)
+        check_types(target, value, item.span, scope)
         statements.append(flat.Assign(str(target.value), value, item.span))
     return statements
 
@@ -118,6 +118,6 @@ def _reinit(call: ast.Call, scope: Scope) -> list[flat.Statement]:
     result: list[flat.Statement] = []
     for t, v in zip(scalars(target), scalars(value), strict=True):
         check_target(t, call.args[0].span, scope)
-        check_types(t, v, call.span)
+        check_types(t, v, call.span, scope)
         result.append(flat.Reinit(str(t.value), v, call.span))
     return result
