@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from .catalogue import Effect
-from .places import Line, Part, Shaft, Structure
+from .places import Device, Line, Part, Shaft, Structure
 
 
 @dataclass(frozen=True)
@@ -22,6 +22,7 @@ class Attachment:
     shaft: Shaft | None = None
     lines: tuple[Line, ...] = ()
     part: Part | None = None
+    device: Device | None = None
     variable: str = ""  # of a sensor: the recorded variable
     signals: tuple[tuple[str, str], ...] = ()  # input of the effect -> variable of the model
     values: tuple[tuple[str, float], ...] = ()
@@ -64,12 +65,14 @@ class _Writer:
         self.left_out: list[str] = []
         self.declarations: list[str] = []
         self.equations: list[str] = []
+        self.sums: dict[str, list[str]] = {}  # variable -> terms of its new binding
 
     def write(self, name: str, comment: str) -> str:
         for attachment in self.amendment.attachments:
             getattr(self, f"_{attachment.effect.attaches}")(attachment)
         self._trackers()
         modification = [f"{n}={v:.10g}" for n, v in self.amendment.parameters.items()]
+        modification += [f"{variable}={' + '.join(terms)}" for variable, terms in self.sums.items()]
         modification += [f"break {item}" for item in self.left_out]
         base = self.amendment.structure.path
         inherited = f"extends {base}" + (f"({', '.join(modification)})" if modification else "") + ";"
@@ -150,6 +153,12 @@ class _Writer:
                 text = f"connect({left}, {right});"
                 if text not in chained:
                     self.equations.append(text)
+
+    def _imposed(self, attachment: Attachment) -> None:
+        self._declare(attachment)
+        name, device = attachment.component, attachment.device
+        self.equations += [f"{name}.s = {device.part}.s;", f"{name}.v = {device.part}.v;"]
+        self.sums.setdefault(device.variable, [f"{device.part}.f"]).append(f"{name}.f")
 
     def _sensor(self, attachment: Attachment) -> None:
         self._declare(attachment)

@@ -10,7 +10,7 @@ from codegen.flatten.scope import base_classes
 from codegen.library import Library
 from codegen.syntax import ast
 
-ATTACHMENTS = ("flange", "line", "star", "phases", "phase", "replace", "sensor")
+ATTACHMENTS = ("flange", "line", "star", "phases", "phase", "imposed", "replace", "sensor")
 
 
 class CatalogueError(Exception):

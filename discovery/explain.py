@@ -118,7 +118,7 @@ def fit_believed(case: Case, machine: Machine) -> tuple[Fit, tuple[float, ...]]:
     if best is not None and is_noise(best):
         return best, bandwidths
     random = np.random.default_rng(1)
-    for _ in range(2):
+    for _ in range(1):
         start = {f.name: f.clip(f.centre + f.scale * float(random.normal())) for f in free}
         other = fit(machine, case.fit, noise, free, fixed, start=start, bandwidths=bandwidths)
         if other is not None and (best is None or other.deviance() < best.deviance()):

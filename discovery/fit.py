@@ -42,6 +42,16 @@ class Fit:
     def point(self) -> dict[str, float]:
         return self.fixed | self.estimate.point
 
+    def sensitivities(self) -> dict[str, list[np.ndarray]]:
+        """Unweighted columns of the Jacobian (units of noise per scaled parameter) for each recording, by parameter."""
+        if not self.estimate.jacobian or self.machine.amendment.trackers:
+            return {}
+        levels = [np.concatenate([np.full(len(r[c]), self.level[c]) for c in self.noise]) for r in self.residuals.values()]
+        return {
+            f.name: [block[:, k] * level for block, level in zip(self.estimate.jacobian, levels, strict=True)]
+            for k, f in enumerate(self.estimate.free)
+        }
+
     def counts(self) -> dict[str, float]:
         """Independent samples of each signal, were its residual white."""
         return {c: float(sum(np.sum(w[c] ** 2) for w in self.weights.values())) for c in self.noise}
@@ -155,9 +165,13 @@ class Objective:
 
 
 def anneal(
-    objective: Objective, problem: Problem, start: np.ndarray, *, stages: int = STAGES, iterations: int = 4, floor: float = 1.0
-) -> tuple[Estimate | None, dict[str, float]]:
-    """Alternate weights from the residuals and a few steps of least squares until both have settled."""
+    objective: Objective, problem: Problem, start: np.ndarray, *, stages: int = STAGES, iterations: int = 4,
+    known: Mapping[int, list[np.ndarray]] | None = None,
+) -> tuple[Estimate | None, dict[str, float]]:  # fmt: skip
+    """Alternate weights from the residuals and a few steps of least squares until both have settled.
+
+    `known` are unweighted columns of the Jacobian that may serve at first.
+    """
     level: dict[str, float] = {}
     values, best = start, None
     for _ in range(stages):
@@ -165,12 +179,13 @@ def anneal(
         here = problem.evaluate(values)
         if here is None:
             return best, level
-        new = {n: max(floor if n in objective.noise else 1e-6, v) for n, v in objective.measure(here[2]).items()}
+        new = {n: max(1.0 if n in objective.noise else 1e-6, v) for n, v in objective.measure(here[2]).items()}
         if best is not None and best.converged and all(abs(np.log(new[n] / level[n])) < SETTLED for n in new):
             break
         level = new
         problem.weights = objective.weights(level)
-        found = solve(problem, values, iterations=iterations, damping=1e-6, tolerance=1e-3)
+        weighted = {k: [c * w for c, w in zip(cs, problem.weights, strict=True)] for k, cs in (known or {}).items()}
+        found = solve(problem, values, iterations=iterations, damping=1e-6, tolerance=1e-3, known=weighted)
         if found is None:
             return best, level
         best, values = found, found.values
@@ -188,6 +203,7 @@ def fit(
     bandwidths: Sequence[float] = (0.0,),
     stages: int = STAGES,
     iterations: int = 4,
+    known: Mapping[str, list[np.ndarray]] | None = None,
 ) -> Fit | None:
     """Fit `free` to the recordings, tracking shafts with each bandwidth in turn (the last one 0). None if it cannot run."""
     objective = Objective(machine, recordings, noise)
@@ -197,7 +213,8 @@ def fit(
     found, level = None, {}
     for bandwidth in bandwidths:
         objective.track(bandwidth, dict(fixed) | {f.name: v for f, v in zip(free, values, strict=True)})
-        result, level_here = anneal(objective, problem, values, stages=stages, iterations=iterations)
+        columns = {} if objective.stiffness else {k: known[f.name] for k, f in enumerate(free) if known and f.name in known}
+        result, level_here = anneal(objective, problem, values, stages=stages, iterations=iterations, known=columns)
         if result is not None:
             found, level, values = result, level_here, result.values
     if found is None or objective.stiffness:

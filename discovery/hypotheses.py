@@ -120,6 +120,10 @@ def _stage_of(structure: Structure, source: str) -> str:
     return next((n for n in neighbours if any(line.source == n for line in structure.lines) and n != source), source)
 
 
+def _beside_devices(case: Case, structure: Structure, effect: Effect) -> list[Attachment]:
+    return [Attachment(effect, _component(effect, d.part), d.part, device=d) for d in structure.devices]
+
+
 def _on_sensors(case: Case, structure: Structure, effect: Effect) -> list[Attachment]:
     return [
         Attachment(effect, _component(effect, s.column), f"sensor:{s.column}", variable=s.variable)
@@ -129,5 +133,5 @@ def _on_sensors(case: Case, structure: Structure, effect: Effect) -> list[Attach
 
 _PLACES = {
     "flange": _on_shafts, "line": _in_phases, "star": _in_phases, "phases": _in_phases, "phase": _in_one_phase, "replace": _instead_of_part,
-    "sensor": _on_sensors,
+    "sensor": _on_sensors, "imposed": _beside_devices,
 }  # fmt: skip

@@ -22,7 +22,7 @@ from .screen import Candidate, Screen, prepare
 
 MIN_GAIN = 30.0  # drop of the deviance, prices paid, below which nothing is believed missing
 TIE = 8.0  # difference of two scores below which the data does not tell them apart
-FIRST_ROUND = 12
+FIRST_ROUND = 8
 
 Progress = Callable[[str], None]
 
@@ -102,7 +102,7 @@ def rank(
     candidates, failures = screen_all(case, amendment, attachments, base, progress)
     screened = [(c.attachment.label, c.predicted) for c in candidates]
     pool = _first_round(candidates)
-    rounds = [(3, 2, len(pool)), (4, 3, 6), (10, 4, 3)]
+    rounds = [(3, 2, len(pool)), (3, 3, 4), (10, 4, 2)]
     for stages, iterations, keep in rounds:
         pool = pool[:keep]
         with ThreadPoolExecutor(WORKERS) as workers:
@@ -152,7 +152,7 @@ def fit_candidate(
     fixed = base.fixed | candidate.fixed
     return fit(
         candidate.machine, case.fit, base.noise, free, fixed, start=start, bandwidths=bandwidths, stages=stages,
-        iterations=iterations,
+        iterations=iterations, known=base.sensitivities() if candidate.fit is None else None,
     )  # fmt: skip
 
 

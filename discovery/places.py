@@ -53,6 +53,14 @@ class Part:
     description: str
 
 
+@dataclass(frozen=True)
+class Device:
+    """A part whose motion is imposed; the model's `variable` is bound to its force."""
+
+    part: str
+    variable: str
+
+
 @dataclass
 class Structure:
     """What `read` finds of a model."""
@@ -63,6 +71,7 @@ class Structure:
     connections: list[tuple[str, str]] = field(default_factory=list)
     shafts: list[Shaft] = field(default_factory=list)
     lines: list[Line] = field(default_factory=list)
+    devices: list[Device] = field(default_factory=list)
 
     def shaft_of(self, flange: str) -> Shaft | None:
         return next((s for s in self.shafts if flange in s.members), None)
@@ -90,6 +99,7 @@ def read(library: Library, model: str) -> Structure:
                 name, node.cls.path, tuple(c.name for c in node.classes), _modification_text(declaration),
                 declaration.description,
             )  # fmt: skip
+    structure.devices = _devices(top, structure)
     for section, _ in top.sections:
         for item in section.items:
             if isinstance(item, ast.Connect):
@@ -114,6 +124,16 @@ def _modification_text(declaration: ast.Component) -> str:
         if level == 0:
             return re.sub(r"\s+", " ", rest[begin : end + 1])
     return ""
+
+
+def _devices(top: Instance, structure: Structure) -> list[Device]:
+    forces = {f"{p.name}.f": p.name for p in structure.parts.values() if "ImposedMotion" in p.ancestors}
+    devices = []
+    for name, element in top.elements.items():
+        bound = element.declaration.modification.value
+        if isinstance(bound, ast.Ref) and str(bound) in forces:
+            devices.append(Device(forces[str(bound)], name))
+    return devices
 
 
 def _connector(instances: dict[str, Instance], end: str) -> str:

@@ -96,8 +96,9 @@ def prepare(screen: Screen, attachment: Attachment, machine: Machine) -> Candida
         return None
     shapes = _shape_starts(screen, attachment, machine, names, point)
     best: Candidate | None = None
+    amounts: dict[str, float] = {}
     for shape in shapes:
-        found = _linearised(screen, attachment, machine, names, point, shape, _limits(shapes))
+        found = _linearised(screen, attachment, machine, names, point, shape, _limits(shapes), amounts)
         if found is not None and (best is None or found.predicted > best.predicted):
             best = found
     return best
@@ -138,8 +139,9 @@ def _range(screen: Screen, machine: Machine, variable: str, point: dict[str, flo
 
 def _linearised(
     screen: Screen, attachment: Attachment, machine: Machine, names: list[str], point: dict[str, float],
-    shape: dict[str, float], limits: dict[str, tuple[float, float]],
+    shape: dict[str, float], limits: dict[str, tuple[float, float]], known: dict[str, float],
 ) -> Candidate | None:  # fmt: skip
+    """The candidate for one start of the shape; `known` remembers fair amounts between shapes."""
     effect = attachment.effect
     neutral = {attachment.full_name(n): effect.neutral[n] for n in names if n in effect.neutral}
     origin = point | shape | neutral
@@ -153,9 +155,11 @@ def _linearised(
         phases = (0.0, math.pi / 2) if polar and name == polar[0] else (None,)
         for phase in phases:
             here = origin | ({attachment.full_name(polar[1]): phase} if phase is not None else {})
-            column, amount = _response(screen, machine, here, attachment.full_name(name), effect.parameter(name), reference)
+            parameter = effect.parameter(name)
+            column, amount = _response(screen, machine, here, attachment.full_name(name), parameter, reference, known.get(name))
             if column is None:
                 return None
+            known[name] = amount
             columns.append(column)
             amounts.append(amount)
             moved.append(name)
@@ -177,10 +181,11 @@ def _linearised(
 
 
 def _response(
-    screen: Screen, machine: Machine, origin: dict[str, float], name: str, parameter: EffectParameter, reference: np.ndarray
-) -> tuple[np.ndarray | None, float]:
+    screen: Screen, machine: Machine, origin: dict[str, float], name: str, parameter: EffectParameter,
+    reference: np.ndarray, known: float | None,
+) -> tuple[np.ndarray | None, float]:  # fmt: skip
     """(change of the weighted residual, amount of the parameter that makes it), the amount chosen for a fair response."""
-    amount, target = 1e-4, RESPONSE * screen.norm
+    amount, target = abs(known or 1e-4), RESPONSE * screen.norm
     best: tuple[np.ndarray | None, float] = (None, amount)
     value = origin.get(name, parameter.default)
     for _ in range(PROBES):
@@ -191,7 +196,7 @@ def _response(
             continue
         best = (there - reference, step)
         size = float(np.linalg.norm(best[0]))
-        if target / 4 < size < target * 4 or amount > 1e9:
+        if target / 30 < size < target * 4 or amount > 1e9:
             break
         amount *= min(max(target / size, 1e-4), 1e4) if size > 0 else 1e4
     return best
