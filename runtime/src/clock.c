@@ -18,7 +18,7 @@ rt_status rt_clock_begin(rt_session *s) {
     if (!(c->interval[i] > 0))
       return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "sample() number %d has interval %.9g s", i + 1,
                      c->interval[i]);
-    c->next[i] = (long)fmax(0, ceil((s->start - c->tolerance - c->first[i]) / c->interval[i]));
+    c->next[i] = (long)rt_max(0, ceil((s->start - c->tolerance - c->first[i]) / c->interval[i]));
   }
   if (s->d->time_relations(&s->data, s->start)) return rt_fail_model(s, s->start, "evaluating time relations");
   c->next_relation = s->d->next_time_event(&s->data, s->start);
@@ -28,7 +28,7 @@ rt_status rt_clock_begin(rt_session *s) {
 static double next_event(const rt_session *s) {
   double next = s->clock.next_relation;
   for (int i = 0; i < s->d->n_sample; i++)
-    next = fmin(next, tick_time(&s->clock, i));
+    next = rt_min(next, tick_time(&s->clock, i));
   return next;
 }
 
@@ -39,11 +39,11 @@ double rt_clock_limit(rt_session *s) {
     rt_clock *c = &s->clock;
     while (s->start + (double)c->step * s->options.step <= s->t + c->tolerance)
       c->step++;
-    limit = fmin(limit, s->start + (double)c->step * s->options.step);
+    limit = rt_min(limit, s->start + (double)c->step * s->options.step);
     if (!s->options.locate_events) return limit;
   }
-  limit = fmin(limit, next_event(s));
-  return fmin(limit, rt_inputs_next_break(s));
+  limit = rt_min(limit, next_event(s));
+  return rt_min(limit, rt_inputs_next_break(s));
 }
 
 /* What has become due at the present time, as RT_PENDING flags. */
@@ -76,7 +76,7 @@ void rt_clock_tick(rt_session *s) {
   rt_clock *c = &s->clock;
   double now = s->t + c->tolerance;
   if (s->pending & RT_PENDING_TIME) {
-    double at = fmax(s->t, c->next_relation);
+    double at = rt_max(s->t, c->next_relation);
     s->d->time_relations(&s->data, at);
     log_time_relations(s);
     c->next_relation = s->d->next_time_event(&s->data, at);

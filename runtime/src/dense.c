@@ -28,3 +28,16 @@ void rt_dense_eval(const rt_dense *dense, int n, double t, double *x) {
     x[i] = sum;
   }
 }
+
+/* State i of n at many instants. */
+void rt_dense_column(const rt_dense *dense, int n, int i, size_t points, const double *t, double *x) {
+  double per_step = 1 / dense->h;
+  for (size_t k = 0; k < points; k++) {
+    double theta = (t[k] - dense->t0) * per_step;
+    const double *c = dense->c + dense->degree * n + i;
+    double sum = *c;
+    for (int power = dense->degree; power > 0; power--)
+      sum = sum * theta + *(c -= n);
+    x[k] = sum;
+  }
+}

@@ -29,11 +29,13 @@ static int attempt(rt_session *s, rt_onestep *o, double h) {
   if ((status = stage(s, o, h, 1)) || (status = stage(s, o, h, 2)) || (status = stage(s, o, h, 3)) ||
       (status = stage(s, o, h, 4)) || (status = stage(s, o, h, 5)) || (status = stage(s, o, h, 6)))
     return status;
+  const double *restrict k = o->k;
+  double *restrict error = o->error;
   for (int i = 0; i < n; i++) {
     double sum = 0;
     for (int j = 0; j < STAGES; j++)
-      sum += e[j] * o->k[j * n + i];
-    o->error[i] = h * sum;
+      sum += e[j] * k[j * n + i];
+    error[i] = h * sum;
   }
   return 0;
 }

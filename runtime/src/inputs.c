@@ -64,7 +64,7 @@ double rt_inputs_next_break(const rt_session *s) {
     if (in->time[k] <= now) k++;
     while (k < in->n && in->time[k] < next && !is_break(s, in, k))
       k++;
-    if (k < in->n) next = fmin(next, in->time[k]);
+    if (k < in->n) next = rt_min(next, in->time[k]);
   }
   return next;
 }

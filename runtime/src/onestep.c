@@ -59,15 +59,15 @@ static double first_step(rt_session *s, rt_onestep *o) {
   double span = s->stop - s->start;
   memcpy(o->x1, o->x0, (size_t)s->d->n_x * sizeof *o->x1);
   double d0 = sqrt(mean_square(s, o, o->x0)), d1 = sqrt(mean_square(s, o, o->f0));
-  double h0 = fmin(d0 < 1e-5 || d1 < 1e-5 ? 1e-6 * span : 0.01 * d0 / d1, span);
+  double h0 = rt_min(d0 < 1e-5 || d1 < 1e-5 ? 1e-6 * span : 0.01 * d0 / d1, span);
   for (int i = 0; i < s->d->n_x; i++)
     o->x1[i] = o->x0[i] + h0 * o->f0[i];
   if (rt_rhs(s, s->t + h0, o->x1, o->f1, s->v_trial)) return h0;
   for (int i = 0; i < s->d->n_x; i++)
     o->error[i] = (o->f1[i] - o->f0[i]) / h0;
-  double largest = fmax(d1, sqrt(mean_square(s, o, o->error)));
-  double h1 = largest <= 1e-15 ? fmax(1e-6 * span, 1e-3 * h0) : pow(0.01 / largest, 1.0 / o->scheme->order);
-  return fmin(100 * h0, h1);
+  double largest = rt_max(d1, sqrt(mean_square(s, o, o->error)));
+  double h1 = largest <= 1e-15 ? rt_max(1e-6 * span, 1e-3 * h0) : pow(0.01 / largest, 1.0 / o->scheme->order);
+  return rt_min(100 * h0, h1);
 }
 
 rt_status rt_onestep_begin(rt_session *s, void *memory) {
@@ -91,12 +91,12 @@ rt_status rt_onestep_restart(rt_session *s, void *memory) {
  * precision is enough to choose a step. */
 static void control(rt_onestep *o, double h, double square, bool rejected, bool cut) {
   const rt_scheme *scheme = o->scheme;
-  double log_error = 0.5 * (double)logf((float)fmax(square, 1e-20));
+  double log_error = 0.5 * (double)logf((float)rt_max(square, 1e-20));
   double exponent = scheme->damping * o->last_log_error - (1.0 / scheme->order - 0.75 * scheme->damping) * log_error;
-  double factor = fmin(scheme->max_factor, fmax(scheme->min_factor, 0.9 * (double)expf((float)exponent)));
-  double h_next = h * (rejected ? fmin(1, factor) : factor);
-  o->h_next = cut ? fmax(o->h_next, h_next) : h_next;
-  o->last_log_error = fmax(log_error, log_floor);
+  double factor = rt_min(scheme->max_factor, rt_max(scheme->min_factor, 0.9 * (double)expf((float)exponent)));
+  double h_next = h * (rejected ? rt_min(1, factor) : factor);
+  o->h_next = cut ? rt_max(o->h_next, h_next) : h_next;
+  o->last_log_error = rt_max(log_error, log_floor);
 }
 
 static void accept(rt_session *s, rt_onestep *o, double t, double h) {
@@ -112,7 +112,7 @@ static void accept(rt_session *s, rt_onestep *o, double t, double h) {
 /* The size to try: not past the limit, and no sliver of a step left before it. */
 static double choose(const rt_session *s, const rt_onestep *o, double remaining) {
   if (s->options.step > 0) return remaining;
-  double h = s->options.max_step > 0 ? fmin(o->h_next, s->options.max_step) : o->h_next;
+  double h = s->options.max_step > 0 ? rt_min(o->h_next, s->options.max_step) : o->h_next;
   if (h >= 0.999 * remaining) return remaining;
   return h > 0.5 * remaining ? 0.5 * remaining : h;
 }
@@ -135,7 +135,7 @@ rt_status rt_onestep_step(rt_session *s, void *memory, double limit) {
     }
     s->result->counters.error_test_fails++;
     rejected = true;
-    h *= status == 0 && isfinite(square) ? fmax(o->scheme->min_factor, 0.9 * pow(square, -0.5 / o->scheme->order))
+    h *= status == 0 && isfinite(square) ? rt_max(o->scheme->min_factor, 0.9 * pow(square, -0.5 / o->scheme->order))
                                          : 0.25;
     o->h_next = h;
     if (h < rt_smallest_step(s)) return rt_fail_collapse(s, h, "the error test fails");

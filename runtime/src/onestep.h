@@ -36,16 +36,18 @@ rt_status rt_onestep_step(rt_session *s, void *memory, double limit);
 void rt_onestep_dense(rt_session *s, void *memory, rt_dense *dense);
 void rt_onestep_count(rt_session *s, void *memory);
 
-/* x1 = x0 + h sum_j a_j k_j over the first n stages. Inline, so that a known n unrolls. */
+/* x1 = x0 + sum_j (h a_j) k_j over the first n stages. Inline, so that a known n unrolls. */
 static inline const double *rt_stage(const rt_session *s, rt_onestep *o, double h, int n, const double *a) {
   int n_x = s->d->n_x;
+  const double *restrict x0 = o->x0, *restrict k = o->k;
+  double *restrict x1 = o->x1;
   for (int i = 0; i < n_x; i++) {
-    double sum = 0;
+    double sum = x0[i];
     for (int j = 0; j < n; j++)
-      sum += a[j] * o->k[j * n_x + i];
-    o->x1[i] = o->x0[i] + h * sum;
+      sum += h * a[j] * k[j * n_x + i];
+    x1[i] = sum;
   }
-  return o->x1;
+  return x1;
 }
 
 /* Explicit stage j at t0 + c h: k_j = f(t0 + c h, x0 + h sum_l a_l k_l), l < j. */

@@ -52,7 +52,7 @@ static double first_secant(const rt_session *s, const double *ga, double wa, con
   double fraction = 1;
   for (int r = 0; r < s->d->n_rel; r++) {
     double ma = wa * margin(s, r, ga[r]), mb = wb * margin(s, r, gb[r]);
-    if (is_state_relation(s, r) && mb < 0) fraction = fmin(fraction, fmax(0, ma) / (fmax(0, ma) - mb));
+    if (is_state_relation(s, r) && mb < 0) fraction = rt_min(fraction, rt_max(0, ma) / (rt_max(0, ma) - mb));
   }
   return fraction;
 }
@@ -60,7 +60,7 @@ static double first_secant(const rt_session *s, const double *ga, double wa, con
 /* Smallest value on [0, 1] of the parabola through (0, a), (1, b) with second derivative c, and where it is. */
 static double lowest(double a, double b, double c, double *where) {
   double slope = b - a - 0.5 * c;
-  *where = c > 0 ? fmin(1, fmax(0, -slope / c)) : a < b ? 0 : 1;
+  *where = c > 0 ? rt_min(1, rt_max(0, -slope / c)) : a < b ? 0 : 1;
   return a + *where * (slope + 0.5 * c * *where);
 }
 
@@ -111,7 +111,7 @@ static int locate(rt_session *s, double *crossing) {
   memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
   for (int i = 0; i < 100 && b - a > tolerance; i++) {
     double t = a + (b - a) * first_secant(s, s->g_low, wa, s->g, wb);
-    t = fmin(fmax(t, a + 0.5 * tolerance), b - 0.5 * tolerance);
+    t = rt_min(rt_max(t, a + 0.5 * tolerance), b - 0.5 * tolerance);
     int status = guards_at(s, t, s->g_trial);
     if (status) return status;
     bool crossed = any_negative(s, s->g_trial);
@@ -179,8 +179,10 @@ rt_status rt_find_state_event(rt_session *s) {
   const mdl_descriptor *d = s->d;
   if (!d->n_rel) return RT_OK;
   mdl_data *m = &s->data;
-  size_t bytes = (size_t)d->n_rel * sizeof *s->g;
-  memcpy(s->g_previous, s->g, bytes);
+  double *oldest = s->g_before;
+  s->g_before = s->g_previous;
+  s->g_previous = s->g;
+  s->g = oldest;
   s->result->counters.root_evaluations++;
   if (d->roots(m, s->t, m->x, m->xdot, m->v, s->g)) return rt_fail_model(s, s->t, "evaluating relations");
   double crossing = s->t;
@@ -190,7 +192,6 @@ rt_status rt_find_state_event(rt_session *s) {
       s->flip[r] = is_state_relation(s, r) && margin(s, r, s->g[r]) < 0;
     if (crossing < s->t && move_back(s, crossing)) return s->failure.status;
   }
-  memcpy(s->g_before, s->g_previous, bytes);
   s->t_before = s->t_previous;
   follow(s);
   return RT_OK;

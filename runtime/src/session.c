@@ -223,12 +223,13 @@ rt_status rt_session_outputs(rt_session *s, int n, const int *variables) {
   free(s->recorder.outputs);
   s->recorder.outputs = outputs;
   s->recorder.n = 0;
-  s->recorder.needs_rhs = false;
+  s->recorder.needs_rhs = s->recorder.needs_point = false;
   for (int i = 0; i < n; i++) {
     const mdl_variable *v = variable(s, variables[i]);
     if (!v) return refuse(s, "no such variable to record");
     outputs[i] = (rt_output){.storage = v->storage, .index = v->index, .sign = v->sign};
     s->recorder.needs_rhs |= v->storage == MDL_ALGEBRAIC || v->storage == MDL_DERIVATIVE;
+    s->recorder.needs_point |= s->recorder.needs_rhs || v->storage == MDL_INPUT;
     s->recorder.n = i + 1;
   }
   return RT_OK;

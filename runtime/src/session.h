@@ -47,7 +47,8 @@ typedef struct {
 typedef struct {
   int n;
   rt_output *outputs;
-  bool needs_rhs; /* some output is neither state, discrete, parameter nor input */
+  bool needs_rhs;   /* some output is algebraic or a derivative */
+  bool needs_point; /* or an input: something that changes inside a step and is no state */
   const double *grid;
   int n_grid;
   double interval;
@@ -125,9 +126,17 @@ struct rt_session {
   rt_result *result;
 };
 
+/* fmin and fmax without a call: neither argument is NaN here. */
+static inline double rt_min(double a, double b) {
+  return a < b ? a : b;
+}
+static inline double rt_max(double a, double b) {
+  return a > b ? a : b;
+}
+
 /* Steps smaller than this (s) are lost in the rounding of time. */
 static inline double rt_smallest_step(const rt_session *s) {
-  return 16 * DBL_EPSILON * fmax(fabs(s->t), 1e-3 * (s->stop - s->start));
+  return 16 * DBL_EPSILON * rt_max(fabs(s->t), 1e-3 * (s->stop - s->start));
 }
 
 /* failure.c */
@@ -162,6 +171,7 @@ bool rt_clock_relations(rt_session *s);
 void rt_dense_prepare(rt_session *s);
 void rt_dense_point(rt_session *s, double t, bool alone, double *x);
 void rt_dense_eval(const rt_dense *dense, int n, double t, double *x);
+void rt_dense_column(const rt_dense *dense, int n, int i, size_t points, const double *t, double *x);
 
 /* roots.c */
 double rt_hysteresis(const rt_session *s, int r);
