@@ -22,20 +22,20 @@ extern "C" {
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
-  MDL_FAILURE_SINGULAR,   /* a linear block of equations has no unique solution; `equation` is one of them */
-  MDL_FAILURE_NEWTON,     /* a nonlinear block did not converge */
-  MDL_FAILURE_NONFINITE,  /* an equation gave NaN or infinity */
-  MDL_FAILURE_DOMAIN,     /* argument outside a function's domain: sqrt, log, asin, division by zero ... */
-  MDL_FAILURE_ASSERT,     /* assert(..., level = error) violated; `equation` indexes `asserts` */
-  MDL_FAILURE_BOUND,      /* a parameter outside its min/max; `variable` says which */
-  MDL_FAILURE_LOOP        /* a while loop in a function ran too long */
+  MDL_FAILURE_SINGULAR,  /* a linear block of equations has no unique solution; `equation` is one of them */
+  MDL_FAILURE_NEWTON,    /* a nonlinear block did not converge */
+  MDL_FAILURE_NONFINITE, /* an equation gave NaN or infinity */
+  MDL_FAILURE_DOMAIN,    /* argument outside a function's domain: sqrt, log, asin, division by zero ... */
+  MDL_FAILURE_ASSERT,    /* assert(..., level = error) violated; `equation` indexes `asserts` */
+  MDL_FAILURE_BOUND,     /* a parameter outside its min/max; `variable` says which */
+  MDL_FAILURE_LOOP       /* a while loop in a function ran too long */
 } mdl_failure_kind;
 
 typedef struct {
   mdl_failure_kind kind;
-  int equation;  /* index into `equations` (or `asserts`), -1 unknown */
-  int variable;  /* index into `variables`, -1 unknown */
-  double value;  /* offending value, where there is one */
+  int equation; /* index into `equations` (or `asserts`), -1 unknown */
+  int variable; /* index into `variables`, -1 unknown */
+  double value; /* offending value, where there is one */
 } mdl_failure;
 
 /* All memory of one run of one model; allocated by the runtime from the counts of the descriptor. */
@@ -58,19 +58,19 @@ typedef struct mdl_data {
 } mdl_data;
 
 typedef enum {
-  MDL_STATE,      /* x[index] */
-  MDL_ALGEBRAIC,  /* v[index] */
-  MDL_DISCRETE,   /* d[index] */
-  MDL_PARAMETER,  /* p[index] */
-  MDL_INPUT,      /* u[index] */
-  MDL_DERIVATIVE  /* xdot[index]: a variable that equals the derivative of a state */
+  MDL_STATE,     /* x[index] */
+  MDL_ALGEBRAIC, /* v[index] */
+  MDL_DISCRETE,  /* d[index] */
+  MDL_PARAMETER, /* p[index] */
+  MDL_INPUT,     /* u[index] */
+  MDL_DERIVATIVE /* xdot[index]: a variable that equals the derivative of a state */
 } mdl_storage;
 
 typedef enum { MDL_REAL, MDL_INTEGER, MDL_BOOLEAN } mdl_type;
 
 /* One row for each variable of the flat model, aliases included (an alias shares the index of what it equals). */
 typedef struct {
-  const char *name;  /* full Modelica name */
+  const char *name; /* full Modelica name */
   const char *unit;
   const char *description;
   const char *file;
@@ -78,14 +78,14 @@ typedef struct {
   mdl_type type;
   mdl_storage storage;
   int index;
-  int sign;          /* -1: a negated alias */
-  int settable;      /* a parameter that may be given another value at run time (not dependent, structural or final) */
+  int sign;     /* -1: a negated alias */
+  int settable; /* a parameter that may be given another value at run time (not dependent, structural or final) */
   int is_output;
   double start, min, max, nominal; /* min/max -/+INFINITY where not given; nominal 0 where not given */
 } mdl_variable;
 
 typedef struct {
-  const char *text;   /* as written in the model */
+  const char *text; /* as written in the model */
   const char *file;
   int line;
   const char *origin; /* component path */
@@ -102,14 +102,14 @@ typedef struct mdl_descriptor {
   const char *hash; /* of everything that decides the generated code */
   int n_p, n_u, n_x, n_z, n_v, n_d, n_rel, n_sample, n_when, n_variables, n_equations, n_asserts, n_messages;
 
-  const mdl_variable *variables;  /* [n_variables] in order of declaration */
-  const mdl_equation *equations;  /* [n_equations] */
-  const mdl_equation *asserts;    /* [n_asserts] `text` is the message */
-  const mdl_relation *relations;  /* [n_rel] */
-  const char *const *messages;    /* [n_messages] of terminate() */
-  const int *z_index;             /* [n_z] z[k] is v[z_index[k]] */
-  const int *residual_equation;   /* [n_x + n_z] which equation each residual row is */
-  const double *p_start;          /* [n_p] declared values of the settable parameters */
+  const mdl_variable *variables;                     /* [n_variables] in order of declaration */
+  const mdl_equation *equations;                     /* [n_equations] */
+  const mdl_equation *asserts;                       /* [n_asserts] `text` is the message */
+  const mdl_relation *relations;                     /* [n_rel] */
+  const char *const *messages;                       /* [n_messages] of terminate() */
+  const int *z_index;                                /* [n_z] z[k] is v[z_index[k]] */
+  const int *residual_equation;                      /* [n_x + n_z] which equation each residual row is */
+  const double *p_start;                             /* [n_p] declared values of the settable parameters */
   double start_time, stop_time, tolerance, interval; /* annotation(experiment); interval 0 where not given */
 
   /* Pattern of dF/dy + cj dF/dy', compressed columns: n_x + n_z columns. */

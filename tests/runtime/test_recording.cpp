@@ -71,7 +71,8 @@ TEST_P(Recording, AlgebraicVariablesFollowFromTheStates) {
 TEST(StepRows, AreRecordedWithoutAGrid) {
   Result result = simulate<Ramp>({.solver = "rk4", .step = 0.1}, 0.4);
   ASSERT_EQ(result.rows(), 5u);
-  for (size_t k = 0; k < 5; k++) EXPECT_NEAR(result.time(k), 0.1 * static_cast<double>(k), 1e-12);
+  for (size_t k = 0; k < 5; k++)
+    EXPECT_NEAR(result.time(k), 0.1 * static_cast<double>(k), 1e-12);
 }
 
 TEST(Grid, MayBeAnyTimesAndBeginAnywhere) {
