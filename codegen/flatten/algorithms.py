@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .. import expr as ex
 from .. import flat
-from ..errors import Diagnostic
+from ..errors import Diagnostic, Span
 from ..expr import BOOLEAN, FALSE, TRUE, Expr
 from ..rewrite import assigned
 from ..syntax import ast
@@ -133,7 +133,7 @@ class _SymbolicRun:
         self.scope = scope
         self.values: dict[str, Expr] = {}
         self.types: dict[str, str] = {}
-        self.where: dict[str, object] = {}
+        self.where: dict[str, Span] = {}
         self.asserts: list[flat.Assert] = []
 
     def read(self, e: Expr) -> Expr:
@@ -150,7 +150,7 @@ class _SymbolicRun:
             elif isinstance(s, flat.If):
                 self._if(s, guard)
 
-    def _assign(self, target: str, value: Expr, span: object) -> None:
+    def _assign(self, target: str, value: Expr, span: Span) -> None:
         if target not in self.types:
             leaf = self.scope.context.scalars[target][0]
             self.types[target] = leaf.primitive

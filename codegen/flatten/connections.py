@@ -9,11 +9,13 @@ from .. import flat
 from ..errors import Diagnostic, Span
 from ..syntax import ast
 from .context import Context
-from .instance import Absent, ArrayNode
+from .instance import Absent, ArrayNode, Node
 from .leaf import Leaf
 from .references import apply_subscripts, element_numbers, member, unknown_name
 from .scope import Scope
-from .values import Array, Value
+from .values import Array, Value, scalars
+
+Connector = Node | tuple[Leaf, int]  # the latter: one scalar of a connector that is a variable
 
 
 @dataclass(frozen=True)
@@ -133,18 +135,18 @@ def _is_outside(ref: ast.Ref, scope: Scope) -> bool:
     return _is_connector(node)
 
 
-def _is_connector(node: object) -> bool:
+def _is_connector(node: Node) -> bool:
     if isinstance(node, Leaf):
         return node.causality in ("input", "output") or node.declaration.flow
     return node.cls.kind == "connector"
 
 
-def _connector(ref: ast.Ref, scope: Scope) -> list[object]:
+def _connector(ref: ast.Ref, scope: Scope) -> list[Connector]:
     """The connectors a name means: instances, or (leaf, position) of connectors that are scalars."""
     node = scope.instance.child(ref.names[0])
     if node is None:
         raise unknown_name(ref, scope)
-    nodes: list[object] = [node]
+    nodes: list[Connector] = [node]
     for at, subscripts in enumerate(ref.subscripts):
         if at:
             nodes = [member(n, ref, at) for n in nodes]
@@ -157,8 +159,8 @@ def _connector(ref: ast.Ref, scope: Scope) -> list[object]:
 
 
 def _pick(
-    node: object, subscripts: tuple[ast.Expression, ...] | None, ref: ast.Ref, at: int, scope: Scope
-) -> list[object]:
+    node: Node, subscripts: tuple[ast.Expression, ...] | None, ref: ast.Ref, at: int, scope: Scope
+) -> list[Connector]:
     if isinstance(node, Absent):
         return []
     last = at == len(ref.names) - 1
@@ -168,24 +170,28 @@ def _pick(
         if not node.shape:
             return [(node, 0)]
         picked = apply_subscripts(_numbers(node), subscripts, scope, ref)
-        return [(node, p.value) for p in _flat(picked)]
+        return [(node, position) for position in _chosen(picked, ref)]
     if isinstance(node, ArrayNode):
         picked = apply_subscripts(element_numbers(node), subscripts, scope, ref)
-        return [node.items[p.value - 1] for p in _flat(picked)]
+        return [node.items[number - 1] for number in _chosen(picked, ref)]
     if subscripts is not None:
         raise Diagnostic("R044", f"{node.name} is no array", ref.span, "remove the subscript")
     return [node]
 
 
-def _flat(value: Value) -> list[ex.Expr]:
-    return list(value.items) if isinstance(value, Array) else [value]
+def _chosen(value: Value, ref: ast.Ref) -> list[int]:
+    items = scalars(value)
+    if any(item.op != "const" for item in items):
+        hint = "connections never change: use whole numbers, parameters or loop variables"
+        raise Diagnostic("F021", f"the element of {ref} is not known at translation", ref.span, hint)
+    return [item.value for item in items]
 
 
-def _numbers(leaf: object) -> Array:
+def _numbers(leaf: Leaf) -> Array:
     return Array(leaf.shape, tuple(ex.const(i) for i in range(len(leaf.names))))
 
 
-def _ends(node: object, ref: ast.Ref, outside: bool, prefix: str = "") -> dict[str, tuple[End, bool]]:
+def _ends(node: Node, ref: ast.Ref, outside: bool, prefix: str = "") -> dict[str, tuple[End, bool]]:
     """The scalars of one connector by their name relative to it."""
     if isinstance(node, tuple):
         leaf, position = node

@@ -14,6 +14,7 @@ from ..flat import Function
 from ..library import Library
 
 if TYPE_CHECKING:
+    from .function_code import Source
     from .function_locals import Signature
     from .instance import Instance, Leaf
 
@@ -34,7 +35,7 @@ class Context:
     constants: dict[str, Expr] = field(default_factory=dict)  # values of those
     variabilities: dict[Expr, str] = field(default_factory=dict)
     signatures: dict[int, Signature] = field(default_factory=dict)  # of functions, by id of the class
-    function_sources: dict[str, object] = field(default_factory=dict)  # name -> function_code.Source
+    function_sources: dict[str, Source] = field(default_factory=dict)  # name -> function_code.Source
     places: dict[tuple[str, str], Span] = field(default_factory=dict)  # of bindings and attributes: (variable, which)
     argument_units: list[tuple[Expr, str, str, Span]] = field(default_factory=list)  # value, unit, what, where
     function_units: dict[str, str] = field(default_factory=dict)  # of the result, by name of a kept function

@@ -28,13 +28,6 @@ def evaluate_integer(e: ast.Expression, scope: Scope, what: str) -> int:
     return int(known(value, scope, e.span, what).value)
 
 
-def evaluate_text(e: ast.Expression, scope: Scope, what: str) -> str:
-    value = lower(e, scope)
-    if not isinstance(value, str):
-        raise Diagnostic("R020", f"{what} is not a String", e.span, 'write "..." or a String parameter')
-    return value
-
-
 def evaluate_dimensions(
     dimensions: list[ast.Expression], scope: Scope, modifier: Modifier | None, name: str
 ) -> list[int]:

@@ -9,36 +9,16 @@ from dataclasses import dataclass, replace
 from math import prod
 
 from ..errors import Diagnostic, Span
-from ..suggest import did_you_mean
 from ..syntax import ast
 from .context import Context
 from .evaluate import evaluate_boolean, evaluate_dimensions
+from .inheritance import Element, Inheritance
 from .leaf import Leaf
 from .lower import modifier_value
 from .modifiers import Modifier, for_each, from_tree, merge, narrow
 from .scope import Scope, require_class
 from .types import Type, resolve_type
 from .values import Record, Value, indices
-
-MAX_DEPTH = 40
-
-
-def written(reference: ast.Ref) -> str:
-    """A name as text, subscripts that are whole numbers included, to compare connections."""
-    parts = []
-    for name, subscripts in zip(reference.names, reference.subscripts, strict=True):
-        shown = [str(s.value) if isinstance(s, ast.Literal) else "?" for s in subscripts or ()]
-        parts.append(name + (f"[{','.join(shown)}]" if shown else ""))
-    return ".".join(parts)
-
-
-@dataclass
-class Element:
-    """A declaration as an instance sees it: own or inherited, with the modification from outside."""
-
-    declaration: ast.Component
-    cls: ast.Class  # where it is declared
-    modifier: Modifier | None
 
 
 @dataclass
@@ -58,9 +38,6 @@ class Absent:
     span: Span
 
 
-Node = "Instance | Leaf | ArrayNode | Absent"
-
-
 class Instance:
     """A component of a structured class, or the model itself (its name is then empty)."""
 
@@ -78,100 +55,19 @@ class Instance:
         self.span = declaration.span if declaration else cls.span
         inherited = parent.variability if parent else ""
         self.variability = (declaration.variability if declaration else "") or inherited
-        self.elements: dict[str, Element] = {}
-        self.sections: list[tuple[ast.Section, ast.Class]] = []
-        self.classes: list[ast.Class] = []  # own class and bases
         self._modifier = modifier
         self._record: Record | None = None
-        self._children: dict[str, Instance | Leaf | ArrayNode | Absent] = {}
+        self._children: dict[str, Node] = {}
         self._building: list[str] = []
         above = parent
         while above is not None:
             if above.cls is cls:
                 raise Diagnostic("R011", f"{cls.name} contains itself", self.span, "break the circle of components")
             above = above.parent
-        self._collect(cls, modifier)
-        if modifier is not None:
-            self._refuse_unknown(modifier, self.elements, cls)
-            self._refuse_protected(modifier)
+        inherited = Inheritance(self, cls, modifier)
+        self.elements, self.sections, self.classes = inherited.elements, inherited.sections, inherited.classes
 
-    def _refuse_protected(self, modifier: Modifier) -> None:
-        for name, child in modifier.children.items():
-            declaration = self.elements[name].declaration
-            if declaration.protected:
-                hint = "make it public, or modify it in an extends clause"
-                error = Diagnostic("R037", f"{name} is protected in {self.cls.name}", child.span, hint)
-                error.notes.append((declaration.span, "declared here"))
-                raise error
-
-    def _collect(self, cls: ast.Class, modifier: Modifier | None, depth: int = 0) -> None:
-        if depth > MAX_DEPTH:
-            raise Diagnostic("R011", f"{cls.name} extends itself", cls.span, "break the circle of extends")
-        library = self.context.library
-        scope = Scope(self.context, cls, self)
-        clauses = [(e.base, e.modification) for e in cls.extends]
-        if cls.alias is not None:
-            clauses.append((cls.alias.base, cls.alias.modification))
-        self.classes.append(cls)
-        for reference, tree in clauses:
-            base = require_class(library, cls, reference, "class", of_base=True)
-            inner = from_tree(tree, scope)
-            before, sections = dict(self.elements), len(self.sections)
-            self._collect(base, merge(modifier, inner) if tree.arguments else modifier, depth + 1)
-            if tree.left_out:
-                self._leave_out(tree.left_out, sections, base)
-            inherited = {n: e for n, e in self.elements.items() if before.get(n) is not e}
-            self._refuse_unknown(inner, inherited, base)
-        for declaration in cls.components:
-            outer = modifier.children.get(declaration.name) if modifier else None
-            self._add(Element(declaration, cls, outer))
-        self.sections += [(section, cls) for section in cls.sections]
-
-    def _leave_out(self, left_out: list[ast.Ref | ast.Connect], first: int, base: ast.Class) -> None:
-        """Selective extension (Modelica 3.6, 7.4): drop inherited components with their connections, or connections."""
-        names = {str(item): item for item in left_out if isinstance(item, ast.Ref)}
-        pairs = {frozenset((written(c.left), written(c.right))): c for c in left_out if isinstance(c, ast.Connect)}
-        used: set[object] = set()
-        for name, item in names.items():
-            if name not in self.elements:
-                hint = did_you_mean(name, self.elements, f"{base.name} has {', '.join(list(self.elements)[:10])}")
-                raise Diagnostic("R032", f"{base.path} has no component {name} to leave out", item.span, hint)
-            del self.elements[name]
-
-        def kept(item: ast.Item) -> bool:
-            if not isinstance(item, ast.Connect):
-                return True
-            pair = frozenset((written(item.left), written(item.right)))
-            used.add(pair)
-            return pair not in pairs and item.left.names[0] not in names and item.right.names[0] not in names
-
-        for k in range(first, len(self.sections)):
-            section, cls = self.sections[k]
-            self.sections[k] = (replace(section, items=[i for i in section.items if kept(i)]), cls)
-        for pair, item in pairs.items():
-            if pair not in used:
-                hint = "write it as the base class does"
-                raise Diagnostic("R032", f"{base.path} has no such connection to leave out", item.span, hint)
-
-    def _add(self, element: Element) -> None:
-        name = element.declaration.name
-        present = self.elements.get(name)
-        if present is not None and present.declaration is not element.declaration:
-            same_type = str(present.declaration.type) == str(element.declaration.type)
-            if present.cls is element.cls or not same_type:
-                error = Diagnostic("R010", f"{name} is declared twice", element.declaration.span, "rename one of them")
-                error.notes.append((present.declaration.span, "the other declaration"))
-                raise error
-        self.elements[name] = element
-
-    @staticmethod
-    def _refuse_unknown(modifier: Modifier, elements: dict[str, Element], cls: ast.Class) -> None:
-        for name, child in modifier.children.items():
-            if name not in elements:
-                hint = did_you_mean(name, elements, f"{cls.name} has {', '.join(list(elements)[:10]) or 'no elements'}")
-                raise Diagnostic("R032", f"{cls.path} has no element {name} to modify", child.span, hint)
-
-    def child(self, name: str) -> Instance | Leaf | ArrayNode | Absent | None:
+    def child(self, name: str) -> Node | None:
         """The component `name`, made when first asked for; None where no such is declared."""
         node = self._children.get(name)
         if node is not None:
@@ -190,13 +86,13 @@ class Instance:
             self._building.pop()
         return node
 
-    def children(self) -> list[Instance | Leaf | ArrayNode | Absent]:
+    def children(self) -> list[Node]:
         return [self.child(name) for name in self.elements]
 
     def path_of(self, name: str) -> str:
         return f"{self.name}.{name}" if self.name else name
 
-    def _build(self, element: Element) -> Instance | Leaf | ArrayNode | Absent:
+    def _build(self, element: Element) -> Node:
         declaration = element.declaration
         scope = Scope(self.context, element.cls, self)
         redeclared = element.modifier is not None and element.modifier.redeclare is not None
@@ -264,7 +160,7 @@ class Instance:
             raise Diagnostic("R034", f"{chosen.name} lacks {', '.join(missing)} of {bound.name}", new.span, hint)
         return new.type, scope
 
-    def _outer(self, declaration: ast.Component) -> Instance | Leaf | ArrayNode | Absent:
+    def _outer(self, declaration: ast.Component) -> Node:
         above = self.parent
         while above is not None:
             element = above.elements.get(declaration.name)
@@ -285,6 +181,9 @@ class Instance:
             if declaration.replaceable:
                 hint = f"redeclare it: {declaration.name}(redeclare CLASS {declaration.name})"
             raise Diagnostic("R015", f"{cls.name} is partial and cannot be a component", declaration.span, hint)
+
+
+Node = Instance | Leaf | ArrayNode | Absent
 
 
 def package_of(context: Context, cls: ast.Class) -> Instance:

@@ -13,7 +13,7 @@ from ..syntax import ast
 from .constants import is_known, known
 from .elements import at_index
 from .enumerations import literal
-from .instance import Absent, ArrayNode, Instance, package_of
+from .instance import Absent, ArrayNode, Instance, Node, package_of
 from .leaf import Leaf
 from .lower import FUNCTIONS, handles, lower
 from .scope import Scope, find_class, find_first, own_or_inherited, visible_classes
@@ -28,19 +28,8 @@ def read(ref: ast.Ref, scope: Scope) -> Value:
         return _read_local(ref, scope)
     if first == "time" and len(ref.names) == 1:
         return ex.TIME
-    node = find_node(ref, scope)
-    if node is not None:
-        return _walk(node[0], ref, node[1], scope)
-    return _from_class(ref, scope)
-
-
-def find_node(ref: ast.Ref, scope: Scope) -> tuple[object, int] | None:
-    """The component that the first name means, with its position in the name."""
-    if scope.instance is not None and not ref.absolute:
-        found = scope.instance.child(ref.names[0])
-        if found is not None:
-            return found, 0
-    return None
+    node = scope.instance.child(first) if scope.instance is not None and not ref.absolute else None
+    return _from_class(ref, scope) if node is None else _walk(node, ref, 0, scope)
 
 
 def _read_local(ref: ast.Ref, scope: Scope) -> Value:
@@ -56,7 +45,7 @@ def _read_local(ref: ast.Ref, scope: Scope) -> Value:
     return value
 
 
-def _walk(node: object, ref: ast.Ref, at: int, scope: Scope) -> Value:
+def _walk(node: Node, ref: ast.Ref, at: int, scope: Scope) -> Value:
     """From `node`, which name number `at` means, to the value at the end of the name."""
     subscripts = ref.subscripts[at]
     last = at == len(ref.names) - 1
@@ -80,7 +69,7 @@ def _walk(node: object, ref: ast.Ref, at: int, scope: Scope) -> Value:
     return _walk(member(node, ref, at + 1), ref, at + 1, scope)
 
 
-def member(node: object, ref: ast.Ref, at: int) -> object:
+def member(node: Node, ref: ast.Ref, at: int) -> Node:
     """The element that name number `at` means in the component before it; it must exist and be public."""
     name = ref.names[at]
     found = node.child(name)
@@ -94,12 +83,12 @@ def member(node: object, ref: ast.Ref, at: int) -> object:
     return found
 
 
-def _field(node: object, ref: ast.Ref, scope: Scope) -> Value:
+def _field(node: Node, ref: ast.Ref, scope: Scope) -> Value:
     whole = replace(ref, names=("",), subscripts=(None,))
     return _walk(node, whole, 0, scope)
 
 
-def _walk_array(node: object, ref: ast.Ref, at: int, scope: Scope) -> Value:
+def _walk_array(node: Node, ref: ast.Ref, at: int, scope: Scope) -> Value:
     subscripts = ref.subscripts[at]
     part = replace(ref, names=ref.names[: at + 1])
     picked = apply_subscripts(element_numbers(node), subscripts, scope, part)
@@ -121,7 +110,7 @@ def _numbered(node: ArrayNode, number: Expr, ref: ast.Ref, at: int, scope: Scope
     return elementwise(lambda a, b: ex.if_else(condition, a, b), values, ref.span, "elements")
 
 
-def element_numbers(node: object) -> Array:
+def element_numbers(node: Node) -> Array:
     return Array(node.shape, tuple(ex.const(i + 1) for i in range(prod(node.shape))))
 
 
@@ -204,7 +193,7 @@ def _from_class(ref: ast.Ref, scope: Scope) -> Value:
     raise unknown_name(ref, scope)
 
 
-def _constant_around(ref: ast.Ref, scope: Scope) -> object | None:
+def _constant_around(ref: ast.Ref, scope: Scope) -> Node | None:
     library, name = scope.context.library, ref.names[0]
     current: ast.Class | None = None if ref.absolute else scope.cls
     while current is not None and current.name:
