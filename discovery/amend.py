@@ -45,6 +45,7 @@ class Amendment:
     attachments: list[Attachment] = field(default_factory=list)
     parameters: dict[str, float] = field(default_factory=dict)  # modified values of the believed model
     trackers: list[Shaft] = field(default_factory=list)
+    probes: tuple[Shaft | Line, ...] = ()  # places where an input acts as effort
 
     def output(self, variable: str) -> str:
         """The variable that a sensor's reading is compared with: the last sensor effect after it."""
@@ -71,6 +72,7 @@ class _Writer:
         for attachment in self.amendment.attachments:
             getattr(self, f"_{attachment.effect.attaches}")(attachment)
         self._trackers()
+        self._probes()
         modification = [f"{n}={v:.10g}" for n, v in self.amendment.parameters.items()]
         modification += [f"{variable}={' + '.join(terms)}" for variable, terms in self.sums.items()]
         modification += [f"break {item}" for item in self.left_out]
@@ -165,6 +167,19 @@ class _Writer:
         earlier = replace(self.amendment, attachments=self.amendment.attachments[: self.amendment.attachments.index(attachment)])
         self.equations.append(f"{attachment.component}.u = {earlier.output(attachment.variable)};")
 
+    def _probes(self) -> None:
+        for k, place in enumerate(self.amendment.probes):
+            name, effort = f"probe_{k + 1}", probe_name(k)
+            if isinstance(place, Shaft):
+                self.declarations.append(f"Lacuna.Components.Mechanics.TorqueSource {name};")
+                self.equations.append(f"connect({name}.flange, {place.flange});")
+            else:
+                self.declarations.append(f"Lacuna.Components.Electrical.SignalVoltage {name};")
+                self._insert(name, place)
+            unit = "N.m" if isinstance(place, Shaft) else "V"
+            self.declarations.append(f'input Real {effort}(unit="{unit}") "Missing effort";')
+            self.equations.append(f"{name}.u = {effort};")
+
     def _trackers(self) -> None:
         for k, shaft in enumerate(self.amendment.trackers):
             name = tracker_name(k)
@@ -176,6 +191,10 @@ class _Writer:
             self.equations += [
                 f"connect({name}.flange, {shaft.flange});", f"{name}.phi = {name}_phi;", f"{name}.w = {name}_w;",
             ]  # fmt: skip
+
+
+def probe_name(k: int) -> str:
+    return f"probe_{k + 1}_effort"
 
 
 def tracker_name(k: int) -> str:

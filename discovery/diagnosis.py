@@ -129,6 +129,8 @@ def _variable(finding: Finding) -> str:
     if attachment.shaft is not None:
         along = ("torque.", "load.", "stiffness", "end_stop", "friction.position")
         return f"{attachment.location}.phi" if identifier.startswith(along) else f"{attachment.location}.w"
+    if attachment.device is not None:
+        return f"{attachment.location}.{'s' if identifier in ('stiffness', 'friction.position') else 'v'}"
     if attachment.lines:
         return f"{attachment.lines[0].load}.i"
     return f"{attachment.part.name}.phi_rel" if identifier in ("backlash", "compliance") else f"{attachment.part.name}.i"

@@ -16,7 +16,7 @@ from codegen.compile import compile_model
 from codegen.errors import Diagnostic
 from runtime import Model, RecordedInput, Session, SimulationError
 
-from .amend import Amendment, tracker_name
+from .amend import Amendment, probe_name, tracker_name
 from .cases import Case, CaseError, Recording, Signal
 from .tracking import Motion, recorded_motion
 
@@ -40,6 +40,7 @@ class Machine:
         self._inputs: dict[str, dict[str, RecordedInput]] = {}
         self._initial: dict[str, dict[str, float]] = {}
         self._lock = threading.Lock()
+        self._silent = {probe_name(k): RecordedInput([0.0], [0.0], "hold") for k in range(len(amendment.probes))}
 
     def _check_signals(self) -> None:
         for signal in self.case.signals.values():
@@ -56,7 +57,7 @@ class Machine:
                 raise CaseError(f"{self.case.folder / 'case.toml'}: [parameters] the model has no parameter `{name}`")
         driven = {self.model.inputs[s.variable].index for s in self.case.inputs}
         for name, variable in self.model.inputs.items():  # aliases of an input share its index
-            if variable.index not in driven and not name.startswith("tracker_"):
+            if variable.index not in driven and not name.startswith(("tracker_", "probe_")):
                 raise CaseError(f"{self.case.folder / 'case.toml'}: input `{name}` of the model is not recorded")
             driven.add(variable.index)
 
@@ -68,10 +69,12 @@ class Machine:
         """States whose value at the first sample has to be fitted, by the variable that case.toml names."""
         return [name for name, value in self.case.initial.items() if value == "unknown"]
 
-    def simulate(self, parameters: Mapping[str, float], recording: Recording) -> dict[str, np.ndarray] | None:
+    def simulate(
+        self, parameters: Mapping[str, float], recording: Recording, efforts: Mapping[str, RecordedInput] | None = None
+    ) -> dict[str, np.ndarray] | None:
         """Output columns (n,) in SI, and the torque of each tracker under its name; None where the run fails.
 
-        `parameters` may hold `start:<variable>` for states with unknown start values.
+        `parameters` may hold `start:<variable>` for states with unknown start values; `efforts` drive probes.
         """
         values = _plain(parameters)
         initial = self._initial_of(recording) | {
@@ -80,7 +83,8 @@ class Machine:
         session = self._session(recording)
         try:
             time = recording.time
-            result = session.run(parameters=values, initial=initial, start=float(time[0]), stop=float(time[-1]))
+            inputs = self._silent | dict(efforts or {})
+            result = session.run(values, inputs, initial, start=float(time[0]), stop=float(time[-1]))
         except SimulationError:
             return None
         finally:

@@ -12,7 +12,8 @@ from pathlib import Path
 import re
 
 from codegen.flatten.context import Context
-from codegen.flatten.instance import Instance, written
+from codegen.flatten.inheritance import written
+from codegen.flatten.instance import Instance
 from codegen.flatten.model import run
 from codegen.library import Library
 from codegen.syntax import ast

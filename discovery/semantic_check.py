@@ -25,6 +25,7 @@ SCALES = {
 SHAPE = 0.9  # least correlation with the simulation at which a scale is read
 WITHIN = 0.25  # relative distance from a listed scale
 SHIFT_SAMPLES = 15
+CHANGE = 10  # samples over which changes are compared when looking for a shift
 
 
 def check_against_model(machine: Machine, start: tuple[list[Free], dict[str, float]]) -> list[Problem]:
@@ -73,7 +74,7 @@ def _shifts(machine: Machine, recording: Recording, simulated: dict[str, np.ndar
     lags = {s.column: _lag(recording.columns[s.column], simulated[s.column]) for s in machine.case.outputs}
     found = []
     for column, (lag, gain) in lags.items():
-        if gain > 0.8 and (lag >= SHIFT_SAMPLES or lag <= -4):
+        if gain > 0.9 and (lag >= SHIFT_SAMPLES or lag <= -4):
             seconds = lag * recording.interval
             text = f"shifted in time by {seconds:+.4g} s against the other signals"
             found.append(Problem("shift", recording.name, column, float(recording.time[0]), text, True))
@@ -81,13 +82,17 @@ def _shifts(machine: Machine, recording: Recording, simulated: dict[str, np.ndar
 
 
 def _lag(measured: np.ndarray, simulated: np.ndarray, reach: int = 400) -> tuple[int, float]:
-    """(samples by which `measured` is late, share of the squared difference that moving it takes away)."""
+    """(samples by which `measured` is late, share of the squared difference that moving it takes away).
+
+    Changes over a few samples are compared, not values: a wrong parameter lets an angle drift, which is no shift.
+    """
     measured = np.nan_to_num(measured, nan=float(np.nanmean(measured)))
+    measured, simulated = (v[CHANGE:] - v[:-CHANGE] for v in (measured, simulated))
     reach = min(reach, len(measured) // 4)
     inner = slice(reach, len(measured) - reach)
     best, least = 0, math.inf
     base = float(np.sum((measured[inner] - simulated[inner]) ** 2))
-    for lag in [*range(-reach, reach + 1, 4)]:
+    for lag in range(-reach, reach + 1, 2):
         moved = measured[inner.start + lag : inner.stop + lag]
         error = float(np.sum((moved - simulated[inner]) ** 2))
         if error < least:

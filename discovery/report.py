@@ -1,0 +1,152 @@
+"""report.html: the verdict in one sentence, then everything it rests on; one file without outside references."""
+
+from __future__ import annotations
+
+from html import escape
+import io
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+from .cases import Recording
+from .diagnosis import build, left_over, sentence
+from .explain import Explanation
+from .locate import Located
+
+_STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}
+h1{font-size:1.5rem}h2{font-size:1.15rem;margin-top:2rem;border-bottom:1px solid #ccc}table{border-collapse:collapse}
+td,th{padding:.2rem .8rem;text-align:right;border-bottom:1px solid #eee}td:first-child,th:first-child{text-align:left}
+.verdict{font-size:1.2rem;background:#f3f6fa;padding:1rem;border-left:4px solid #27c}pre{background:#f7f7f7;padding:1rem;
+overflow:auto}svg{max-width:100%;height:auto}.flag{color:#b00}"""
+
+
+def write(result: Explanation, folder: Path, amended: Path | None, located: Located | None = None) -> Path:
+    """Write the report of an explanation into `folder`."""
+    parts = [f"<h1>{escape(result.case.title)}</h1>", f'<p class="verdict">{escape(sentence(result))}</p>']
+    parts += _problems(result)
+    if result.before is not None:
+        parts += _quality(result) + _overlays(result)
+        parts += _located(located) if located is not None else []
+        parts += _findings(result) + _rivals(result) + _parameters(result) + _left(result)
+    if amended is not None:
+        parts += ["<h2>The amended model</h2>", f"<pre>{escape(amended.read_text(encoding='utf-8'))}</pre>"]
+    title = escape(f"Lacuna: {result.case.label}")
+    text = f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title><style>{_STYLE}</style>' + "\n".join(parts)
+    path = folder / "report.html"
+    partial = path.with_suffix(".tmp")
+    partial.write_text(text + "</html>\n", encoding="utf-8")
+    partial.replace(path)
+    return path
+
+
+def _table(header: list[str], rows: list[list[object]]) -> str:
+    def cell(value: object) -> str:
+        return f"<td>{value:.4g}</td>" if isinstance(value, float) else f"<td>{escape(str(value))}</td>"
+
+    head = "".join(f"<th>{escape(h)}</th>" for h in header)
+    body = "".join(f"<tr>{''.join(map(cell, row))}</tr>" for row in rows)
+    return f"<table><tr>{head}</tr>{body}</table>"
+
+
+def _svg(figure: plt.Figure) -> str:
+    buffer = io.StringIO()
+    figure.savefig(buffer, format="svg", bbox_inches="tight")
+    plt.close(figure)
+    text = buffer.getvalue()
+    return text[text.index("<svg") :]
+
+
+def _problems(result: Explanation) -> list[str]:
+    if not result.problems:
+        return []
+    items = "".join(f'<li{" class=flag" if p.fatal else ""}>{escape(str(p))}</li>' for p in result.problems)
+    return ["<h2>The recordings</h2>", f"<ul>{items}</ul>"]
+
+
+def _quality(result: Explanation) -> list[str]:
+    rows = [
+        [c, result.before.validate[c], result.after.validate[c], result.floor[c], result.before.fit[c], result.after.fit[c]]
+        for c in result.floor
+    ]
+    rows.append(["all", result.before.validate[""], result.after.validate[""], "", result.before.fit[""], result.after.fit[""]])
+    header = ["signal", "unseen: before", "after", "noise floor", "fitted: before", "after"]
+    note = "<p>NRMSE; <em>before</em> is the believed model with its parameters already refitted.</p>"
+    return ["<h2>How well it fits</h2>", _table(header, rows), note]
+
+
+def _overlays(result: Explanation) -> list[str]:
+    recording = result.case.validate[0]
+    outputs = result.case.outputs
+    figure, axes = plt.subplots(len(outputs), 1, figsize=(9, 2.1 * len(outputs)), sharex=True, squeeze=False)
+    keep = slice(None, None, max(1, len(recording.time) // 1500))
+    for ax, signal in zip(axes[:, 0], outputs, strict=True):
+        measured = recording.columns[signal.column]
+        _draw(ax, recording, measured, "measured", "0.6", keep)
+        _draw(ax, recording, measured - result.before.residuals[recording.name][signal.column], "believed", "C3", keep)
+        if result.findings:
+            _draw(ax, recording, measured - result.after.residuals[recording.name][signal.column], "amended", "C0", keep)
+        ax.set_ylabel(f"{signal.column} / {signal.si_unit}")
+    axes[0, 0].legend(loc="upper right", fontsize="small")
+    axes[-1, 0].set_xlabel("time / s")
+    return [f"<h2>On a recording that nothing was fitted to ({escape(recording.name)})</h2>", _svg(figure)]
+
+
+def _draw(ax: plt.Axes, recording: Recording, values: np.ndarray, label: str, colour: str, keep: slice) -> None:
+    ax.plot(recording.time[keep], values[keep], color=colour, lw=1, label=label)
+
+
+def _located(located: Located) -> list[str]:
+    figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3))
+    best = located.places[0]
+    for name, (time, effort) in best.effort.items():
+        left.plot(time, effort, lw=1, label=name)
+    left.set_xlabel("time / s")
+    left.set_ylabel(f"missing {best.kind} / {best.unit}")
+    left.legend(fontsize="x-small")
+    right.plot(located.organiser_values, located.organiser_effort, ".", ms=2, color="0.6")
+    right.plot(located.bin_centres, located.bin_means, "C0-", lw=2)
+    right.set_xlabel(located.organiser)
+    figure.tight_layout()
+    rows = [[p.location, p.kind, f"{p.explained:.1%}"] for p in located.places]
+    note = f"<p>It follows <em>{escape(located.organiser)}</em> best ({located.organised:.0%} of its variance).</p>"
+    return ["<h2>Where effort is missing</h2>", _table(["place", "effort", "misfit explained"], rows), note, _svg(figure)]
+
+
+def _findings(result: Explanation) -> list[str]:
+    rows = []
+    for f in build(result, None)["findings"]:
+        values = ", ".join(f"{n} = {p['value']:.5g} &plusmn; {2 * p['std']:.2g} {p['unit']}" for n, p in f["parameters"].items())
+        rows.append(f"<li><b>{escape(f['effect'])}</b> at {escape(f['location'])}, confidence {f['confidence']:.2f}: {values}."
+                    f" {escape(f['where']['text'])}.</li>")  # fmt: skip
+    return ["<h2>What was left out</h2>", f"<ol>{''.join(rows)}</ol>"] if rows else []
+
+
+def _rivals(result: Explanation) -> list[str]:
+    parts = []
+    for k, naming in enumerate(result.namings):
+        rows = [[r.attachment.label, r.score - naming.ranked[0].score, f"{r.confidence:.3f}", len(r.candidate.free)]
+                for r in naming.ranked[:10]]  # fmt: skip
+        parts += [f"<h2>Hypotheses fitted, round {k + 1}</h2>",
+                  _table(["hypothesis", "evidence behind the best", "confidence", "parameters"], rows)]  # fmt: skip
+        rest = ", ".join(f"{label} ({share:.0%})" for label, share in naming.screened[len(naming.ranked) : len(naming.ranked) + 12])
+        parts.append(f"<p>Screened out (share of the misfit they could explain): {escape(rest)}.</p>")
+    return parts
+
+
+def _parameters(result: Explanation) -> list[str]:
+    rows = []
+    for name, p in build(result, None)["parameters"].items():
+        flag = "outside belief" if p["outside_belief"] else ""
+        rows.append([name, p["believed"], p["value"], f"{2 * p['std']:.2g}", p["unit"], flag])
+    return ["<h2>Parameters</h2>", _table(["parameter", "believed", "fitted", "&plusmn; (95 %)".replace("&plusmn;", "+-"), "unit", ""], rows)]
+
+
+def _left(result: Explanation) -> list[str]:
+    left = left_over(result)
+    text = "<p>What is left is noise.</p>" if not left else "<ul>" + "".join(f"<li>{escape(t)}</li>" for t in left) + "</ul>"
+    extra = f"<p>To decide: {escape(result.experiment)}.</p>" if result.experiment else ""
+    return ["<h2>What remains unexplained</h2>", text + extra]
