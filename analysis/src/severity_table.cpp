@@ -111,7 +111,7 @@ void SeverityTable::check() const {
     throw std::runtime_error("severity table: severities do not rise");
   const Configuration &c = configuration_;
   const bool sizes = c.section >= 3 && c.section <= c.samples && c.section <= c.padded && c.hop >= 1 &&
-                     c.samples <= 100000000 && c.padded >= 16 && c.padded <= (1U << 28) &&
+                     c.samples <= 100000000 && c.padded >= 16 && c.padded <= (1U << 24) &&
                      std::has_single_bit(c.padded);
   if (!sizes || !(c.sampling_rate > 0) || !(c.speed_after >= 0))
     throw std::runtime_error("severity table: impossible sampling or sections");

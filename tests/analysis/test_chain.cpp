@@ -79,6 +79,7 @@ TEST_F(PaperChain, ManyThreadsGiveTheSameBytes) {
   const auto alone = chain.analyse(record.currents(), record.columns[4]);
   std::array<std::vector<lacuna::Features>, 4> results;
   std::vector<std::thread> threads;
+  threads.reserve(results.size());
   for (auto &result : results)
     threads.emplace_back([&] { result.push_back(chain.analyse(record.currents(), record.columns[4])); });
   for (auto &thread : threads)
