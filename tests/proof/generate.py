@@ -80,13 +80,13 @@ def _prepare(name: str, item: Plan, seed: int, variant: int) -> Case:
     )
 
 
-def judge(case: Case, seed: int, start: dict[str, float]) -> float:
+def judge(case: Case, seed: int, start: dict[str, float], iterations: int = 10) -> float:
     """Simulates, measures and refits; returns the believed model's misfit over the floor on the fit recordings."""
     case.clean = simulate(case)
     case.measured = measure(case, np.random.default_rng([seed, 3]))
     pairs = list(zip(case.inputs, case.measured, strict=True))
     refit = Refit(case.bench, case.outputs, pairs[: case.fit])
-    fitted, _ = refit.fit(start, iterations=8)
+    fitted, _ = refit.fit(start, iterations)
     every = Refit(case.bench, case.outputs, pairs)
     case.refit = {"parameters": fitted}
     simulated = {
@@ -115,11 +115,11 @@ def _next_size(tried: list[tuple[float, float]], target: float) -> float:
 def _tune(case: Case, seed: int, target: float) -> float:
     """Sizes the concealed effects until the misfit is near the target; returns the distance from it, as a logarithm."""
     size, tried, gain = 1.0, [], np.inf
-    for _ in range(8):
+    for _ in range(6):
         case.concealed = _conceal(case.plan.bench, case.plan, seed, size)
         try:
             place_stops(case)
-            gain = judge(case, seed, case.true)
+            gain = judge(case, seed, case.true, iterations=3)
         except ArithmeticError:
             gain = np.inf
         if abs(np.log(gain / target)) < 0.25:
@@ -138,7 +138,7 @@ def build(name: str, item: Plan, seed: int) -> Case:
         return case
     target = float(np.exp(np.random.default_rng([seed, 2]).uniform(*np.log(item.gain))))
     best, least = None, np.inf
-    for variant in range(4):
+    for variant in range(3):
         case = _prepare(name, item, seed, variant)
         distance = _tune(case, seed, target)
         if not np.isfinite(distance):
@@ -153,6 +153,7 @@ def build(name: str, item: Plan, seed: int) -> Case:
             break
     if best is None:
         raise RuntimeError(f"{name}: no size of {item.effects} on {item.bench} can be simulated")
+    judge(best, seed, best.true)
     return best
 
 
