@@ -15,12 +15,15 @@ import numpy as np
 
 from .amend import Amendment, Attachment
 from .cases import Case
-from .fit import Fit, Objective, fit
+from .fit import Fit, Objective, fit, residuals_of
 from .least_squares import WORKERS, Free
 from .machine import try_machine
 from .screen import Candidate, Screen, prepare
 
 MIN_GAIN = 30.0  # drop of the deviance, prices paid, below which nothing is believed missing
+CLOSE = 0.3  # share of the best gain within which hypotheses are cross-validated against each other
+CONTENDERS = 4
+PRICE_KEPT = 0.25  # of a difference on the fitted recordings, beside the one on recordings left out
 TIE = 8.0  # difference of two scores below which the data does not tell them apart
 FIRST_ROUND = 8
 
@@ -123,6 +126,7 @@ def rank(
     correlation = _best_correlation(fitted)
     ranked = [Ranked(c, c.fit, _score(c, base, correlation)) for c in fitted]
     ranked.sort(key=lambda r: r.score)
+    ranked = cross_validated(case, base, ranked, correlation, progress)
     _confidences(ranked)
     return Naming(ranked, screened, failures, correlation)
 
@@ -154,6 +158,48 @@ def fit_candidate(
         candidate.machine, case.fit, base.noise, free, fixed, start=start, bandwidths=bandwidths, stages=stages,
         iterations=iterations, known=base.sensitivities() if candidate.fit is None else None,
     )  # fmt: skip
+
+
+def cross_validated(
+    case: Case, base: Fit, ranked: list[Ranked], correlation: dict[str, float], progress: Progress
+) -> list[Ranked]:
+    """Contenders that are close to the best are ranked by recordings of the fit set that each is not fitted to.
+
+    A contender's score then is what it loses against the best one there, and a share of what it lost before.
+    """
+    best = ranked[0].score
+    close = [r for r in ranked if r.score - best < CLOSE * abs(best)][:CONTENDERS]
+    if len(case.fit) < 2 or len({r.identity for r in close}) < 2 or ranked[0].score > -MIN_GAIN:
+        return ranked
+    with ThreadPoolExecutor(WORKERS) as workers:
+        losses = list(workers.map(lambda r: held_out_deviance(case, base, r, correlation), close))
+    least = min(losses)
+    for contender, loss in zip(close, losses, strict=True):
+        progress(f"left out: {contender.attachment.label}: {loss - least:.1f}")
+        contender.score = best + (loss - least) + PRICE_KEPT * (contender.score - best)
+    return sorted(ranked, key=lambda r: r.score)
+
+
+def held_out_deviance(case: Case, base: Fit, contender: Ranked, correlation: dict[str, float]) -> float:
+    """Deviance of each fit recording under the fit to the others, summed."""
+    total = 0.0
+    candidate = contender.candidate
+    free = [*base.estimate.free, *candidate.free]
+    for recording in case.fit:
+        others = [r for r in case.fit if r is not recording]
+        found = fit(
+            candidate.machine, others, base.noise, free, base.fixed | candidate.fixed, start=contender.fit.point,
+            stages=2, iterations=2,
+        )  # fmt: skip
+        residuals = residuals_of(candidate.machine, [recording], found.point) if found is not None else None
+        if residuals is None:
+            return float("inf")
+        for column, noise in base.noise.items():
+            weight = base.weights[recording.name][column]
+            count = float(np.sum(weight**2)) / correlation[column]
+            square = float(np.sum((weight * np.nan_to_num(residuals[recording.name][column])) ** 2) / np.sum(weight**2))
+            total += count * np.log(max(1.0, square / noise.std**2))
+    return total
 
 
 def _best_correlation(candidates: list[Candidate]) -> dict[str, float]:

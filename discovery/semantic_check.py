@@ -24,7 +24,7 @@ SCALES = {
 }  # fmt: skip
 SHAPE = 0.9  # least correlation with the simulation at which a scale is read
 WITHIN = 0.25  # relative distance from a listed scale
-SHIFT_SAMPLES = 15
+LATE, EARLY = 50, 8  # samples: a signal may be somewhat late by a sensor or a drive, but not early
 CHANGE = 10  # samples over which changes are compared when looking for a shift
 
 
@@ -73,8 +73,9 @@ def _slip(scale: float) -> str | None:
 def _shifts(machine: Machine, recording: Recording, simulated: dict[str, np.ndarray]) -> list[Problem]:
     lags = {s.column: _lag(recording.columns[s.column], simulated[s.column]) for s in machine.case.outputs}
     found = []
+    together = len(lags) > 1 and np.ptp([lag for lag, _ in lags.values()]) <= 4  # that is the drive, or a delay
     for column, (lag, gain) in lags.items():
-        if gain > 0.9 and (lag >= SHIFT_SAMPLES or lag <= -4):
+        if gain > 0.95 and (lag >= LATE or lag <= -EARLY) and not together:
             seconds = lag * recording.interval
             text = f"shifted in time by {seconds:+.4g} s against the other signals"
             found.append(Problem("shift", recording.name, column, float(recording.time[0]), text, True))
