@@ -56,6 +56,7 @@ static int pass(rt_session *s) {
   changed |= rt_clock_relations(s);
   m->reinitialised = 0;
   if (s->d->event(m, s->t, m->x, m->xdot, m->v)) return -1;
+  s->reinitialised |= m->reinitialised != 0;
   return changed || m->reinitialised || memcmp(m->d, m->pre_d, (size_t)s->d->n_d * sizeof *m->d) != 0;
 }
 
@@ -63,6 +64,7 @@ static int pass(rt_session *s) {
 rt_status rt_iterate_event(rt_session *s) {
   mdl_data *m = &s->data;
   char names[400] = "";
+  s->reinitialised = false;
   memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
   for (int i = 0; i < MAX_PASSES; i++) {
     int changed = pass(s);
@@ -85,7 +87,8 @@ static rt_status check_chattering(rt_session *s, double since) {
     if (!s->flip[r]) continue;
     flipped = r;
     if (s->g_travel[r] > 100 * rt_hysteresis(s, r) && since > s->clock.tolerance) futile = false;
-    s->g_travel[r] = 0;
+    s->g_travel[r] = s->g_lowest[r] = 0;
+    s->rebound[r] = s->reinitialised;
   }
   s->futile_events = futile ? s->futile_events + 1 : 0;
   if (s->futile_events <= MAX_FUTILE_EVENTS) return RT_OK;

@@ -24,6 +24,7 @@ static void clear(rt_session *s) {
   m->terminal = m->reinitialised = m->terminated = 0;
   m->failure = (mdl_failure){.equation = -1, .variable = -1};
   memset(s->flip, 0, (size_t)d->n_rel);
+  memset(s->rebound, 0, (size_t)d->n_rel);
   memset(s->g_span, 0, (size_t)d->n_rel * sizeof *s->g_span);
   memset(s->g_travel, 0, (size_t)d->n_rel * sizeof *s->g_travel);
   s->t = s->t_previous = s->t_end = s->last_event = s->start;

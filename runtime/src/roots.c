@@ -10,6 +10,8 @@
 
 #include "session.h"
 
+static const double VISIBLE_DIP = 1e-3; /* of the hysteresis: more than rounding */
+
 /* In the unit of the guard. 1e-10 is far above rounding of operands of 1e4 and far below any physical play; the second
  * part covers guards that run over a larger range. */
 double rt_hysteresis(const rt_session *s, int r) {
@@ -89,9 +91,12 @@ static int find_dip(rt_session *s, double *inside) {
   for (int r = 0; !status && r < s->d->n_rel; r++) {
     if (!is_state_relation(s, r)) continue;
     double sign = s->data.rel[r] ? 1 : -1, a = sign * s->g_previous[r], middle = sign * s->g_low[r], b = sign * s->g[r];
-    if (lowest(a, b, 4 * (a - 2 * middle + b), &where) >= -rt_hysteresis(s, r) || where <= 0 || where >= 1) continue;
+    double eps = rt_hysteresis(s, r), noticeable = s->rebound[r] ? VISIBLE_DIP * eps : eps;
+    if (lowest(a, b, 4 * (a - 2 * middle + b), &where) >= -noticeable || where <= 0 || where >= 1) continue;
     status = guards_at(s, s->t_previous + where * h, s->g_trial);
-    if (status || sign * s->g_trial[r] >= -rt_hysteresis(s, r)) continue;
+    if (status) break;
+    s->g_lowest[r] = rt_min(s->g_lowest[r], sign * s->g_trial[r]);
+    if (sign * s->g_trial[r] >= -eps) continue;
     *inside = s->t_previous + where * h;
     memcpy(s->g, s->g_trial, (size_t)s->d->n_rel * sizeof *s->g);
     return 0;
@@ -152,12 +157,25 @@ void rt_resume_step(rt_session *s) {
   memcpy(s->data.v, s->v_end, (size_t)d->n_v * sizeof(double));
 }
 
-static void follow(rt_session *s) {
+/* Extremes of the guards. A guard that was thrown back by reinit, dipped to the other side by less than the hysteresis
+ * and comes through again has lost an event to rounding: the events of its relation were piling up. */
+static rt_status follow(rt_session *s) {
   for (int r = 0; r < s->d->n_rel; r++) {
-    double size = fabs(s->g[r]);
+    double size = fabs(s->g[r]), held = s->data.rel[r] ? s->g[r] : -s->g[r];
     if (size > s->g_span[r]) s->g_span[r] = size;
     if (size > s->g_travel[r]) s->g_travel[r] = size;
+    if (!s->rebound[r] || !s->options.locate_events) continue;
+    double eps = rt_hysteresis(s, r);
+    s->g_lowest[r] = rt_min(s->g_lowest[r], held);
+    if (held <= eps) continue;
+    s->rebound[r] = 0;
+    if (s->g_lowest[r] < -VISIBLE_DIP * eps)
+      return rt_fail(
+          s, RT_CHATTERING, s->t_previous, -1, &s->d->relations[r].source,
+          "chattering: the events of this relation come faster and faster at time %.9g s, until rounding swallows one",
+          s->t_previous);
   }
+  return RT_OK;
 }
 
 static int search(rt_session *s, double *crossing) {
@@ -193,6 +211,5 @@ rt_status rt_find_state_event(rt_session *s) {
     if (crossing < s->t && move_back(s, crossing)) return s->failure.status;
   }
   s->t_before = s->t_previous;
-  follow(s);
-  return RT_OK;
+  return follow(s);
 }

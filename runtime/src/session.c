@@ -53,6 +53,7 @@ static bool allocate_numbers(rt_session *s) {
                             {&s->g_trial, n_rel},
                             {&s->g_span, n_rel},
                             {&s->g_travel, n_rel},
+                            {&s->g_lowest, n_rel},
                             {&s->x_trial, n_x},
                             {&s->xdot_trial, n_x},
                             {&s->v_trial, n_v},
@@ -81,10 +82,11 @@ static bool allocate_numbers(rt_session *s) {
 static bool allocate_flags(rt_session *s) {
   const mdl_descriptor *d = s->d;
   mdl_data *m = &s->data;
-  const flags wanted[] = {{&m->rel, d->n_rel},  {&m->tick, d->n_sample},    {&m->when, d->n_when},
-                          {&s->flip, d->n_rel}, {&s->rel_before, d->n_rel}, {&s->rel_trial, d->n_rel}};
+  const flags wanted[] = {{&m->rel, d->n_rel},    {&m->tick, d->n_sample},    {&m->when, d->n_when},
+                          {&s->flip, d->n_rel},   {&s->rel_before, d->n_rel}, {&s->rel_trial, d->n_rel},
+                          {&s->rebound, d->n_rel}};
   const size_t count = sizeof wanted / sizeof *wanted;
-  unsigned char *next = s->flags = calloc((size_t)(4 * d->n_rel + d->n_sample + d->n_when) + 1, 1);
+  unsigned char *next = s->flags = calloc((size_t)(5 * d->n_rel + d->n_sample + d->n_when) + 1, 1);
   if (!next) return false;
   for (size_t i = 0; i < count; i++) {
     *wanted[i].place = next;

@@ -116,6 +116,9 @@ struct rt_session {
   double *g_span, *g_travel;  /* [n_rel] largest |g| of the run, and since the relation last switched */
   double *x_trial, *xdot_trial, *v_trial;
   double *x_before, *xdot_before, *v_before;
+  double *g_lowest;                      /* [n_rel] furthest on the other side since it switched, where rebound */
+  unsigned char *rebound;                /* [n_rel] the event at which it last switched reinitialised states */
+  bool reinitialised;                    /* the last event did */
   unsigned char *flip;                   /* [n_rel] relations that switch at t */
   unsigned char *rel_before, *rel_trial; /* [n_rel] */
   int pending;

@@ -205,6 +205,15 @@ TEST_P(Events, BallKeepsItsEnergyBetweenImpacts) {
   EXPECT_GE(impacts, 4);
 }
 
+TEST_P(Events, BallThatBouncesForeverIsReportedBeforeItFallsThrough) {
+  double rest = Ball::impact(1000);
+  Result result = simulate<Ball>({.solver = GetParam()}, 2 * rest);
+  EXPECT_EQ(result.failure().status, RT_CHATTERING) << result.failure().message;
+  EXPECT_NEAR(result.failure().time, rest, 1e-4);
+  for (size_t k = 0; k < result.rows(); k++)
+    EXPECT_GT(result.at(0, k), -1e-8);
+}
+
 TEST_P(Events, BeltGivesStickAndSlipTimesOfTheClosedForm) {
   Result result = simulate<Belt>({.solver = GetParam()}, 5);
   ASSERT_EQ(result.failure().status, RT_OK) << result.failure().message;
