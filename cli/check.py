@@ -2,16 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
-
 import typer
 
 from cli.errors import reported
-from cli.options import Model
-
-Units = Annotated[
-    Literal["error", "warn"], typer.Option(help="What a dimensionally inconsistent equation is: an error or a warning")
-]
+from cli.options import Model, Units
 
 
 @reported

@@ -9,7 +9,7 @@ from rich.table import Table
 import typer
 
 from cli.errors import reported
-from cli.options import Model
+from cli.options import Model, Units
 
 Dump = Annotated[
     Literal["flat", "structure", "c"] | None,
@@ -18,7 +18,7 @@ Dump = Annotated[
 
 
 @reported
-def compile(model: Model, dump: Dump = None) -> None:
+def compile(model: Model, dump: Dump = None, units: Units = "error") -> None:
     """Translate MODEL to C and compile it; print the seconds of each pass, or with --dump what the passes made.
 
     A model whose files are unchanged is neither translated nor compiled again.
@@ -26,9 +26,9 @@ def compile(model: Model, dump: Dump = None) -> None:
     from codegen.compile import compile_model
 
     if dump:
-        typer.echo(_dumped(model, dump), nl=False)
+        typer.echo(_dumped(model, dump, units), nl=False)
         return
-    compiled = compile_model(model)
+    compiled = compile_model(model, units=units)
     for warning in compiled.report.warnings:
         typer.echo(str(warning), err=True)
     if compiled.report.cached:
@@ -38,7 +38,7 @@ def compile(model: Model, dump: Dump = None) -> None:
     typer.echo(compiled.path)
 
 
-def _dumped(model: str, dump: str) -> str:
+def _dumped(model: str, dump: str, units: str) -> str:
     """The flat model needs the front end alone, so it can be looked at where later passes refuse it."""
     from codegen.compile import translate
     from codegen.flat_text import dump_flat
@@ -46,7 +46,9 @@ def _dumped(model: str, dump: str) -> str:
     from codegen.library import Library
     from codegen.report import dump as dumped
 
-    return dump_flat(flatten(Library(), model)) if dump == "flat" else dumped(translate(model)[0], dump)
+    if dump == "flat":
+        return dump_flat(flatten(Library(), model, units=units))
+    return dumped(translate(model, units=units)[0], dump)
 
 
 def _passes(name: str, seconds: dict[str, float]) -> Table:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
@@ -12,6 +12,9 @@ from cli.errors import UserError
 MODEL_HELP = "Qualified name (Lacuna.Actuators.X or Actuators.X) or a .mo file"
 
 Model = Annotated[str, typer.Argument(metavar="MODEL", help=MODEL_HELP)]
+Units = Annotated[
+    Literal["error", "warn"], typer.Option(help="What a dimensionally inconsistent equation is: an error or a warning")
+]
 Assignments = Annotated[
     list[str] | None,
     typer.Option("--parameter", "-p", metavar="NAME=VALUE", help="Set a parameter (SI units); repeat for more"),

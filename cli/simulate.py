@@ -11,7 +11,7 @@ from rich.table import Table
 import typer
 
 from cli.errors import UserError, nearest, reported
-from cli.options import Assignments, Model, assignments, default_folder, number
+from cli.options import Assignments, Model, Units, assignments, default_folder, number
 
 if TYPE_CHECKING:
     import runtime
@@ -38,6 +38,7 @@ def simulate(
     locate_events: Annotated[bool, typer.Option(help="Find events inside a step, or take them at its end")] = True,
     event_rows: Annotated[bool, typer.Option(help="Add a row before and a row after each event")] = True,
     parameter: Assignments = None,
+    units: Units = "error",
     inputs: Inputs = None,
     hold: Annotated[bool, typer.Option("--hold", help="Hold recorded inputs between samples, not linear")] = False,
     signal: Annotated[list[str] | None, typer.Option(help="Record only these variables; repeat for more")] = None,
@@ -54,7 +55,7 @@ def simulate(
     import runtime
 
     settings = assignments(parameter)
-    loaded = _compiled(model, settings)
+    loaded = _compiled(model, settings, units)
     values = {name: number(name, text) for name, text in settings.items() if loaded.variable(name).settable}
     begin = time.perf_counter()
     result = runtime.simulate(
@@ -74,19 +75,19 @@ def simulate(
         raise UserError(str(result.failure))
 
 
-def _compiled(model: str, settings: dict[str, str]) -> runtime.Model:
+def _compiled(model: str, settings: dict[str, str], units: str) -> runtime.Model:
     """The model, translated anew where a parameter that decides its structure is among `settings`."""
     from codegen.compile import compile_model
     import runtime
 
-    loaded = runtime.Model(compile_model(model).path)
+    loaded = runtime.Model(compile_model(model, units=units).path)
     parameters = {name: v for name, v in loaded.variables.items() if v.kind == "parameter"}
     fixed = {
         name: number(name, text)
         for name, text in settings.items()
         if not loaded.variable(name, "parameter", parameters).settable
     }
-    return runtime.Model(compile_model(model, modifications=fixed).path) if fixed else loaded
+    return runtime.Model(compile_model(model, modifications=fixed, units=units).path) if fixed else loaded
 
 
 def _recorded(inputs: list[str] | None, hold: bool) -> dict[str, runtime.RecordedInput]:

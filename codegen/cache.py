@@ -54,12 +54,14 @@ def generator_version() -> str:
     return _digest(" ".join(COMPILER), *(f.read_bytes() for f in files))
 
 
-def request_key(name: str, search_path: Sequence[str] | None, modifications: Mapping[str, object] | None) -> str:
+def request_key(
+    name: str, search_path: Sequence[str] | None, modifications: Mapping[str, object] | None, units: str
+) -> str:
     """Digest of what was asked for."""
     paths = [str(Path(p).resolve()) for p in search_path or ()]
     model = str(Path(name).resolve()) if name.endswith(".mo") else name
     changes = sorted((k, repr(v)) for k, v in (modifications or {}).items())
-    return _digest(json.dumps([model, paths, changes]))
+    return _digest(json.dumps([model, paths, changes, units]))
 
 
 def content_hash(files: Mapping[str, str], request: str) -> str:

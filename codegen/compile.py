@@ -78,12 +78,16 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
 
 
 def translate(
-    name: str, *, search_path: list[str] | None = None, modifications: Modifications | None = None
+    name: str,
+    *,
+    search_path: list[str] | None = None,
+    modifications: Modifications | None = None,
+    units: str = "error",
 ) -> tuple[Prepared, Report]:
-    """All passes up to, not including, C: for `--dump` and for tests."""
+    """All passes up to, not including, C: for `--dump` and for tests. `units`: see `flatten`."""
     report = Report()
     library = report.run("library", Library, *([search_path] if search_path else []))
-    model = report.run("flatten", flatten, library, name, dict(modifications or {}))
+    model = report.run("flatten", flatten, library, name, dict(modifications or {}), units)
     return prepare(model, report), report
 
 
@@ -93,18 +97,20 @@ def compile_model(
     search_path: list[str] | None = None,
     cache_directory: str | None = None,
     modifications: Modifications | None = None,
+    units: str = "error",
 ) -> CompiledModel:
     """Translate and compile a model, or take it from the cache where nothing that it was made from has changed.
 
-    Raises Diagnostic (a finding about the model) or cache.CompilerError (the C compiler failed).
+    `units`: what an inconsistent unit is, "error" or "warn" (a warning in the report). Raises Diagnostic (a finding
+    about the model) or cache.CompilerError (the C compiler failed).
     """
     store = cache.Cache(cache_directory)
-    request = cache.request_key(name, search_path, modifications)
+    request = cache.request_key(name, search_path, modifications, units)
     found = store.find(request)
     if found:
         return CompiledModel(found.name, found.library, found.hash, Report(cached=True, warnings=found.warnings))
     with _translating:
-        prepared, report = translate(name, search_path=search_path, modifications=modifications)
+        prepared, report = translate(name, search_path=search_path, modifications=modifications, units=units)
         prepared.hash = cache.content_hash(prepared.declared.files, request)
         source = report.run("C", generate, prepared)
     library = report.run("compile", store.build, prepared.hash, source)
