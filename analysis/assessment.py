@@ -105,7 +105,9 @@ def _write(done: Assessment, settings: Settings, folder: Path, features: Feature
 
     content = asdict(done) | {"map": str(folder), "model": settings.model}
     with published_together(out) as scratch:
-        (scratch / "assessment.json").write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
+        (scratch / "assessment.json").write_text(
+            json.dumps(content, indent=2, ensure_ascii=False) + "\n", encoding="utf-8"
+        )
         with in_style():
             figure = draw(settings, folder / "map.csv", features, done.estimate)
             for kind in ("svg", "png"):

@@ -1,7 +1,8 @@
 // lacuna-analyse RECORDING.csv --settings FILE [--out FILE.json] [--spectrum FILE.csv]
 //
-// Features of one recording as JSON, on standard output or in a file; with --spectrum also the peak-hold amplitude
-// spectra as CSV. Exit code 1 and one line on standard error where the recording or the settings cannot be used.
+// Features of one recording as JSON, on standard output or in a file (the mean speed is null without the angle); with
+// --spectrum also the peak-hold amplitude spectra as CSV. Exit code 1 and one line on standard error where the
+// recording or the settings cannot be used.
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -119,15 +120,13 @@ void write_file(const std::string &path, const std::string &text) {
 void run(const Arguments &arguments) {
   const lacuna::Chain chain(lacuna::Settings::parse(contents(arguments.settings)));
   const lacuna::Settings &settings = chain.settings();
-  std::vector<std::string> columns = settings.currents;
-  if (!settings.angle.empty()) columns.push_back(settings.angle);
   std::ifstream csv = open(arguments.recording);
-  const auto recording = lacuna::Recording::read(csv, columns, settings.sampling_rate, settings.samples());
+  const auto recording =
+      lacuna::Recording::read(csv, settings.currents, settings.angle, settings.sampling_rate, settings.samples());
   std::vector<std::span<const double>> currents;
   for (std::size_t c = 0; c < settings.currents.size(); ++c)
     currents.push_back(recording.column(c));
-  const auto angle = settings.angle.empty() ? std::span<const double>() : recording.column(currents.size());
-  const lacuna::Features features = chain.analyse(currents, angle);
+  const lacuna::Features features = chain.analyse(currents, recording.optional());
   if (!arguments.spectrum.empty()) write_file(arguments.spectrum, spectrum_csv(chain, features));
   if (arguments.out.empty())
     std::cout << features_json(chain, features);

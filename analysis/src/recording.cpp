@@ -12,8 +12,9 @@ namespace lacuna {
 
 namespace {
 
-// How far, in sampling periods, the time of a row may be from its place on the grid: rounding of decimal text.
-constexpr double time_slack = 1e-2;
+// How far, in sampling periods, the time of a row may be from its place on the grid: rounding of decimal text. A row at
+// an event may be near the grid by chance, and is a sample only if it is on it.
+constexpr double time_slack = 1e-2, event_slack = 1e-7;
 
 /// Header fields; quotes protect commas, as in "x[1,2]".
 std::vector<std::string> split_header(const std::string &line) {
@@ -87,8 +88,8 @@ std::string listed(const std::vector<std::string> &names) {
 
 } // namespace
 
-Recording Recording::read(std::istream &csv, const std::vector<std::string> &columns, double sampling_rate,
-                          std::size_t samples) {
+Recording Recording::read(std::istream &csv, const std::vector<std::string> &columns, const std::string &optional,
+                          double sampling_rate, std::size_t samples) {
   std::string line;
   if (!std::getline(csv, line)) throw Error("recording: the file is empty");
   const std::vector<std::string> header = split_header(line);
@@ -100,6 +101,7 @@ Recording Recording::read(std::istream &csv, const std::vector<std::string> &col
     if (!place) throw Error("recording: there is no column '" + name + "'; it has " + listed(header));
     places.push_back(*place);
   }
+  const auto extra = optional.empty() ? std::nullopt : position(header, optional);
   Recording recording;
   recording.columns_.resize(columns.size());
   for (auto &column : recording.columns_)
@@ -114,13 +116,15 @@ Recording Recording::read(std::istream &csv, const std::vector<std::string> &col
     const double time = row->front();
     if (taken == 0) start = time;
     const double off_grid = std::abs((time - start) * sampling_rate - static_cast<double>(taken));
-    if (!(off_grid <= time_slack)) {
-      if (event && (*row)[*event] != 0) continue;
+    const bool at_event = event && (*row)[*event] != 0;
+    if (!(off_grid <= (at_event ? event_slack : time_slack))) {
+      if (at_event) continue;
       rows.refuse("time " + std::to_string(time) + " s is not sample " + std::to_string(taken) + " at " +
                   std::to_string(sampling_rate) + " Hz");
     }
     for (std::size_t k = 0; k < places.size(); ++k)
       recording.columns_[k].push_back((*row)[places[k]]);
+    if (extra) recording.optional_.push_back((*row)[*extra]);
     ++taken;
   }
   return recording;

@@ -47,6 +47,12 @@ def test_standard_output_without_a_file(recording):
     assert json.loads(done.stdout)["turns"] == 11
 
 
+def test_without_the_angle_there_is_no_speed(tmp_path, recording):
+    lines = recording.read_text().replace("rotor.phi", "rotor.other", 1)
+    (tmp_path / "r.csv").write_text(lines)
+    assert json.loads(run(tmp_path / "r.csv", "--settings", PAPER).stdout)["speed_mean"] is None
+
+
 def test_bad_input_is_told_and_nothing_is_written(tmp_path, recording):
     truncated = tmp_path / "short.csv"
     truncated.write_text("\n".join(recording.read_text().splitlines()[:500]) + "\n")

@@ -13,7 +13,7 @@ namespace {
 
 Recording read(const std::string &csv, const std::vector<std::string> &columns = {"i[1,2]"}, std::size_t samples = 3) {
   std::istringstream stream(csv);
-  return Recording::read(stream, columns, 10.0, samples);
+  return Recording::read(stream, columns, "phi", 10.0, samples);
 }
 
 std::string message_of(const std::string &csv) {
@@ -33,9 +33,19 @@ TEST(Recording, ReadsNamedColumnsInAnyOrder) {
   EXPECT_EQ(recording.column(1)[0], 5);
 }
 
+TEST(Recording, TakesAnOptionalColumnWhereThereIsOne) {
+  EXPECT_EQ(read("time,\"i[1,2]\",phi\n0,1,5\n0.1,2,6\n0.2,3,7\n").optional()[2], 7);
+  EXPECT_TRUE(read("time,\"i[1,2]\"\n0,1\n0.1,2\n0.2,3\n").optional().empty());
+}
+
 TEST(Recording, LeavesOutRowsBetweenSamplesThatMarkEvents) {
   const auto recording = read("time,\"i[1,2]\",event\n0,1,0\n0.05,9,1\n0.05,8,1\n0.1,2,0\n0.2,3,0\n0.3,4,0\n");
   EXPECT_EQ(recording.column(0).size(), 3u);
+  EXPECT_EQ(recording.column(0)[1], 2);
+}
+
+TEST(Recording, AnEventNearASampleIsNotThatSample) {
+  const auto recording = read("time,\"i[1,2]\",event\n0,1,0\n0.09999,9,1\n0.09999,8,1\n0.1,2,0\n0.2,3,0\n");
   EXPECT_EQ(recording.column(0)[1], 2);
 }
 
