@@ -18,20 +18,24 @@ def explain(
 ) -> None:
     """Say which physics the believed model of CASE lacks, or that it lacks none, or that the data cannot tell.
 
-    Fits the believed model, ranks effects of the catalogue, writes the amended model and judges it on recordings that
-    nothing was fitted to. Writes diagnosis.json and, where there is one, the amended model; prints the verdict.
+    Fits the believed model, locates the missing effort, ranks effects of the catalogue, writes the amended model and
+    judges it on recordings that nothing was fitted to. Writes diagnosis.json, report.html and, where there is one, the
+    amended model; prints the verdict.
     """
-    from discovery import cases, diagnosis
+    from discovery import cases, diagnosis, report
     from discovery.explain import explain as explained
     from discovery.explain import write_amended
+    from discovery.locate import locate
 
     loaded = cases.load(case)
     folder = out or Path("out/explain") / case.resolve().name
-    with Console(stderr=True).status("") as status:
+    with Console(stderr=True).status("reading the recordings") as status:
         result = explained(loaded, progress=status.update)
+        status.update("locating the missing effort")
+        located = locate(loaded, result.base) if result.findings else None
     folder.mkdir(parents=True, exist_ok=True)
     amended = write_amended(result, folder)
-    written = diagnosis.write(result, folder, amended)
+    written = [diagnosis.write(result, folder, amended), report.write(result, folder, amended, located), amended]
     typer.echo(diagnosis.sentence(result))
-    for path in filter(None, (written, amended)):
+    for path in filter(None, written):
         typer.echo(f"written: {path}")
