@@ -65,9 +65,9 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     system = report.run("aliases", precompute, system)
     relations = report.run("hybrid", hybrid.rename, frozen.relations, system.renamed)
     steps = report.run("hybrid", events.order, system.model, discrete, system.renamed)
-    tearing = Tearing(DeclaredValues(system.model).parametric)
+    tearing = Tearing(DeclaredValues(system.model))
     explicit = report.run("matching, BLT, tearing", causalise, system.rows, system.unknowns, tearing)
-    residual = report.run("residual form", residual_form, system, tearing)
+    residual = report.run("residual form", residual_form, system, explicit, tearing)
     matrix = report.run("jacobian", jacobian, residual, system)
     initial = report.run("initial system", initial_system, system, system.model.initial_equations, tearing)
     report.warnings += [*declared.warnings, *initial.warnings]

@@ -75,6 +75,8 @@ def _block(rows: list[Row], unknowns: list[Expr], tearing: Tearing) -> list[Step
     torn = tearing.tear(rows, unknowns)
     chain, tears, residuals = torn.assignments, torn.tears, torn.residuals
     if _is_linear(rows, set(unknowns)):
+        if tearing.amplifies(torn):
+            return [_linear([], unknowns, rows)]
         return [_linear(chain, tears, residuals)]
     return [_nonlinear(chain, tears, residuals)]
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from ..differentiate import Differentiator
 from ..expr import ONE, ZERO, Expr, is_const, substitute, var
 from ..leaves import leaves
+from .causal import LinearBlock, Step, unknowns_of
 from .system import Row, System
 from .tearing import Assignment, Tearing
 
@@ -22,12 +23,17 @@ class ResidualForm:
     residuals: list[Row]
 
 
-def residual_form(system: System, tearing: Tearing) -> ResidualForm:
-    """Derivatives that equal a state (speeds) are taken from it everywhere but in the equation that says so."""
+def residual_form(system: System, explicit: Sequence[Step], tearing: Tearing) -> ResidualForm:
+    """Derivatives that equal a state (speeds) are taken from it everywhere but in the equation that says so. Where the
+    sequence would amplify rounding, unknowns of linear blocks of the explicit form are left to the integrator whole."""
     speeds = dict(filter(None, (_speed(row, system) for row in system.rows)))
     rows = [row if _speed(row, system) else _with_speeds(row, speeds) for row in system.rows]
     rough = [d for d in system.derivatives if d not in speeds]
-    torn = tearing.tear(rows, [var(n) for n in system.algebraics], rough)
+    algebraics = [var(n) for n in system.algebraics]
+    torn = tearing.tear(rows, algebraics, rough)
+    if tearing.amplifies(torn, map(var, system.states)):
+        blocks = [unknowns_of(step) for step in explicit if isinstance(step, LinearBlock)]
+        torn = tearing.tear(rows, algebraics, rough, [u for block in blocks for u in block if u.op == "var"])
     return ResidualForm(torn.assignments, torn.tears, torn.residuals)
 
 

@@ -76,6 +76,12 @@ class DeclaredValues:
         fixed = all(self._model.variables[n].variability in (flat.CONSTANT, flat.PARAMETER) for n in names)
         return self(e) if fixed and all(n.op == "var" for n in leaves(e)) else None
 
+    def unit(self, n: Expr) -> str:
+        """The declared unit of a variable, or of the variable that a derivative is of."""
+        while n.op == "der":
+            n = n.args[0]
+        return self._model.variables[str(n.value)].unit
+
     def variable(self, name: str) -> float | int | bool | None:
         if name not in self._memo:
             self._memo[name] = None  # ends a cycle of start attributes

@@ -13,8 +13,11 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from ..affine import UNSAFE, division_rank, isolate
+from ..differentiate import partial
 from ..expr import Expr, div
-from .system import Row
+from .system import DeclaredValues, Row
+
+AMPLIFICATION = 1e5
 
 
 @dataclass(eq=False)
@@ -36,8 +39,8 @@ class Torn:
 
 
 class Tearing:
-    def __init__(self, parameter_value: Callable[[Expr], float | None]):
-        self._parameter_value = parameter_value
+    def __init__(self, values: DeclaredValues):
+        self._values = values
         self._explicit: dict[tuple[Row, Expr], tuple[int, Expr | None]] = {}
         self._linear: dict[tuple[Row, Expr], bool] = {}
 
@@ -46,7 +49,7 @@ class Tearing:
         key = (row, unknown)
         if key not in self._explicit:
             parts = isolate(row.lhs, row.rhs, unknown)
-            rank = division_rank(parts[1], self._parameter_value) if parts else UNSAFE
+            rank = division_rank(parts[1], self._values.parametric) if parts else UNSAFE
             self._explicit[key] = (rank, div(*parts) if rank < UNSAFE else None)
         return self._explicit[key]
 
@@ -56,8 +59,11 @@ class Tearing:
             self._linear[key] = isolate(row.lhs, row.rhs, unknown) is not None
         return self._linear[key]
 
-    def tear(self, rows: Sequence[Row], unknowns: Sequence[Expr], rough: Iterable[Expr] = ()) -> Torn:
-        """Order `rows` for `unknowns`; every leaf that is not among them is known, `rough` leaves only roughly."""
+    def tear(
+        self, rows: Sequence[Row], unknowns: Sequence[Expr], rough: Iterable[Expr] = (), given: Sequence[Expr] = ()
+    ) -> Torn:
+        """Order `rows` for `unknowns`, of which `given` are tears from the start; every leaf that is not among them is
+        known, `rough` leaves only roughly."""
         position = {u: k for k, u in enumerate(unknowns)}
         missing = {row: {u for u in row.leaves if u in position} for row in rows}
         users: dict[Expr, list[Row]] = {u: [] for u in unknowns}
@@ -82,6 +88,9 @@ class Tearing:
             others = (other for other in users[unknown] if other in unused and other is not row)
             return not rough.isdisjoint(row.leaves) and not all(self._is_linear(other, unknown) for other in others)
 
+        for unknown in given:
+            torn.tears.append(unknown)
+            settle(unknown)
         while users_left:
             choice = self._best(ready, missing, unused, number, spoils)
             if choice is None:
@@ -96,6 +105,25 @@ class Tearing:
             settle(unknown)
         torn.residuals = list(unused)
         return torn
+
+    def amplifies(self, torn: Torn, known: Iterable[Expr] = ()) -> bool:
+        """Whether the chain of assignments blows up rounding of the tears or of `known` leaves.
+
+        A long chain may do so without bound, as the recursion along a ladder of resistors does; then a block is better
+        solved whole. Only quantities of one unit are compared; slopes are those at the declared values.
+        """
+        return any(self._largest_slope(torn, leaf) > AMPLIFICATION for leaf in (*torn.tears, *known))
+
+    def _largest_slope(self, torn: Torn, leaf: Expr) -> float:
+        slopes, largest = {leaf: 1.0}, 0.0
+        for step in torn.assignments:
+            used = [n for n in slopes if n in step.row.leaves and n is not step.unknown]
+            parts = [(self._values(partial(step.value, n)), slopes[n]) for n in used]
+            if used:
+                slopes[step.unknown] = sum(own * before for own, before in parts if own is not None)
+                if step.unknown.op == leaf.op and self._values.unit(step.unknown) == self._values.unit(leaf):
+                    largest = max(largest, abs(slopes[step.unknown]))
+        return largest
 
     def _best(
         self,

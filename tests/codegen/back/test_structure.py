@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from codegen.compile import translate
 from codegen.expr import to_text
 from codegen.prepared import Prepared
 from codegen.structure.causal import LinearBlock, NonlinearBlock
-from tests.codegen.generated import write_model
+from tests.codegen.generated import Generated, write_model
 
 
 @pytest.fixture
@@ -159,3 +160,22 @@ def test_friction_with_locked_mode_is_one_mixed_block(prepare) -> None:
     assert len(sizes) == 1
     assert sizes[0][0] == 3
     assert len(p.relations) == 1
+
+
+def test_ladder_whose_recursion_would_blow_up_is_solved_whole(tmp_path: Path) -> None:
+    """Node voltages of 40 equal sections fall by the golden ratio squared from each to the next."""
+    text = """model Ladder
+      parameter Integer n = 40; Real v[n]; Real i[n]; Real x(start = 1, fixed = true);
+      parameter Real R = 1; parameter Real T(unit = "s") = 1;
+    equation
+      der(x)*T = -v[n];
+      v[1] = x; i[1] = (v[1] - v[2])/R;
+      for k in 2:n-1 loop
+        (v[k-1] - v[k])/R + (v[k+1] - v[k])/R = i[k]; i[k] = v[k]/R;
+      end for;
+      (v[n-1] - v[n])/R = i[n]; i[n] = v[n]/R;
+    end Ladder;
+    """
+    model = Generated(write_model(tmp_path, text), tmp_path)
+    v = model.rhs(0.0, np.array([1.0]))[1][:5]
+    np.testing.assert_allclose(v[1:] / v[:-1], (3 - np.sqrt(5)) / 2, rtol=1e-12)
