@@ -14,7 +14,7 @@ import numpy as np
 from analysis.chain import Chain, Features
 from analysis.errors import AnalysisError
 from analysis.files import published_together
-from analysis.preparation import START_FILE, TABLE_FILE
+from analysis.preparation import START_FILE, TABLE_FILE, fingerprint
 from analysis.recordings import Recording, Refusal, check_phases, read_recording
 from analysis.settings import Band, Settings, load_settings
 from analysis.severity_table import Estimate, SeverityTable
@@ -50,6 +50,8 @@ def assess(
     if unfiltered:
         found = Recording(found.names, found.sampling_rate, low_pass(found.currents, found.sampling_rate, settings))
     with np.load(folder / START_FILE, allow_pickle=False) as start:
+        if str(start["map"]) != fingerprint(folder):
+            raise AnalysisError(f"{folder}: the map was drawn anew since it was prepared; prepare it again")
         check_phases(found, start["currents"], float(start["rate"]))
     features = chain_at(settings, found.sampling_rate).analyse(found.currents)
     estimate = table.estimate(features)
@@ -81,10 +83,10 @@ def low_pass(currents: np.ndarray, sampling_rate: float, settings: Settings) -> 
     """The map's current filter, equal first-order sections in cascade, from rest (bilinear, matched at the corner)."""
     from scipy.signal import bilinear, lfilter
 
-    corner = 2 * np.pi * settings.raw["filter"]["corner"]
+    corner = 2 * np.pi * settings.table("filter")["corner"]
     warped = 2 * sampling_rate * np.tan(corner / (2 * sampling_rate))
     b, a = bilinear([warped], [1, warped], sampling_rate)
-    for _ in range(settings.raw["filter"]["sections"]):
+    for _ in range(settings.table("filter")["sections"]):
         currents = lfilter(b, a, currents, axis=1)
     return currents
 

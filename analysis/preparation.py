@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
+import hashlib
 import os
+from pathlib import Path
 
 import numpy as np
 from scipy.stats import chi2
@@ -29,13 +31,22 @@ def prepare_assessment(plant: Plant, settings: Settings, finished: Map, *, jobs:
     AnalysisError where a severity has no complete signature.
     """
     chain, severities = Chain(settings.text), settings.fault.severities
-    plant, levels = plant.with_solver(settings.raw["assessment"]["solver"]), conditions(settings)
+    plant, levels = plant.with_solver(settings.table("assessment")["solver"]), conditions(settings)
     signatures = np.array([_signatures(plant, settings, chain, severities, level, jobs) for level in levels])
     covariance = np.array([nuisance_covariances(plant, settings, severities, level, jobs) for level in levels])
     contents = _contents(settings, chain, [row.rms_mean for row in finished.rows], signatures, covariance)
     with published_together(finished.folder) as scratch:
         (scratch / TABLE_FILE).write_bytes(table_bytes(contents))
-        np.savez(scratch / START_FILE, rate=START_RATE, currents=_starts(plant, settings, severities))
+        starts = _starts(plant, settings, severities)
+        np.savez(scratch / START_FILE, rate=START_RATE, currents=starts, map=fingerprint(finished.folder))
+
+
+def fingerprint(folder: Path) -> str:
+    """Of the map in `folder`, so that what was prepared for another one is not used with it."""
+    digest = hashlib.sha256()
+    for name in ("map.csv", "settings.toml"):
+        digest.update((folder / name).read_bytes())
+    return digest.hexdigest()
 
 
 def _signatures(
@@ -74,7 +85,7 @@ def _contents(
         sampling_rate=settings.sampling_rate,
         peak_rule=(rule["above"], rule["threshold"]),
         speed_after=settings.speed_after,
-        misfit_limit=float(chi2.isf(settings.raw["assessment"]["improbable"], freedom)),
+        misfit_limit=float(chi2.isf(settings.table("assessment")["improbable"], freedom)),
         severity=np.array(settings.fault.severities),
         rms_mean=np.array(rms_mean),
         signature=signatures,

@@ -55,7 +55,7 @@ def run_tests(
 ) -> Results:
     """Simulate and assess `count` tests (a power of two keeps the design balanced) with the severity table `table`."""
     nuisances = settings.raw.get("nuisances", [])
-    plant = plant.with_solver(settings.raw["assessment"]["solver"])
+    plant = plant.with_solver(settings.table("assessment")["solver"])
     design = qmc.Sobol(1 + len(nuisances), seed=SEED).random(count)
     reader, chain = SeverityTable(table), Chain(settings.text)
     key = hashlib.sha256(json.dumps([plant.hash, settings.text, CHUNK, SEED]).encode() + table.read_bytes()).hexdigest()
@@ -108,7 +108,7 @@ def _test(
 
 def _sensed(currents: np.ndarray, settings: Settings, seed: int) -> np.ndarray:
     """What sensors and converter make of the currents: gain, offset, noise, steps."""
-    sensor, random = settings.raw["assessment"], np.random.default_rng(seed)
+    sensor, random = settings.table("assessment"), np.random.default_rng(seed)
     per_channel = (len(currents), 1)
     gain = 1 + sensor["sensor_gain"] * random.standard_normal(per_channel)
     offset = sensor["sensor_offset"] * random.standard_normal(per_channel)

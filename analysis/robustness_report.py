@@ -68,7 +68,7 @@ def write_study(settings: Settings, results: Results, docs: Path) -> None:
 
 
 def page(settings: Settings, results: Results) -> str:
-    fault, threshold = settings.fault, settings.raw["assessment"]["maintenance"]
+    fault, threshold = settings.fault, settings.table("assessment")["maintenance"]
     ours, paper = results.estimate - results.severity, results.paper - results.severity
     nuisances = [
         f"| {nuisance['name']} | {_percent(a)} | {_percent(b)} |"
@@ -79,7 +79,7 @@ def page(settings: Settings, results: Results) -> str:
     return PAGE.format(
         count=len(results.severity),
         model=settings.model,
-        solver=settings.raw["assessment"]["solver"],
+        solver=settings.table("assessment")["solver"],
         threshold=fault.text(threshold),
         unit="points" if fault.unit == "%" else fault.unit,
         methods="\n".join(_methods(settings, results)),
@@ -90,13 +90,13 @@ def page(settings: Settings, results: Results) -> str:
 
 def alarms(settings: Settings, results: Results) -> tuple[np.ndarray, np.ndarray]:
     """Who says "needs maintenance": (mean RMS, signature)."""
-    threshold = settings.raw["assessment"]["maintenance"]
+    threshold = settings.table("assessment")["maintenance"]
     before = max((band.last for band in settings.bands if band.last < threshold), default=threshold)
     return results.paper >= (before + threshold) / 2, results.high >= threshold
 
 
 def _methods(settings: Settings, results: Results) -> list[str]:
-    fault, threshold = settings.fault, settings.raw["assessment"]["maintenance"]
+    fault, threshold = settings.fault, settings.table("assessment")["maintenance"]
     sick, healthy = results.severity >= threshold, results.severity < settings.bands[0].last
     by_paper, by_ours = alarms(settings, results)
     readings = (results.paper, results.estimate)

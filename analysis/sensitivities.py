@@ -21,7 +21,7 @@ from analysis.settings import Settings
 
 def conditions(settings: Settings) -> list[float]:
     """Levels of the first nuisance, as its normal number, over the whole range of a uniform one: +-sqrt(3)."""
-    count = settings.raw["assessment"]["conditions"]
+    count = settings.table("assessment")["conditions"]
     return np.linspace(-np.sqrt(3), np.sqrt(3), count).tolist() if count > 1 else [0.0]
 
 
@@ -44,13 +44,13 @@ def nuisance_covariances(
 
     Columns a and c are simulated at every `assessment.every`-th severity and interpolated between.
     """
-    chain, every = Chain(settings.text), settings.raw["assessment"]["every"]
+    chain, every = Chain(settings.text), settings.table("assessment")["every"]
     knots = sorted({*severities[::every], severities[-1]})
     with ThreadPoolExecutor(max_workers=jobs or os.cpu_count()) as pool:
         columns = np.array(list(pool.map(lambda knot: _columns(plant, settings, chain, level, knot), knots)))
     between = _interpolated(np.array(severities), np.array(knots), columns)
-    floors = np.full(between.shape[2], settings.raw["assessment"]["floor"])
-    floors[-1] = settings.raw["assessment"]["frequency_floor"]
+    floors = np.full(between.shape[2], settings.table("assessment")["floor"])
+    floors[-1] = settings.table("assessment")["frequency_floor"]
     return np.einsum("mqi,mqj->mij", between, between) + np.diag(floors**2)
 
 
@@ -77,7 +77,7 @@ def _columns(plant: Plant, settings: Settings, chain: Chain, level: float, sever
 
     def sensed(channel: int, z: int) -> np.ndarray:
         currents = record.currents.copy()
-        currents[channel] += z * settings.raw["assessment"]["sensor_offset"]
+        currents[channel] += z * settings.table("assessment")["sensor_offset"]
         return _signature(chain, record, currents)
 
     columns: list[np.ndarray] = []
@@ -89,7 +89,7 @@ def _columns(plant: Plant, settings: Settings, chain: Chain, level: float, sever
     for channel in range(len(settings.currents)):
         columns += pair(lambda z, channel=channel: sensed(channel, z))
         gain = np.zeros_like(centre)  # moves ln(rms) and ln(h1) of its channel, and nothing else
-        gain[per_channel * channel : per_channel * channel + 2] = settings.raw["assessment"]["sensor_gain"]
+        gain[per_channel * channel : per_channel * channel + 2] = settings.table("assessment")["sensor_gain"]
         columns.append(gain)
     return np.array(columns)
 

@@ -76,9 +76,24 @@ class Settings:
     published: dict[str, Any]
     raw: dict[str, Any]
 
+    def table(self, name: str) -> dict[str, Any]:
+        """A table that not every use of the settings needs. Raises AnalysisError where it, or an entry, is missing."""
+        if name not in self.raw:
+            raise AnalysisError(f"{self.path}: table [{name}] is missing")
+        return _Table(f"{self.path}: {name}", self.raw[name])
+
     @property
     def samples(self) -> int:
         return round(self.sampling_rate * self.duration)
+
+
+class _Table(dict):
+    def __init__(self, place: str, entries: dict[str, Any]):
+        super().__init__(entries)
+        self._place = place
+
+    def __missing__(self, key: str) -> None:
+        raise AnalysisError(f"{self._place}.{key} is missing")
 
 
 def load_settings(path: Path | str = PAPER) -> Settings:

@@ -37,7 +37,7 @@ def _draw_readings(axes: Axes, settings: Settings, results: Results, name: str, 
 
 
 def _draw_roc(axes: Axes, settings: Settings, results: Results) -> None:
-    threshold = settings.raw["assessment"]["maintenance"]
+    threshold = settings.table("assessment")["maintenance"]
     sick = results.severity >= threshold
     for name, field, colour in METHODS:
         alarms, hits, area = roc(sick, getattr(results, field))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import subprocess
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 from scipy.io import savemat
 
 from analysis.assessment import assess, chain_at, low_pass
+from analysis.errors import AnalysisError
 from analysis.library import library_path
 from analysis.recordings import Refusal
 from analysis.settings import load_settings
@@ -115,6 +117,14 @@ def test_a_saturated_channel_is_refused_and_a_quantised_one_is_not(tmp_path, map
     assess(write(tmp_path / "good.csv", converted(record)), map_folder, columns=COLUMNS)
     with pytest.raises(Refusal, match="ib: saturated at its upper limit"):
         assess(write(tmp_path / "bad.csv", converted(spoilt(record, "saturated"))), map_folder, columns=COLUMNS)
+
+
+def test_a_map_drawn_anew_must_be_prepared_anew(tmp_path, map_folder):
+    shutil.copytree(map_folder, tmp_path / "map")
+    with (tmp_path / "map" / "map.csv").open("a") as file:
+        file.write("\n")
+    with pytest.raises(AnalysisError, match="prepare it again"):
+        assess(write(tmp_path / "r.csv", simulate(0.1)[:3]), tmp_path / "map", columns=COLUMNS)
 
 
 def test_another_actuator_is_refused(tmp_path, map_folder):

@@ -32,6 +32,14 @@ def test_slips_name_the_file_and_the_entry(tmp_path, old, new, message):
     assert "settings.toml" in str(caught.value)
 
 
+def test_tables_that_only_some_uses_need(tmp_path):
+    settings = paper_settings(tmp_path, ("[filter]", "[other]"), ("improbable", "unlikely"))
+    with pytest.raises(AnalysisError, match=r"table \[filter\] is missing"):
+        settings.table("filter")
+    with pytest.raises(AnalysisError, match=r"assessment\.improbable is missing"):
+        settings.table("assessment")["improbable"]
+
+
 def test_a_missing_file_is_an_os_error(tmp_path):
     with pytest.raises(FileNotFoundError):
         load_settings(tmp_path / "none.toml")
