@@ -16,82 +16,56 @@ static const rt_method *find_method(const char *name) {
   return NULL;
 }
 
-typedef struct {
-  double **place;
-  int n;
-} numbers;
+#define COUNT(array) (sizeof(array) / sizeof *(array))
 
 typedef struct {
-  unsigned char **place;
+  double **const *places;
+  size_t count;
   int n;
-} flags;
+} group;
 
 /* Hand out slices of one block, so that there is one thing to check and one to free. */
 static bool allocate_numbers(rt_session *s) {
   const mdl_descriptor *d = s->d;
   mdl_data *m = &s->data;
-  const int n_x = d->n_x, n_v = d->n_v, n_rel = d->n_rel, n_y = d->n_x + d->n_z;
-  const numbers wanted[] = {{&m->p, d->n_p},
-                            {&m->u, d->n_u},
-                            {&m->x, n_x},
-                            {&m->xdot, n_x},
-                            {&m->v, n_v},
-                            {&m->d, d->n_d},
-                            {&m->pre_d, d->n_d},
-                            {&s->p_run, d->n_p},
-                            {&s->initial_value, n_x},
-                            {&s->atol, n_y},
-                            {&s->y, n_y},
-                            {&s->yp, n_y},
-                            {&s->clock.first, d->n_sample},
-                            {&s->clock.interval, d->n_sample},
-                            {&s->dense.c, (RT_DENSE_DEGREE + 1) * n_x},
-                            {&s->g, n_rel},
-                            {&s->g_previous, n_rel},
-                            {&s->g_low, n_rel},
-                            {&s->g_before, n_rel},
-                            {&s->g_trial, n_rel},
-                            {&s->g_span, n_rel},
-                            {&s->g_travel, n_rel},
-                            {&s->g_lowest, n_rel},
-                            {&s->x_trial, n_x},
-                            {&s->xdot_trial, n_x},
-                            {&s->v_trial, n_v},
-                            {&s->x_before, n_x},
-                            {&s->xdot_before, n_x},
-                            {&s->v_before, n_v},
-                            {&s->x_end, n_x},
-                            {&s->xdot_end, n_x},
-                            {&s->v_end, n_v},
-                            {&s->recorder.x, n_x},
-                            {&s->recorder.xdot, n_x},
-                            {&s->recorder.v, n_v}};
-  const size_t count = sizeof wanted / sizeof *wanted;
+  rt_recorder *r = &s->recorder;
+  double **parameters[] = {&m->p, &s->p_run}, **inputs[] = {&m->u}, **discrete[] = {&m->d, &m->pre_d};
+  double **unknowns[] = {&s->atol, &s->y, &s->yp}, **samples[] = {&s->clock.first, &s->clock.interval};
+  double **algebraic[] = {&m->v, &s->v_trial, &s->v_before, &s->v_end, &r->v}, **dense[] = {&s->dense.c};
+  double **states[] = {&m->x,           &m->xdot,  &s->initial_value, &s->x_trial, &s->xdot_trial, &s->x_before,
+                       &s->xdot_before, &s->x_end, &s->xdot_end,      &r->x,       &r->xdot};
+  double **guards[] = {&s->g,        &s->g_previous, &s->g_low,    &s->g_trial,
+                       &s->g_before, &s->g_span,     &s->g_travel, &s->g_lowest};
+  const group groups[] = {{parameters, COUNT(parameters), d->n_p},
+                          {inputs, COUNT(inputs), d->n_u},
+                          {discrete, COUNT(discrete), d->n_d},
+                          {unknowns, COUNT(unknowns), d->n_x + d->n_z},
+                          {samples, COUNT(samples), d->n_sample},
+                          {algebraic, COUNT(algebraic), d->n_v},
+                          {dense, COUNT(dense), (RT_DENSE_DEGREE + 1) * d->n_x},
+                          {states, COUNT(states), d->n_x},
+                          {guards, COUNT(guards), d->n_rel}};
   size_t total = 1;
-  for (size_t i = 0; i < count; i++)
-    total += (size_t)wanted[i].n;
+  for (size_t i = 0; i < COUNT(groups); i++)
+    total += groups[i].count * (size_t)groups[i].n;
   double *next = s->numbers = calloc(total, sizeof *next);
-  if (!next) return false;
-  for (size_t i = 0; i < count; i++) {
-    *wanted[i].place = next;
-    next += wanted[i].n;
-  }
-  return true;
+  for (size_t i = 0; next && i < COUNT(groups); i++)
+    for (size_t j = 0; j < groups[i].count; j++, next += groups[i].n)
+      *groups[i].places[j] = next;
+  return s->numbers != NULL;
 }
 
 static bool allocate_flags(rt_session *s) {
   const mdl_descriptor *d = s->d;
   mdl_data *m = &s->data;
-  const flags wanted[] = {{&m->rel, d->n_rel},    {&m->tick, d->n_sample},    {&m->when, d->n_when},
-                          {&s->flip, d->n_rel},   {&s->rel_before, d->n_rel}, {&s->rel_trial, d->n_rel},
-                          {&s->rebound, d->n_rel}};
-  const size_t count = sizeof wanted / sizeof *wanted;
-  unsigned char *next = s->flags = calloc((size_t)(5 * d->n_rel + d->n_sample + d->n_when) + 1, 1);
+  unsigned char **relations[] = {&m->rel, &s->flip, &s->rel_before, &s->rel_trial, &s->rebound};
+  unsigned char *next = s->flags =
+      calloc(COUNT(relations) * (size_t)d->n_rel + (size_t)(d->n_sample + d->n_when) + 1, 1);
   if (!next) return false;
-  for (size_t i = 0; i < count; i++) {
-    *wanted[i].place = next;
-    next += wanted[i].n;
-  }
+  for (size_t i = 0; i < COUNT(relations); i++, next += d->n_rel)
+    *relations[i] = next;
+  m->tick = next;
+  m->when = next + d->n_sample;
   return true;
 }
 
