@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from cli import assess, check, compare, compile, explain, maps, simulate, sweep
+from cli import assess, check, compare, compile, explain, maps, simulate, steps, sweep
 
 app = typer.Typer(
     name="lacuna",
@@ -38,6 +38,10 @@ app.command("maps", rich_help_panel=FAULTS)(maps.maps)
 app.command("sweep", rich_help_panel=FAULTS)(sweep.sweep)
 app.command("assess", rich_help_panel=FAULTS)(assess.assess)
 app.command("explain", rich_help_panel=PHYSICS)(explain.explain)
+app.command("fit", rich_help_panel=PHYSICS)(steps.fit)
+app.command("locate", rich_help_panel=PHYSICS)(steps.locate)
+app.command("name", rich_help_panel=PHYSICS)(steps.name)
+app.command("judge", rich_help_panel=PHYSICS)(steps.judge)
 
 if __name__ == "__main__":
     app()

@@ -37,7 +37,19 @@ def refused(*words: str) -> str:
 
 def test_every_command_has_help() -> None:
     names = [command.name for command in app.registered_commands]
-    assert {"check", "compile", "simulate", "compare", "maps", "assess", "explain"} <= set(names)
+    assert {
+        "check",
+        "compile",
+        "simulate",
+        "compare",
+        "maps",
+        "assess",
+        "explain",
+        "fit",
+        "locate",
+        "name",
+        "judge",
+    } <= set(names)
     for name in names:
         assert lacuna(name, "--help").exit_code == 0
         assert lacuna("--help").output.count(name) >= 1
@@ -157,3 +169,10 @@ def test_compare_with_a_file_has_a_tolerance(tmp_path: Path) -> None:
     file = str(tmp_path / "run" / "SquareWaveServo.csv")
     assert lacuna("compare", SERVO, "--against", file, "--tolerance", "1e-4").exit_code == 0
     assert "w" in refused("compare", SERVO, "--against", file, "--tolerance", "1e-4", "-p", "R=3.4")
+
+
+def test_fit_of_a_practice_case_is_looked_at_alone(shared: Path, tmp_path: Path) -> None:
+    result = lacuna("fit", str(shared / "recordings" / "practice" / "p01"), "--out", "fit")
+    assert result.exit_code == 0, result.output
+    assert "believed" in result.output
+    assert (tmp_path / "fit" / "report.html").stat().st_size > 10_000

@@ -1,0 +1,109 @@
+"""`lacuna fit`, `locate`, `name`, `judge`: the steps of an explanation, each to be run and looked at alone."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from rich.console import Console
+from rich.table import Table
+import typer
+
+from cli.errors import reported
+
+if TYPE_CHECKING:
+    from discovery.explain import Explanation
+    from discovery.locate import Located
+
+Case = Annotated[Path, typer.Argument(metavar="CASE", help="Folder with case.toml and its recordings")]
+Out = Annotated[Path | None, typer.Option(help="Folder of report.html; default: out/STEP/CASE")]
+SHOWN = 12  # rows of a ranking
+
+
+@reported
+def fit(case: Case, out: Out = None) -> None:
+    """Are the believed equations enough? Fit all parameters that are not exact; print them with their intervals."""
+    from discovery.cases import load
+    from discovery.steps import fitted
+
+    with Console(stderr=True).status("reading the recordings") as status:
+        result, _ = fitted(load(case), status.update)
+    _parameters(result)
+    _errors(result.before.validate, result.floor)
+    _report(result, "fit", case, out)
+
+
+@reported
+def locate(case: Case, out: Out = None) -> None:
+    """Which effort is missing, and where? Rank the places of the model by what an effort there would explain."""
+    from discovery.cases import load
+    from discovery.steps import located
+
+    with Console(stderr=True).status("reading the recordings") as status:
+        result, found = located(load(case), status.update)
+    table = Table("place", "missing", "misfit explained")
+    for place in found.places[:SHOWN]:
+        table.add_row(place.location, f"{place.kind}, {place.unit}", f"{place.explained:.1%}")
+    Console().print(table)
+    if found.organiser:
+        typer.echo(f"it follows {found.organiser} best ({found.organised:.0%} of its variance)")
+    _report(result, "locate", case, out, found)
+
+
+@reported
+def name(case: Case, out: Out = None) -> None:
+    """Which physics is it? Attach the catalogue's effects, simulate and fit again, and rank them by the evidence."""
+    from discovery.cases import load
+    from discovery.steps import named
+
+    with Console(stderr=True).status("reading the recordings") as status:
+        result = named(load(case), status.update)
+    table = Table("hypothesis", "evidence against none", "confidence")
+    for ranked in result.namings[0].ranked[:SHOWN]:
+        table.add_row(ranked.attachment.label, f"{-ranked.score:.1f}", f"{ranked.confidence:.3f}")
+    Console().print(table)
+    _report(result, "name", case, out)
+
+
+@reported
+def judge(
+    case: Case,
+    model: Annotated[Path, typer.Argument(metavar="MODEL.mo", help="A model file with the believed model's variables")],
+) -> None:
+    """How well does a model file, as written, simulate the recordings that nothing was fitted to?"""
+    from codegen.library import Library
+    from discovery import places
+    from discovery.amend import Amendment
+    from discovery.cases import load
+    from discovery.judge import judge_file
+
+    loaded = load(case)
+    found = judge_file(loaded, Amendment(places.read(Library(), loaded.model)), model, {})
+    _errors(found.validate, None)
+
+
+def _parameters(result: Explanation) -> None:
+    from discovery.diagnosis import build
+
+    table = Table("parameter", "believed", "fitted", "± (95 %)", "unit", "")
+    for name, p in build(result, None)["parameters"].items():
+        flag = "outside belief" if p["outside_belief"] else ""
+        table.add_row(name, f"{p['believed']:.5g}", f"{p['value']:.5g}", f"{2 * p['std']:.2g}", p["unit"], flag)
+    Console().print(table)
+
+
+def _errors(nrmse: dict[str, float], floor: dict[str, float] | None) -> None:
+    """NRMSE on the validation recordings; the key "" is that of all signals together."""
+    table = Table("signal", "NRMSE, validation", *(["noise alone"] if floor else []))
+    for signal, value in nrmse.items():
+        noise = [f"{floor[signal]:.4g}" if signal in floor else ""] if floor else []
+        table.add_row(signal or "all", f"{value:.4g}", *noise)
+    Console().print(table)
+
+
+def _report(result: Explanation, step: str, case: Path, out: Path | None, located: Located | None = None) -> None:
+    from discovery.report import write
+
+    folder = out or Path("out") / step / case.resolve().name
+    folder.mkdir(parents=True, exist_ok=True)
+    typer.echo(f"written: {write(result, folder, None, located)}")
