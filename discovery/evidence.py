@@ -12,6 +12,7 @@ from .fit import Fit
 BLOCKS = (1, 8, 40, 200)  # samples over which a residual is averaged
 SIGMAS = 5.0
 ROUNDING = 2.5  # allowance for rounding errors of a slow signal, which are alike from sample to sample
+GROWTH = 1.3  # of the power of block means from one block length to the next that colour may still explain
 TOLERANCE = 0.04  # of the noise level, within which it counts as known
 
 
@@ -55,6 +56,23 @@ def _blocks(fit: Fit, column: str, block: int) -> Whiteness:
 def is_noise(fit: Fit) -> bool:
     """Whether nothing is left in any signal but noise."""
     return all(w.passed for w in whiteness(fit).values())
+
+
+def like_noise(fit: Fit) -> bool:
+    """Whether what is left may be coloured noise: of the given level, and no more correlated over long than short times.
+
+    The power of block means of coloured noise grows with the block and then stays; that of a misfit goes on growing.
+    """
+    for column, noise in fit.noise.items():
+        sizes = {b: _blocks(fit, column, b) for b in BLOCKS}
+        if noise.given and sizes[1].ratio > sizes[1].limit:
+            return False
+        chance = {b: sizes[b].limit / sizes[1].limit for b in BLOCKS}
+        if sizes[200].ratio > GROWTH * chance[200] * max(sizes[40].ratio, 1.0):
+            return False
+        if sizes[40].ratio > 2 * GROWTH * chance[40] * max(sizes[8].ratio, 1.0):
+            return False
+    return True
 
 
 def outside_belief(fit: Fit, sigmas: float = 3.0) -> dict[str, float]:

@@ -13,7 +13,7 @@ import numpy as np
 from . import catalogue, places
 from .amend import Amendment
 from .cases import Case
-from .evidence import is_noise, outside_belief, pays, whiteness
+from .evidence import is_noise, like_noise, outside_belief, pays, whiteness
 from .fit import Fit, believed, bandwidths_for, fit, noise_of
 from .hypotheses import enumerate_attachments
 from .judge import Judgement, judge, noise_floor
@@ -163,17 +163,13 @@ def _conclude(result: Explanation) -> None:
             result.verdict = "missing_physics"
         return
     outside = outside_belief(result.base)
-    if left:
+    if left and not like_noise(result.final):
         result.verdict = "undetermined"
         worst = max(left, key=lambda w: w.ratio / w.limit)
         result.reason = result.reason or (
             f"the residual of {worst.column} is not noise, and no effect of the catalogue explains it"
         )
         result.experiment = "record the same motion with the quantities that are not recorded now"
-        if outside and not any(n.best and n.best.score < -MIN_GAIN for n in result.namings):
-            result.verdict = "parameters"
-        elif not outside and not result.reason.count("validation") and all(w.ratio < 1.3 * w.limit for w in left):
-            result.verdict = "consistent"
     else:
         result.verdict = "parameters" if outside else "consistent"
 
