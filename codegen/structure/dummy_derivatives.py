@@ -1,29 +1,34 @@
 """Static choice of states: for every equation that was differentiated one derivative becomes algebraic.
 
 S. Mattsson, G. Soderlind, Index reduction in DAEs using dummy derivatives, SIAM J. Sci. Comput. 14 (1993) 677-692.
-The pivots are evaluated at the start values, so the choice holds as long as they stay away from zero; the
-structure report names it. Among good pivots stateSelect decides, then the order of derivative.
+The pivots are evaluated at the start values, so the choice holds as long as they stay away from zero: where a pivot
+varies an assert watches it, and the structure report names the choice. Among good pivots stateSelect decides, then the
+order of derivative.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import reduce
 
 from .. import flat
 from ..differentiate import partial
 from ..errors import Diagnostic
-from ..expr import Expr, der, var
+from ..expr import Expr, add, const, der, mul, relation, var
 from ..rewrite import Rewriter, all_statements
 from .aliases import STATE_SELECT
+from .constants import is_parametric
 from .system import DeclaredValues, Row, System
 
 PIVOT = 1e-6  # smallest pivot accepted, relative to the largest entry of its equation
+WATCHED = 0.1  # smallest pivot tolerated during a run, relative to those of the states that it stands beside
 
 
 def choose_states(model: flat.FlatModel, rows: list[Row], names: list[str]) -> System:
     """Select dummy derivatives among `rows` and return the system in the remaining states."""
     variables = _variables(rows, names)
-    dummies = _choose_dummies(model, rows, variables)
+    dummies, watches = _choose_dummies(model, rows, variables)
+    model = replace(model, asserts=[*model.asserts, *watches])
     replacement, model, extra = _rename(model, variables, dummies)
     rewriter = Rewriter(replacement.get)
     new_rows: dict[Row, Row] = {}
@@ -68,19 +73,40 @@ def _variables(rows: list[Row], names: list[str]) -> dict[Expr, int]:
     return found
 
 
-def _choose_dummies(model: flat.FlatModel, rows: list[Row], variables: dict[Expr, int]) -> set[Expr]:
+def _choose_dummies(
+    model: flat.FlatModel, rows: list[Row], variables: dict[Expr, int]
+) -> tuple[set[Expr], list[flat.Assert]]:
     differentiated = {row.integral for row in rows if row.integral}
     constraints = [row for row in rows if row.integral and row not in differentiated]
     candidates = [v for v in variables if variables[v] and der(v) not in variables]
     dummies: set[Expr] = set()
+    watches: list[flat.Assert] = []
     values = DeclaredValues(model)
     reset = _reinitialised(model)
     while constraints:
-        chosen = _pivots(model, constraints, candidates, variables, values, reset)
+        pivots = _pivots(model, constraints, candidates, variables, values, reset)
+        chosen = set(pivots.values())
         dummies.update(chosen)
+        watches += _watches(pivots, [v for v in candidates if v not in chosen], model)
         candidates = [v.args[0] for v in variables if v in chosen and variables[v] > 1]
         constraints = [row.integral for row in constraints if row.integral.integral]
-    return dummies
+    return dummies, watches
+
+
+def _watches(pivots: dict[Row, Expr], states: list[Expr], model: flat.FlatModel) -> list[flat.Assert]:
+    """Asserts that the pivots which vary stay large enough beside those of the derivatives of states."""
+    found = []
+    for row, dummy in pivots.items():
+        pivot = partial(row.residual, dummy)
+        beside = [v for v in states if v in row.leaves]
+        if is_parametric(pivot, model.variables) or not beside:
+            continue
+        squares = [mul(slope, slope) for slope in (partial(row.residual, v) for v in beside)]
+        condition = relation(">=", mul(pivot, pivot), mul(const(WATCHED**2), reduce(add, squares)))
+        names = ", ".join(text_of(v.args[0]) for v in beside)
+        message = f"{names} cannot be the state here: write stateSelect=StateSelect.prefer for {text_of(dummy.args[0])}"
+        found.append(flat.Assert(condition, f"{message} ({row.source.text})", row.source.span))
+    return found
 
 
 def _reinitialised(model: flat.FlatModel) -> set[str]:
@@ -96,13 +122,13 @@ def _pivots(
     variables: dict[Expr, int],
     values: DeclaredValues,
     reset: set[str],
-) -> set[Expr]:
-    """As many candidates as rows, with a regular Jacobian at the start values (Gaussian elimination)."""
+) -> dict[Row, Expr]:
+    """For each row one of the candidates, with a regular Jacobian at the start values (Gaussian elimination)."""
     matrix = [[_entry(row, v, values) for v in candidates] for row in rows]
     scale = [max(map(abs, line), default=0.0) or 1.0 for line in matrix]
     matrix = [[a / s for a in line] for line, s in zip(matrix, scale, strict=True)]
     keys = [_keep(model, v, variables[v], reset) for v in candidates]
-    chosen: set[Expr] = set()
+    chosen: dict[Row, Expr] = {}
     left_rows, left_columns = list(range(len(rows))), list(range(len(candidates)))
     while left_rows:
         good = [(r, c) for c in left_columns for r in left_rows if abs(matrix[r][c]) > PIVOT]
@@ -112,7 +138,7 @@ def _pivots(
         r, c = max(((r, c) for r, c in good if keys[c] == weakest), key=lambda p: (abs(matrix[p[0]][p[1]]), p[1]))
         left_rows.remove(r)
         left_columns.remove(c)
-        chosen.add(candidates[c])
+        chosen[rows[r]] = candidates[c]
         for other in left_rows:
             factor = matrix[other][c] / matrix[r][c]
             matrix[other] = [a - factor * b for a, b in zip(matrix[other], matrix[r], strict=True)]

@@ -259,3 +259,34 @@ def test_functions_and_their_derivatives(tmp_path: Path, solver: str) -> None:
     np.testing.assert_allclose(r["vz"], x * v / z, atol=1e-10)
     np.testing.assert_allclose(r["s"], x + 2 + v + z, rtol=1e-12)
     np.testing.assert_allclose(r["p[3]"], x * 2 * (v + z), rtol=1e-9, atol=1e-12)
+
+
+PENDULUM = """model Pendulum
+  parameter Real L(unit = "m") = 1; parameter Real g(unit = "m/s2") = 9.81;
+  Real x(unit = "m", start = 0.8, fixed = true); Real y(unit = "m", start = -0.6);
+  Real vx(unit = "m/s", start = 0, fixed = true); Real vy(unit = "m/s"); Real F(unit = "1/s2");
+equation
+  vx = der(x); vy = der(y);
+  der(vx) = -x*F; der(vy) = -y*F - g;
+  x^2 + y^2 = L^2;
+end Pendulum;
+"""
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_index_three_pendulum_swings_with_the_right_state(simulate, solver: str) -> None:
+    text = PENDULUM.replace("fixed = true)", "fixed = true, stateSelect = StateSelect.prefer)")
+    r = simulate(text, 3.0, solver)
+    assert np.min(r["x"]) == pytest.approx(-0.8, abs=1e-3)
+    np.testing.assert_allclose(r["x"] ** 2 + r["y"] ** 2, 1, atol=1e-10)
+    np.testing.assert_allclose((r["vx"] ** 2 + r["vy"] ** 2) / 2 + 9.81 * r["y"], -9.81 * 0.6, atol=1e-5)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_choice_of_states_that_ceases_to_hold_ends_the_run(tmp_path: Path, solver: str) -> None:
+    """At rest at x = 0.8 the other coordinate looks like a good state; at the bottom it is none."""
+    compiled = compile_model(write_model(tmp_path, PENDULUM), cache_directory=str(tmp_path))
+    r = runtime.simulate(runtime.Model(compiled.path), solver=solver, stop=3.0, rtol=1e-9, atol=1e-11)
+    assert not r.complete
+    assert "stateSelect=StateSelect.prefer for x" in r.failure.message
+    assert abs(r["x"][-1]) == pytest.approx(0.1, abs=0.15)
