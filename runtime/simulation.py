@@ -46,7 +46,8 @@ class Session:
     `output_times`, or every `interval` seconds, or (interval 0) at the end of every step; by default the model's own
     interval. With `events`, a row before and one after each event is added. `locate_events=False` takes state and
     time events at the end of the step in which they fall, which is what fixed-step simulations usually do.
-    A run that takes more than `max_steps` ends with a failure. `atol` is per unit of a variable's nominal value. Raises SimulationError for what cannot be used.
+    A run that takes more than `max_steps` ends with a failure. `atol` is per unit of a variable's nominal value.
+    Raises SimulationError for what cannot be used.
     """
 
     def __init__(
@@ -72,8 +73,8 @@ class Session:
                 raise SimulationError(f"{name} must be greater than zero, not {value}")
         self.settings = {"solver": solver, "rtol": rtol, "atol": atol, "step": step, "max_step": max_step,
                          "locate_events": locate_events}  # fmt: skip
-        options = COptions(solver.encode(), rtol or 0, atol or 0, step or 0, max_step or 0, locate_events, events,
-            max_steps or 0)  # fmt: skip
+        limits = (rtol or 0, atol or 0, step or 0, max_step or 0)
+        options = COptions(solver.encode(), *limits, locate_events, events, max_steps or 0)
         message = ctypes.create_string_buffer(MESSAGE_SIZE)
         self._handle = self._lib.rt_session_new(model.handle, ctypes.byref(options), message, MESSAGE_SIZE)
         if not self._handle:

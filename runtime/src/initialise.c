@@ -31,6 +31,7 @@ static void clear(rt_session *s) {
   s->t_before = NAN;
   s->resume = false;
   s->dense.valid = false;
+  s->steps_taken = 0;
   s->futile_events = s->tiny_steps = s->pending = 0;
 }
 

@@ -106,6 +106,7 @@ struct rt_session {
   double t_previous, t;             /* what is being looked at of the last step; data belongs to t */
   double t_end;                     /* end of the last step; later than t when an event cut it short, and then */
   double *x_end, *xdot_end, *v_end; /* the point there */
+  long steps_taken;                 /* in this run */
   int tiny_steps;                   /* consecutive steps that hardly differ from none */
   bool resume; /* go on to the end of the last step: the event at t changed nothing that is integrated */
   rt_clock clock;

@@ -31,6 +31,9 @@ static rt_status move_on(rt_session *s) {
     rt_resume_step(s);
     return RT_OK;
   }
+  if (s->options.max_steps > 0 && s->steps_taken++ >= s->options.max_steps)
+    return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "more than %ld steps up to time %.9g s", s->options.max_steps,
+                   s->t);
   s->dense.valid = false;
   rt_status status = s->method->step(s, s->memory, rt_clock_limit(s));
   s->t_end = s->t;
@@ -76,12 +79,8 @@ rt_result *rt_session_run(rt_session *s, double start, double stop) {
   s->result = rt_result_new(s->recorder.n, s->d->n_p, expected_rows(s));
   if (!s->result) return NULL;
   rt_status status = begin(s);
-  for (long taken = 0; !status && s->t < s->stop && !s->data.terminated; taken++) {
-    if (s->options.max_steps > 0 && taken >= s->options.max_steps)
-      status = rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "more than %ld steps up to time %.9g s", taken, s->t);
-    else
-      status = advance(s);
-  }
+  while (!status && s->t < s->stop && !s->data.terminated)
+    status = advance(s);
   finish(s, status);
   return s->result;
 }

@@ -164,6 +164,13 @@ def test_a_run_that_fails_keeps_its_rows_and_says_why(tmp_path: Path):
     np.testing.assert_allclose(result["x"][:9], 1 / (1 - result.time[:9]), rtol=1e-4)
 
 
+def test_max_steps_ends_a_run_that_takes_too_many(servo: runtime.Model):
+    session = runtime.Session(servo, solver="dopri5", max_steps=50, interval=1e-3)
+    for _ in range(2):
+        result = session.run(stop=2.0)
+        assert result.counters["steps"] == 50 and "more than 50 steps" in str(result.failure)
+
+
 def test_assert_and_terminate_end_a_run(tmp_path: Path):
     equations = (
         'der(x) = 1;\n  assert(x < 0.5, "x is too large");\n  when x > 0.3 then\n    terminate("enough");\n  end when;'
