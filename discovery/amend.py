@@ -84,7 +84,9 @@ class _Writer:
             lines += ["equation", *(f"  {e}" for e in self.equations)]
         return "\n".join([*lines, f"end {name};", ""])
 
-    def _declare(self, attachment: Attachment, extra: str = "", bound: dict[str, str] | None = None, name: str = "") -> None:
+    def _declare(
+        self, attachment: Attachment, extra: str = "", bound: dict[str, str] | None = None, name: str = ""
+    ) -> None:
         effect = attachment.effect
         entries = [extra] if extra else []
         bound = bound or {}
@@ -148,7 +150,7 @@ class _Writer:
         part = attachment.part
         self.left_out.append(part.name)
         self._declare(attachment, part.modification[1:-1])
-        chained = {e for e in self.equations}
+        chained = set(self.equations)
         for left, right in self.amendment.structure.connections:
             opened = f"connect({left}, {right})" in self.left_out
             if part.name in (left.split(".")[0], right.split(".")[0]) and not opened:
@@ -164,7 +166,9 @@ class _Writer:
 
     def _sensor(self, attachment: Attachment) -> None:
         self._declare(attachment)
-        earlier = replace(self.amendment, attachments=self.amendment.attachments[: self.amendment.attachments.index(attachment)])
+        earlier = replace(
+            self.amendment, attachments=self.amendment.attachments[: self.amendment.attachments.index(attachment)]
+        )
         self.equations.append(f"{attachment.component}.u = {earlier.output(attachment.variable)};")
 
     def _probes(self) -> None:

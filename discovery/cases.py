@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from pathlib import Path
 import csv
+from dataclasses import dataclass, field
 import math
+from pathlib import Path
 import tomllib
 
 import numpy as np
@@ -98,7 +98,7 @@ def load(folder: str | Path) -> Case:
             raise CaseError(f"{path}: `{key}` is missing")
     signals = {column: _signal(path, column, table) for column, table in raw["signals"].items()}
     if not any(s.role == "output" for s in signals.values()):
-        raise CaseError(f"{path}: no signal has role = \"output\", so there is nothing to compare with")
+        raise CaseError(f'{path}: no signal has role = "output", so there is nothing to compare with')
     case = Case(
         folder=folder,
         title=str(raw.get("title", folder.name)),
@@ -134,7 +134,7 @@ def _signal(path: Path, column: str, table: dict) -> Signal:
     if role not in ("input", "output"):
         raise CaseError(f'{where} role = {role!r}; it must be "input" or "output"')
     if "unit" not in table:
-        raise CaseError(f"{where} has no unit; give one, such as unit = \"rad/s\"")
+        raise CaseError(f'{where} has no unit; give one, such as unit = "rad/s"')
     try:
         scale, si_unit = to_si(str(table["unit"]))
     except UnitError as error:

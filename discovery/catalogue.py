@@ -113,7 +113,9 @@ def _effect(library: Library, cls: ast.Class, entry: ast.Modification) -> Effect
         value = fields.get(name, ())
         fields[name] = (value,) if isinstance(value, str) else tuple(value)
     friction = any(base.name == "FrictionEffect" for base in base_classes(library, cls))
-    return Effect(identifier, cls.path, cls.description, parameters=_parameters(library, cls, fields), friction=friction, **fields)
+    return Effect(
+        identifier, cls.path, cls.description, parameters=_parameters(library, cls, fields), friction=friction, **fields
+    )
 
 
 def _parameters(library: Library, cls: ast.Class, fields: dict[str, Any]) -> tuple[EffectParameter, ...]:
@@ -123,7 +125,9 @@ def _parameters(library: Library, cls: ast.Class, fields: dict[str, Any]) -> tup
     if fields.get("replaces"):
         names = [n for n in names if n not in _replaced_names(library, cls, fields)]
     return tuple(
-        EffectParameter(n, v.unit or "1", v.description, _number(v.min, -1e30), _number(v.max, 1e30), _number(v.binding, 0.0))
+        EffectParameter(
+            n, v.unit or "1", v.description, _number(v.min, -1e30), _number(v.max, 1e30), _number(v.binding, 0.0)
+        )
         for n in names
         if not (v := flat.variables[n]).final and not _protected(cls, n)
     )  # fmt: skip

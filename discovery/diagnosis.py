@@ -109,12 +109,18 @@ def _where(result: Explanation, finding: Finding) -> dict[str, Any]:
     times = []
     for recording in result.case.fit:
         weighted = sum(
-            (np.nan_to_num(before.residuals[recording.name][c]) / (before.noise[c].std * before.level[c])) ** 2 for c in before.noise
+            (np.nan_to_num(before.residuals[recording.name][c]) / (before.noise[c].std * before.level[c])) ** 2
+            for c in before.noise
         )
         width = max(1, len(weighted) // 25)
         power = np.convolve(weighted, np.ones(width) / width, mode="same")
         k = int(np.argmax(power))
-        times.append((float(power[k]), [float(recording.time[max(k - width, 0)]), float(recording.time[min(k + width, len(power) - 1)])]))
+        times.append(
+            (
+                float(power[k]),
+                [float(recording.time[max(k - width, 0)]), float(recording.time[min(k + width, len(power) - 1)])],
+            )
+        )
     times.sort(reverse=True)
     effect = finding.ranked.attachment.effect
     return {"variable": _variable(finding), "time": [t for _, t in times[:3]], "text": effect.signature}
@@ -133,7 +139,9 @@ def _variable(finding: Finding) -> str:
         return f"{attachment.location}.{'s' if identifier in ('stiffness', 'friction.position') else 'v'}"
     if attachment.lines:
         return f"{attachment.lines[0].load}.i"
-    return f"{attachment.part.name}.phi_rel" if identifier in ("backlash", "compliance") else f"{attachment.part.name}.i"
+    return (
+        f"{attachment.part.name}.phi_rel" if identifier in ("backlash", "compliance") else f"{attachment.part.name}.i"
+    )
 
 
 def _nrmse(before: Any, after: Any) -> dict[str, Any]:

@@ -59,7 +59,7 @@ def is_noise(fit: Fit) -> bool:
 
 
 def like_noise(fit: Fit) -> bool:
-    """Whether what is left may be coloured noise: of the given level, and no more correlated over long than short times.
+    """Whether what is left may be coloured noise: of the given level, its memory short.
 
     The power of block means of coloured noise grows with the block and then stays; that of a misfit goes on growing.
     """

@@ -7,14 +7,15 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 import time
 
-from codegen.library import Library
 import numpy as np
+
+from codegen.library import Library
 
 from . import catalogue, places
 from .amend import Amendment
 from .cases import Case
 from .evidence import is_noise, like_noise, outside_belief, pays, whiteness
-from .fit import Fit, believed, bandwidths_for, fit, noise_of
+from .fit import Fit, Objective, bandwidths_for, believed, fit, noise_of
 from .hypotheses import enumerate_attachments
 from .judge import Judgement, judge, noise_floor
 from .machine import Machine
@@ -24,7 +25,6 @@ from .semantic_check import check_against_model
 from .tracking import trackable
 
 MAX_FINDINGS = 3
-ROUGH = (0.0,)
 
 Progress = Callable[[str], None]
 
@@ -118,11 +118,12 @@ def fit_believed(case: Case, machine: Machine) -> tuple[Fit, tuple[float, ...]]:
     if best is not None and is_noise(best):
         return best, bandwidths
     random = np.random.default_rng(1)
-    for _ in range(1):
-        start = {f.name: f.clip(f.centre + f.scale * float(random.normal())) for f in free}
-        other = fit(machine, case.fit, noise, free, fixed, start=start, bandwidths=bandwidths)
-        if other is not None and (best is None or other.deviance() < best.deviance()):
-            best = other
+    start = {f.name: f.clip(f.centre + f.scale * float(random.normal())) for f in free}
+    other = (
+        fit(machine, case.fit, noise, free, fixed, start=start, bandwidths=bandwidths) if len(bandwidths) < 2 else None
+    )
+    if other is not None and (best is None or other.deviance() < best.deviance()):
+        best = other
     if best is None:
         raise RuntimeError(f"{case.model} cannot be simulated with the recorded inputs of {case.label}")
     return best, bandwidths
@@ -133,10 +134,13 @@ def _add_findings(result: Explanation, effects: list, bandwidths: tuple[float, .
     while len(result.findings) < MAX_FINDINGS and not is_noise(result.final):
         progress(f"looking for missing physics, round {len(result.findings) + 1}")
         attachments = enumerate_attachments(case, result.amendment.structure, effects, result.amendment)
-        naming = rank(case, result.amendment, attachments, result.final, bandwidths=bandwidths, progress=progress)
+        naming = rank(case, result.amendment, attachments, _tracked(result.final, bandwidths), progress=progress)
         result.namings.append(naming)
         best = naming.best
         if best is None or best.score > -MIN_GAIN:
+            return
+        progress(f"polishing {best.attachment.label}")
+        if not _polish(result.final, best, bandwidths):
             return
         after = judge(best.candidate.machine, best.fit.point)
         if not pays(result.after.validate, after.validate, result.floor):
@@ -146,6 +150,31 @@ def _add_findings(result: Explanation, effects: list, bandwidths: tuple[float, .
         attachments = [*result.amendment.attachments, best.attachment]
         result.amendment = replace(result.amendment, attachments=attachments)
         result.final, result.after = best.fit, after
+
+
+def _tracked(base: Fit, bandwidths: tuple[float, ...]) -> Fit:
+    """The fit that hypotheses are compared on: where fits are rough, shafts are held near their recorded motion."""
+    if len(bandwidths) < 2:
+        return base
+    objective = Objective(base.machine, base.machine.case.fit, base.noise)
+    objective.track(bandwidths[0], base.point)
+    fixed = base.fixed | objective.stiffness
+    return fit(base.machine, base.machine.case.fit, base.noise, base.estimate.free, fixed, start=base.point) or base
+
+
+def _polish(base: Fit, best: Ranked, bandwidths: tuple[float, ...]) -> bool:
+    """Fit the chosen hypothesis without trackers; false where that fails or is no better than the base."""
+    if len(bandwidths) < 2:
+        return True
+    candidate = best.candidate
+    found = fit(
+        candidate.machine, base.machine.case.fit, base.noise, [*base.estimate.free, *candidate.free],
+        base.fixed | candidate.fixed, start=best.fit.point, bandwidths=bandwidths,
+    )  # fmt: skip
+    if found is None or found.deviance(best.fit.correlation()) > base.deviance(best.fit.correlation()):
+        return False
+    best.fit = found
+    return True
 
 
 def _conclude(result: Explanation) -> None:
@@ -176,7 +205,9 @@ def _conclude(result: Explanation) -> None:
 
 def experiment_for(best: Ranked, rivals: list[Ranked]) -> str:
     """What to record so that tied hypotheses part: the excitation that the catalogue asks for each of them."""
-    wanted = dict.fromkeys(r.attachment.effect.excitation for r in [best, *rivals[:2]] if r.attachment.effect.excitation)
+    wanted = dict.fromkeys(
+        r.attachment.effect.excitation for r in [best, *rivals[:2]] if r.attachment.effect.excitation
+    )
     return "record: " + "; ".join(wanted)
 
 

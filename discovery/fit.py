@@ -32,7 +32,9 @@ class Fit:
     machine: Machine
     estimate: Estimate
     level: dict[str, float]
-    residuals: dict[str, dict[str, np.ndarray]]  # recording -> column -> (n,) measured minus simulated, SI; NaN: missing
+    residuals: dict[
+        str, dict[str, np.ndarray]
+    ]  # recording -> column -> (n,) measured minus simulated, SI; NaN: missing
     weights: dict[str, dict[str, np.ndarray]]  # of the samples, in the same layout
     noise: dict[str, Noise]
     simulations: int
@@ -44,9 +46,11 @@ class Fit:
 
     def sensitivities(self) -> dict[str, list[np.ndarray]]:
         """Unweighted columns of the Jacobian (units of noise per scaled parameter) for each recording, by parameter."""
-        if not self.estimate.jacobian or self.machine.amendment.trackers:
+        if not self.estimate.jacobian:
             return {}
-        levels = [np.concatenate([np.full(len(r[c]), self.level[c]) for c in self.noise]) for r in self.residuals.values()]
+        levels = [
+            np.concatenate([np.full(len(r[c]), self.level[c]) for c in self.noise]) for r in self.residuals.values()
+        ]
         return {
             f.name: [block[:, k] * level for block, level in zip(self.estimate.jacobian, levels, strict=True)]
             for k, f in enumerate(self.estimate.free)
@@ -60,7 +64,9 @@ class Fit:
         """Samples that carry the information of one, for each signal, from this fit's residual."""
         result = {}
         for column in self.noise:
-            times = [correlation_time(np.nan_to_num(r[column]) * self.weights[n][column]) for n, r in self.residuals.items()]
+            times = [
+                correlation_time(np.nan_to_num(r[column]) * self.weights[n][column]) for n, r in self.residuals.items()
+            ]
             result[column] = float(np.mean(times))
         return result
 
@@ -77,11 +83,13 @@ class Fit:
         return float(total)
 
     def _mean_square(self, column: str) -> float:
-        total = sum(np.sum((self.weights[n][column] * np.nan_to_num(r[column])) ** 2) for n, r in self.residuals.items())
+        total = sum(
+            np.sum((self.weights[n][column] * np.nan_to_num(r[column])) ** 2) for n, r in self.residuals.items()
+        )
         return float(total) / self.counts()[column] / self.noise[column].std ** 2
 
     def inflation(self) -> float:
-        """Factor on the covariance for what noise alone does not explain: misfit level and colour, mean over signals."""
+        """Factor on the covariance for coloured residuals, mean over signals."""
         colour = self.correlation()
         return float(np.mean([colour[c] for c in self.noise]))
 
@@ -104,7 +112,15 @@ def believed(case: Case, machine: Machine) -> tuple[list[Free], dict[str, float]
             continue
         low, high = (LOWER_SHARE * value, np.inf) if value > 0 else (-np.inf, np.inf)
         free.append(
-            Free(name, value, sigma, max(low, variable.min), min(high, variable.max), sigma, step=min(1e-2, 3e-4 * abs(value) / sigma))
+            Free(
+                name,
+                value,
+                sigma,
+                max(low, variable.min),
+                min(high, variable.max),
+                sigma,
+                step=min(1e-2, 3e-4 * abs(value) / sigma),
+            )
         )
     fixed |= {n: v for n, v in case.parameters.items() if n not in fixed and n not in [f.name for f in free]}
     for name in machine.unknown_states():
@@ -145,7 +161,13 @@ class Objective:
         names = self.sections()
         split = [np.split(p, len(names)) for p in parts]
         squares = [sum(float(s[k] @ s[k]) for s in split) for k in range(len(names))]
-        counts = [sum(float(np.sum(w[n] ** 2)) if n in w else len(r.time) for w, r in zip(self.samples, self.recordings, strict=True)) for n in names]
+        counts = [
+            sum(
+                float(np.sum(w[n] ** 2)) if n in w else len(r.time)
+                for w, r in zip(self.samples, self.recordings, strict=True)
+            )
+            for n in names
+        ]
         return {n: float(np.sqrt(s / c)) for n, s, c in zip(names, squares, counts, strict=True)}
 
     def weights(self, level: Mapping[str, float]) -> list[np.ndarray]:
@@ -205,7 +227,7 @@ def fit(
     iterations: int = 4,
     known: Mapping[str, list[np.ndarray]] | None = None,
 ) -> Fit | None:
-    """Fit `free` to the recordings, tracking shafts with each bandwidth in turn (the last one 0). None if it cannot run."""
+    """Fit `free` to the recordings, tracking with each bandwidth in turn (the last one 0). None if it cannot run."""
     objective = Objective(machine, recordings, noise)
     problem = Problem(free, objective, len(objective.recordings), dict(fixed))
     first = dict(start or {})
@@ -213,7 +235,9 @@ def fit(
     found, level = None, {}
     for bandwidth in bandwidths:
         objective.track(bandwidth, dict(fixed) | {f.name: v for f, v in zip(free, values, strict=True)})
-        columns = {} if objective.stiffness else {k: known[f.name] for k, f in enumerate(free) if known and f.name in known}
+        columns = (
+            {} if objective.stiffness else {k: known[f.name] for k, f in enumerate(free) if known and f.name in known}
+        )
         result, level_here = anneal(objective, problem, values, stages=stages, iterations=iterations, known=columns)
         if result is not None:
             found, level, values = result, level_here, result.values
@@ -223,7 +247,8 @@ def fit(
 
 
 def _finish(
-    machine: Machine, recordings: Sequence[Recording], noise: dict[str, Noise], found: Estimate, level: dict[str, float],
+    machine: Machine, recordings: Sequence[Recording], noise: dict[str, Noise], found: Estimate,
+    level: dict[str, float],
     simulations: int, fixed: dict[str, float],
 ) -> Fit | None:  # fmt: skip
     residuals = residuals_of(machine, recordings, fixed | found.point)
@@ -242,11 +267,15 @@ def residuals_of(
         simulated = machine.simulate(values, recording)
         if simulated is None:
             return None
-        result[recording.name] = {s.column: recording.columns[s.column] - simulated[s.column] for s in machine.case.outputs}
+        result[recording.name] = {
+            s.column: recording.columns[s.column] - simulated[s.column] for s in machine.case.outputs
+        }
     return result
 
 
-def nrmse(case: Case, recordings: Sequence[Recording], residuals: Mapping[str, Mapping[str, np.ndarray]]) -> dict[str, float]:
+def nrmse(
+    case: Case, recordings: Sequence[Recording], residuals: Mapping[str, Mapping[str, np.ndarray]]
+) -> dict[str, float]:
     """NRMSE of each output column, pooled over recordings, and of the case under the key "" (FORMAT.md)."""
     result = {}
     for signal in case.outputs:

@@ -10,7 +10,9 @@ from .catalogue import Effect
 from .places import Line, Shaft, Structure
 
 
-def enumerate_attachments(case: Case, structure: Structure, effects: list[Effect], amendment: Amendment) -> list[Attachment]:
+def enumerate_attachments(
+    case: Case, structure: Structure, effects: list[Effect], amendment: Amendment
+) -> list[Attachment]:
     """All attachments that can be added to `amendment`: one of each effect at each place, variants apart."""
     taken = {(a.effect.identifier, a.location, a.effect.name) for a in amendment.attachments}
     replaced = {a.part.name for a in amendment.attachments if a.part}
@@ -44,7 +46,9 @@ def _on_shafts(case: Case, structure: Structure, effect: Effect) -> list[Attachm
         component = _component(effect, shaft.location)
         for signals in _signal_choices(structure, shaft, effect):
             for values in _values(effect):
-                result.append(Attachment(effect, component, shaft.location, shaft=shaft, signals=signals, values=values))
+                result.append(
+                    Attachment(effect, component, shaft.location, shaft=shaft, signals=signals, values=values)
+                )
     return result
 
 
@@ -132,6 +136,7 @@ def _on_sensors(case: Case, structure: Structure, effect: Effect) -> list[Attach
 
 
 _PLACES = {
-    "flange": _on_shafts, "line": _in_phases, "star": _in_phases, "phases": _in_phases, "phase": _in_one_phase, "replace": _instead_of_part,
+    "flange": _on_shafts, "line": _in_phases, "star": _in_phases, "phases": _in_phases,
+    "phase": _in_one_phase, "replace": _instead_of_part,
     "sensor": _on_sensors, "imposed": _beside_devices,
 }  # fmt: skip

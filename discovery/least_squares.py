@@ -152,7 +152,9 @@ def solve(
     `known` columns of the Jacobian (in scaled coordinates) are used as they are while they still lead downhill.
     """
     free = problem.free
-    values = np.array([f.clip(f.centre if f.start is None else f.start) for f in free]) if start is None else start.copy()
+    values = (
+        np.array([f.clip(f.centre if f.start is None else f.start) for f in free]) if start is None else start.copy()
+    )
     here = problem.evaluate(values)
     if here is None:
         return None
@@ -189,11 +191,18 @@ def solve(
             frozen = {}
     return Estimate(
         free, values, cost, data, parts, normal, converged, count, problem.simulations,
-        [np.column_stack([columns[k][piece] for k in range(len(free))]) for piece in range(problem.pieces)] if columns else [],
+        _blocks(columns, problem.pieces),
     )  # fmt: skip
 
 
-def _normal_equations(problem: Problem, values: np.ndarray, parts: list[np.ndarray], columns: dict[int, list[np.ndarray]]):
+def _blocks(columns: dict[int, list[np.ndarray]], pieces: int) -> list[np.ndarray]:
+    """The Jacobian of each piece, a column for each parameter."""
+    return [np.column_stack([columns[k][piece] for k in sorted(columns)]) for piece in range(pieces)] if columns else []
+
+
+def _normal_equations(
+    problem: Problem, values: np.ndarray, parts: list[np.ndarray], columns: dict[int, list[np.ndarray]]
+):
     size = len(problem.free)
     normal, gradient = np.zeros((size, size)), np.zeros(size)
     for piece, residual in enumerate(parts):
@@ -209,7 +218,9 @@ def _normal_equations(problem: Problem, values: np.ndarray, parts: list[np.ndarr
     return normal, gradient
 
 
-def _bounded_step(free: list[Free], values: np.ndarray, normal: np.ndarray, gradient: np.ndarray, damping: float) -> np.ndarray:
+def _bounded_step(
+    free: list[Free], values: np.ndarray, normal: np.ndarray, gradient: np.ndarray, damping: float
+) -> np.ndarray:
     """Damped Gauss-Newton step; parameters that would leave their bounds are set onto them one by one."""
     size = len(free)
     step, active = np.zeros(size), np.ones(size, dtype=bool)

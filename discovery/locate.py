@@ -1,7 +1,7 @@
 """Where effort is missing: for every place the smallest effort, as a function of time, that would explain the data.
 
-A probe at a place (a torque on a shaft, a voltage in a line) is a piecewise linear function of time. The outputs' response to
-each of its nodes is simulated, and the nodes follow by least squares together with the parameters, smoothed so that
+A probe at a place (a torque on a shaft, a voltage in a line) is a piecewise linear function of time. The response to each
+of its nodes is simulated, and the nodes follow by least squares together with the parameters, smoothed so that
 noise is not turned into effort. Places are ranked by how much of the misfit of all signals one of them explains; an
 error of a sensor explains its own signal only.
 """
@@ -76,9 +76,7 @@ def _probe(machine: Machine, screen: Screen, base: Fit, k: int, probe: Shaft | L
     columns, amount = _responses(machine, screen, base, k)
     share, nodes = _smoothest(screen, columns)
     location = probe.location if torque else f"{probe.load}{':' + probe.phase if probe.phase else ''}"
-    effort = {
-        r.name: (_nodes(r), amount * nodes[i * NODES : (i + 1) * NODES]) for i, r in enumerate(screen.recordings)
-    }
+    effort = {r.name: (_nodes(r), amount * nodes[i * NODES : (i + 1) * NODES]) for i, r in enumerate(screen.recordings)}
     return PlaceEffort(location, "torque" if torque else "voltage", "N.m" if torque else "V", share, effort)
 
 
@@ -93,7 +91,9 @@ def _responses(machine: Machine, screen: Screen, base: Fit, k: int) -> tuple[np.
     tasks = [(i, j) for i in range(len(screen.recordings)) for j in range(NODES)]
     offsets = np.cumsum([0, *(len(w) for w in screen.weights)])
     columns = np.zeros((rows, len(tasks)))
-    for c, ((i, _), part) in enumerate(zip(tasks, _pool.map(lambda t: _node_response(machine, screen, base, k, *t, amount), tasks), strict=True)):
+    for c, ((i, _), part) in enumerate(
+        zip(tasks, _pool.map(lambda t: _node_response(machine, screen, base, k, *t, amount), tasks), strict=True)
+    ):
         columns[offsets[i] : offsets[i + 1], c] = part
     return columns, amount
 

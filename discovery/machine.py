@@ -51,7 +51,9 @@ class Machine:
                 kind = "input" if signal.role == "input" else "variable"
                 raise CaseError(f"{where} model {self.case.model} has no {kind} `{signal.variable}`")
             if not _same_unit(variable.unit, signal.si_unit):
-                raise CaseError(f"{where} unit {signal.unit} does not fit {signal.variable}, which is in {variable.unit}")
+                raise CaseError(
+                    f"{where} unit {signal.unit} does not fit {signal.variable}, which is in {variable.unit}"
+                )
         for name in self.case.parameters:
             if name not in self.model.variables:
                 raise CaseError(f"{self.case.folder / 'case.toml'}: [parameters] the model has no parameter `{name}`")
@@ -94,7 +96,9 @@ class Machine:
         names = self.columns | {t: f"{t}.tau" for t in self._trackers()}
         return {column: np.array(result[name]) for column, name in names.items()}
 
-    def trajectory(self, parameters: Mapping[str, float], recording: Recording, names: list[str]) -> dict[str, np.ndarray]:
+    def trajectory(
+        self, parameters: Mapping[str, float], recording: Recording, names: list[str]
+    ) -> dict[str, np.ndarray]:
         """Any variables of the model along a recording; raises SimulationError where the run fails."""
         session = Session(
             self.model, solver=self.solver, rtol=RTOL, outputs=names, output_times=recording.time, events=False,
@@ -113,10 +117,13 @@ class Machine:
         session = self._session(recording)
         time = recording.time
         result = session.run(
-            parameters=_plain(parameters), initial=self._initial_of(recording), start=float(time[0]), stop=float(time[-1])
+            parameters=_plain(parameters),
+            initial=self._initial_of(recording),
+            start=float(time[0]),
+            stop=float(time[-1]),
         )
         self._sessions[recording.name].put(session)
-        return float(result.counters.get("events", 0)) / float(time[-1] - time[0])
+        return float(result.counters["state_events"]) / float(time[-1] - time[0])
 
     def constants(self, parameters: Mapping[str, float]) -> dict[str, float]:
         """Every parameter of the model, dependent ones included, at these values of the free ones."""

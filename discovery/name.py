@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 
@@ -32,7 +33,7 @@ Progress = Callable[[str], None]
 
 @dataclass
 class Ranked:
-    """A fitted hypothesis. `score` is its deviance and price less the base's: negative is better than nothing missing."""
+    """A fitted hypothesis. `score` is its deviance and price less the base's: negative is better than nothing."""
 
     candidate: Candidate
     fit: Fit
@@ -89,7 +90,9 @@ def screen_all(
             failures.append((attachment.label, why))
             return None
         candidate = prepare(screen, attachment, machine)
-        progress(f"screened {attachment.label}: {candidate.predicted:.1%}" if candidate else f"no use: {attachment.label}")
+        progress(
+            f"screened {attachment.label}: {candidate.predicted:.1%}" if candidate else f"no use: {attachment.label}"
+        )
         return candidate
 
     with ThreadPoolExecutor(WORKERS) as pool:
@@ -109,7 +112,7 @@ def rank(
     for stages, iterations, keep in rounds:
         pool = pool[:keep]
         with ThreadPoolExecutor(WORKERS) as workers:
-            fits = workers.map(lambda c: fit_candidate(case, base, c, bandwidths, stages, iterations), pool)
+            fits = workers.map(partial(fit_candidate, case, base, bandwidths, stages, iterations), pool)
             for candidate, found in zip(pool, fits, strict=True):
                 better = candidate.fit is None or (found is not None and found.deviance() < candidate.fit.deviance())
                 candidate.fit = found if better else candidate.fit
@@ -144,7 +147,7 @@ def _first_round(candidates: list[Candidate]) -> list[Candidate]:
 
 
 def fit_candidate(
-    case: Case, base: Fit, candidate: Candidate, bandwidths: tuple[float, ...], stages: int, iterations: int
+    case: Case, base: Fit, bandwidths: tuple[float, ...], stages: int, iterations: int, candidate: Candidate
 ) -> Fit | None:
     """Fit the base's parameters and the effect's together, from the base's values and the screened start."""
     free: list[Free] = [*base.estimate.free, *candidate.free]

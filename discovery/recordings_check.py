@@ -29,7 +29,9 @@ class Problem:
     fatal: bool
 
     def __str__(self) -> str:
-        where = f"{self.recording}, column `{self.column}`" + (f", t = {self.time:.6g} s" if self.time is not None else "")
+        where = f"{self.recording}, column `{self.column}`" + (
+            f", t = {self.time:.6g} s" if self.time is not None else ""
+        )
         return f"{where}: {self.text}"
 
     def as_dict(self) -> dict:
@@ -156,7 +158,9 @@ def _constant_everywhere(case: Case) -> list[Problem]:
                  np.isfinite(r.columns[signal.column]).any() else 0.0 for r in case.fit]  # fmt: skip
         if signal.role == "output" and not any(spans):
             text = "constant in every recording that may be fitted"
-            problems.append(Problem("constant", case.fit[0].name, signal.column, float(case.fit[0].time[0]), text, True))
+            problems.append(
+                Problem("constant", case.fit[0].name, signal.column, float(case.fit[0].time[0]), text, True)
+            )
     inputs = case.inputs
     if inputs and not any(np.ptp(np.nan_to_num(r.columns[s.column])) for s in inputs for r in case.fit):
         text = "no input ever changes: there is nothing to learn from"

@@ -20,8 +20,8 @@ from .locate import Located
 _STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}
 h1{font-size:1.5rem}h2{font-size:1.15rem;margin-top:2rem;border-bottom:1px solid #ccc}table{border-collapse:collapse}
 td,th{padding:.2rem .8rem;text-align:right;border-bottom:1px solid #eee}td:first-child,th:first-child{text-align:left}
-.verdict{font-size:1.2rem;background:#f3f6fa;padding:1rem;border-left:4px solid #27c}pre{background:#f7f7f7;padding:1rem;
-overflow:auto}svg{max-width:100%;height:auto}.flag{color:#b00}"""
+.verdict{font-size:1.2rem;background:#f3f6fa;padding:1rem;border-left:4px solid #27c}pre{background:#f7f7f7;
+padding:1rem;overflow:auto}svg{max-width:100%;height:auto}.flag{color:#b00}"""
 
 
 def write(result: Explanation, folder: Path, amended: Path | None, located: Located | None = None) -> Path:
@@ -35,7 +35,10 @@ def write(result: Explanation, folder: Path, amended: Path | None, located: Loca
     if amended is not None:
         parts += ["<h2>The amended model</h2>", f"<pre>{escape(amended.read_text(encoding='utf-8'))}</pre>"]
     title = escape(f"Lacuna: {result.case.label}")
-    text = f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title><style>{_STYLE}</style>' + "\n".join(parts)
+    text = (
+        f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title><style>{_STYLE}</style>'
+        + "\n".join(parts)
+    )
     path = folder / "report.html"
     partial = path.with_suffix(".tmp")
     partial.write_text(text + "</html>\n", encoding="utf-8")
@@ -63,16 +66,25 @@ def _svg(figure: plt.Figure) -> str:
 def _problems(result: Explanation) -> list[str]:
     if not result.problems:
         return []
-    items = "".join(f'<li{" class=flag" if p.fatal else ""}>{escape(str(p))}</li>' for p in result.problems)
+    items = "".join(f"<li{' class=flag' if p.fatal else ''}>{escape(str(p))}</li>" for p in result.problems)
     return ["<h2>The recordings</h2>", f"<ul>{items}</ul>"]
 
 
 def _quality(result: Explanation) -> list[str]:
     rows = [
-        [c, result.before.validate[c], result.after.validate[c], result.floor[c], result.before.fit[c], result.after.fit[c]]
+        [
+            c,
+            result.before.validate[c],
+            result.after.validate[c],
+            result.floor[c],
+            result.before.fit[c],
+            result.after.fit[c],
+        ]
         for c in result.floor
     ]
-    rows.append(["all", result.before.validate[""], result.after.validate[""], "", result.before.fit[""], result.after.fit[""]])
+    rows.append(
+        ["all", result.before.validate[""], result.after.validate[""], "", result.before.fit[""], result.after.fit[""]]
+    )
     header = ["signal", "unseen: before", "after", "noise floor", "fitted: before", "after"]
     note = "<p>NRMSE; <em>before</em> is the believed model with its parameters already refitted.</p>"
     return ["<h2>How well it fits</h2>", _table(header, rows), note]
@@ -88,7 +100,9 @@ def _overlays(result: Explanation) -> list[str]:
         _draw(ax, recording, measured, "measured", "0.6", keep)
         _draw(ax, recording, measured - result.before.residuals[recording.name][signal.column], "believed", "C3", keep)
         if result.findings:
-            _draw(ax, recording, measured - result.after.residuals[recording.name][signal.column], "amended", "C0", keep)
+            _draw(
+                ax, recording, measured - result.after.residuals[recording.name][signal.column], "amended", "C0", keep
+            )
         ax.set_ylabel(f"{signal.column} / {signal.si_unit}")
     axes[0, 0].legend(loc="upper right", fontsize="small")
     axes[-1, 0].set_xlabel("time / s")
@@ -113,13 +127,20 @@ def _located(located: Located) -> list[str]:
     figure.tight_layout()
     rows = [[p.location, p.kind, f"{p.explained:.1%}"] for p in located.places]
     note = f"<p>It follows <em>{escape(located.organiser)}</em> best ({located.organised:.0%} of its variance).</p>"
-    return ["<h2>Where effort is missing</h2>", _table(["place", "effort", "misfit explained"], rows), note, _svg(figure)]
+    return [
+        "<h2>Where effort is missing</h2>",
+        _table(["place", "effort", "misfit explained"], rows),
+        note,
+        _svg(figure),
+    ]
 
 
 def _findings(result: Explanation) -> list[str]:
     rows = []
     for f in build(result, None)["findings"]:
-        values = ", ".join(f"{n} = {p['value']:.5g} &plusmn; {2 * p['std']:.2g} {p['unit']}" for n, p in f["parameters"].items())
+        values = ", ".join(
+            f"{n} = {p['value']:.5g} &plusmn; {2 * p['std']:.2g} {p['unit']}" for n, p in f["parameters"].items()
+        )
         rows.append(f"<li><b>{escape(f['effect'])}</b> at {escape(f['location'])}, confidence {f['confidence']:.2f}: {values}."
                     f" {escape(f['where']['text'])}.</li>")  # fmt: skip
     return ["<h2>What was left out</h2>", f"<ol>{''.join(rows)}</ol>"] if rows else []
@@ -132,7 +153,9 @@ def _rivals(result: Explanation) -> list[str]:
                 for r in naming.ranked[:10]]  # fmt: skip
         parts += [f"<h2>Hypotheses fitted, round {k + 1}</h2>",
                   _table(["hypothesis", "evidence behind the best", "confidence", "parameters"], rows)]  # fmt: skip
-        rest = ", ".join(f"{label} ({share:.0%})" for label, share in naming.screened[len(naming.ranked) : len(naming.ranked) + 12])
+        rest = ", ".join(
+            f"{label} ({share:.0%})" for label, share in naming.screened[len(naming.ranked) : len(naming.ranked) + 12]
+        )
         parts.append(f"<p>Screened out (share of the misfit they could explain): {escape(rest)}.</p>")
     return parts
 
@@ -142,11 +165,18 @@ def _parameters(result: Explanation) -> list[str]:
     for name, p in build(result, None)["parameters"].items():
         flag = "outside belief" if p["outside_belief"] else ""
         rows.append([name, p["believed"], p["value"], f"{2 * p['std']:.2g}", p["unit"], flag])
-    return ["<h2>Parameters</h2>", _table(["parameter", "believed", "fitted", "&plusmn; (95 %)".replace("&plusmn;", "+-"), "unit", ""], rows)]
+    return [
+        "<h2>Parameters</h2>",
+        _table(["parameter", "believed", "fitted", "&plusmn; (95 %)".replace("&plusmn;", "+-"), "unit", ""], rows),
+    ]
 
 
 def _left(result: Explanation) -> list[str]:
     left = left_over(result)
-    text = "<p>What is left is noise.</p>" if not left else "<ul>" + "".join(f"<li>{escape(t)}</li>" for t in left) + "</ul>"
+    text = (
+        "<p>What is left is noise.</p>"
+        if not left
+        else "<ul>" + "".join(f"<li>{escape(t)}</li>" for t in left) + "</ul>"
+    )
     extra = f"<p>To decide: {escape(result.experiment)}.</p>" if result.experiment else ""
     return ["<h2>What remains unexplained</h2>", text + extra]

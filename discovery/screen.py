@@ -54,7 +54,9 @@ class Screen:
         beliefs = [(f, v) for f, v in zip(estimate.free, estimate.values, strict=True)]
         rows = np.diag([f.scale / f.sigma if f.sigma else 0.0 for f, _ in beliefs])
         pulls = np.array([(v - f.centre) / f.sigma if f.sigma else 0.0 for f, v in beliefs])
-        self.jacobian = np.vstack([*estimate.jacobian, rows]) if estimate.jacobian else np.zeros((len(self.residual), 0))
+        self.jacobian = (
+            np.vstack([*estimate.jacobian, rows]) if estimate.jacobian else np.zeros((len(self.residual), 0))
+        )
         self.load = np.concatenate([self.residual, pulls]) if estimate.jacobian else self.residual
         self.orthogonal, _ = np.linalg.qr(self.jacobian)
         self.cost = float(np.sum(self._project(self.load) ** 2))
@@ -73,7 +75,9 @@ class Screen:
     def explained(self, columns: list[np.ndarray], offset: np.ndarray | None = None) -> tuple[float, np.ndarray]:
         """(share of the cost explained, coefficients) of columns; `offset` moves the residual itself."""
         pad = np.zeros(len(self.load) - len(self.residual))
-        target = self._project(self.load if offset is None else np.concatenate([offset, self.load[len(self.residual) :]]))
+        target = self._project(
+            self.load if offset is None else np.concatenate([offset, self.load[len(self.residual) :]])
+        )
         if not columns:
             return 1.0 - float(target @ target) / self.cost, np.zeros(0)
         stack = np.column_stack([self._project(np.concatenate([c, pad])) for c in columns])
@@ -91,7 +95,9 @@ def prepare(screen: Screen, attachment: Attachment, machine: Machine) -> Candida
     effect = attachment.effect
     point = dict(screen.base.point)
     bound = _bound_parameters(machine, attachment)
-    names = [p.name for p in effect.parameters if p.name not in (*effect.fixed, *effect.variants, effect.interval, *bound)]
+    names = [
+        p.name for p in effect.parameters if p.name not in (*effect.fixed, *effect.variants, effect.interval, *bound)
+    ]
     if not names:
         return None
     shapes = _shape_starts(screen, attachment, machine, names, point)
@@ -156,7 +162,9 @@ def _linearised(
         for phase in phases:
             here = origin | ({attachment.full_name(polar[1]): phase} if phase is not None else {})
             parameter = effect.parameter(name)
-            column, amount = _response(screen, machine, here, attachment.full_name(name), parameter, reference, known.get(name))
+            column, amount = _response(
+                screen, machine, here, attachment.full_name(name), parameter, reference, known.get(name)
+            )
             if column is None:
                 return None
             known[name] = amount
@@ -167,7 +175,7 @@ def _linearised(
     if columns and not np.any(solution):
         return None
     start = dict(shape)
-    scales = {n: a for n, a in zip(moved, amounts, strict=True)}
+    scales = dict(zip(moved, amounts, strict=True))
     if polar:
         start[attachment.full_name(polar[0])] = float(np.hypot(*solution[:2]))
         start[attachment.full_name(polar[1])] = float(np.arctan2(solution[1], solution[0]))
@@ -184,7 +192,7 @@ def _response(
     screen: Screen, machine: Machine, origin: dict[str, float], name: str, parameter: EffectParameter,
     reference: np.ndarray, known: float | None,
 ) -> tuple[np.ndarray | None, float]:  # fmt: skip
-    """(change of the weighted residual, amount of the parameter that makes it), the amount chosen for a fair response."""
+    """(change of the weighted residual, amount of the parameter that makes it), of a fair size."""
     amount, target = abs(known or 1e-4), RESPONSE * screen.norm
     best: tuple[np.ndarray | None, float] = (None, amount)
     value = origin.get(name, parameter.default)

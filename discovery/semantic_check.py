@@ -1,7 +1,7 @@
-"""Slips that only a model shows: a reversed sign, a unit off by 1000 or by degrees for radians, a signal shifted in time.
+"""Slips that only a model shows: a reversed sign, a unit off by 1000 or in degrees, a signal shifted in time.
 
-Each output is compared with the believed model's simulation: a slip leaves the shape and changes the scale, or leaves the
-scale and moves the time. A machine that merely misbehaves changes both a little, so the thresholds are far from what
+Each output is compared with the believed model's simulation: a slip leaves the shape and changes the scale, or leaves
+the scale and moves the time. A machine that merely misbehaves changes both a little, so the thresholds are far from what
 an effect does.
 """
 
@@ -18,8 +18,10 @@ from .recordings_check import Problem
 
 SCALES = {
     -1.0: "its sign is reversed", 1000.0: "it is 1000 times too large", 1e-3: "it is 1000 times too small",
-    -1000.0: "it is 1000 times too large, with the sign reversed", -1e-3: "it is 1000 times too small, with the sign reversed",
-    180 / math.pi: "it is in degrees where radians are stated", math.pi / 180: "it is in radians where degrees are stated",
+    -1000.0: "it is 1000 times too large, with the sign reversed",
+    -1e-3: "it is 1000 times too small, with the sign reversed",
+    180 / math.pi: "it is in degrees where radians are stated",
+    math.pi / 180: "it is in radians where degrees are stated",
     30 / math.pi: "it is in rpm where rad/s is stated", math.pi / 30: "it is in rad/s where rpm is stated",
 }  # fmt: skip
 SHAPE = 0.9  # least correlation with the simulation at which a scale is read
@@ -47,9 +49,12 @@ def _check(machine: Machine, recording: Recording, simulated: dict[str, np.ndarr
     begin = float(recording.time[0])
     if slips and len(slips) == len(outputs) and len(outputs) > 1 and len(set(slips.values())) == 1:
         column = machine.case.inputs[0].column
-        text = f"all outputs answer as if {next(iter(slips.values())).replace('it is', 'the input were')}: input or outputs slipped"
+        slip = next(iter(slips.values())).replace("it is", "the input were")
+        text = f"all outputs answer as if {slip}: input or outputs slipped"
         return [Problem("scale", recording.name, column, begin, text, True)]
-    found = [Problem("scale", recording.name, c, begin, text + " (against the model)", True) for c, text in slips.items()]
+    found = [
+        Problem("scale", recording.name, c, begin, text + " (against the model)", True) for c, text in slips.items()
+    ]
     return found or _shifts(machine, recording, simulated)
 
 

@@ -1,0 +1,73 @@
+"""A small case with a known answer: the laboratory motor, simulated with what the tests conceal in it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from codegen.compile import compile_model
+from runtime import Model, RecordedInput, simulate
+
+BELIEVED = {"R": 3.5, "L": 3.3e-3, "Ke": 0.03, "J": 7e-6, "b": 2e-5}
+NOISE = {"i": 0.01, "theta": 5e-4}
+
+
+def write_case(folder: Path, model: str, truth: dict[str, float], seed: int = 1) -> Path:
+    """Write a case of three short recordings of `model` (a class with input u and outputs i, theta) into `folder`."""
+    machine = Model(compile_model(model).path)
+    random = np.random.default_rng(seed)
+    time = np.arange(1500) * 1e-3
+    folder.mkdir(parents=True, exist_ok=True)
+    for k, frequency in enumerate((1.0, 2.3, 3.1)):
+        u = (3.0 + k) * np.sin(2 * np.pi * frequency * time) * np.minimum(1.0, time / 0.1)
+        result = simulate(
+            machine, solver="dopri5", rtol=1e-8, parameters=truth, inputs={"u": RecordedInput(time, u)}, start=0.0,
+            stop=float(time[-1]), output_times=time, outputs=["i", "theta"], events=False,
+        )  # fmt: skip
+        columns = [time, u] + [result[n] + s * random.normal(size=len(time)) for n, s in NOISE.items()]
+        np.savetxt(
+            folder / f"r{k + 1}.csv", np.column_stack(columns), "%.7g", ",", header="time,u,i,theta", comments=""
+        )
+    (folder / "case.toml").write_text(_toml(), encoding="utf-8")
+    return folder
+
+
+def _toml() -> str:
+    lines = ['title = "motor"', 'model = "Benches.DcServo"', 'source = "synthetic"', "[parameters]"]
+    lines += [f"{n} = {v}" for n, v in BELIEVED.items()]
+    lines += ["[uncertainty]", "R = 0.03", "L = 0.1", "Ke = 0.03", "J = 0.1", "b = 0.3"]
+    lines += ["[signals.u]", 'role = "input"', 'variable = "u"', 'unit = "V"']
+    for name, unit in (("i", "A"), ("theta", "rad")):
+        lines += [
+            f"[signals.{name}]",
+            'role = "output"',
+            f'variable = "{name}"',
+            f'unit = "{unit}"',
+            f"noise_std = {NOISE[name]}",
+        ]
+    lines += ["[recordings]", 'fit = ["r1.csv", "r2.csv"]', 'validate = ["r3.csv"]']
+    return "\n".join(lines) + "\n"
+
+
+FRICTION = """model FrictionServo
+  extends Lacuna.Benches.DcServo;
+  Lacuna.Effects.CoulombFriction friction(tau_c=0.0015);
+equation
+  connect(friction.flange, shaft.flange_b);
+end FrictionServo;
+"""
+
+
+@pytest.fixture(scope="session")
+def consistent_case(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("consistent")
+    return write_case(folder, "Benches.DcServo", BELIEVED | {"R": 3.57, "J": 7.4e-6})
+
+
+@pytest.fixture(scope="session")
+def friction_case(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("friction")
+    (folder / "FrictionServo.mo").write_text(FRICTION, encoding="utf-8")
+    return write_case(folder, str(folder / "FrictionServo.mo"), BELIEVED | {"R": 3.45})

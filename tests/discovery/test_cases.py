@@ -1,0 +1,47 @@
+"""Reading cases: SI units, and a clear refusal of what cannot be read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from discovery.cases import CaseError, load
+from discovery.units import UnitError, to_si
+
+
+def test_units_lead_to_si() -> None:
+    assert to_si("deg") == (pytest.approx(np.pi / 180), "rad")
+    assert to_si("mA") == (1e-3, "A")
+    assert to_si("N.m.s/rad") == (1.0, "N.m.s/rad")
+    assert to_si("rpm") == (pytest.approx(np.pi / 30), "rad/s")
+    with pytest.raises(UnitError, match="furlong"):
+        to_si("furlong")
+
+
+def test_a_case_is_read_in_si(consistent_case: Path) -> None:
+    case = load(consistent_case)
+    assert [s.column for s in case.outputs] == ["i", "theta"]
+    assert case.fit[0].interval == pytest.approx(1e-3)
+    assert case.sigma("R", 3.5) == pytest.approx(0.105)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('unit = "A"', "", r"signals\.i\] has no unit"),
+        ('unit = "A"', 'unit = "bananas"', "bananas"),
+        ('role = "input"', 'role = "inputt"', "inputt"),
+        ("[signals.i]", "[signals.current]", "column `current` is missing"),
+    ],
+)
+def test_slips_in_the_description_are_named(
+    consistent_case: Path, tmp_path: Path, old: str, new: str, message: str
+) -> None:
+    for file in consistent_case.iterdir():
+        if file.suffix in (".csv", ".toml"):
+            text = file.read_text()
+            (tmp_path / file.name).write_text(text.replace(old, new, 1) if file.suffix == ".toml" else text)
+    with pytest.raises(CaseError, match=message):
+        load(tmp_path)

@@ -1,0 +1,109 @@
+"""The steps alone and together on cases with a known answer."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+import shutil
+
+import numpy as np
+import pytest
+
+from codegen.library import Library
+from discovery import catalogue, diagnosis, report
+from discovery.amend import Amendment
+from discovery.cases import load
+from discovery.evidence import is_noise
+from discovery.explain import Explanation, explain, fit_believed, write_amended
+from discovery.judge import judge_file
+from discovery.least_squares import Free, Problem, solve
+from discovery.locate import locate
+from discovery.machine import Machine
+from discovery.noise import estimate, quantum
+from discovery.places import read
+
+
+def test_least_squares_finds_rosenbrock_within_bounds() -> None:
+    def residual(p: dict[str, float], piece: int) -> np.ndarray:
+        return np.array([10 * (p["y"] - p["x"] ** 2), 1 - p["x"]])
+
+    free = [Free("x", -1.2, 1.0, -2, 2, step=1e-6), Free("y", 1.0, 1.0, -2, 2, step=1e-6)]
+    found = solve(Problem(free, residual, 1), iterations=200, tolerance=1e-12)
+    assert found["x"] == pytest.approx(1.0, abs=1e-4) and found["y"] == pytest.approx(1.0, abs=1e-4)
+    bounded = solve(Problem([Free("x", -1.2, 1.0, -2, 0.5, step=1e-6), free[1]], residual, 1), iterations=200)
+    assert bounded["x"] == pytest.approx(0.5) and bounded.at_bound("x")
+
+
+def test_noise_and_resolution_are_estimated() -> None:
+    random = np.random.default_rng(3)
+    t = np.arange(4000) * 1e-3
+    smooth = np.sin(2 * np.pi * 2 * t)
+    assert estimate([smooth + 0.02 * random.normal(size=t.size)]).std == pytest.approx(0.02, rel=0.1)
+    steps = np.round(smooth / 0.01) * 0.01
+    assert quantum(steps) == pytest.approx(0.01, rel=1e-3)
+    assert quantum(smooth + 0.02 * random.normal(size=t.size)) == 0.0
+
+
+def test_places_are_read_from_the_model() -> None:
+    screw = read(Library(), "Benches.ScrewEma")
+    assert [s.location for s in screw.shafts] == ["shaft", "surface"]
+    drive = read(Library(), "Benches.BldcDrive")
+    assert [(line.source, line.load, line.phase) for line in drive.lines] == [("bridge", "winding", p) for p in "abc"]
+
+
+def test_nothing_missing_is_said(consistent_case: Path) -> None:
+    result = explain(load(consistent_case))
+    assert result.verdict == "consistent" and not result.findings
+    assert is_noise(result.final)
+
+
+def test_the_missing_effort_is_located_on_the_shaft(friction_case: Path) -> None:
+    case = load(friction_case)
+    base, _ = fit_believed(case, Machine(case, Amendment(read(Library(), case.model))))
+    located = locate(case, base)
+    assert (located.places[0].location, located.places[0].kind) == ("shaft", "torque")
+    assert located.organiser in ("shaft.w", "i")
+
+
+@pytest.fixture(scope="module")
+def explained(friction_case: Path) -> Explanation:
+    return explain(load(friction_case))
+
+
+def test_friction_is_named_with_its_level(explained: Explanation) -> None:
+    assert explained.verdict == "missing_physics"
+    first = explained.findings[0].ranked
+    assert first.identity == ("friction.coulomb", "shaft")
+    assert first.effect_values()["tau_c"] == pytest.approx(0.0015, rel=0.01)
+    errors = diagnosis.standard_errors(explained.final)
+    assert abs(first.effect_values()["tau_c"] - 0.0015) < 4 * errors[first.attachment.full_name("tau_c")]
+
+
+def test_the_amended_file_gives_the_reported_numbers(explained: Explanation, tmp_path: Path) -> None:
+    path = write_amended(explained, tmp_path)
+    judged = judge_file(explained.case, explained.amendment, path, {})
+    data = json.loads(diagnosis.write(explained, tmp_path, path).read_text())
+    assert judged.validate[""] == pytest.approx(data["nrmse"]["validate"]["after"], rel=1e-4)
+    assert data["amended_model"] == path.name
+    page = report.write(explained, tmp_path, path).read_text()
+    assert "friction.coulomb" in page and 'src="http' not in page and 'href="http' not in page
+
+
+CUBIC_DRAG = """within Lacuna.Effects;
+model CubicDrag "Loss growing with the cube of speed"
+  extends Interfaces.FlangeEffect;
+  parameter Real c3(unit="N.m.s3/rad3") = 0 "Torque over the cube of speed";
+equation
+  tau = c3*w*w*w;
+  annotation(__Lacuna(effect="drag.cubic", attaches="flange", neutral(c3=0)));
+end CubicDrag;
+"""
+
+
+def test_a_user_added_effect_is_picked_up(tmp_path: Path) -> None:
+    source = Path(__file__).parents[2] / "model"
+    package = tmp_path / "Lacuna"
+    shutil.copytree(source, package)
+    (package / "Effects" / "CubicDrag.mo").write_text(CUBIC_DRAG)
+    effects = {e.identifier: e for e in catalogue.read(Library([package]))}
+    assert effects["drag.cubic"].parameter("c3").unit == "N.m.s3/rad3"
