@@ -106,7 +106,9 @@ class Discrete:
                 raise Diagnostic("C003", f"{type(s).__name__.lower()} is not supported in an event section", s.span)
 
     def _assert(self, s: flat.Assert) -> None:
-        index = next(k for k, a in enumerate(event_and_model_asserts(self._p)) if a.span == s.span)
+        if s.level != "error":
+            return
+        index = assert_index(self._p, s)
         self._body.line(f"if (!({self._body.value(s.condition)})) {{")
         self._body.line(f"  (void)mdl_fail(m, MDL_FAILURE_ASSERT, {index}, 0.0);")
         self._body.line("  return -1;")
@@ -200,11 +202,15 @@ def is_settable(v: flat.Variable) -> bool:
     return v.variability == flat.PARAMETER and literal and not v.final and not v.evaluated
 
 
-def event_and_model_asserts(p: Prepared) -> list[flat.Assert]:
-    """Asserts in the order of the descriptor: those of the model, then those inside when clauses."""
-    found = [a for a in p.model.asserts if a.level == "error"]
-    for step in p.events:
-        if not isinstance(step, DiscreteEquation):
-            inside = all_statements([step] if isinstance(step, flat.When) else step.statements)
-            found += [s for s in inside if isinstance(s, flat.Assert)]
-    return found
+def all_asserts(p: Prepared) -> list[flat.Assert]:
+    """Asserts in the order of the descriptor: those of the model, of its when clauses, of its functions."""
+    bodies = [[step] if isinstance(step, flat.When) else step.statements for step in p.events
+              if not isinstance(step, DiscreteEquation)]  # fmt: skip
+    bodies += [f.body for f in p.model.functions.values()]
+    inside = [s for body in bodies for s in all_statements(body) if isinstance(s, flat.Assert)]
+    return [a for a in (*p.model.asserts, *inside) if a.level == "error"]
+
+
+def assert_index(p: Prepared, s: flat.Assert) -> int:
+    """Row of an assert in the table."""
+    return next(k for k, a in enumerate(all_asserts(p)) if a.span == s.span)

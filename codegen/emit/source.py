@@ -9,7 +9,7 @@ from ..prepared import Prepared
 from ..rewrite import expressions
 from ..structure.causal import expressions_of
 from .continuous import Continuous
-from .discrete import Discrete
+from .discrete import Discrete, assert_index
 from .equations import EquationTable
 from .expression import number
 from .names import Names
@@ -38,7 +38,8 @@ def generate(prepared: Prepared) -> str:
         continuous.check(),
     ]  # fmt: skip
     code = "\n\n".join(functions)
-    code = "\n\n".join(filter(None, [user_functions(model.functions, called_functions(prepared), names), code]))
+    called = user_functions(model.functions, called_functions(prepared), names, lambda a: assert_index(prepared, a))
+    code = "\n\n".join(filter(None, [called, code]))
     tables_text = "\n".join(constant_table(name, e) for e, name in names.tables.items())
     arrays, counts = _arrays(tables, discrete.messages)
     counts |= {

@@ -10,7 +10,7 @@ from ..expr import relation
 from ..prepared import Prepared
 from ..storage import Slot
 from ..structure.system import DeclaredValues
-from .discrete import event_and_model_asserts, is_settable
+from .discrete import all_asserts, is_settable
 from .equations import EquationTable
 from .expression import number
 
@@ -81,7 +81,7 @@ class Tables:
     def asserts(self) -> list[str]:
         return [
             f"{{{c_string(a.message)}, {c_string(a.span.file)}, {a.span.line}, {c_string('')}}}"
-            for a in event_and_model_asserts(self._p)
+            for a in all_asserts(self._p)
         ]
 
     def relations(self) -> list[str]:

@@ -261,6 +261,38 @@ def test_functions_and_their_derivatives(tmp_path: Path, solver: str) -> None:
     np.testing.assert_allclose(r["p[3]"], x * 2 * (v + z), rtol=1e-9, atol=1e-12)
 
 
+LOOKUP = """package Lookup
+  function find "linear interpolation with a search of unknown length"
+    input Real x; input Real t[:]; input Real y[:]; output Real r; protected Integer k;
+  algorithm
+    assert(x <= t[size(t, 1)], "above the table");
+    k := 1;
+    while k < size(t, 1) - 1 and t[k+1] < x loop k := k + 1; end while;
+    r := y[k] + (y[k+1] - y[k])*(x - t[k])/(t[k+1] - t[k]);
+  end find;
+  model Ramp
+    parameter Real rate(unit = "1/s") = 1;
+    Real x(start = 0, fixed = true); Real z;
+  equation
+    der(x) = rate;
+    z = find(x, {-1, 1, 2, 4}, {0, 1, 4, 16});
+  end Ramp;
+end Lookup;
+"""
+
+
+def test_function_searches_a_table_and_its_assert_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "Lookup.mo"
+    path.write_text(LOOKUP)
+    compiled = compile_model("Lookup.Ramp", search_path=[str(path)], cache_directory=str(tmp_path))
+    r = runtime.simulate(runtime.Model(compiled.path), stop=5.0, interval=0.25)
+    assert not r.complete
+    assert "above the table" in r.failure.message
+    assert r.failure.line == 5
+    np.testing.assert_allclose(r["z"], np.interp(r["x"], [-1, 1, 2, 4], [0, 1, 4, 16]), rtol=1e-12)
+    assert 1 < r["x"][-1] <= 4
+
+
 PENDULUM = """model Pendulum
   parameter Real L(unit = "m") = 1; parameter Real g(unit = "m/s2") = 9.81;
   Real x(unit = "m", start = 0.8, fixed = true); Real y(unit = "m", start = -0.6);
