@@ -40,8 +40,20 @@ def require_regular(rows: list[Row], names: Sequence[str], model: flat.FlatModel
         lacking = f"too few equations: {len(under_rows)} for {_list(names, under_columns)}"
         first = f"{first}; {lacking}" if first else lacking
     span = rows[unmatched_rows[0]].source.span if unmatched_rows else model.variables[names[unmatched_columns[0]]].span
-    hint = "remove one of the equations listed" if unmatched_rows else "add an equation or a connection for one of them"
+    hint = _hint(rows, unmatched_rows, unmatched_columns)
     raise Diagnostic("S003", f"the model is structurally singular ({counts}): {first}", span, hint, notes)
+
+
+def _hint(rows: list[Row], unmatched_rows: Sequence[int], unmatched_columns: Sequence[int]) -> str:
+    if unmatched_columns and any(rows[r].text.startswith("sum of flows") for r in unmatched_rows):
+        return "nothing fixes the potentials of these connections: connect a ground, or a fixed flange"
+    if unmatched_rows:
+        return "remove one of the equations listed"
+    return "add an equation or a connection for one of them"
+
+
+def _component(row: Row) -> str:
+    return f"  (of {row.source.origin})" if row.source.origin else ""
 
 
 def _list(names: Sequence[str], columns: Sequence[int]) -> str:
@@ -53,6 +65,6 @@ def _list(names: Sequence[str], columns: Sequence[int]) -> str:
 def _notes(
     rows: list[Row], names: Sequence[str], model: flat.FlatModel, over: Sequence[int], columns: Sequence[int]
 ) -> list[tuple[flat.Span, str]]:
-    equations = [(rows[r].source.span, f"equation  {rows[r].text}") for r in over[:12]]
+    equations = [(rows[r].source.span, f"equation  {rows[r].text}{_component(rows[r])}") for r in over[:12]]
     unknowns = [(model.variables[names[c]].span, f"unknown  {names[c]}") for c in columns[:12]]
     return equations + unknowns

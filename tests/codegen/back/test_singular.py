@@ -104,3 +104,19 @@ def test_notes_list_the_equations_and_unknowns_involved(tmp_path: Path) -> None:
     assert [(span.line, remark) for span, remark in caught.value.notes] == [
         (4, "equation  y + z = 1"), (2, "unknown  y"), (2, "unknown  z")
     ]  # fmt: skip
+
+
+def test_a_circuit_without_ground_is_told_so(tmp_path: Path) -> None:
+    text = """model Floating
+      Lacuna.Components.Electrical.ConstantVoltage source(V = 5);
+      Lacuna.Components.Electrical.Resistor r(R = 10);
+    equation
+      connect(source.p, r.p);
+      connect(r.n, source.n);
+    end Floating;
+    """
+    with pytest.raises(Diagnostic) as caught:
+        translate(write_model(tmp_path, text))
+    assert caught.value.code == "S003"
+    assert "ground" in caught.value.hint
+    assert any(remark.endswith("(of r)") for _, remark in caught.value.notes)
