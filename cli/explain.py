@@ -25,17 +25,14 @@ def explain(
     from discovery import cases, diagnosis, report
     from discovery.explain import explain as explained
     from discovery.explain import write_amended
-    from discovery.locate import locate
 
     loaded = cases.load(case)
     folder = out or Path("out/explain") / case.resolve().name
     with Console(stderr=True).status("reading the recordings") as status:
         result = explained(loaded, progress=status.update)
-        status.update("locating the missing effort")
-        located = locate(loaded, result.base) if result.findings else None
     folder.mkdir(parents=True, exist_ok=True)
     amended = write_amended(result, folder)
-    written = [diagnosis.write(result, folder, amended), report.write(result, folder, amended, located), amended]
+    written = [diagnosis.write(result, folder, amended), report.write(result, folder, amended), amended]
     typer.echo(diagnosis.sentence(result))
     for path in filter(None, written):
         typer.echo(f"written: {path}")

@@ -18,6 +18,7 @@ from .evidence import is_noise, like_noise, outside_belief, pays, whiteness
 from .fit import Fit, Objective, bandwidths_for, believed, fit, noise_of
 from .hypotheses import enumerate_attachments
 from .judge import Judgement, judge, noise_floor
+from .locate import Located, locate
 from .machine import Machine
 from .name import MIN_GAIN, Naming, Ranked, rank
 from .recordings_check import Problem, check_case
@@ -53,6 +54,7 @@ class Explanation:
     amendment: Amendment | None = None
     findings: list[Finding] = field(default_factory=list)
     namings: list[Naming] = field(default_factory=list)
+    located: Located | None = None
     before: Judgement | None = None
     after: Judgement | None = None
     floor: dict[str, float] = field(default_factory=dict)
@@ -92,6 +94,10 @@ def explain(case: Case, progress: Progress = lambda text: None, library: Library
     result.before = result.after = judge(machine, result.base.point)
     result.floor = noise_floor(case, case.validate, result.base.noise)
     clock.done("fit")
+    if not is_noise(result.base):
+        progress("locating the missing effort")
+        result.located = locate(case, _tracked(result.base, bandwidths))
+        clock.done("locate")
     _add_findings(result, effects, bandwidths, progress)
     clock.done("name")
     _conclude(result)
@@ -173,6 +179,7 @@ def _polish(base: Fit, best: Ranked, bandwidths: tuple[float, ...]) -> bool:
     )  # fmt: skip
     if found is None or found.deviance(best.fit.correlation()) > base.deviance(best.fit.correlation()):
         return False
+    found.estimate.normal = best.fit.estimate.normal  # sensitivities with the commutation held are the reliable ones
     best.fit = found
     return True
 

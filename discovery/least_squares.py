@@ -158,41 +158,59 @@ def solve(
     here = problem.evaluate(values)
     if here is None:
         return None
-    cost, data, parts = here
     frozen = dict(known or {})
-    scales = np.array([f.scale for f in free])
     converged, count, normal, columns = False, 0, np.zeros((len(free),) * 2), {}
-    while count < iterations and free:
+    while count < iterations and free and not converged:
         count += 1
-        fresh = [k for k in range(len(free)) if k not in frozen]
-        columns = frozen | problem.jacobian(values, parts, fresh)
-        normal, gradient = _normal_equations(problem, values, parts, columns)
-        accepted = False
-        for _ in range(8):
-            step = _bounded_step(free, values, normal, gradient, damping)
-            predicted = -(2 * gradient @ step + step @ normal @ step)
-            if predicted < tolerance * len(free):
-                converged = not frozen
-                break
-            moved = np.array([f.clip(v) for f, v in zip(free, values + step * scales, strict=True)])
-            there = problem.evaluate(moved)
-            if there is not None and there[0] < cost:
-                ratio = (cost - there[0]) / predicted
-                values, (cost, data, parts) = moved, there
-                damping = max(damping * (0.1 if ratio > 0.5 else 1.0 if ratio > 0.1 else 4.0), 1e-9)
-                accepted = True
-                break
-            damping = max(damping, 1e-6) * 8
-        if not accepted:
-            if not frozen:
-                break
-            frozen, damping = {}, 1e-3
-        elif frozen and ratio < 0.3:
-            frozen = {}
+        columns = frozen | problem.jacobian(values, here[2], [k for k in range(len(free)) if k not in frozen])
+        normal, gradient = _normal_equations(problem, values, here[2], columns)
+        step = _downhill(problem, values, here[0], normal, gradient, damping, tolerance)
+        if step.taken:
+            values, here, damping = step.values, step.evaluation, step.damping
+        elif not frozen:
+            converged = step.flat
+            break
+        if frozen and (not step.taken or step.ratio < 0.3):
+            frozen, damping = {}, 1e-3 if not step.taken else damping
+    cost, data, parts = here
     return Estimate(
         free, values, cost, data, parts, normal, converged, count, problem.simulations,
         _blocks(columns, problem.pieces),
     )  # fmt: skip
+
+
+@dataclass
+class _Step:
+    """The outcome of one damped step: `flat` where none is worth taking; `ratio` of actual to predicted drop."""
+
+    taken: bool
+    flat: bool
+    damping: float
+    ratio: float = 0.0
+    values: np.ndarray | None = None
+    evaluation: tuple[float, float, list[np.ndarray]] | None = None
+
+
+def _downhill(
+    problem: Problem, values: np.ndarray, cost: float, normal: np.ndarray, gradient: np.ndarray, damping: float,
+    tolerance: float,
+) -> _Step:  # fmt: skip
+    """Raise the damping until a step lowers the cost, or until none is predicted to matter."""
+    free = problem.free
+    scales = np.array([f.scale for f in free])
+    for _ in range(8):
+        step = _bounded_step(free, values, normal, gradient, damping)
+        predicted = -(2 * gradient @ step + step @ normal @ step)
+        if predicted < tolerance * len(free):
+            return _Step(False, True, damping)
+        moved = np.array([f.clip(v) for f, v in zip(free, values + step * scales, strict=True)])
+        there = problem.evaluate(moved)
+        if there is not None and there[0] < cost:
+            ratio = (cost - there[0]) / predicted
+            damping = max(damping * (0.1 if ratio > 0.5 else 1.0 if ratio > 0.1 else 4.0), 1e-9)
+            return _Step(True, False, damping, ratio, moved, there)
+        damping = max(damping, 1e-6) * 8
+    return _Step(False, False, damping)
 
 
 def _blocks(columns: dict[int, list[np.ndarray]], pieces: int) -> list[np.ndarray]:

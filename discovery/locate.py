@@ -1,7 +1,7 @@
 """Where effort is missing: for every place the smallest effort, as a function of time, that would explain the data.
 
-A probe at a place (a torque on a shaft, a voltage in a line) is a piecewise linear function of time. The response to each
-of its nodes is simulated, and the nodes follow by least squares together with the parameters, smoothed so that
+A probe at a place (a torque on a shaft, a voltage in a line) is a piecewise linear function of time. The response to
+each of its nodes is simulated, and the nodes follow by least squares together with the parameters, smoothed so that
 noise is not turned into effort. Places are ranked by how much of the misfit of all signals one of them explains; an
 error of a sensor explains its own signal only.
 """

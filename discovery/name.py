@@ -24,7 +24,6 @@ from .screen import Candidate, Screen, prepare
 MIN_GAIN = 30.0  # drop of the deviance, prices paid, below which nothing is believed missing
 CLOSE = 0.3  # share of the best gain within which hypotheses are cross-validated against each other
 CONTENDERS = 4
-PRICE_KEPT = 0.25  # of a difference on the fitted recordings, beside the one on recordings left out
 TIE = 8.0  # difference of two scores below which the data does not tell them apart
 FIRST_ROUND = 8
 
@@ -168,7 +167,7 @@ def cross_validated(
 ) -> list[Ranked]:
     """Contenders that are close to the best are ranked by recordings of the fit set that each is not fitted to.
 
-    A contender's score then is what it loses against the best one there, and a share of what it lost before.
+    What a contender loses there against the best one is its score; those that tie there keep their order.
     """
     best = ranked[0].score
     close = [r for r in ranked if r.score - best < CLOSE * abs(best)][:CONTENDERS]
@@ -179,7 +178,8 @@ def cross_validated(
     least = min(losses)
     for contender, loss in zip(close, losses, strict=True):
         progress(f"left out: {contender.attachment.label}: {loss - least:.1f}")
-        contender.score = best + (loss - least) + PRICE_KEPT * (contender.score - best)
+        gap = loss - least
+        contender.score = best + gap if gap > TIE else best + min(contender.score - best, TIE)
     return sorted(ranked, key=lambda r: r.score)
 
 
@@ -209,10 +209,14 @@ def _best_correlation(candidates: list[Candidate]) -> dict[str, float]:
     return min((c.fit for c in candidates), key=lambda f: f.deviance()).correlation()
 
 
+def _price(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> float:
+    """ln n for each parameter of the effect, n independent samples."""
+    informative = sum(count / correlation[c] for c, count in base.counts().items())
+    return len(candidate.free) * float(np.log(max(informative, 2.0)))
+
+
 def _score(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> float:
-    counts = base.counts()
-    informative = sum(counts[c] / correlation[c] for c in counts)
-    price = len(candidate.free) * np.log(max(informative, 2.0))
+    price = _price(candidate, base, correlation)
     return candidate.fit.deviance(correlation) + price - base.deviance(correlation)
 
 

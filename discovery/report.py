@@ -24,13 +24,13 @@ td,th{padding:.2rem .8rem;text-align:right;border-bottom:1px solid #eee}td:first
 padding:1rem;overflow:auto}svg{max-width:100%;height:auto}.flag{color:#b00}"""
 
 
-def write(result: Explanation, folder: Path, amended: Path | None, located: Located | None = None) -> Path:
+def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
     """Write the report of an explanation into `folder`."""
     parts = [f"<h1>{escape(result.case.title)}</h1>", f'<p class="verdict">{escape(sentence(result))}</p>']
     parts += _problems(result)
     if result.before is not None:
         parts += _quality(result) + _overlays(result)
-        parts += _located(located) if located is not None else []
+        parts += _located(result.located) if result.located and result.located.places[0].effort else []
         parts += _findings(result) + _rivals(result) + _parameters(result) + _left(result)
     if amended is not None:
         parts += ["<h2>The amended model</h2>", f"<pre>{escape(amended.read_text(encoding='utf-8'))}</pre>"]
@@ -141,8 +141,8 @@ def _findings(result: Explanation) -> list[str]:
         values = ", ".join(
             f"{n} = {p['value']:.5g} &plusmn; {2 * p['std']:.2g} {p['unit']}" for n, p in f["parameters"].items()
         )
-        rows.append(f"<li><b>{escape(f['effect'])}</b> at {escape(f['location'])}, confidence {f['confidence']:.2f}: {values}."
-                    f" {escape(f['where']['text'])}.</li>")  # fmt: skip
+        said = f"{escape(f['location'])}, confidence {f['confidence']:.2f}: {values}. {escape(f['where']['text'])}"
+        rows.append(f"<li><b>{escape(f['effect'])}</b> at {said}.</li>")
     return ["<h2>What was left out</h2>", f"<ol>{''.join(rows)}</ol>"] if rows else []
 
 

@@ -1,8 +1,8 @@
 """Slips that only a model shows: a reversed sign, a unit off by 1000 or in degrees, a signal shifted in time.
 
 Each output is compared with the believed model's simulation: a slip leaves the shape and changes the scale, or leaves
-the scale and moves the time. A machine that merely misbehaves changes both a little, so the thresholds are far from what
-an effect does.
+the scale and moves the time. A machine that merely misbehaves changes both a little, so the thresholds are far from
+what an effect does.
 """
 
 from __future__ import annotations
