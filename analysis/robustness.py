@@ -134,7 +134,8 @@ class Rate:
             return (0.0, 1.0)
         n, p, z2 = self.cases, self.value, 1.96**2
         centre, half = p + z2 / (2 * n), 1.96 * np.sqrt(p * (1 - p) / n + z2 / (4 * n * n))
-        return (float((centre - half) / (1 + z2 / n)), float((centre + half) / (1 + z2 / n)))
+        low, high = (centre - half) / (1 + z2 / n), (centre + half) / (1 + z2 / n)
+        return (max(0.0, float(low)), min(1.0, float(high)))
 
 
 def rate(condition: np.ndarray) -> Rate:

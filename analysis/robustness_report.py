@@ -15,7 +15,8 @@ PAGE = """# Robustness of the severity estimate
 Written by `make robustness`; do not edit. {count} simulated pre-flight tests of `{model}`: severity uniform
 over the map, and at the same time every nuisance below uniform over its range, with gain, offset and noise on each
 channel and a 12-bit converter. Simulated with {solver}, assessed with the map's severity table. Backlash and position
-transducer are not in this test: the motor turns freely at full voltage, and its angle is not used.
+transducer are not in this test: the motor turns freely at full voltage, and its angle is not used. Tests and map come
+from one model: what the model lacks of a real motor is not measured here.
 
 Two methods read the same recordings:
 
@@ -54,7 +55,7 @@ its own misfit; they are counted in every number above as if they had been read.
 
 
 def write_study(settings: Settings, results: Results, docs: Path) -> None:
-    """docs/robustness.md and docs/figures/robustness.svg and .png."""
+    """docs/robustness.md and docs/figures/robustness.svg."""
     from analysis.figures.robustness import draw
     from analysis.figures.style import in_style
     from analysis.files import published_together
@@ -62,7 +63,6 @@ def write_study(settings: Settings, results: Results, docs: Path) -> None:
     with published_together(docs / "figures") as scratch, in_style():
         figure = draw(settings, results)
         figure.savefig(scratch / "robustness.svg", metadata={"Date": None})
-        figure.savefig(scratch / "robustness.png")
     with published_together(docs) as scratch:
         (scratch / "robustness.md").write_text(page(settings, results), encoding="utf-8")
 
