@@ -39,7 +39,7 @@ BUILTINS: dict[str, int] = {
 class Expr:
     """One node; immutable. `type` is Real, Integer or Boolean (an enumeration is an Integer)."""
 
-    __slots__ = ("op", "args", "value", "type", "_hash", "__weakref__")
+    __slots__ = ("__weakref__", "_hash", "args", "op", "type", "value")
     op: str
     args: tuple[Expr, ...]
     value: object
