@@ -1,4 +1,4 @@
-"""Random linear systems through matching, blocks and tearing and through the residual form, against one dense solution."""
+"""Random linear systems through the structural passes (explicit and residual form), against one dense solution."""
 
 from __future__ import annotations
 
