@@ -21,7 +21,10 @@ from .cases import Case, CaseError, Recording, Signal
 from .tracking import Motion, recorded_motion
 
 RTOL = 1e-6
-STEPS_PER_SAMPLE = 40  # a run that needs more is given up: the parameters are absurd or the effect does not fit
+STEPS_PER_SAMPLE, STEPS_PER_SECOND = (
+    40,
+    8000,
+)  # a run that needs more is given up: its parameters are absurd
 _compile_lock = threading.Lock()
 
 
@@ -102,7 +105,7 @@ class Machine:
         """Any variables of the model along a recording; raises SimulationError where the run fails."""
         session = Session(
             self.model, solver=self.solver, rtol=RTOL, outputs=names, output_times=recording.time, events=False,
-            inputs=self._inputs_of(recording), max_steps=STEPS_PER_SAMPLE * len(recording.time),
+            inputs=self._inputs_of(recording), max_steps=_step_limit(recording),
         )  # fmt: skip
         time = recording.time
         values = _plain(parameters)
@@ -146,7 +149,7 @@ class Machine:
             outputs = list(dict.fromkeys([*self.columns.values(), *(f"{t}.tau" for t in self._trackers())]))
             return Session(
                 self.model, solver=self.solver, rtol=RTOL, outputs=outputs, output_times=recording.time, events=False,
-                inputs=self._inputs_of(recording), max_steps=STEPS_PER_SAMPLE * len(recording.time),
+                inputs=self._inputs_of(recording), max_steps=_step_limit(recording),
             )  # fmt: skip
 
     def _inputs_of(self, recording: Recording) -> dict[str, RecordedInput]:
@@ -185,6 +188,11 @@ class Machine:
         if variable is None or variable.kind != "state":
             raise CaseError(f"{self.case.folder / 'case.toml'}: [initial] {name} is no state of {self.case.model}")
         return next(n for n, v in self.model.states.items() if v.index == variable.index)
+
+
+def _step_limit(recording: Recording) -> int:
+    duration = float(recording.time[-1] - recording.time[0])
+    return int(max(STEPS_PER_SAMPLE * len(recording.time), STEPS_PER_SECOND * duration))
 
 
 def _plain(parameters: Mapping[str, float]) -> dict[str, float]:

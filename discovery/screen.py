@@ -14,6 +14,8 @@ import math
 
 import numpy as np
 
+from runtime import SimulationError
+
 from .amend import Attachment
 from .catalogue import Effect, EffectParameter
 from .fit import Fit, Objective
@@ -100,7 +102,10 @@ def prepare(screen: Screen, attachment: Attachment, machine: Machine) -> Candida
     ]
     if not names:
         return None
-    shapes = _shape_starts(screen, attachment, machine, names, point)
+    try:
+        shapes = _shape_starts(screen, attachment, machine, names, point)
+    except SimulationError:  # the amended model does not run with these recordings: no hypothesis here
+        return None
     best: Candidate | None = None
     amounts: dict[str, float] = {}
     for shape in shapes:

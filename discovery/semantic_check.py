@@ -80,7 +80,8 @@ def _shifts(machine: Machine, recording: Recording, simulated: dict[str, np.ndar
     found = []
     together = len(lags) > 1 and np.ptp([lag for lag, _ in lags.values()]) <= 4  # that is the drive, or a delay
     for column, (lag, gain) in lags.items():
-        if gain > 0.95 and (lag >= LATE or lag <= -EARLY) and not together:
+        late, early = lag >= LATE and gain > 0.8, lag <= -EARLY and gain > 0.97
+        if (late or early) and not together:
             seconds = lag * recording.interval
             text = f"shifted in time by {seconds:+.4g} s against the other signals"
             found.append(Problem("shift", recording.name, column, float(recording.time[0]), text, True))

@@ -2,7 +2,7 @@ within Lacuna.Effects;
 model PreslidingFriction "Dry friction with elastic micro-motion before breakaway (Dahl)"
   extends Interfaces.FlangeEffect;
   parameter Types.Torque tau_c(final min=0) = 0 "Level of full sliding";
-  parameter Types.Angle x_s(final min=1e-6) = 0.01 "Micro-motion over which the level builds up";
+  parameter Types.Angle x_s(final min=1e-6) = 1 "Micro-motion over which the level builds up";
   Types.PerUnit z(start=0, fixed=true) "Share of the level that is built up";
 equation
   der(z) = (w - noEvent(abs(w))*z)/x_s;
