@@ -21,7 +21,7 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--seed", type=int, default=2)
     parser.add_argument("--quick", action="store_true", help="one case of each kind, and no page")
     parser.add_argument("--jobs", type=int, default=1, help="cases at a time; a diagnosis uses every core by itself")
-    parser.add_argument("--timeout", type=float, default=900.0, help="seconds for a case")
+    parser.add_argument("--timeout", type=float, default=1800.0, help="seconds for a case")
     parser.add_argument("--command", nargs="+", default=[str(Path(sys.executable).with_name("lacuna")), "explain"])
     return parser.parse_args()
 
