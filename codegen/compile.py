@@ -20,7 +20,7 @@ from .prepared import Prepared
 from .storage import Storage
 from .structure.aliases import eliminate_aliases
 from .structure.causal import causalise
-from .structure.constants import precompute
+from .structure.constants import precompute, precompute_inverses
 from .structure.index_reduction import reduce_index
 from .structure.residual_form import jacobian, residual_form
 from .structure.system import DeclaredValues
@@ -70,6 +70,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     residual = report.run("residual form", residual_form, system, explicit, tearing)
     matrix = report.run("jacobian", jacobian, residual, system)
     initial = report.run("initial system", initial_system, system, system.model.initial_equations, tearing)
+    explicit, system = report.run("matching, BLT, tearing", precompute_inverses, explicit, system)
     report.warnings += [*declared.warnings, *initial.warnings]
     return Prepared(
         declared, aliases.representative, system, Storage(system), relations, frozen.samples, steps, explicit,

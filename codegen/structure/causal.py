@@ -5,8 +5,8 @@ The same procedure serves the explicit form (states known) and the initial syste
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 from ..affine import UNSAFE, isolate
 from ..differentiate import Differentiator
@@ -142,3 +142,18 @@ def expressions_of(step: Step) -> list[Expr]:
         case NonlinearBlock():
             own = [*(a for line in step.jacobian for a in line), *(row.residual for row in step.residuals)]
     return own + [a.value for a in step.assignments]
+
+
+def rewritten(step: Step, rule: Callable[[Expr], Expr]) -> Step:
+    """The step with `rule` applied to everything that it computes."""
+    match step:
+        case Assignment():
+            return replace(step, value=rule(step.value))
+        case Division():
+            return replace(step, numerator=rule(step.numerator), denominator=rule(step.denominator))
+    assignments = [replace(a, value=rule(a.value)) for a in step.assignments]
+    if isinstance(step, NonlinearBlock):
+        jacobian = [[rule(a) for a in line] for line in step.jacobian]
+        return replace(step, assignments=assignments, jacobian=jacobian)
+    matrix = [[rule(a) for a in line] for line in step.matrix]
+    return replace(step, assignments=assignments, matrix=matrix, right=[rule(b) for b in step.right])

@@ -3,13 +3,15 @@ becomes a dependent parameter, so that nothing constant is computed during integ
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from .. import flat
 from ..errors import Diagnostic
-from ..expr import BUILTINS, REAL, Expr, to_text, var, walk
+from ..expr import BUILTINS, ONE, REAL, Expr, div, mul, to_text, transform, var, walk
 from ..leaves import leaves
 from ..rewrite import Rewriter
+from .causal import Step, rewritten
 from .system import Row, System
 
 
@@ -112,3 +114,22 @@ def precompute(system: System) -> System:
         integral = rows[row.integral] if row.integral else None
         rows[row] = Row(rewriter.expression(row.lhs), rewriter.expression(row.rhs), row.source, integral)
     return replace(system, rows=list(rows.values()), model=replace(model, variables=names))
+
+
+def precompute_inverses(steps: Sequence[Step], system: System) -> tuple[list[Step], System]:
+    """Divisions by parameters as products with dependent parameters: the right-hand side is a chain of operations of
+    which a division takes as long as all others together."""
+    model, names = system.model, dict(system.model.variables)
+    memo: dict[Expr, Expr] = {}
+
+    def inverse(e: Expr) -> Expr | None:
+        if e.op != "/" or e.args[1].op == "const" or not is_parametric(e.args[1], model.variables):
+            return None
+        divisor = e.args[1]
+        name = f"inverse of {to_text(divisor)}"
+        value = div(ONE, divisor)
+        names.setdefault(name, flat.Variable(name, model.span, variability=flat.PARAMETER, binding=value, final=True))
+        return mul(transform(e.args[0], inverse, memo), var(name))
+
+    changed = [rewritten(step, lambda e: transform(e, inverse, memo)) for step in steps]
+    return changed, replace(system, model=replace(model, variables=names))

@@ -15,6 +15,7 @@ from codegen.errors import Diagnostic, Span
 from codegen.evaluate import evaluate
 from codegen.prepared import Prepared
 from codegen.structure.causal import Assignment, Division
+from codegen.structure.system import DeclaredValues
 
 SPAN = Span("random.mo", 1, 1)
 COEFFICIENTS = st.sampled_from([-3.0, -1.0, 1.0, 2.0, 5.0])
@@ -62,8 +63,10 @@ def _term(coefficient: float, unknown: ex.Expr, how: str) -> ex.Expr:
 def solve_steps(p: Prepared, values: dict[ex.Expr, float]) -> dict[ex.Expr, float]:
     """Carry out the explicit form numerically."""
 
+    declared = DeclaredValues(p.model)
+
     def value(e: ex.Expr) -> float:
-        found = evaluate(e, lambda n: values[n] if n in values else PARAMETERS[str(n.value)])
+        found = evaluate(e, lambda n: values[n] if n in values else declared.variable(str(n.value)))
         assert found is not None, e
         return float(found)
 
@@ -77,9 +80,6 @@ def solve_steps(p: Prepared, values: dict[ex.Expr, float]) -> dict[ex.Expr, floa
         for a in [step] if isinstance(step, Assignment) else step.assignments:
             values[a.unknown] = value(a.value)
     return values
-
-
-PARAMETERS = {"one": 1.0, "on": True}
 
 
 @settings(max_examples=150, deadline=None)
@@ -125,8 +125,10 @@ def test_residual_form_is_square_and_vanishes_at_the_solution(
     values |= {ex.der(ex.var(f"x{k}")): exact[k] for k in range(n_x)}
     values |= {ex.var(f"z{k}"): v for k, v in enumerate(exact[n_x:])}
 
+    declared = DeclaredValues(p.model)
+
     def value(e: ex.Expr) -> float:
-        return float(evaluate(e, lambda n: values[n] if n in values else PARAMETERS[str(n.value)]))
+        return float(evaluate(e, lambda n: values[n] if n in values else declared.variable(str(n.value))))
 
     for a in p.residual.assignments:
         assert abs(value(a.value) - values[a.unknown]) <= 1e-7 * (1 + abs(values[a.unknown]))

@@ -40,7 +40,9 @@ static const double mdl_p_start[] = {
   1e-09,
   0.025,
   5.0,
-  0.01
+  0.01,
+  40.0,
+  99999.99999999999
 };
 
 static const int mdl_jac_colptr[] = {
@@ -142,7 +144,14 @@ static double mdl_next_switch(double g, double slope, double t, double next) {
 }
 
 static int mdl_parameters(mdl_data *m) {
-  (void)m;
+  const double C = m->p[1];
+  const double V_t = m->p[3];
+  /* Diode.mo:1  inverse of V_t = 1.0 / V_t */
+  const double inverse_of_V_t = 1.0 / V_t;
+  m->p[6] = inverse_of_V_t;
+  /* Diode.mo:1  inverse of C = 1.0 / C */
+  const double inverse_of_C = 1.0 / C;
+  m->p[7] = inverse_of_C;
   return 0;
 }
 
@@ -161,10 +170,10 @@ static int mdl_samples(const mdl_data *m, double *start, double *interval) {
 static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double *v) {
   (void)t;
   const double R = m->p[0];
-  const double C = m->p[1];
   const double I_s = m->p[2];
-  const double V_t = m->p[3];
   const double U = m->p[4];
+  const double inverse_of_V_t = m->p[6];
+  const double inverse_of_C = m->p[7];
   const int rel0 = m->rel[0];
   const double u_C = x[0];
   /* Diode.mo:13  u = if time < T then U else -U */
@@ -176,7 +185,7 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
   double v_2_block_step[1] = {0};
   for (;;) {
     /* Diode.mo:15  i = I_s*(exp(v/V_t) - 1) */
-    const double tmp1 = exp(v_2 / V_t);
+    const double tmp1 = exp(v_2 * inverse_of_V_t);
     i = I_s * (tmp1 - 1.0);
     if (v_2_block.converged) break;
     /* Diode.mo:14  u = R*i + v + u_C */
@@ -187,7 +196,7 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
       continue;
     }
     if (v_2_block.converged) break;
-    double v_2_block_a[1] = {-(R * (I_s * (tmp1 * (1.0 / V_t))) + 1.0)};
+    double v_2_block_a[1] = {-(R * (I_s * (tmp1 * inverse_of_V_t)) + 1.0)};
     if (mdl_solve(1, v_2_block_a, v_2_block_r)) return mdl_fail(m, MDL_FAILURE_SINGULAR, 1, 0.0);
     if (++v_2_block.iterations > 50) return mdl_fail(m, MDL_FAILURE_NEWTON, 1, 0.0);
     v_2_block.converged = 1;
@@ -196,7 +205,7 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
     v_2 -= v_2_block_r[0];
   }
   /* Diode.mo:16  C*der(u_C) = i */
-  const double der_u_C = i / C;
+  const double der_u_C = i * inverse_of_C;
   v[0] = u;
   v[1] = v_2;
   v[2] = i;
@@ -325,7 +334,7 @@ static const mdl_descriptor mdl_model = {
   .n_d = 0,
   .n_equations = 4,
   .n_messages = 0,
-  .n_p = 6,
+  .n_p = 8,
   .n_rel = 1,
   .n_sample = 0,
   .n_u = 0,

@@ -38,7 +38,9 @@ static const double mdl_p_start[] = {
   4.0,
   5.0,
   10.0,
-  1.0
+  1.0,
+  0.25,
+  0.3333333333333333
 };
 
 static const int mdl_jac_colptr[] = {
@@ -69,6 +71,14 @@ static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double val
 
 static int mdl_parameters(mdl_data *m) {
   const double J1 = m->p[0];
+  const double J2 = m->p[1];
+  const double ratio = m->p[2];
+  /* Shaft.mo:1  inverse of ratio = 1.0 / ratio */
+  const double inverse_of_ratio = 1.0 / ratio;
+  m->p[6] = inverse_of_ratio;
+  /* Shaft.mo:1  inverse of J2 = 1.0 / J2 */
+  const double inverse_of_J2 = 1.0 / J2;
+  m->p[7] = inverse_of_J2;
   if (!(J1 >= 1e-09)) {
     m->failure = (mdl_failure){MDL_FAILURE_BOUND, -1, 0, J1};
     return -1;
@@ -92,35 +102,36 @@ static int mdl_samples(const mdl_data *m, double *start, double *interval) {
 static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double *v) {
   (void)t;
   const double J1 = m->p[0];
-  const double J2 = m->p[1];
   const double ratio = m->p[2];
   const double k = m->p[3];
   const double tau_max = m->p[4];
   const double w_ref = m->p[5];
+  const double inverse_of_ratio = m->p[6];
+  const double inverse_of_J2 = m->p[7];
   const int rel0 = m->rel[0];
   const double phi1 = x[0];
   const double w1 = x[1];
   /* Shaft.mo:15  w1 = der(phi1) */
   const double der_phi1 = w1;
   /* Shaft.mo:17  d/dt of phi1 = ratio*phi2 */
-  const double der_phi2_ = der_phi1 / ratio;
+  const double der_phi2_ = der_phi1 * inverse_of_ratio;
   /* Shaft.mo:16  w2 = der(phi2) */
   const double w2 = der_phi2_;
   /* Shaft.mo:17  phi1 = ratio*phi2 */
-  const double phi2 = phi1 / ratio;
+  const double phi2 = phi1 * inverse_of_ratio;
   /* Shaft.mo:18  drive = min(k*(w_ref - w1), tau_max) */
   const double drive = !rel0 ? k * (w_ref - w1) : tau_max;
   /* linear block of 5, torn to 1 */
   /* Shaft.mo:17  dd/dtdt of phi1 = ratio*phi2 */
-  const double der_w1_divisor = 1.0 + ratio * (ratio * J1 / J2);
+  const double der_w1_divisor = 1.0 + ratio * (ratio * J1 * inverse_of_J2);
   if (der_w1_divisor == 0.0) return mdl_fail(m, MDL_FAILURE_SINGULAR, 2, 0.0);
-  const double der_w1 = (ratio * (ratio * drive / J2)) / der_w1_divisor;
+  const double der_w1 = (ratio * (ratio * drive * inverse_of_J2)) / der_w1_divisor;
   /* Shaft.mo:19  J1*der(w1) = drive - tau */
   const double tau = drive - J1 * der_w1;
   /* Shaft.mo:15  d/dt of w1 = der(phi1) */
   const double der_der_phi1_ = der_w1;
   /* Shaft.mo:20  J2*der(w2) = ratio*tau */
-  const double der_w2_ = ratio * tau / J2;
+  const double der_w2_ = ratio * tau * inverse_of_J2;
   /* Shaft.mo:16  d/dt of w2 = der(phi2) */
   const double der_der_phi2_ = der_w2_;
   xdot[0] = der_phi1;
@@ -295,7 +306,7 @@ static const mdl_descriptor mdl_model = {
   .n_d = 0,
   .n_equations = 6,
   .n_messages = 0,
-  .n_p = 6,
+  .n_p = 8,
   .n_rel = 1,
   .n_sample = 0,
   .n_u = 0,
