@@ -11,7 +11,6 @@ import numpy as np
 from bench.generated import ROOT
 from discovery import cases
 from discovery.explain import explain
-from discovery.locate import locate
 
 GOAL = 60.0  # s, median on two cores
 
@@ -30,10 +29,6 @@ def split(rounds: int) -> list[dict[str, object]]:
 def _row(folder: Path) -> dict[str, object]:
     begin = time.perf_counter()
     result = explain(cases.load(folder))
-    explained = time.perf_counter()
-    if result.findings:
-        locate(result.case, result.base)
-    ended = time.perf_counter()
-    found = {"case": folder.name, "verdict": result.verdict}
-    parts = {"fit": result.seconds.get("fit", 0.0), "name": result.seconds.get("name", 0.0)}
-    return found | parts | {"locate": ended - explained, "in all": ended - begin, "goal": None}
+    seconds = time.perf_counter() - begin
+    parts = {step: result.seconds.get(step, 0.0) for step in ("fit", "locate", "name")}
+    return {"case": folder.name, "verdict": result.verdict, **parts, "in all": seconds, "goal": None}

@@ -11,11 +11,14 @@ import typer
 
 from cli.errors import UserError, nearest, reported
 from cli.options import MODEL_HELP, Assignments, assignments, default_folder, number
+from cli.output import console
 
 if TYPE_CHECKING:
     from analysis.comparison.scenarios import Scenario
     from analysis.comparison.study import Study
     import runtime
+
+OWN_REFERENCE = 1e-10  # relative tolerance of the reference run of a user's model; tighter may be below its rounding
 
 
 @reported
@@ -47,7 +50,7 @@ def compare(
     with Console(stderr=True).status("comparing") as status:
         studies = compare_lanes(chosen, _compiled, folder, lambda s, lane: status.update(f"{s.name}: {lane.label}"))
     for study in studies:
-        Console().print(_lanes(study))
+        console().print(_lanes(study))
     typer.echo(f"written: {folder}")
 
 
@@ -77,7 +80,10 @@ def _own(model: str, steps: list[float] | None, stop: float | None, parameter: l
     interval = loaded.interval or end / 1000
     values = {name: number(name, text) for name, text in assignments(parameter).items()}
     steps = steps or [interval / k for k in (1, 2, 4)]
-    return Scenario(model, loaded.name, model, end, interval, tuple(steps), tuple(loaded.states)[:4], values)
+    return Scenario(
+        loaded.name.rsplit(".", 1)[-1], loaded.name, model, end, interval, tuple(steps), tuple(loaded.states)[:4], values,
+        reference_rtol=OWN_REFERENCE,
+    )  # fmt: skip
 
 
 def _lanes(study: Study) -> Table:
@@ -111,7 +117,7 @@ def _with_file(model: str, file: Path, tolerance: float, parameter: list[str] | 
         table.add_column(column, justify="left" if column == "signal" else "right")
     for d in deviations:
         table.add_row(d.name, f"{d.maximum:.3e}", f"{d.rms:.3e}", f"{d.relative:.3e}", f"{d.at_time:g}")
-    Console().print(table)
+    console().print(table)
     beyond = [d.name for d in deviations if not d.relative <= tolerance]
     if beyond:
         raise UserError(f"beyond the tolerance of {tolerance:g}: {', '.join(beyond)}")

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from rich.console import Console
 from rich.table import Table
 import typer
 
 from cli.errors import reported
 from cli.options import Model, Units
+from cli.output import console
 
 Dump = Annotated[
     Literal["flat", "structure", "c"] | None,
@@ -34,7 +34,7 @@ def compile(model: Model, dump: Dump = None, units: Units = "error") -> None:
     if compiled.report.cached:
         typer.echo(f"{compiled.name}: unchanged since it was compiled")
     else:
-        Console().print(_passes(compiled.name, compiled.report.seconds))
+        console().print(_passes(compiled.name, compiled.report.seconds))
     typer.echo(compiled.path)
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from rich.console import Console
 from rich.table import Table
 import typer
 
 from cli.errors import reported
+from cli.output import console
 
 if TYPE_CHECKING:
     from analysis.maps import Map
@@ -53,7 +53,7 @@ def maps(
 
 
 def _report(finished: Map) -> None:
-    console = Console()
+    out = console()
     table = Table(title=finished.summary["title"], title_justify="left")
     table.add_column("quantity")
     for column in ("published", "reproduced"):
@@ -61,10 +61,10 @@ def _report(finished: Map) -> None:
     table.add_column("unit")
     for row in finished.summary["comparison"]:
         table.add_row(row["quantity"], _text(row["published"]), _text(row["reproduced"]), row["unit"])
-    console.print(table)
+    out.print(table)
     split = ", ".join(f"{name.replace('_cpu', ' (all cores)')} {s:.2f} s" for name, s in finished.seconds.items())
-    console.print(f"{len(finished.rows)} severities: {split}")
-    console.print(f"written: {finished.folder}")
+    out.print(f"{len(finished.rows)} severities: {split}")
+    out.print(f"written: {finished.folder}")
 
 
 def _text(value: object) -> str:

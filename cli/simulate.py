@@ -6,12 +6,12 @@ from pathlib import Path
 import time
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from rich.console import Console
 from rich.table import Table
 import typer
 
 from cli.errors import UserError, nearest, reported
 from cli.options import Assignments, Model, Units, assignments, default_folder, number
+from cli.output import console
 
 if TYPE_CHECKING:
     import runtime
@@ -112,4 +112,4 @@ def _report(result: runtime.Result, seconds: float, solver: str, written: list[P
         table.add_row(name.replace("_", " "), f"{count}")
     for path in written:
         table.add_row("written", str(path))
-    Console().print(table)
+    console().print(table)

@@ -10,10 +10,10 @@ from rich.table import Table
 import typer
 
 from cli.errors import reported
+from cli.output import console
 
 if TYPE_CHECKING:
     from discovery.explain import Explanation
-    from discovery.locate import Located
 
 Case = Annotated[Path, typer.Argument(metavar="CASE", help="Folder with case.toml and its recordings")]
 Out = Annotated[Path | None, typer.Option(help="Folder of report.html; default: out/STEP/CASE")]
@@ -40,14 +40,15 @@ def locate(case: Case, out: Out = None) -> None:
     from discovery.steps import located
 
     with Console(stderr=True).status("reading the recordings") as status:
-        result, found = located(load(case), status.update)
+        result = located(load(case), status.update)
+    found = result.located
     table = Table("place", "missing", "misfit explained")
     for place in found.places[:SHOWN]:
         table.add_row(place.location, f"{place.kind}, {place.unit}", f"{place.explained:.1%}")
-    Console().print(table)
+    console().print(table)
     if found.organiser:
         typer.echo(f"it follows {found.organiser} best ({found.organised:.0%} of its variance)")
-    _report(result, "locate", case, out, found)
+    _report(result, "locate", case, out)
 
 
 @reported
@@ -61,7 +62,7 @@ def name(case: Case, out: Out = None) -> None:
     table = Table("hypothesis", "evidence against none", "confidence")
     for ranked in result.namings[0].ranked[:SHOWN]:
         table.add_row(ranked.attachment.label, f"{-ranked.score:.1f}", f"{ranked.confidence:.3f}")
-    Console().print(table)
+    console().print(table)
     _report(result, "name", case, out)
 
 
@@ -89,7 +90,7 @@ def _parameters(result: Explanation) -> None:
     for name, p in build(result, None)["parameters"].items():
         flag = "outside belief" if p["outside_belief"] else ""
         table.add_row(name, f"{p['believed']:.5g}", f"{p['value']:.5g}", f"{2 * p['std']:.2g}", p["unit"], flag)
-    Console().print(table)
+    console().print(table)
 
 
 def _errors(nrmse: dict[str, float], floor: dict[str, float] | None) -> None:
@@ -98,12 +99,12 @@ def _errors(nrmse: dict[str, float], floor: dict[str, float] | None) -> None:
     for signal, value in nrmse.items():
         noise = [f"{floor[signal]:.4g}" if signal in floor else ""] if floor else []
         table.add_row(signal or "all", f"{value:.4g}", *noise)
-    Console().print(table)
+    console().print(table)
 
 
-def _report(result: Explanation, step: str, case: Path, out: Path | None, located: Located | None = None) -> None:
+def _report(result: Explanation, step: str, case: Path, out: Path | None) -> None:
     from discovery.report import write
 
     folder = out or Path("out") / step / case.resolve().name
     folder.mkdir(parents=True, exist_ok=True)
-    typer.echo(f"written: {write(result, folder, None, located)}")
+    typer.echo(f"written: {write(result, folder, None)}")

@@ -6,11 +6,11 @@ from codegen.library import Library
 
 from . import catalogue, places
 from .cases import Case, CaseError
-from .explain import Explanation, Progress, _believed_machine, fit_believed
+from .explain import Explanation, Progress, _believed_machine, _tracked, fit_believed
 from .fit import believed
 from .hypotheses import enumerate_attachments
 from .judge import judge, noise_floor
-from .locate import Located, locate
+from .locate import locate
 from .name import rank
 from .recordings_check import check_case
 from .semantic_check import check_against_model
@@ -32,11 +32,12 @@ def fitted(case: Case, progress: Progress, library: Library | None = None) -> tu
     return result, bandwidths
 
 
-def located(case: Case, progress: Progress) -> tuple[Explanation, Located]:
+def located(case: Case, progress: Progress) -> Explanation:
     """What effort is missing, where, in the fitted believed model."""
-    result, _ = fitted(case, progress)
+    result, bandwidths = fitted(case, progress)
     progress("locating the missing effort")
-    return result, locate(case, result.base)
+    result.located = locate(case, _tracked(result.base, bandwidths))
+    return result
 
 
 def named(case: Case, progress: Progress) -> Explanation:
@@ -46,6 +47,7 @@ def named(case: Case, progress: Progress) -> Explanation:
     effects = catalogue.read(library)
     attachments = enumerate_attachments(case, result.amendment.structure, effects, result.amendment)
     progress(f"ranking {len(attachments)} hypotheses")
-    naming = rank(case, result.amendment, attachments, result.base, bandwidths=bandwidths, progress=progress)
+    tracked = _tracked(result.base, bandwidths)
+    naming = rank(case, result.amendment, attachments, tracked, progress=progress)
     result.namings.append(naming)
     return result

@@ -18,6 +18,7 @@ from analysis.comparison.deviation import (
     signal_deviation,
 )
 from analysis.comparison.scenarios import Scenario
+from analysis.errors import AnalysisError
 import runtime
 
 SMALL_SIGNAL = 1e-3  # of the largest signal with the same unit
@@ -88,6 +89,8 @@ def run(scenario: Scenario, model: runtime.Model, tick: Callable[[Lane], None] =
     first = Lane("ida", rtol=scenario.reference_rtol)
     tick(first)
     reference, seconds = _simulate(scenario, model, first, grid)
+    if not reference.complete:
+        raise AnalysisError(f"{scenario.name}: the reference, {first.label}, stops early: {reference.failure}")
     signals = _scales(model, reference)
     lanes = []
     for lane in lanes_of(scenario):

@@ -171,6 +171,13 @@ def test_compare_with_a_file_has_a_tolerance(tmp_path: Path) -> None:
     assert "w" in refused("compare", SERVO, "--against", file, "--tolerance", "1e-4", "-p", "R=3.4")
 
 
+def test_compare_a_model_of_ones_own(tmp_path: Path) -> None:
+    result = lacuna("compare", SERVO, "--stop", "0.15", "--step", "1e-4", "--step", "5e-5", "--out", "own")
+    assert result.exit_code == 0, result.output
+    assert "rk4" in result.output
+    assert (tmp_path / "own" / "report.html").exists()
+
+
 def test_fit_of_a_practice_case_is_looked_at_alone(shared: Path, tmp_path: Path) -> None:
     result = lacuna("fit", str(shared / "recordings" / "practice" / "p01"), "--out", "fit")
     assert result.exit_code == 0, result.output
