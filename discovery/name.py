@@ -21,7 +21,7 @@ from .least_squares import WORKERS, Free
 from .machine import try_machine
 from .screen import Candidate, Screen, prepare
 
-MIN_GAIN = 30.0  # drop of the deviance, prices paid, below which nothing is believed missing
+MIN_GAIN = 20.0  # drop of the deviance, prices paid, below which nothing is believed missing
 CLOSE = 0.3  # share of the best gain within which hypotheses are cross-validated against each other
 CONTENDERS = 4
 TIE = 8.0  # difference of two scores below which the data does not tell them apart
