@@ -80,10 +80,8 @@ def _own(model: str, steps: list[float] | None, stop: float | None, parameter: l
     interval = loaded.interval or end / 1000
     values = {name: number(name, text) for name, text in assignments(parameter).items()}
     steps = steps or [interval / k for k in (1, 2, 4)]
-    return Scenario(
-        loaded.name.rsplit(".", 1)[-1], loaded.name, model, end, interval, tuple(steps), tuple(loaded.states)[:4], values,
-        reference_rtol=OWN_REFERENCE,
-    )  # fmt: skip
+    name, shown = loaded.name.rsplit(".", 1)[-1], tuple(loaded.states)[:4]
+    return Scenario(name, loaded.name, model, end, interval, tuple(steps), shown, values, reference_rtol=OWN_REFERENCE)
 
 
 def _lanes(study: Study) -> Table:
