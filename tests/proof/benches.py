@@ -38,6 +38,7 @@ class Bench:
     hold: tuple[str, ...] = ()
     renamed: Mapping[str, str] = field(default_factory=dict)
     fixed: Mapping[str, float] = field(default_factory=dict)  # kernel parameters that are not the model's
+    leads: str = ""  # angle that must be right before a fit of the others can be: their edges follow it
     refit_step: float = 1e-4  # s, enough where nothing has events
 
     def kernel(self, parameters: Mapping[str, float]) -> dict[str, float]:
@@ -174,6 +175,7 @@ BLDC_DRIVE = Bench(
     fixed={"pp": 2},
     sets_of_outputs=(("ia", "ib", "ic", "theta"), ("ia", "ib", "ic", "theta"), ("ia", "ib", "ic")),
     refit_step=2e-5,
+    leads="theta",
 )
 
 JOINT = Bench(

@@ -24,19 +24,24 @@ class Refit:
     """A believed model against recordings of chosen outputs."""
 
     def __init__(
-        self, bench: Bench, outputs: Sequence[str], recordings: Sequence[Recording], step: float | None = None
+        self,
+        bench: Bench,
+        outputs: Sequence[str],
+        recordings: Sequence[Recording],
+        spread: Mapping[str, float] | None = None,
     ):
+        """`spread` replaces a signal's standard deviation as what its error is measured by."""
         self.bench, self.recordings = bench, recordings
         self.columns = [bench.machine.outputs.index(name) for name in outputs]
         self.hold = [name in bench.hold for name in bench.machine.inputs]
-        self.step = step or bench.refit_step
         self.measured = [y for _, y in recordings]
-        self.spread = np.nanstd(np.concatenate(self.measured), axis=0)
+        deviation = np.nanstd(np.concatenate(self.measured), axis=0)
+        self.spread = np.array([(spread or {}).get(n, d) for n, d in zip(outputs, deviation, strict=True)])
 
     def simulate(self, parameters: Mapping[str, float]) -> list[np.ndarray]:
         kernel, machine = self.bench.kernel(parameters), self.bench.machine
         return [
-            machine.simulate(kernel, self.bench.period, u, hold=self.hold, step=self.step)[:, self.columns]
+            machine.simulate(kernel, self.bench.period, u, hold=self.hold, step=self.bench.refit_step)[:, self.columns]
             for u, _ in self.recordings
         ]
 
@@ -77,7 +82,7 @@ class Refit:
                 damping *= 6
             if not improved:
                 break
-        return best, float(np.sqrt(np.mean(r**2) * 1.0))
+        return best, float(np.sqrt(np.mean(r**2)))
 
     def relative_std(self, parameters: Mapping[str, float], noise: Sequence[float]) -> dict[str, float]:
         """Standard deviation of each fitted parameter over its value, for a white noise of given size per output."""
