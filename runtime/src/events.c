@@ -5,7 +5,14 @@
 
 #include "session.h"
 
-enum { MAX_PASSES = 100, WATCHED_PASSES = 12, MAX_FUTILE_EVENTS = 100 };
+enum {
+  MAX_PASSES = 100,
+  MAX_SWEEPS = 40,
+  PATIENCE = 4,
+  SWEEPS_OF_A_CYCLE = 8,
+  WATCHED_PASSES = 12,
+  MAX_FUTILE_EVENTS = 100
+};
 
 /* A relation keeps its value while its guard is within the hysteresis: what is there may be noise, and a relation that
  * has just been located at its crossing must not fall back. Exactly zero is no noise, and not greater than zero.
@@ -47,17 +54,50 @@ static bool clear_ticks(rt_session *s) {
   return any;
 }
 
-/* One pass: point, relations, discrete equations. 1 something changed, 0 nothing did, -1 failed. */
-static int pass(rt_session *s) {
+static bool same(const double *a, const double *b, int n) {
+  return !memcmp(a, b, (size_t)n * sizeof *a);
+}
+
+/* One sweep of the discrete equations from the state and the when conditions on arrival; the state after it in x_swept.
+ */
+static int sweep(rt_session *s) {
   mdl_data *m = &s->data;
-  s->result->counters.event_passes++;
-  if (rt_evaluate(s)) return -1;
-  bool changed = update_relations(s);
-  changed |= rt_clock_relations(s);
+  memcpy(m->when, s->when_before, (size_t)s->d->n_when);
+  memcpy(s->x_swept, m->x, (size_t)s->d->n_x * sizeof *m->x);
   m->reinitialised = 0;
-  if (s->d->event(m, s->t, m->x, m->xdot, m->v)) return -1;
+  return s->d->event(m, s->t, s->x_swept, m->xdot, m->v);
+}
+
+/* A mode that is tried because a relation held in the mode before may contradict itself, and its opposite too (friction
+ * that comes to rest, judged by the path variable of sliding). Then the relations that disagree start again from false.
+ */
+static void start_again(rt_session *s) {
+  for (int r = 0; r < s->d->n_rel; r++)
+    if (s->data.rel[r] != s->rel_swept[r] && !s->d->relations[r].is_time) s->data.rel[r] = 0;
+}
+
+/* One pass: point, relations, discrete equations, by up to so many sweeps with the values before the event (pre) as
+ * they are, until they agree. One sweep is enough where modes depend on pre-values; more are made where events get
+ * nowhere. 1 something changed, 0 nothing did, -1 failed. */
+static int pass(rt_session *s, int sweeps) {
+  mdl_data *m = &s->data;
+  bool changed = false, settled = false;
+  memcpy(s->when_before, m->when, (size_t)s->d->n_when);
+  for (int k = 0; k < sweeps && !settled; k++) {
+    s->result->counters.event_passes++;
+    if (rt_evaluate(s)) return -1;
+    memcpy(s->rel_swept, m->rel, (size_t)s->d->n_rel);
+    bool switched = update_relations(s);
+    switched |= rt_clock_relations(s);
+    if (switched && k % SWEEPS_OF_A_CYCLE == SWEEPS_OF_A_CYCLE - 1) start_again(s);
+    memcpy(s->d_swept, m->d, (size_t)s->d->n_d * sizeof *m->d);
+    if (sweep(s)) return -1;
+    settled = !switched && same(m->d, s->d_swept, s->d->n_d);
+    changed |= switched;
+  }
+  memcpy(m->x, s->x_swept, (size_t)s->d->n_x * sizeof *m->x);
   s->reinitialised |= m->reinitialised != 0;
-  return changed || m->reinitialised || memcmp(m->d, m->pre_d, (size_t)s->d->n_d * sizeof *m->d) != 0;
+  return changed || m->reinitialised || !same(m->d, m->pre_d, s->d->n_d);
 }
 
 /* Repeat passes at the present instant until relations, discrete variables and states agree. Ticks last until then. */
@@ -67,7 +107,8 @@ rt_status rt_iterate_event(rt_session *s) {
   s->reinitialised = false;
   memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
   for (int i = 0; i < MAX_PASSES; i++) {
-    int changed = pass(s);
+    bool nowhere = s->futile_events > PATIENCE || i > MAX_PASSES / 2;
+    int changed = pass(s, nowhere ? MAX_SWEEPS : 1);
     if (changed < 0) return rt_fail_model(s, s->t, "iterating an event");
     if (!changed && !clear_ticks(s)) return RT_OK;
     if (i >= MAX_PASSES - WATCHED_PASSES) append_changed(s, names, sizeof names);

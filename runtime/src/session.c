@@ -29,11 +29,11 @@ static bool allocate_numbers(rt_session *s) {
   const mdl_descriptor *d = s->d;
   mdl_data *m = &s->data;
   rt_recorder *r = &s->recorder;
-  double **parameters[] = {&m->p, &s->p_run}, **inputs[] = {&m->u}, **discrete[] = {&m->d, &m->pre_d};
+  double **parameters[] = {&m->p, &s->p_run}, **inputs[] = {&m->u}, **discrete[] = {&m->d, &m->pre_d, &s->d_swept};
   double **unknowns[] = {&s->atol, &s->y, &s->yp}, **samples[] = {&s->clock.first, &s->clock.interval};
   double **algebraic[] = {&m->v, &s->v_trial, &s->v_before, &s->v_end, &r->v}, **dense[] = {&s->dense.c};
   double **states[] = {&m->x,           &m->xdot,  &s->initial_value, &s->x_trial, &s->xdot_trial, &s->x_before,
-                       &s->xdot_before, &s->x_end, &s->xdot_end,      &r->x,       &r->xdot};
+                       &s->xdot_before, &s->x_end, &s->xdot_end,      &r->x,       &r->xdot,       &s->x_swept};
   double **guards[] = {&s->g,        &s->g_previous, &s->g_low,    &s->g_trial,
                        &s->g_before, &s->g_span,     &s->g_travel, &s->g_lowest};
   const group groups[] = {{parameters, COUNT(parameters), d->n_p},
@@ -58,14 +58,15 @@ static bool allocate_numbers(rt_session *s) {
 static bool allocate_flags(rt_session *s) {
   const mdl_descriptor *d = s->d;
   mdl_data *m = &s->data;
-  unsigned char **relations[] = {&m->rel, &s->flip, &s->rel_before, &s->rel_trial, &s->rebound};
+  unsigned char **relations[] = {&m->rel, &s->flip, &s->rel_before, &s->rel_trial, &s->rebound, &s->rel_swept};
   unsigned char *next = s->flags =
-      calloc(COUNT(relations) * (size_t)d->n_rel + (size_t)(d->n_sample + d->n_when) + 1, 1);
+      calloc(COUNT(relations) * (size_t)d->n_rel + (size_t)(d->n_sample + 2 * d->n_when) + 1, 1);
   if (!next) return false;
   for (size_t i = 0; i < COUNT(relations); i++, next += d->n_rel)
     *relations[i] = next;
   m->tick = next;
   m->when = next + d->n_sample;
+  s->when_before = m->when + d->n_when;
   return true;
 }
 

@@ -117,11 +117,13 @@ struct rt_session {
   double *g_span, *g_travel;  /* [n_rel] largest |g| of the run, and since the relation last switched */
   double *x_trial, *xdot_trial, *v_trial;
   double *x_before, *xdot_before, *v_before;
-  double *g_lowest;                      /* [n_rel] furthest on the other side since it switched, where rebound */
-  unsigned char *rebound;                /* [n_rel] the event at which it last switched reinitialised states */
-  bool reinitialised;                    /* the last event did */
-  unsigned char *flip;                   /* [n_rel] relations that switch at t */
-  unsigned char *rel_before, *rel_trial; /* [n_rel] */
+  double *x_swept, *d_swept;              /* states after a sweep of an event, discrete variables before it */
+  unsigned char *rel_swept, *when_before; /* relations before a sweep, when conditions before its pass */
+  double *g_lowest;                       /* [n_rel] furthest on the other side since it switched, where rebound */
+  unsigned char *rebound;                 /* [n_rel] the event at which it last switched reinitialised states */
+  bool reinitialised;                     /* the last event did */
+  unsigned char *flip;                    /* [n_rel] relations that switch at t */
+  unsigned char *rel_before, *rel_trial;  /* [n_rel] */
   int pending;
   double last_event; /* time of the last event (s) */
   int futile_events; /* consecutive events that got nowhere, see check_chattering */

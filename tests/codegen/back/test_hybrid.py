@@ -323,3 +323,14 @@ def test_a_choice_of_states_that_ceases_to_hold_ends_the_run(tmp_path: Path, sol
     assert not r.complete
     assert "stateSelect=StateSelect.prefer for x" in r.failure.message
     assert abs(r["x"][-1]) == pytest.approx(0.1, abs=0.15)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_friction_element_that_is_braked_hard_sticks(simulate, solver: str) -> None:
+    """The path variable of sliding lies far outside the locked range: neither direction of starting is consistent."""
+    text = FRICTION.replace("parameter Real m = 1", "parameter Real m = 0.05").replace("v(start = 0,", "v(start = 5,")
+    r = simulate(text, 1.0, solver, max_step=0.1)
+    stuck = (r.time > 0.34) & (r.time < np.arcsin(1.2 / 1.5))
+    assert np.max(np.abs(r["v"][stuck])) < 1e-9
+    assert np.all(r["mode"][stuck] == 0)
+    assert r["v"][-1] > 0.1
