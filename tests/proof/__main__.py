@@ -20,6 +20,7 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "prove")
     parser.add_argument("--seed", type=int, default=2)
     parser.add_argument("--quick", action="store_true", help="one case of each kind, and no page")
+    parser.add_argument("--report", action="store_true", help="diagnose nothing: score and write up what is finished")
     parser.add_argument("--jobs", type=int, default=1, help="cases at a time; a diagnosis uses every core by itself")
     parser.add_argument("--timeout", type=float, default=1800.0, help="seconds for a case")
     parser.add_argument("--command", nargs="+", default=[str(Path(sys.executable).with_name("lacuna")), "explain"])
@@ -46,7 +47,10 @@ def main() -> int:
     cases = quick(every) if arguments.quick else every
     names = [name for name, _, _ in cases]
     out = arguments.out / f"seed{arguments.seed}"
-    _generate(cases, out, max(arguments.jobs, 2))
+    if arguments.report:
+        names = [name for name in names if (out / "lacuna" / name / "run.json").exists()]
+    else:
+        _generate(cases, out, max(arguments.jobs, 2))
     version, started, done = tool_hash(), time.monotonic(), []
 
     def tool(name: str) -> str:
@@ -59,7 +63,8 @@ def main() -> int:
         done.append(name)
         print(f"[{len(done)}/{len(names)}] {name} {status}, {time.monotonic() - started:.0f} s", flush=True)
 
-    run_all(names, tool, arguments.jobs, progress)
+    if not arguments.report:
+        run_all(names, tool, arguments.jobs, progress)
     run_all(names, usual, 2, lambda name, status: None)
     scores, alternative = (score_folder(out / k, out / "truth", names) for k in ("lacuna", "usual"))
     print(summary_table(scores, alternative))

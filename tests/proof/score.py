@@ -42,7 +42,7 @@ class Score:
     first: str  # first finding, or the verdict where there is none
     first_right: bool
     location_right: bool
-    all_right: bool  # every concealed effect is among the findings, and nothing else
+    all_right: bool  # says that physics is missing, and names every concealed effect and nothing else
     false_finding: bool  # on a null case
     gain_share: float | None
     misfit: float  # the refitted believed model's error on the fit recordings, over the floor
@@ -123,7 +123,7 @@ def score(case: str, diagnosis: Mapping, truth: Mapping, seconds: float = math.n
         first=first["effect"] if first else verdict,
         first_right=bool(hit),
         location_right=any(_located(first, e) for e in hit) if first else False,
-        all_right=len(pairs) == len(effects) == len(findings),
+        all_right=first is not None and len(pairs) == len(effects) == len(findings),
         false_finding=kind in NULL and (verdict == "missing_physics" or bool(findings)),
         gain_share=share,
         misfit=truth["nrmse"]["fit"]["refit_believed"] / truth["nrmse"]["fit"]["floor"],
