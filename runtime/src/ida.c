@@ -8,6 +8,7 @@
 
 #include "session.h"
 #include "sundials_compat.h"
+#include "vector.h"
 
 enum { DENSE_LIMIT = 10 }; /* unknowns up to which a dense matrix is faster than KLU */
 
@@ -17,8 +18,9 @@ typedef struct {
   N_Vector y, yp, atol, work;
   SUNMatrix matrix;
   SUNLinearSolver solver;
-  double *values; /* [jac_nnz] */
-  bool started;   /* IDA holds counters of this run that are not in the result yet */
+  double *values;        /* [jac_nnz] */
+  bool started;          /* IDA holds counters of this run that are not in the result yet */
+  long pivots_chosen_at; /* failures of Newton's method when KLU last chose its pivots; -1: before the restart */
 } memory;
 
 static int residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user) {
@@ -55,8 +57,11 @@ static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Ve
     for (int k = 0; k < d->jac_nnz; k++)
       SUNSparseMatrix_IndexValues(matrix)[k] = d->jac_rowidx[k];
     memcpy(SUNSparseMatrix_Data(matrix), values, (size_t)d->jac_nnz * sizeof *values);
-    /* Pivots are chosen anew: after an event other equations hold, and the old pivots may have become tiny. */
-    return SUNLinSol_KLUReInit(m->solver, matrix, d->jac_nnz, SUNKLU_REINIT_PARTIAL);
+    long fails = 0;
+    IDAGetNumNonlinSolvConvFails(m->ida, &fails);
+    bool choose_pivots = fails != m->pivots_chosen_at;
+    m->pivots_chosen_at = fails;
+    return choose_pivots ? SUNLinSol_KLUReInit(m->solver, matrix, d->jac_nnz, SUNKLU_REINIT_PARTIAL) : 0;
   }
   for (int j = 0; j < n; j++)
     for (int k = d->jac_colptr[j]; k < d->jac_colptr[j + 1]; k++)
@@ -80,11 +85,8 @@ static void destroy(void *p) {
 static bool create_vectors(rt_session *s, memory *m) {
   sunindextype n = s->d->n_x + s->d->n_z;
   N_Vector *vectors[] = {&m->y, &m->yp, &m->atol, &m->work};
-  for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
-    if (!(*vectors[i] = N_VNew_Serial(n, m->context))) return false;
-    N_VConst(0, *vectors[i]);
-    N_VEnableFusedOps_Serial(*vectors[i], SUNTRUE);
-  }
+  for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+    if (!(*vectors[i] = rt_vector_new(n, m->context))) return false;
   memcpy(N_VGetArrayPointer(m->atol), s->atol, (size_t)n * sizeof *s->atol);
   return true;
 }
@@ -182,6 +184,7 @@ static rt_status restart(rt_session *s, void *p) {
   if (IDAReInit(m->ida, s->t, m->y, m->yp) != IDA_SUCCESS || IDASetInitStep(m->ida, h) != IDA_SUCCESS)
     return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "IDA refuses to restart at time %.9g s", s->t);
   m->started = true;
+  m->pivots_chosen_at = -1; /* other equations hold, and the old pivots may have become tiny */
   return RT_OK;
 }
 

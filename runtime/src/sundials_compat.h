@@ -12,16 +12,16 @@
 
 #if SUNDIALS_VERSION_MAJOR < 7
 #define SUN_COMM_NULL NULL
-static void rt_ignore_error(int code, const char *module, const char *function, char *message, void *data) {
+static inline void rt_ignore_error(int code, const char *module, const char *function, char *message, void *data) {
   (void)code, (void)module, (void)function, (void)message, (void)data;
 }
 /* The runtime reports failures itself; SUNDIALS must not write to the terminal. */
-static int rt_silence(SUNContext context, void *ida) {
+static inline int rt_silence(SUNContext context, void *ida) {
   (void)context;
   return IDASetErrHandlerFn(ida, rt_ignore_error, NULL);
 }
 #else
-static int rt_silence(SUNContext context, void *ida) {
+static inline int rt_silence(SUNContext context, void *ida) {
   (void)ida;
   return SUNContext_ClearErrHandlers(context);
 }
