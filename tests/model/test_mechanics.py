@@ -122,6 +122,7 @@ def test_stuck_under_load_does_not_creep(run) -> None:
         assert np.all(result["body.w"] == 0) and np.all(result["body.phi"] == 0)
 
 
+PULL = 1e-12 * 1000  # N.m; a contact ends where its deformation is zero but for the rounding of the instant
 BACKLASH = mechanics(
     "SpeedSource hub(phi(start={phi0})); Backlash teeth(c=1000, d={d}, b=0.02); Inertia body(J=0.05, {rest});",
     "hub.u = {speed}; connect(hub.flange, teeth.flange_a); connect(teeth.flange_b, body.flange_a);",
@@ -138,14 +139,14 @@ def test_backlash_moves_nothing_within_its_play_and_never_pulls(run) -> None:
     after = (result.time > t_contact + t_impact + 1e-6) & (result["teeth.phi_rel"] < 0.0099)
     assert np.all(result["body.w"][before] == 0)
     assert np.any(after) and np.allclose(result["body.w"][after], 1.0, rtol=1e-6)
-    assert np.all(result["teeth.tau"] * result["teeth.phi_rel"] >= 0)
+    assert np.all(result["teeth.tau"] * result["teeth.side"] >= -PULL)
 
 
 @pytest.mark.parametrize("d", [1.0, 20.0])
 def test_damped_teeth_only_push(run, d: float) -> None:
     result = run(BACKLASH.format(phi0=0, d=d, speed=0.5, rest=AT_REST), stop=0.5, interval=1e-4)
     delta = np.sign(result["teeth.phi_rel"]) * np.maximum(np.abs(result["teeth.phi_rel"]) - 0.01, 0)
-    assert np.all(result["teeth.tau"] * result["teeth.side"] >= 0)
+    assert np.all(result["teeth.tau"] * result["teeth.side"] >= -PULL)
     assert np.all(np.abs(result["teeth.tau"]) <= 2 * 1000 * np.abs(delta) + 1e-6)
 
 

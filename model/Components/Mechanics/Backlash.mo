@@ -16,11 +16,10 @@ protected
   Types.Torque push "Torque of the flanks on each other, not negative";
 equation
   side = if phi_rel > reach then 1 elseif phi_rel < -reach then -1 else 0;
-  delta = if b < b_min then phi_rel else side*noEvent(max(0, side*phi_rel - reach));
+  delta = if b < b_min then phi_rel elseif side > 0 then phi_rel - reach elseif side < 0 then phi_rel + reach else 0;
   tau_c = c*delta;
   tau_d = side*d*w_rel;
-  push = if tau_d > side*tau_c then 2*side*tau_c elseif tau_d < -side*tau_c then 0
-    else noEvent(max(0, side*tau_c + tau_d));
+  push = if tau_d > side*tau_c then 2*side*tau_c elseif tau_d < -side*tau_c then 0 else side*tau_c + tau_d;
   tau = if b < b_min then tau_c + d*w_rel else side*push;
   loss = (tau - tau_c)*w_rel;
   stored = tau_c*delta/2;
@@ -31,6 +30,8 @@ equation
 it the
 torque keeps the sign of the deformation, lies between zero and twice the elastic one, and begins at zero. Limit case:
 with <code>b = 0</code> teeth never part and it is the linear spring and damper.</p>
+<p>While the flanks touch, the law goes on smoothly beyond the instant at which they part. A bound at zero there would be
+a corner at the end of the step in which that instant is looked for, and cost a method its order.</p>
 <p>Reference: Modelica Standard Library, Rotational.Components.ElastoBacklash.</p>
 </html>"));
 end Backlash;

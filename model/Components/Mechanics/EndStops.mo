@@ -15,9 +15,9 @@ protected
 equation
   assert(phi_min < phi_max, "EndStops: phi_min must be below phi_max");
   side = if phi > phi_max then 1 elseif phi < phi_min then -1 else 0;
-  depth = if side > 0 then noEvent(max(0, phi - phi_max)) elseif side < 0 then noEvent(max(0, phi_min - phi)) else 0;
+  depth = if side > 0 then phi - phi_max elseif side < 0 then phi_min - phi else 0;
   factor = 1 + side*lambda*w;
-  tau = if factor > 0 then side*c*depth*noEvent(max(0, factor)) else 0;
+  tau = if factor > 0 then side*c*depth*factor else 0;
   flange_a.tau + flange_b.tau = tau;
   loss = (tau - side*c*depth)*w;
   stored = c*depth*depth/2;
