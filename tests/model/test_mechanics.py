@@ -207,3 +207,25 @@ def test_ball_screw_drives_a_mass_through_a_compliance(run) -> None:
     expected = (1 - 400 * h) / (1e-4 + 50 * h * h)
     assert result["ram.v"][-1] / h == pytest.approx(expected, rel=1e-3)
     assert result["ram.v"][-1] == pytest.approx(h * result["screwBody.w"][-1], rel=1e-6)
+
+
+@pytest.mark.parametrize("body", ["teeth", "stop"])
+def test_contact_and_release_keep_the_order_of_the_method(run, body: str) -> None:
+    """A body meets an elastic contact and leaves it: x = x_c + w sin(omega t)/omega between, -w after (RK4, order 4)."""
+    J, c, w0 = 0.02, 500.0, 3.0
+    parts = {
+        "teeth": (f"Backlash contact(c={c}, b=0.6); Fixed wall;", "connect(wall.flange, contact.flange_a);", "flange_b"),
+        "stop": (f"EndStops contact(phi_max=0.3, c={c}, lambda=0);", "", "flange_a"),
+    }
+    component, wire, flange = parts[body]
+    model = mechanics(
+        f"Inertia body(J={J}, phi(start=0, fixed=true), w(start={w0}, fixed=true)); {component}",
+        f"{wire} connect(body.flange_b, contact.{flange});",
+    )
+    t_left = 0.3 / w0 + np.pi * np.sqrt(J / c)
+    errors = []
+    for step in (2e-3, 1e-3, 5e-4):
+        phi = run(model, stop=0.15, solver="rk4", step=step, interval=1e-2)["body.phi"][-1]
+        errors.append(abs(phi - (0.3 - w0 * (0.15 - t_left))))
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert np.all(orders > 3.6) and np.mean(orders) > 3.8
