@@ -44,6 +44,7 @@ def compare(
         _with_file(model, against, tolerance, parameter)
         return
     from analysis.comparison.compare import compare_lanes
+    from analysis.comparison.report import findings
 
     chosen = [_own(model, step, stop, parameter)] if model else _chosen(scenarios, only)
     folder = out or (default_folder("compare", model) if model else Path("out/compare"))
@@ -51,6 +52,8 @@ def compare(
         studies = compare_lanes(chosen, _compiled, folder, lambda s, lane: status.update(f"{s.name}: {lane.label}"))
     for study in studies:
         console().print(_lanes(study))
+    for text in findings(studies):
+        typer.echo(text)
     typer.echo(f"written: {folder}")
 
 
@@ -85,15 +88,17 @@ def _own(model: str, steps: list[float] | None, stop: float | None, parameter: l
 
 
 def _lanes(study: Study) -> Table:
+    from analysis.comparison.report import order_text
+
     table = Table(title=f"{study.scenario.name}: {study.scenario.title}", title_justify="left")
     table.add_column("solver")
     for column in ("largest deviation", "event times, s", "events without partner", "order", "steps", "ms"):
         table.add_column(column, justify="right")
     for result in study.lanes:
-        order = study.orders.get(result.lane.family)
+        order = order_text(study, result.lane.family) if result.lane.step else ""
         table.add_row(
             result.lane.label, result.failure or f"{result.error:.1e}", f"{result.events.maximum:.1e}",
-            str(result.events.unmatched), "" if order is None else f"{order:.2f}", str(result.counters["steps"]),
+            str(result.events.unmatched), order, str(result.counters["steps"]),
             f"{1e3 * result.seconds:.1f}",
         )  # fmt: skip
     return table

@@ -29,14 +29,16 @@ class SignalDeviation:
 
 @dataclass(frozen=True)
 class EventDeviation:
-    """Matched events: their number, the largest time difference (s), and how many have no partner."""
+    """Matched events: their number, the largest time difference (s), how many have no partner; what differs most."""
 
     matched: int
     maximum: float
     unmatched: int
+    kind: str = ""
+    at_time: float = float("nan")
 
 
-Events = Sequence[tuple[float, str]]  # time (s) and what happened: the k-th of one kind matches the k-th
+Events = Sequence[tuple[float, str]]  # time (s) and kind: what happened
 
 
 def signal_deviation(
@@ -57,16 +59,43 @@ def signal_deviation(
     )
 
 
-def event_pairs(reference: Events, candidate: Events) -> tuple[list[tuple[float, float]], int]:
-    """Times of the events both runs have, kind by kind in order, and the number left without a partner."""
-    pairs: list[tuple[float, float]] = []
+def event_pairs(reference: Events, candidate: Events) -> tuple[list[tuple[float, float, str]], int]:
+    """Times of the events both runs have, with their kind, and how many have no partner.
+
+    The k-th event of a kind is the partner of the k-th; where one run has more of them, its surplus is left out.
+    """
+    pairs: list[tuple[float, float, str]] = []
     unmatched = 0
     first, second = _by_kind(reference), _by_kind(candidate)
     for kind in sorted(first.keys() | second.keys()):
-        ours, theirs = first.get(kind, []), second.get(kind, [])
-        pairs += zip(ours, theirs, strict=False)
-        unmatched += abs(len(ours) - len(theirs))
+        ours, theirs = np.array(first.get(kind, [])), np.array(second.get(kind, []))
+        if len(ours) < len(theirs):
+            theirs = theirs[_partners(ours, theirs)]
+        elif len(ours) > len(theirs):
+            ours = ours[_partners(theirs, ours)]
+        pairs += [(float(a), float(b), kind) for a, b in zip(ours, theirs, strict=True)]
+        unmatched += abs(len(first.get(kind, [])) - len(second.get(kind, [])))
     return sorted(pairs), unmatched
+
+
+def _partners(few: Array, many: Array) -> Array:
+    """Which of the instants `many` belong to the `few`, in order and with the least sum of differences [len(few)].
+
+    Partner i of `few` is i + s_i of `many` with s_i not falling: dynamic programming over the shift s.
+    """
+    shifts = np.arange(len(many) - len(few) + 1)
+    cost = np.zeros(len(shifts))
+    before = []
+    for i, instant in enumerate(few):
+        lowest = np.minimum.accumulate(cost)
+        before.append(np.maximum.accumulate(np.where(cost == lowest, shifts, 0)))
+        cost = lowest + np.abs(many[i + shifts] - instant)
+    partners = np.empty(len(few), dtype=int)
+    shift = int(np.argmin(cost))
+    for i in reversed(range(len(few))):
+        partners[i] = i + shift
+        shift = before[i][shift]
+    return partners
 
 
 def _by_kind(events: Events) -> Mapping[str, list[float]]:
@@ -79,10 +108,13 @@ def _by_kind(events: Events) -> Mapping[str, list[float]]:
 def event_deviation(reference: Events, candidate: Events) -> EventDeviation:
     """Event times against event times (see `event_pairs`)."""
     pairs, unmatched = event_pairs(reference, candidate)
-    return EventDeviation(len(pairs), max((abs(a - b) for a, b in pairs), default=0.0), unmatched)
+    if not pairs:
+        return EventDeviation(0, 0.0, unmatched)
+    ours, theirs, kind = max(pairs, key=lambda pair: abs(pair[0] - pair[1]))
+    return EventDeviation(len(pairs), abs(ours - theirs), unmatched, kind, ours)
 
 
-def outside_event_gaps(time: Array, pairs: Sequence[tuple[float, float]]) -> Array:
+def outside_event_gaps(time: Array, pairs: Sequence[tuple[float, float, str]]) -> Array:
     """True for samples at which both runs are on the same side of every matched event.
 
     A signal that jumps at an event differs by the whole jump between the two event times, however small that gap;
@@ -90,7 +122,7 @@ def outside_event_gaps(time: Array, pairs: Sequence[tuple[float, float]]) -> Arr
     """
     use = np.ones(time.shape, dtype=bool)
     resolution = 4 * np.finfo(float).eps * max(1.0, float(np.max(np.abs(time), initial=0.0)))
-    for a, b in pairs:
+    for a, b, _ in pairs:
         low, high = np.searchsorted(time, [min(a, b) - resolution, max(a, b) + resolution])
         use[low:high] = False
     return use

@@ -18,9 +18,11 @@ COLOURS = {
 }  # fmt: skip
 MARKERS = {"ida": "o", "dopri5": "s", "rodas4": "D", "rk4": "^", "euler": "v"}
 
+ROUNDING = 1e-14  # of a signal's largest magnitude: differences below it are not drawn
+
 CAPTIONS = {
     "overlay": "Reference and the coarsest run of each fixed-step family.",
-    "difference": "Distance from the reference over time; a gap means equal to the last digit.",
+    "difference": "Distance from the reference over time; a gap means equal to 14 digits of the largest value.",
     "work_precision": "Largest relative deviation of any signal over the time of the run; further left and down is "
     "better. Open markers: events taken at the end of a step.",
 }
@@ -78,8 +80,9 @@ def difference(study: Study, units: Mapping[str, str]) -> Figure:
         for result in _coarsest(study):
             values = result.values[name]
             gap = np.abs(values - reference[: len(values)])
+            rounding = ROUNDING * np.max(np.abs(reference))
             axes.semilogy(
-                study.time[: len(gap)], np.where(gap > 0, gap, np.nan), color=COLOURS[result.lane.family],
+                study.time[: len(gap)], np.where(gap > rounding, gap, np.nan), color=COLOURS[result.lane.family],
                 linewidth=1.0, label=result.lane.label,
             )  # fmt: skip
         axes.set_ylabel(_label(f"|Δ {name}|", units.get(name, "")))

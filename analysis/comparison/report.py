@@ -20,8 +20,9 @@ def report_html(studies: Sequence[Study], figures: dict[str, list[str]], folder:
     """The page; `figures` maps a scenario to the stems that lie in `folder` as SVG and PNG."""
     sections = "\n".join(_section(study, figures[study.scenario.name], folder) for study in studies)
     return Template(_TEMPLATE.read_text(encoding="utf-8")).substitute(
-        count=len(studies), summary=_summary(studies), sections=sections
-    )
+        count=len(studies), summary=_summary(studies), sections=sections,
+        findings="\n".join(f"<li>{escape(text)}</li>" for text in findings(studies)),
+    )  # fmt: skip
 
 
 def _table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
@@ -30,18 +31,56 @@ def _table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
 
 
-def order_text(order: float) -> str:
-    """An observed order for a table; a dash where too few errors stand clear of the reference's own tolerance."""
-    return "-" if np.isnan(order) else f"{order:.2f}"
+def order_text(study: Study, family: str) -> str:
+    """An observed order for a table; a dash where too few errors stand clear of the reference's own, a star where some
+    run takes another course (see `Study.off_course`)."""
+    order = study.orders.get(family, np.nan)
+    return "-" if np.isnan(order) else f"{order:.2f}" + "*" * (family in study.off_course)
+
+
+def findings(studies: Sequence[Study]) -> list[str]:
+    """What the studies show, in sentences: the orders, what location does for them, how event times agree."""
+    said = []
+    for family in dict.fromkeys(family for study in studies for family in study.orders):
+        on_course = [s.orders[family] for s in studies if family in s.orders and family not in s.off_course]
+        known = [order for order in on_course if not np.isnan(order)]
+        if known:
+            said.append(
+                f"{family}: order {min(known):.2f} to {max(known):.2f}, {len(known)} of {len(studies)} scenarios"
+            )
+    checked = [(study, lane) for study in studies for lane in study.lanes if _counts(lane)]
+    late = [_late(study, lane) for study, lane in checked if _is_late(study, lane)]
+    said.append(
+        f"event times within ten times the relative tolerance of the duration: {len(checked) - len(late)} of "
+        f"{len(checked)} variable-step runs at 1e-6 or tighter" + (", not in" * bool(late))
+    )
+    return said + late
+
+
+def _counts(lane: LaneResult) -> bool:
+    return lane.lane.rtol is not None and lane.lane.rtol <= 1e-6 and lane.failure is None
+
+
+def _is_late(study: Study, lane: LaneResult) -> bool:
+    return _counts(lane) and lane.events.maximum > 10 * lane.lane.rtol * study.scenario.stop
+
+
+def _late(study: Study, lane: LaneResult) -> str:
+    lost = f", {lane.events.unmatched} without partner" if lane.events.unmatched else ""
+    return (
+        f"{study.scenario.title}, {lane.lane.label}: {lane.events.maximum:.1e} s at {lane.events.at_time:.6g} s"
+        f" ({lane.events.kind}{lost})"
+    )
 
 
 def _summary(studies: Sequence[Study]) -> str:
     families = list(studies[0].orders) if studies else []
     rows = [
-        [s.scenario.title, str(s.reference.events.matched), *(order_text(s.orders.get(f, np.nan)) for f in families)]
+        [s.scenario.title, str(s.reference.events.matched), f"{s.second.rms_error:.1e}",
+         *(order_text(s, f) for f in families)]
         for s in studies
-    ]
-    return _table(["scenario", "events", *(f"order: {f}" for f in families)], rows)
+    ]  # fmt: skip
+    return _table(["scenario", "events", "error of the reference", *(f"order: {f}" for f in families)], rows)
 
 
 def _section(study: Study, stems: Sequence[str], folder: Path) -> str:
@@ -57,18 +96,20 @@ def _section(study: Study, stems: Sequence[str], folder: Path) -> str:
 
 def _lanes(study: Study) -> str:
     return _table(
-        ["run", "time", "worst signal", "largest deviation", "relative", "event times", "events unmatched", "steps"],
-        [_lane_row(result) for result in study.lanes],
-    )
+        ["run", "time", "worst signal", "largest deviation", "relative", "event times", "worst at", "without partner",
+         "steps"],
+        [_lane_row(result) for result in (study.second, *study.lanes)],
+    )  # fmt: skip
 
 
 def _lane_row(result: LaneResult) -> list[str]:
     if result.failure is not None:
-        return [result.lane.label, f"{result.seconds:.3f} s", f"failed: {result.failure}", "", "", "", "", ""]
+        return [result.lane.label, f"{result.seconds:.3f} s", f"failed: {result.failure}", "", "", "", "", "", ""]
     worst = max(result.signals, key=lambda s: s.relative)
     return [
         result.lane.label, f"{result.seconds:.3f} s", worst.name, f"{worst.maximum:.2e}", f"{worst.relative:.2e}",
-        f"{result.events.maximum:.1e} s", str(result.events.unmatched), f"{result.counters['steps']:,}",
+        f"{result.events.maximum:.1e} s", f"{result.events.at_time:.5g} s", str(result.events.unmatched),
+        f"{result.counters['steps']:,}",
     ]  # fmt: skip
 
 

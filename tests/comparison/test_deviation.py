@@ -36,6 +36,16 @@ def test_events_are_matched_kind_by_kind():
     found = event_deviation(reference, candidate)
     assert (found.matched, found.unmatched) == (3, 2)
     assert found.maximum == pytest.approx(0.01)
+    assert (found.kind, found.at_time) in (("a", 0.1), ("b", 0.2))
+
+
+def test_surplus_events_are_those_that_fit_least():
+    reference = [(t, "a") for t in (0.1, 0.3, 0.9)]
+    candidate = [(t, "a") for t in (0.101, 0.2, 0.201, 0.299, 0.9, 0.95)]
+    for first, second in ((reference, candidate), (candidate, reference)):
+        found = event_deviation(first, second)
+        assert (found.matched, found.unmatched) == (3, 3)
+        assert found.maximum == pytest.approx(0.001)
 
 
 def test_a_jump_between_two_event_times_is_not_a_deviation_of_the_signal():
