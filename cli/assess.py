@@ -32,4 +32,6 @@ def assess(
     folder = out or Path("out/assess") / recording.stem
     done = assessed(recording, map, folder, columns=current or None, unfiltered=unfiltered)
     typer.echo(done.sentence)
+    for warning in done.warnings:
+        typer.echo(f"warning: {warning}", err=True)
     typer.echo(f"written: {folder}")

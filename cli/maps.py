@@ -43,12 +43,13 @@ def maps(
 
     chosen = load_settings(settings or PAPER)
     compiled = compile_model(actuator or chosen.model)
-    plant = ModelPlant(compiled.name, compiled.path, compiled.hash, chosen, compiled.report.seconds)
+    plant = ModelPlant.of(compiled, chosen)
     folder = out or Path("out/maps") / (settings or PAPER).stem
     with progress_bar(f"map of {compiled.name}") as progress:
         finished = build_map(plant, chosen, folder, jobs=jobs, progress=progress, resume=not fresh, figures=figures)
         if prepare:
-            prepare_assessment(plant, chosen, finished, jobs=jobs)
+            disturbed = plant if actuator else ModelPlant.of(compile_model(chosen.disturbed_model), chosen)
+            prepare_assessment(disturbed, chosen, finished, jobs=jobs)
     _report(finished)
 
 

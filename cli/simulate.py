@@ -64,6 +64,8 @@ def simulate(
         events=event_rows,
     )  # fmt: skip
     seconds = time.perf_counter() - begin
+    if not len(result):
+        raise UserError(str(result.failure))
     path = (out or default_folder("simulate", model)) / f"{loaded.name.rsplit('.', 1)[-1]}.csv"
     written = [runtime.write_csv(result, path)]
     if plot:

@@ -13,7 +13,7 @@ from cli.errors import reported
 @reported
 def sweep(
     actuator: Annotated[
-        str | None, typer.Argument(metavar="[ACTUATOR]", help="Model; default: that of the settings")
+        str | None, typer.Argument(metavar="[ACTUATOR]", help="Model; default: that of the settings' tests")
     ] = None,
     points: Annotated[int, typer.Option(min=1, help="Simulated tests, by a low-discrepancy design")] = 1000,
     settings: Annotated[Path | None, typer.Option(help="Test, fault axis and nuisances, a TOML file")] = None,
@@ -39,14 +39,14 @@ def sweep(
     from codegen.compile import compile_model
 
     chosen = load_settings(settings or PAPER)
-    compiled = compile_model(actuator or chosen.model)
-    plant = ModelPlant(compiled.name, compiled.path, compiled.hash, chosen)
+    compiled = compile_model(actuator or chosen.disturbed_model)
+    plant = ModelPlant.of(compiled, chosen)
     work = Work(compiled.name, Path(compiled.path).read_bytes(), compiled.hash, chosen.text, solver)
     folder = out or Path("out/sweeps") / (settings or PAPER).stem
     with progress_bar(f"sweep of {compiled.name}") as progress:
         results = run_campaign(
             work,
-            sobol_points(chosen, points, plant.declared),
+            sobol_points(chosen, points, plant),
             folder,
             scheduler=scheduler,
             chunk=chunk,

@@ -89,6 +89,7 @@ class Assert:
     message: str
     span: Span
     level: str = "error"  # error | warning
+    origin: str = ""
 
 
 @dataclass

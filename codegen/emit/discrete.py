@@ -213,4 +213,4 @@ def all_asserts(p: Prepared) -> list[flat.Assert]:
 
 def assert_index(p: Prepared, s: flat.Assert) -> int:
     """Row of an assert in the table."""
-    return next(k for k, a in enumerate(all_asserts(p)) if a.span == s.span)
+    return next(k for k, a in enumerate(all_asserts(p)) if (a.span, a.origin) == (s.span, s.origin))

@@ -80,7 +80,7 @@ class Tables:
 
     def asserts(self) -> list[str]:
         return [
-            f"{{{c_string(a.message)}, {c_string(a.span.file)}, {a.span.line}, {c_string('')}}}"
+            f"{{{c_string(a.message)}, {c_string(a.span.file)}, {a.span.line}, {c_string(a.origin)}}}"
             for a in all_asserts(self._p)
         ]
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from .. import expr as ex
 from .. import flat
 from ..errors import Diagnostic, Span
@@ -146,7 +148,7 @@ class _SymbolicRun:
                 self._assign(s.target, self.read(s.value), s.span)
             elif isinstance(s, flat.Assert):
                 held = ex.logical_or(ex.logical_not(guard), self.read(s.condition))
-                self.asserts.append(flat.Assert(held, s.message, s.span, s.level))
+                self.asserts.append(replace(s, condition=held))
             elif isinstance(s, flat.If):
                 self._if(s, guard)
 

@@ -6,6 +6,7 @@ from .. import flat
 from ..errors import Diagnostic
 from ..expr import BOOLEAN
 from ..syntax import ast
+from .equations import origin_of
 from .lower import lower, lower_scalar
 from .scope import Scope
 
@@ -21,4 +22,4 @@ def lower_assert(call: ast.Call, scope: Scope) -> flat.Assert:
     if not isinstance(message, str) or level not in ("error", "warning"):
         hint = 'assert(x > 0, "text", AssertionLevel.warning)'
         raise Diagnostic("R020", "the message of assert is not a String", call.span, hint)
-    return flat.Assert(condition, message, call.span, level)
+    return flat.Assert(condition, message, call.span, level, origin_of(scope))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from .. import expr as ex
 from .. import flat
@@ -94,7 +95,7 @@ def _merge(item: ast.If, conditions: list[Expr], parts: list[Collected]) -> Coll
         active = ex.logical_and(guard, condition)
         for a in part.asserts:
             held = ex.logical_or(ex.logical_not(active), a.condition)
-            result.asserts.append(flat.Assert(held, a.message, a.span, a.level))
+            result.asserts.append(replace(a, condition=held))
         guard = ex.logical_and(guard, ex.logical_not(condition))
     return result
 

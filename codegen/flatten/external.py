@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 from functools import lru_cache
 import hashlib
+import math
 from pathlib import Path
 
 from .. import expr as ex
@@ -56,7 +57,7 @@ def _rows(text: str) -> list[list[str]]:
 
 
 def csv_column(text: str, path: Path, column: str, span: Span) -> Array:
-    """The numbers under the heading `column`; lines starting with # are comments."""
+    """The numbers under the heading `column`; lines starting with # are comments. Those under `time` increase."""
     rows = _rows(text)
     if not rows:
         raise Diagnostic("F041", f"{path.name} is empty", span, "the first line names the columns")
@@ -65,14 +66,25 @@ def csv_column(text: str, path: Path, column: str, span: Span) -> Array:
         hint = did_you_mean(column, heading, f"it has {', '.join(heading)}")
         raise Diagnostic("F041", f"{path.name} has no column {column}", span, hint)
     at = heading.index(column)
-    numbers = []
+    numbers: list[float] = []
     for number, row in enumerate(rows[1:], 2):
-        try:
-            numbers.append(float(row[at]))
-        except (ValueError, IndexError):
-            found = row[at] if at < len(row) else "nothing"
-            message = f"{path.name}, data line {number}, column {column}: {found!r} is no number"
-            raise Diagnostic("F041", message, span, "correct the file") from None
+        found = row[at].strip() if at < len(row) else "nothing"
+        wrong = _objection(found, numbers[-1:] if column == "time" else [])
+        if wrong:
+            message = f"{path.name}, data line {number}, column {column}: {found!r} {wrong}"
+            raise Diagnostic("F041", message, span, "correct the file")
+        numbers.append(float(found))
     if not numbers:
         raise Diagnostic("F041", f"{path.name} has a heading and no data", span, "add lines of numbers")
     return Array((len(numbers),), tuple(map(ex.const, numbers)))
+
+
+def _objection(found: str, before: list[float]) -> str | None:
+    """What is wrong with a field that should be a number, and greater than the one `before` it, if any."""
+    try:
+        value = float(found)
+    except ValueError:
+        return "is no number"
+    if not math.isfinite(value):
+        return "is no finite number"
+    return f"does not come after {before[0]:g}" if before and value <= before[0] else None

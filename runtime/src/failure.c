@@ -22,7 +22,9 @@ rt_status rt_fail(rt_session *s, rt_status status, double time, int variable, co
   va_start(arguments, format);
   if (n >= 0 && (size_t)n < size) n += vsnprintf(f->message + n, size - (size_t)n, format, arguments);
   va_end(arguments);
-  if (where && n >= 0 && (size_t)n < size) snprintf(f->message + n, size - (size_t)n, "; in: %s", where->text);
+  const char *origin = where && where->origin && where->origin[0] ? where->origin : NULL;
+  if (where && n >= 0 && (size_t)n < size)
+    snprintf(f->message + n, size - (size_t)n, "; in%s%s: %s", origin ? " " : "", origin ? origin : "", where->text);
   return status;
 }
 
@@ -69,6 +71,15 @@ static rt_status fail_bound(rt_session *s, double time, const mdl_failure *f) {
                  v->name, f->value, v->min, v->max, v->unit);
 }
 
+static rt_status fail_assert(rt_session *s, double time, const mdl_equation *where) {
+  const char *component = where->origin;
+  rt_fail(s, RT_ASSERT, time, -1, NULL, "%s:%d: %s%sassertion violated at time %.9g s: %s", where->file, where->line,
+          component, component[0] ? ": " : "", time, where->text);
+  s->failure.file = where->file;
+  s->failure.line = where->line;
+  return RT_ASSERT;
+}
+
 /* Turn the failure that a model function has left in m->failure into the session's. `doing` says what for. */
 rt_status rt_fail_model(rt_session *s, double time, const char *doing) {
   const mdl_descriptor *d = s->d;
@@ -80,6 +91,7 @@ rt_status rt_fail_model(rt_session *s, double time, const char *doing) {
   bool named = f->variable >= 0 && f->variable < d->n_variables;
   int variable = named ? f->variable : -1;
   if (f->kind == MDL_FAILURE_BOUND && named) return fail_bound(s, time, f);
+  if (is_assert && where) return fail_assert(s, time, where);
   return rt_fail(s, status_of(f->kind), time, variable, where, "%s at time %.9g s: %s%s%s (value %.9g)", doing, time,
                  describe(f->kind), named ? ", variable " : "", named ? d->variables[variable].name : "", f->value);
 }
