@@ -16,7 +16,7 @@ import os
 
 import numpy as np
 
-WORKERS = os.cpu_count() or 2
+WORKERS = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 _pool = ThreadPoolExecutor(max_workers=WORKERS)
 
 Residual = Callable[[dict[str, float], int], np.ndarray | None]

@@ -26,6 +26,8 @@ CLOSE = 0.3  # share of the best gain within which hypotheses are cross-validate
 CONTENDERS = 4
 TIE = 8.0  # difference of two scores below which the data does not tell them apart
 FIRST_ROUND = 8
+STARTS = 3  # from which a hypothesis is fitted in the first round
+ROUNDS = ((3, 2, 100), (3, 3, 4), (10, 4, 2))  # (stages, iterations, hypotheses): successive halving
 
 Progress = Callable[[str], None]
 
@@ -77,25 +79,23 @@ class Naming:
 def screen_all(
     case: Case, amendment: Amendment, attachments: list[Attachment], base: Fit, progress: Progress
 ) -> tuple[list[Candidate], list[tuple[str, str]]]:
-    """Candidates with their first-order promise, best first, and the hypotheses that do not fit this model."""
+    """Candidates (one for each start), best first-order promise first; and the hypotheses that do not fit this model."""
     objective = Objective(base.machine, case.fit, base.noise)
     screen = Screen(base, objective)
     failures: list[tuple[str, str]] = []
 
-    def one(attachment: Attachment) -> Candidate | None:
+    def one(attachment: Attachment) -> list[Candidate]:
         amended = replace(amendment, attachments=[*amendment.attachments, attachment])
         machine, why = try_machine(case, amended, base.machine.solver)
         if machine is None:
             failures.append((attachment.label, why))
-            return None
-        candidate = prepare(screen, attachment, machine)
-        progress(
-            f"screened {attachment.label}: {candidate.predicted:.1%}" if candidate else f"no use: {attachment.label}"
-        )
-        return candidate
+            return []
+        found = prepare(screen, attachment, machine)
+        progress(f"screened {attachment.label}: " + (f"{found[0].predicted:.1%}" if found else "no use"))
+        return found
 
     with ThreadPoolExecutor(WORKERS) as pool:
-        candidates = [c for c in pool.map(one, attachments) if c is not None]
+        candidates = [c for found in pool.map(one, attachments) for c in found]
     return sorted(candidates, key=lambda c: -c.predicted), failures
 
 
@@ -105,10 +105,10 @@ def rank(
 ) -> Naming:  # fmt: skip
     """Screen, fit and rank hypotheses on top of `base`, the fit of the amendment so far."""
     candidates, failures = screen_all(case, amendment, attachments, base, progress)
-    screened = [(c.attachment.label, c.predicted) for c in candidates]
+    screened = [(c.attachment.label, c.predicted) for c in _best_starts(candidates)]
     pool = _first_round(candidates)
-    rounds = [(3, 2, len(pool)), (3, 3, 4), (10, 4, 2)]
-    for stages, iterations, keep in rounds:
+    fitted: dict[str, Candidate] = {}
+    for stages, iterations, keep in ROUNDS:
         pool = pool[:keep]
         with ThreadPoolExecutor(WORKERS) as workers:
             fits = workers.map(partial(fit_candidate, case, base, bandwidths, stages, iterations), pool)
@@ -119,30 +119,44 @@ def rank(
         if not pool:
             break
         correlation = _best_correlation(pool)
-        pool.sort(key=lambda c: _score(c, base, correlation))
+        pool = _best_starts(sorted(pool, key=lambda c: _score(c, base, correlation)))
+        fitted |= {c.attachment.label: c for c in pool}
         for c in pool:
             progress(f"fitted {c.attachment.label}: {_score(c, base, correlation):.1f}")
-    fitted = [c for c in candidates if c.fit is not None]
     if not fitted:
         return Naming([], screened, failures)
-    correlation = _best_correlation(fitted)
-    ranked = [Ranked(c, c.fit, _score(c, base, correlation)) for c in fitted]
+    correlation = _best_correlation(list(fitted.values()))
+    ranked = [Ranked(c, c.fit, _score(c, base, correlation)) for c in fitted.values()]
     ranked.sort(key=lambda r: r.score)
     ranked = cross_validated(case, base, ranked, correlation, progress)
     _confidences(ranked)
     return Naming(ranked, screened, failures, correlation)
 
 
+def _best_starts(candidates: list[Candidate]) -> list[Candidate]:
+    """Of candidates in order, the first of each attachment."""
+    return list({c.attachment.label: c for c in reversed(candidates)}.values())[::-1]
+
+
 def _first_round(candidates: list[Candidate]) -> list[Candidate]:
-    """The most promising hypotheses, and the best of each physics that explains at least a quarter of the best."""
-    chosen = candidates[:FIRST_ROUND]
-    seen = {c.attachment.effect.identifier for c in chosen}
-    for candidate in candidates[FIRST_ROUND:]:
+    """The most promising hypotheses, and the best of each physics that explains at least a quarter of the best.
+
+    Each is tried from several starts: where events make the response rough, promise to first order can mislead.
+    """
+    chosen: dict[str, int] = {}
+    seen: set[str] = set()
+    for candidate in _best_starts(candidates):
         identifier = candidate.attachment.effect.identifier
-        if identifier not in seen and candidate.predicted > 0.25 * candidates[0].predicted:
-            chosen.append(candidate)
+        late = identifier not in seen and candidate.predicted > 0.25 * candidates[0].predicted
+        if len(chosen) < FIRST_ROUND or late:
+            chosen[candidate.attachment.label] = STARTS
             seen.add(identifier)
-    return chosen
+    pool = []
+    for candidate in candidates:
+        if chosen.get(candidate.attachment.label, 0) > 0:
+            chosen[candidate.attachment.label] -= 1
+            pool.append(candidate)
+    return pool
 
 
 def fit_candidate(

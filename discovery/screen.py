@@ -13,6 +13,7 @@ from itertools import product
 import math
 
 import numpy as np
+from scipy.optimize import lsq_linear
 
 from runtime import SimulationError
 
@@ -29,7 +30,7 @@ RANGE = 10.0  # how far beyond its start values a parameter without a neutral va
 
 @dataclass
 class Candidate:
-    """A hypothesis ready to be fitted: its machine, the effect's free parameters and where they start."""
+    """A hypothesis ready to be fitted: its machine, the effect's free parameters and one place where they start."""
 
     attachment: Attachment
     machine: Machine
@@ -74,8 +75,14 @@ class Screen:
             return None
         return np.concatenate([p * w for p, w in zip(parts, self.weights, strict=True)])
 
-    def explained(self, columns: list[np.ndarray], offset: np.ndarray | None = None) -> tuple[float, np.ndarray]:
-        """(share of the cost explained, coefficients) of columns; `offset` moves the residual itself."""
+    def explained(
+        self, columns: list[np.ndarray], offset: np.ndarray | None = None,
+        bounds: list[tuple[float, float]] | None = None,
+    ) -> tuple[float, np.ndarray]:  # fmt: skip
+        """(share of the cost explained, coefficients) of columns; `offset` moves the residual itself.
+
+        `bounds` are the least and the largest value of each coefficient: an amount of friction is not negative.
+        """
         pad = np.zeros(len(self.load) - len(self.residual))
         target = self._project(
             self.load if offset is None else np.concatenate([offset, self.load[len(self.residual) :]])
@@ -87,13 +94,26 @@ class Screen:
         alive = np.linalg.norm(stack, axis=0) > 1e-3 * np.maximum(raw, 1e-300)
         solution = np.zeros(len(columns))
         if alive.any():
-            solution[alive] = np.linalg.lstsq(stack[:, alive], -target, rcond=1e-8)[0]
+            solution[alive] = _bounded(stack[:, alive], -target, np.array(bounds)[alive] if bounds else None)
         left = target + stack @ solution
         return 1.0 - float(left @ left) / self.cost, solution
 
 
-def prepare(screen: Screen, attachment: Attachment, machine: Machine) -> Candidate | None:
-    """The candidate with its most promising start; None where the effect does nothing that a parameter could not."""
+def _bounded(columns: np.ndarray, target: np.ndarray, bounds: np.ndarray | None) -> np.ndarray:
+    """Least squares (rows, p) by (rows,) with bounds (p, 2) on the coefficients."""
+    scale = np.linalg.norm(columns, axis=0)
+    basis, triangle = np.linalg.qr(columns / scale)
+    right = basis.T @ target
+    if bounds is None:
+        return np.linalg.lstsq(triangle, right, rcond=1e-8)[0] / scale
+    return lsq_linear(triangle, right, (bounds[:, 0] * scale, bounds[:, 1] * scale)).x / scale
+
+
+def prepare(screen: Screen, attachment: Attachment, machine: Machine) -> list[Candidate]:
+    """The candidate from each start that promises something, best first; none where a parameter could do the same.
+
+    Starts differ in the parameters that have no neutral value: the place of a stop, a Stribeck speed, a time constant.
+    """
     effect = attachment.effect
     point = dict(screen.base.point)
     bound = _bound_parameters(machine, attachment)
@@ -101,18 +121,15 @@ def prepare(screen: Screen, attachment: Attachment, machine: Machine) -> Candida
         p.name for p in effect.parameters if p.name not in (*effect.fixed, *effect.variants, effect.interval, *bound)
     ]
     if not names:
-        return None
+        return []
     try:
         shapes = _shape_starts(screen, attachment, machine, names, point)
     except SimulationError:  # the amended model does not run with these recordings: no hypothesis here
-        return None
-    best: Candidate | None = None
+        return []
     amounts: dict[str, float] = {}
-    for shape in shapes:
-        found = _linearised(screen, attachment, machine, names, point, shape, _limits(shapes), amounts)
-        if found is not None and (best is None or found.predicted > best.predicted):
-            best = found
-    return best
+    limits = _limits(shapes)
+    found = [_linearised(screen, attachment, machine, names, point, shape, limits, amounts) for shape in shapes]
+    return sorted([c for c in found if c is not None], key=lambda c: -c.predicted)
 
 
 def _bound_parameters(machine: Machine, attachment: Attachment) -> set[str]:
@@ -176,7 +193,8 @@ def _linearised(
             columns.append(column)
             amounts.append(amount)
             moved.append(name)
-    share, solution = screen.explained([c / a for c, a in zip(columns, amounts, strict=True)], base)
+    bounds = [(-np.inf, np.inf) if polar else _reach(effect, n) for n in moved]
+    share, solution = screen.explained([c / a for c, a in zip(columns, amounts, strict=True)], base, bounds)
     if columns and not np.any(solution):
         return None
     start = dict(shape)
@@ -191,6 +209,12 @@ def _linearised(
     fixed = {n: v for n, v in shape.items() if n.rsplit(".", 1)[-1] in (*effect.whole, *effect.fixed)}
     free = [_free(attachment, effect, n, start, scales, limits) for n in names if attachment.full_name(n) not in fixed]
     return Candidate(attachment, machine, free, fixed, {k: v for k, v in start.items() if k not in fixed}, share)
+
+
+def _reach(effect: Effect, name: str) -> tuple[float, float]:
+    """How far a parameter can go from its neutral value, down and up."""
+    parameter, neutral = effect.parameter(name), effect.neutral[name]
+    return min(parameter.lower - neutral, -1e-300), max(parameter.upper - neutral, 1e-300)
 
 
 def _response(
