@@ -14,10 +14,10 @@ import numpy as np
 from analysis.chain import Chain, Features
 from analysis.errors import AnalysisError
 from analysis.files import published_together
-from analysis.preparation import START_FILE, TABLE_FILE, fingerprint
-from analysis.recordings import Recording, Refusal, check_phases, read_recording
-from analysis.settings import Band, Settings, load_settings
-from analysis.severity_table import Estimate, SeverityTable
+from analysis.prepared import Prepared
+from analysis.recordings import Recording, read_recording
+from analysis.settings import Band, Settings
+from analysis.severity_table import Estimate
 
 
 @dataclass(frozen=True)
@@ -26,6 +26,7 @@ class Assessment:
     estimate: Estimate
     band: Band
     sentence: str
+    warnings: tuple[str, ...]
     features: dict[str, Any]
 
 
@@ -44,28 +45,19 @@ def assess(
     the recording, with the reason; then nothing is written.
     """
     folder = Path(map_folder)
-    settings = load_settings(folder / "settings.toml")
-    table = SeverityTable(folder / TABLE_FILE)
+    prepared = Prepared(folder)
+    settings = prepared.settings
     found = read_recording(recording, settings, columns)
     if unfiltered:
         found = Recording(found.names, found.sampling_rate, low_pass(found.currents, found.sampling_rate, settings))
-    with np.load(folder / START_FILE, allow_pickle=False) as start:
-        if str(start["map"]) != fingerprint(folder):
-            raise AnalysisError(f"{folder}: the map was drawn anew since it was prepared; prepare it again")
-        check_phases(found, start["currents"], float(start["rate"]))
+    prepared.check_start(found)
     features = chain_at(settings, found.sampling_rate).analyse(found.currents)
-    estimate = table.estimate(features)
-    if estimate is None:
-        raise Refusal("no peak in the spectrum of a current: the motor did not turn as in this test")
-    if not estimate.covered:
-        raise Refusal(
-            f"no severity of the map explains this recording (misfit {estimate.misfit:.0f}): another actuator, another "
-            "command, or a fault that the map does not know"
-        )
+    estimate = prepared.table.estimate(features)
+    warnings = prepared.check_estimate(features, estimate)
     band = settings.bands[estimate.band]
     summary = {"rms": features.rms.tolist(), "rms_mean": features.rms_mean, "peak_hz": features.peak_hz.tolist(),
                "frequency": features.frequency.tolist(), "harmonic": features.harmonic.tolist()}  # fmt: skip
-    done = Assessment(str(recording), estimate, band, sentence(settings, estimate, band), summary)
+    done = Assessment(str(recording), estimate, band, sentence(settings, estimate, band), warnings, summary)
     if out is not None:
         _write(done, settings, folder, features, Path(out))
     return done

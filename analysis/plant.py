@@ -78,6 +78,11 @@ class ModelPlant:
             SourceEquation(e.text, e.origin, f"{Path(e.file).name}:{e.line}") for e in self._model.equations
         ]
 
+    @classmethod
+    def of(cls, compiled, settings: Settings, solver: str | None = None) -> ModelPlant:
+        """Of what the compiler returns: name, path, hash and a report with the seconds of its passes."""
+        return cls(compiled.name, compiled.path, compiled.hash, settings, compiled.report.seconds, solver)
+
     def with_solver(self, solver: str) -> ModelPlant:
         return ModelPlant(self.name, self._path, self._model_hash, self._settings, self.passes, solver)
 

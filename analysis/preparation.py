@@ -10,35 +10,43 @@ from pathlib import Path
 import numpy as np
 from scipy.stats import chi2
 
-from analysis.chain import Chain, signature
-from analysis.errors import AnalysisError
+from analysis.chain import Chain
 from analysis.files import published_together
 from analysis.maps import Map
 from analysis.plant import Plant
-from analysis.sensitivities import at_level, conditions, nuisance_covariances
+from analysis.sensitivities import Surroundings, conditions, covariances
 from analysis.settings import Settings
 from analysis.severity_table import TableContents, table_bytes
 
-TABLE_FILE, START_FILE = "severity.table", "start.npz"
+TABLE_FILE, MODEL_FILE = "severity.table", "expected.npz"
 START = 0.03  # s, of a test: long enough for all three currents to show their sign and order
 START_RATE = 5000.0  # Hz
 
 
 def prepare_assessment(plant: Plant, settings: Settings, finished: Map, *, jobs: int | None = None) -> None:
-    """Write severity.table and start.npz beside the map's files.
+    """Write severity.table and expected.npz beside the map's files.
 
-    Simulates the map's severities at every level of the first nuisance, and around them the other nuisances. Raises
-    AnalysisError where a severity has no complete signature.
+    `plant` gives the map's signals and has the parameters of the settings' nuisances. Simulates the map's severities at
+    every level of the first nuisance, and around them the other nuisances. Raises AnalysisError where a severity has no
+    complete signature.
     """
     chain, severities = Chain(settings.text), settings.fault.severities
-    plant, levels = plant.with_solver(settings.table("assessment")["solver"]), conditions(settings)
-    signatures = np.array([_signatures(plant, settings, chain, severities, level, jobs) for level in levels])
-    covariance = np.array([nuisance_covariances(plant, settings, severities, level, jobs) for level in levels])
-    contents = _contents(settings, chain, [row.rms_mean for row in finished.rows], signatures, covariance)
+    plant = plant.with_solver(settings.table("assessment")["solver"])
+    nuisances = settings.raw.get("nuisances", [])
+    signatures, covariance = [], []
+    for level in conditions(settings):
+        about = Surroundings(plant, settings, chain, nuisances, level)
+        signatures.append(_signatures(about, severities, jobs))
+        covariance.append(covariances(about, severities, jobs))
+    rms_mean = [row.rms_mean for row in finished.rows]
+    contents = _contents(settings, chain, rms_mean, np.array(signatures), np.array(covariance))
     with published_together(finished.folder) as scratch:
         (scratch / TABLE_FILE).write_bytes(table_bytes(contents))
         starts = _starts(plant, settings, severities)
-        np.savez(scratch / START_FILE, rate=START_RATE, currents=starts, map=fingerprint(finished.folder))
+        np.savez(
+            scratch / MODEL_FILE, rate=START_RATE, currents=starts, map=fingerprint(finished.folder),
+            mean=contents.signature, covariance=contents.covariance,
+        )  # fmt: skip
 
 
 def fingerprint(folder: Path) -> str:
@@ -49,21 +57,11 @@ def fingerprint(folder: Path) -> str:
     return digest.hexdigest()
 
 
-def _signatures(
-    plant: Plant, settings: Settings, chain: Chain, severities: list[float], level: float, jobs: int | None
-) -> np.ndarray:
-    """[severities, n] at one level of the first nuisance."""
-    parameters = at_level(plant, settings, level)
-
-    def of(severity: float) -> np.ndarray:
-        record = plant.run(severity, **parameters)
-        found = signature(chain.analyse(record.currents, record.angle))
-        if found is None:
-            raise AnalysisError(f"no first peak at {settings.fault.text(severity)}: the map cannot be read back there")
-        return found
-
+def _signatures(about: Surroundings, severities: list[float], jobs: int | None) -> np.ndarray:
+    """[severities, n] at the level of the first nuisance."""
+    fault = about.settings.fault.parameter
     with ThreadPoolExecutor(max_workers=jobs or os.cpu_count()) as pool:
-        return np.array(list(pool.map(of, severities)))
+        return np.array(list(pool.map(lambda severity: about.signature({fault: severity}), severities)))
 
 
 def _starts(plant: Plant, settings: Settings, severities: list[float]) -> np.ndarray:

@@ -19,11 +19,11 @@ import numpy as np
 from scipy.stats import qmc
 
 from analysis.chain import Chain
-from analysis.errors import AnalysisError
 from analysis.plant import Plant
+from analysis.prepared import Prepared
+from analysis.recordings import Recording, Refusal
 from analysis.sensitivities import moved
 from analysis.settings import Settings
-from analysis.severity_table import SeverityTable
 
 CHUNK = 50  # tests
 SEED = 2024
@@ -31,7 +31,7 @@ SEED = 2024
 
 @dataclass(frozen=True)
 class Results:
-    """One entry a test; `z` [tests, nuisances] in normal numbers. A test without a reading has NaN, not covered."""
+    """One entry a test; `z` [tests, nuisances]. A test without a reading has NaN, and is not covered."""
 
     severity: np.ndarray
     z: np.ndarray
@@ -40,33 +40,39 @@ class Results:
     high: np.ndarray
     misfit: np.ndarray
     paper: np.ndarray
-    covered: np.ndarray
+    covered: np.ndarray  # not refused
+    warned: np.ndarray  # read with a warning
 
 
 def run_tests(
     plant: Plant,
-    settings: Settings,
-    table: Path,
+    prepared: Prepared,
     store: Path,
     count: int,
     *,
+    stranger: dict | None = None,
     jobs: int | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Results:
-    """Simulate and assess `count` tests (a power of two keeps the design balanced) with the severity table `table`."""
+    """Simulate and assess `count` tests (a power of two keeps the design balanced) with a prepared map.
+
+    `stranger`: the tests are of an actuator that is not the map's, an entry of the settings' [[strangers]].
+    """
+    settings = prepared.settings
     nuisances = settings.raw.get("nuisances", [])
     plant = plant.with_solver(settings.table("assessment")["solver"])
     design = qmc.Sobol(1 + len(nuisances), seed=SEED).random(count)
-    reader, chain = SeverityTable(table), Chain(settings.text)
-    key = hashlib.sha256(json.dumps([plant.hash, settings.text, CHUNK, SEED]).encode() + table.read_bytes()).hexdigest()
+    study = _Study(plant, prepared, Chain(settings.text), nuisances, stranger or {})
+    everything = [plant.hash, settings.text, stranger, CHUNK, SEED, count]
+    key = hashlib.sha256(json.dumps(everything).encode() + prepared.key).hexdigest()
     store.mkdir(parents=True, exist_ok=True)
     chunks: dict[int, np.ndarray] = {}
 
     def work(start: int) -> tuple[int, np.ndarray]:
-        path = store / f"{key[:24]}-{count}-{start}.npy"
+        path = store / f"{key[:24]}-{start}.npy"
         if not path.exists():
             numbers = range(start, min(start + CHUNK, count))
-            done = np.array([_test(plant, settings, reader, chain, nuisances, design[k], k) for k in numbers])
+            done = np.array([study.test(design[k], k) for k in numbers])
             partial = path.with_suffix(".partial")
             with partial.open("wb") as file:
                 np.save(file, done)
@@ -84,26 +90,42 @@ def run_tests(
         pool.shutdown(cancel_futures=True)
     rows = np.concatenate([chunks[start] for start in sorted(chunks)])
     q = len(nuisances)
-    return Results(rows[:, 0], rows[:, 1 : 1 + q], *rows[:, 1 + q : -1].T, rows[:, -1].astype(bool))
+    return Results(rows[:, 0], rows[:, 1 : 1 + q], *rows[:, 1 + q : -2].T, *rows[:, -2:].T.astype(bool))
 
 
-def _test(
-    plant: Plant, settings: Settings, reader: SeverityTable, chain: Chain, nuisances: list, point: np.ndarray, k: int
-) -> list[float]:
-    """One test: severity and nuisances from a point of the design, sensor errors from the test's own number."""
-    fault, z = settings.fault, np.sqrt(3) * (2 * point[1:] - 1)
-    severity = fault.first + (fault.last - fault.first) * float(point[0])
-    parameters: dict[str, float] = {}
-    for nuisance, number in zip(nuisances, z, strict=True):
-        parameters |= moved(plant, nuisance, float(number))
-    record = plant.run(severity, **parameters)
-    try:
-        found = reader.estimate(chain.analyse(_sensed(record.currents, settings, k)))
-    except AnalysisError:
-        found = None
-    if found is None:
-        return [severity, *z, *[np.nan] * 5, 0.0]
-    return [severity, *z, found.severity, found.low, found.high, found.misfit, found.paper, float(found.covered)]
+@dataclass(frozen=True)
+class _Study:
+    plant: Plant
+    prepared: Prepared
+    chain: Chain
+    nuisances: list[dict]
+    stranger: dict
+
+    def test(self, point: np.ndarray, k: int) -> list[float]:
+        """One test: severity and nuisances from a point of the design, sensor errors from the test's own number."""
+        settings = self.prepared.settings
+        fault, z = settings.fault, np.sqrt(3) * (2 * point[1:] - 1)
+        severity = fault.first + (fault.last - fault.first) * float(point[0])
+        record = self.plant.run(severity, **self._parameters(z))
+        recording = Recording(settings.currents, settings.sampling_rate, _sensed(record.currents, settings, k))
+        features = self.chain.analyse(recording.currents)
+        found = self.prepared.table.estimate(features)
+        try:
+            self.prepared.check_start(recording)
+            warned, covered = bool(self.prepared.check_estimate(features, found)), True
+        except Refusal:
+            warned, covered = False, False
+        reading = [found.severity, found.low, found.high, found.misfit, found.paper] if found else [np.nan] * 5
+        return [severity, *z, *reading, float(covered), float(warned)]
+
+    def _parameters(self, z: np.ndarray) -> dict[str, float]:
+        values: dict[str, float] = {}
+        for nuisance, number in zip(self.nuisances, z, strict=True):
+            values |= moved(self.plant, nuisance, float(number))
+        names = self.stranger.get("parameters", [])
+        for name, factor in zip(names, self.stranger.get("factor", []), strict=False):
+            values[name] = factor * values.get(name, self.plant.declared(name))
+        return values | dict(zip(names, self.stranger.get("value", []), strict=False))
 
 
 def _sensed(currents: np.ndarray, settings: Settings, seed: int) -> np.ndarray:
@@ -151,9 +173,9 @@ def roc(positive: np.ndarray, score: np.ndarray) -> tuple[np.ndarray, np.ndarray
 
 
 def error_shares(results: Results, error: np.ndarray) -> list[float]:
-    """For each nuisance, the share of the squared error that its own value explains (a parabola in it)."""
+    """For each nuisance, the share of the error's variance that its own value explains (a parabola in it)."""
     shares = []
     for z in results.z.T:
         fitted = np.polyval(np.polyfit(z, error, 2), z)
-        shares.append(float((fitted**2).mean() / (error**2).mean()))
+        shares.append(float(fitted.var() / error.var()))
     return shares

@@ -12,11 +12,11 @@ from analysis.settings import Settings
 
 PAGE = """# Robustness of the severity estimate
 
-Written by `make robustness`; do not edit. {count} simulated pre-flight tests of `{model}`: severity uniform
-over the map, and at the same time every nuisance below uniform over its range, with gain, offset and noise on each
-channel and a 12-bit converter. Simulated with {solver}, assessed with the map's severity table. Backlash and position
-transducer are not in this test: the motor turns freely at full voltage, and its angle is not used. Tests and map come
-from one model: what the model lacks of a real motor is not measured here.
+Written by `make robustness`; do not edit. {count} simulated pre-flight tests of `{model}`: severity
+uniform over the map, and at the same time every nuisance below uniform over its range, with gain, offset and noise on
+each channel and a 12-bit converter. Simulated with {solver}, assessed as `lacuna assess` does. The map is
+that of `{map_model}`. Tests and severity table come from one model: what it lacks of a real actuator is
+not measured here.
 
 Two methods read the same recordings:
 
@@ -36,12 +36,14 @@ near the threshold costs less than a missed rotor. Brackets: 95 % intervals of t
 
 ## Which nuisance hurts
 
-Share of the squared error that each nuisance's own value explains; what is missing to 100 % is their interplay and the
-sensors.
+Share of the error's variance that each nuisance's own value explains; what is missing to 100 % is their interplay, the
+sensors, and the severity.
 
 | nuisance | mean RMS | signature |
 | --- | --- | --- |
 {nuisances}
+
+The transducer's offset moves nothing: the position loop is saturated, and asks for full voltage whatever it reads.
 
 ## By severity
 
@@ -49,12 +51,26 @@ sensors.
 | --- | --- | --- | --- | --- | --- |
 {bins}
 
-Errors are root mean squares in {unit} of severity. *Refused* are recordings that the map explains at no severity, by
-its own misfit; they are counted in every number above as if they had been read.
+Errors are root mean squares in {unit} of severity. *Refused* are recordings that the map explains at no severity;
+they are counted in every number above as if they had been read.
+
+## Actuators that are not the map's
+
+{per_stranger} tests of each, under the same nuisances. Refused or warned of is what lies off the map by more than the
+nuisances explain; what is left is read as if it were the map's actuator, with the error of the last column.
+
+| actuator | refused | warned of | read without a word | error of those |
+| --- | --- | --- | --- | --- |
+{strangers}
+
+Of the map's own actuator {own_refused} were refused and {own_warned} read with a warning.
 """
 
 
-def write_study(settings: Settings, results: Results, docs: Path) -> None:
+Strangers = list[tuple[str, Results]]  # by name
+
+
+def write_study(settings: Settings, results: Results, strangers: Strangers, docs: Path) -> None:
     """docs/robustness.md and docs/figures/robustness.svg."""
     from analysis.figures.robustness import draw
     from analysis.figures.style import in_style
@@ -64,10 +80,10 @@ def write_study(settings: Settings, results: Results, docs: Path) -> None:
         figure = draw(settings, results)
         figure.savefig(scratch / "robustness.svg", metadata={"Date": None})
     with published_together(docs) as scratch:
-        (scratch / "robustness.md").write_text(page(settings, results), encoding="utf-8")
+        (scratch / "robustness.md").write_text(page(settings, results, strangers), encoding="utf-8")
 
 
-def page(settings: Settings, results: Results) -> str:
+def page(settings: Settings, results: Results, strangers: Strangers) -> str:
     fault, threshold = settings.fault, settings.table("assessment")["maintenance"]
     ours, paper = results.estimate - results.severity, results.paper - results.severity
     nuisances = [
@@ -78,13 +94,18 @@ def page(settings: Settings, results: Results) -> str:
     ]
     return PAGE.format(
         count=len(results.severity),
-        model=settings.model,
+        model=settings.disturbed_model,
+        map_model=settings.model,
         solver=settings.table("assessment")["solver"],
         threshold=fault.text(threshold),
         unit="points" if fault.unit == "%" else fault.unit,
         methods="\n".join(_methods(settings, results)),
         nuisances="\n".join(nuisances),
         bins="\n".join(_bins(settings, results, paper, ours)),
+        strangers="\n".join(_stranger(settings, *stranger) for stranger in strangers),
+        per_stranger=len(strangers[0][1].severity) if strangers else 0,
+        own_refused=_rate(rate(~results.covered)),
+        own_warned=_rate(rate(results.warned)),
     )
 
 
@@ -131,6 +152,14 @@ def _bins(settings: Settings, results: Results, paper: np.ndarray, ours: np.ndar
             f"| {_percent(holds[within].mean())} | {_percent((~results.covered[within]).mean())} |"
         )
     return lines
+
+
+def _stranger(settings: Settings, name: str, results: Results) -> str:
+    silent = results.covered & ~results.warned
+    errors = settings.fault.shown(results.estimate - results.severity)[silent]
+    error = f"{np.sqrt((errors**2).mean()):.1f}" if silent.any() else "-"
+    shares = (~results.covered, results.warned, silent)
+    return f"| {name} | {' | '.join(_percent(share.mean()) for share in shares)} | {error} |"
 
 
 def _percent(share: float) -> str:

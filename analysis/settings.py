@@ -83,6 +83,11 @@ class Settings:
         return _Table(f"{self.path}: {name}", self.raw[name])
 
     @property
+    def disturbed_model(self) -> str:
+        """The model of tests under nuisances: [assessment] may name one that has more of them than the map's."""
+        return self.raw.get("assessment", {}).get("model", self.model)
+
+    @property
     def samples(self) -> int:
         return round(self.sampling_rate * self.duration)
 

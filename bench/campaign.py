@@ -21,10 +21,10 @@ TESTS, CHUNK, MILLION = 192, 16, 1e6
 def scale(rounds: int) -> list[dict[str, object]]:
     """One row for each way of running TESTS tests, once whatever `rounds` says; times in s, bytes for one test."""
     settings = load_settings()
-    compiled = compile_model(settings.model)
-    plant = ModelPlant(compiled.name, compiled.path, compiled.hash, settings)
+    compiled = compile_model(settings.disturbed_model)
+    plant = ModelPlant.of(compiled, settings)
     work = Work(compiled.name, Path(compiled.path).read_bytes(), compiled.hash, settings.text, "dopri5")
-    points = sobol_points(settings, TESTS, plant.declared)
+    points = sobol_points(settings, TESTS, plant)
     begin = time.perf_counter()
     run_chunk(work, points)
     alone = time.perf_counter() - begin

@@ -7,12 +7,15 @@ from pathlib import Path
 
 from analysis.maps import build_map
 from analysis.plant import ModelPlant
-from analysis.preparation import TABLE_FILE, prepare_assessment
+from analysis.preparation import prepare_assessment
+from analysis.prepared import Prepared
 from analysis.progress import progress_bar
 from analysis.robustness import run_tests
 from analysis.robustness_report import write_study
 from analysis.settings import load_settings
 from codegen.compile import compile_model
+
+STRANGERS = 128  # tests of each actuator that is not the map's
 
 
 def main() -> None:
@@ -22,15 +25,19 @@ def main() -> None:
     parser.add_argument("--tests", type=int, default=8192, help="a power of two")
     arguments = parser.parse_args()
     settings = load_settings()
-    compiled = compile_model(settings.model)
-    plant = ModelPlant(compiled.name, compiled.path, compiled.hash, settings, compiled.report.seconds)
+    plant = ModelPlant.of(compile_model(settings.disturbed_model), settings)
     with progress_bar("map") as progress:
-        finished = build_map(plant, settings, arguments.out / "map", progress=progress, figures=False)
+        mapped = ModelPlant.of(compile_model(settings.model), settings)
+        finished = build_map(mapped, settings, arguments.out / "map", progress=progress, figures=False)
     prepare_assessment(plant, settings, finished)
+    prepared, store = Prepared(finished.folder), arguments.out / "tests"
     with progress_bar("tests") as progress:
-        table, store = arguments.out / "map" / TABLE_FILE, arguments.out / "tests"
-        results = run_tests(plant, settings, table, store, arguments.tests, progress=progress)
-    write_study(settings, results, arguments.docs)
+        results = run_tests(plant, prepared, store, arguments.tests, progress=progress)
+    strangers = [
+        (stranger["name"], run_tests(plant, prepared, store, STRANGERS, stranger=stranger))
+        for stranger in settings.raw.get("strangers", [])
+    ]
+    write_study(settings, results, strangers, arguments.docs)
     print(f"written: {arguments.docs / 'robustness.md'}")
 
 

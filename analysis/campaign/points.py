@@ -2,32 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
-from scipy.stats import norm, qmc
+from scipy.stats import qmc
 
+from analysis.plant import Plant
+from analysis.sensitivities import moved
 from analysis.settings import Settings
 
 Points = dict[str, np.ndarray]  # parameter -> its value at every point
 
 
-def sobol_points(settings: Settings, count: int, declared: Callable[[str], float], seed: int = 1) -> Points:
-    """`count` points: the severity uniform over the fault axis, each nuisance of the settings log-normal.
+def sobol_points(settings: Settings, count: int, plant: Plant, seed: int = 1) -> Points:
+    """`count` points: severity and nuisances of the settings uniform over their ranges.
 
     A scrambled Sobol sequence (Owen, J. Complexity 14, 1998), whose first n points are the same for every `count`
-    of at least n. `declared` gives the declared value of a parameter.
+    of at least n. Raises AnalysisError where `plant` lacks a parameter of a nuisance.
     """
     nuisances = settings.raw.get("nuisances", [])
     sequence = qmc.Sobol(1 + len(nuisances), scramble=True, rng=np.random.default_rng(seed))
-    with_power = sequence.random_base2(max(0, int(np.ceil(np.log2(max(count, 1))))))
-    unit = with_power[:count]
+    unit = sequence.random_base2(max(0, int(np.ceil(np.log2(max(count, 1))))))[:count]
     fault = settings.fault
     points = {fault.parameter: fault.first + (fault.last - fault.first) * unit[:, 0]}
-    for k, nuisance in enumerate(nuisances, start=1):
-        z = norm.ppf(np.clip(unit[:, k], 1e-12, 1 - 1e-12))
-        for name, spread in zip(nuisance["parameters"], nuisance["spread"], strict=True):
-            points[name] = points.get(name, declared(name)) * np.exp(spread * z)
+    for nuisance, share in zip(nuisances, unit[:, 1:].T, strict=True):
+        points |= moved(plant, nuisance, np.sqrt(3) * (2 * share - 1))
     return points
 
 

@@ -132,33 +132,29 @@ double SeverityTable::distance(const Condition &condition, std::size_t row,
   return sum;
 }
 
-/// Generalised least squares over severity. Cost is minus twice the logarithm of the likelihood: the most likely
-/// severity is the vertex of the parabola through the best row and its neighbours, and its deviation follows from the
-/// curvature.
+/// Generalised least squares over severity: the vertex of the parabola through the nearest row and its neighbours, and
+/// its deviation from the curvature. Cost is minus twice the logarithm of the likelihood.
 SeverityTable::Reading SeverityTable::read(const Condition &condition,
                                            std::span<const double> signature) const noexcept {
-  const auto cost = [&](std::size_t row) {
-    return distance(condition, row, signature) + condition.log_determinant[row];
-  };
+  const auto from = [&](std::size_t row) { return distance(condition, row, signature); };
   const std::size_t last = severity_.size() - 1;
   std::size_t best = 0;
-  double lowest = cost(0);
+  double lowest = from(0);
   for (std::size_t row = 1; row <= last; ++row)
-    if (const double found = cost(row); found < lowest) {
+    if (const double found = from(row); found < lowest) {
       lowest = found;
       best = row;
     }
   const std::size_t k = std::clamp<std::size_t>(best, 1, last - 1);
-  const double left = severity_[k - 1] - severity_[k], right = severity_[k + 1] - severity_[k], centre = cost(k);
-  const double slope_left = (cost(k - 1) - centre) / left, slope_right = (cost(k + 1) - centre) / right;
+  const double left = severity_[k - 1] - severity_[k], right = severity_[k + 1] - severity_[k], centre = from(k);
+  const double slope_left = (from(k - 1) - centre) / left, slope_right = (from(k + 1) - centre) / right;
   const double curvature = (slope_right - slope_left) / (right - left); // cost = centre + slope x + curvature x^2
   const double slope = slope_left - curvature * left, range = severity_.back() - severity_.front();
-  if (!(curvature > 0)) return {severity_[best], range, distance(condition, best, signature), lowest};
+  if (!(curvature > 0)) return {severity_[best], range, lowest, lowest + condition.log_determinant[best]};
   const double x =
       std::clamp(severity_[k] - slope / (2 * curvature), severity_.front(), severity_.back()) - severity_[k];
-  const double change = (slope + curvature * x) * x;
-  return {severity_[k] + x, 1 / std::sqrt(curvature), std::max(0.0, distance(condition, k, signature) + change),
-          centre + change};
+  const double least = std::max(0.0, centre + (slope + curvature * x) * x);
+  return {severity_[k] + x, 1 / std::sqrt(curvature), least, least + condition.log_determinant[k]};
 }
 
 /// The conditions' readings, weighted by their likelihoods.

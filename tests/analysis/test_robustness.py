@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from analysis.preparation import TABLE_FILE
+from analysis.prepared import Prepared
 from analysis.robustness import Rate, Results, error_shares, roc, run_tests
 from analysis.robustness_report import alarms, write_study
 from analysis.settings import load_settings
@@ -15,7 +15,8 @@ from tests.analysis.plants import ReferencePlant
 def results_of(severity, **given) -> Results:
     severity = np.asarray(severity, dtype=float)
     fields = {"estimate": severity, "low": severity, "high": severity, "misfit": 0 * severity, "paper": severity}
-    return Results(severity=severity, z=np.zeros((len(severity), 4)), covered=severity >= 0, **(fields | given))
+    said = {"covered": severity >= 0, "warned": severity < 0}
+    return Results(severity=severity, z=np.zeros((len(severity), 4)), **(said | fields | given))
 
 
 def test_wilson_interval_of_a_share():
@@ -49,9 +50,9 @@ def test_alarms_by_each_method():
 
 
 def test_a_study_resumes_and_beats_the_mean_rms(tmp_path, map_folder):
-    settings = load_settings(map_folder / "settings.toml")
+    prepared = Prepared(map_folder)
     plant, progress = ReferencePlant(), []
-    study = (settings, map_folder / TABLE_FILE, tmp_path / "store", 64)
+    study = (prepared, tmp_path / "store", 64)
     results = run_tests(plant, *study, progress=lambda *call: progress.append(call))
     assert len(plant.runs) == 64 and progress[-1] == (64, 64)
 
@@ -64,7 +65,13 @@ def test_a_study_resumes_and_beats_the_mean_rms(tmp_path, map_folder):
     assert np.sqrt((ours**2).mean()) < 0.015
     assert np.sqrt((paper**2).mean()) > 0.06
 
-    write_study(settings, results, tmp_path / "docs")
+    assert results.covered.all()
+    stranger = {"name": "a dragging brake", "parameters": ["tau_c", "V"], "factor": [8.0, 0.8]}
+    strange = run_tests(ReferencePlant(), prepared, tmp_path / "store", 16, stranger=stranger)
+    assert not strange.covered.any()
+
+    write_study(prepared.settings, results, [(stranger["name"], strange)], tmp_path / "docs")
     page = (tmp_path / "docs" / "robustness.md").read_text()
+    assert "| a dragging brake | 100.0 % | 0.0 % | 0.0 % | - |" in page
     assert "64 simulated pre-flight tests" in page and "{" not in page
     assert (tmp_path / "docs" / "figures" / "robustness.svg").exists()

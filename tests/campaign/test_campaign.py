@@ -46,10 +46,10 @@ def short_test(folder: Path) -> tuple[Work, dict[str, np.ndarray]]:
     path = folder / "settings.toml"
     path.write_text(text, encoding="utf-8")
     settings = load_settings(path)
-    compiled = compile_model(settings.model)
-    plant = ModelPlant(compiled.name, compiled.path, compiled.hash, settings)
+    compiled = compile_model(settings.disturbed_model)
+    plant = ModelPlant.of(compiled, settings)
     work = Work(compiled.name, Path(compiled.path).read_bytes(), compiled.hash, text, "dopri5")
-    return work, sobol_points(settings, COUNT, plant.declared)
+    return work, sobol_points(settings, COUNT, plant)
 
 
 @pytest.fixture(scope="module")
@@ -61,12 +61,13 @@ def undisturbed(tmp_path_factory) -> Path:
 
 def test_design_fills_the_fault_axis_and_goes_on_where_a_shorter_one_ended():
     settings = load_settings()
-    declared = {"tau_c": 0.09, "R": 2.13, "Ke": 0.12, "V": 28.0, "J": 2.5e-5}.__getitem__
-    long, short = sobol_points(settings, 256, declared), sobol_points(settings, 100, declared)
+    plant = ModelPlant.of(compile_model(settings.disturbed_model), settings)
+    long, short = sobol_points(settings, 256, plant), sobol_points(settings, 100, plant)
     assert all(np.array_equal(long[name][:100], short[name]) for name in long)
     counts, _ = np.histogram(long["zeta"], bins=16, range=(0.0, 0.5))
     assert np.all(counts == 16)
     assert np.median(long["V"]) == pytest.approx(28.0, rel=1e-3)
+    assert 0 <= long["backlash"].min() < 1e-4 and 1.9e-3 < long["backlash"].max() <= 2e-3
 
 
 def test_chunks_keep_order_and_number():
@@ -77,12 +78,12 @@ def test_chunks_keep_order_and_number():
 
 
 def test_rows_are_those_of_single_simulations(undisturbed, tmp_path):
-    work, points = short_test(tmp_path)
+    _, points = short_test(tmp_path)
     table = pq.read_table(undisturbed)
     assert table.num_rows == COUNT
     assert table["failure"].null_count == COUNT
     settings = load_settings(tmp_path / "settings.toml")
-    plant = ModelPlant(work.name, compile_model(settings.model).path, work.model_hash, settings, solver="dopri5")
+    plant = ModelPlant.of(compile_model(settings.disturbed_model), settings, "dopri5")
     record = plant.run(points["zeta"][7], **{n: v[7] for n, v in points.items() if n != "zeta"})
     rms = np.sqrt(np.mean(record.currents**2, axis=1))
     assert [table[f"rms_{k + 1}"][7].as_py() for k in range(3)] == pytest.approx(rms, rel=1e-12)
