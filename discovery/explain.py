@@ -14,30 +14,18 @@ from codegen.library import Library
 from . import catalogue, places
 from .amend import Amendment
 from .cases import Case
-from .evidence import is_noise, like_noise, outside_belief, pays, whiteness
-from .fit import Fit, Objective, bandwidths_for, believed, fit, noise_of
-from .hypotheses import enumerate_attachments
+from .evidence import is_noise, like_noise, outside_belief, whiteness
+from .fit import Fit, bandwidths_for, believed, fit, noise_of
 from .judge import Judgement, judge, noise_floor
 from .locate import Located, locate
 from .machine import Machine
-from .name import MIN_GAIN, Naming, Ranked, rank
+from .name import Naming, Ranked
 from .recordings_check import Problem, check_case
+from .search import Finding, Search, tracked
 from .semantic_check import check_against_model
 from .tracking import trackable
 
-MAX_FINDINGS = 3
-
 Progress = Callable[[str], None]
-
-
-@dataclass
-class Finding:
-    """An accepted effect: the round of naming that chose it, and the fits without and with it."""
-
-    ranked: Ranked
-    naming: Naming
-    before: Judgement
-    after: Judgement
 
 
 @dataclass
@@ -96,9 +84,15 @@ def explain(case: Case, progress: Progress = lambda text: None, library: Library
     clock.done("fit")
     if not is_noise(result.base):
         progress("locating the missing effort")
-        result.located = locate(case, _tracked(result.base, bandwidths))
+        result.located = locate(case, tracked(result.base, bandwidths))
         clock.done("locate")
-    _add_findings(result, effects, bandwidths, progress)
+    search = Search(
+        case, effects, bandwidths, result.floor, result.amendment, result.final, result.after,
+        result.findings, result.namings,
+    )  # fmt: skip
+    search.run(progress)
+    result.amendment, result.final, result.after = search.amendment, search.fit, search.judgement
+    result.reason = search.reason
     clock.done("name")
     _conclude(result)
     return result
@@ -135,61 +129,12 @@ def fit_believed(case: Case, machine: Machine) -> tuple[Fit, tuple[float, ...]]:
     return best, bandwidths
 
 
-def _add_findings(result: Explanation, effects: list, bandwidths: tuple[float, ...], progress: Progress) -> None:
-    case = result.case
-    while len(result.findings) < MAX_FINDINGS and not is_noise(result.final):
-        progress(f"looking for missing physics, round {len(result.findings) + 1}")
-        attachments = enumerate_attachments(case, result.amendment.structure, effects, result.amendment)
-        naming = rank(case, result.amendment, attachments, _tracked(result.final, bandwidths), progress=progress)
-        result.namings.append(naming)
-        best = naming.best
-        if best is None or best.score > -MIN_GAIN:
-            return
-        progress(f"polishing {best.attachment.label}")
-        if not _polish(result.final, best, bandwidths):
-            return
-        after = judge(best.candidate.machine, best.fit.point)
-        if not pays(result.after.validate, after.validate, result.floor):
-            result.reason = f"{best.attachment.label} fits better but does not pay on the validation recordings"
-            return
-        result.findings.append(Finding(best, naming, result.after, after))
-        attachments = [*result.amendment.attachments, best.attachment]
-        result.amendment = replace(result.amendment, attachments=attachments)
-        result.final, result.after = best.fit, after
-
-
-def _tracked(base: Fit, bandwidths: tuple[float, ...]) -> Fit:
-    """The fit that hypotheses are compared on: where fits are rough, shafts are held near their recorded motion."""
-    if len(bandwidths) < 2:
-        return base
-    objective = Objective(base.machine, base.machine.case.fit, base.noise)
-    objective.track(bandwidths[0], base.point)
-    fixed = base.fixed | objective.stiffness
-    return fit(base.machine, base.machine.case.fit, base.noise, base.estimate.free, fixed, start=base.point) or base
-
-
-def _polish(base: Fit, best: Ranked, bandwidths: tuple[float, ...]) -> bool:
-    """Fit the chosen hypothesis without trackers; false where that fails or is no better than the base."""
-    if len(bandwidths) < 2:
-        return True
-    candidate = best.candidate
-    found = fit(
-        candidate.machine, base.machine.case.fit, base.noise, [*base.estimate.free, *candidate.free],
-        base.fixed | candidate.fixed, start=best.fit.point, bandwidths=bandwidths,
-    )  # fmt: skip
-    if found is None or found.deviance(best.fit.correlation()) > base.deviance(best.fit.correlation()):
-        return False
-    found.estimate.normal = best.fit.estimate.normal  # sensitivities with the commutation held are the reliable ones
-    best.fit = found
-    return True
-
-
 def _conclude(result: Explanation) -> None:
     """The verdict, from the findings, the whiteness of what is left and the believed parameters."""
     left = [w for w in whiteness(result.final).values() if not w.passed]
     if result.findings:
         first = result.findings[0]
-        rivals = first.naming.rivals()
+        rivals = first.naming.rivals(first.ranked)
         if rivals and first.ranked.confidence < 0.5:
             result.verdict = "undetermined"
             names = ", ".join(dict.fromkeys(r.attachment.label for r in rivals[:3]))

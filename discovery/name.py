@@ -70,16 +70,19 @@ class Naming:
     def best(self) -> Ranked | None:
         return self.ranked[0] if self.ranked else None
 
-    def rivals(self) -> list[Ranked]:
-        """Hypotheses of other physics or another place that the data does not tell from the best."""
-        best = self.best
-        return [r for r in self.ranked[1:] if r.identity != best.identity and r.score - best.score < TIE]
+    def of(self, identity: tuple[str, str]) -> Ranked | None:
+        """The best hypothesis of this physics at this place."""
+        return next((r for r in self.ranked if r.identity == identity), None)
+
+    def rivals(self, ranked: Ranked) -> list[Ranked]:
+        """Hypotheses of other physics or another place that the data does not tell from this one."""
+        return [r for r in self.ranked if r.identity != ranked.identity and r.score - ranked.score < TIE]
 
 
 def screen_all(
     case: Case, amendment: Amendment, attachments: list[Attachment], base: Fit, progress: Progress
 ) -> tuple[list[Candidate], list[tuple[str, str]]]:
-    """Candidates (one for each start), best first-order promise first; and the hypotheses that do not fit this model."""
+    """Candidates (one for each start), most promising first; and the hypotheses that do not fit this model."""
     objective = Objective(base.machine, case.fit, base.noise)
     screen = Screen(base, objective)
     failures: list[tuple[str, str]] = []

@@ -6,13 +6,14 @@ from codegen.library import Library
 
 from . import catalogue, places
 from .cases import Case, CaseError
-from .explain import Explanation, Progress, _believed_machine, _tracked, fit_believed
+from .explain import Explanation, Progress, _believed_machine, fit_believed
 from .fit import believed
 from .hypotheses import enumerate_attachments
 from .judge import judge, noise_floor
 from .locate import locate
 from .name import rank
 from .recordings_check import check_case
+from .search import tracked
 from .semantic_check import check_against_model
 
 
@@ -36,7 +37,7 @@ def located(case: Case, progress: Progress) -> Explanation:
     """What effort is missing, where, in the fitted believed model."""
     result, bandwidths = fitted(case, progress)
     progress("locating the missing effort")
-    result.located = locate(case, _tracked(result.base, bandwidths))
+    result.located = locate(case, tracked(result.base, bandwidths))
     return result
 
 
@@ -47,7 +48,6 @@ def named(case: Case, progress: Progress) -> Explanation:
     effects = catalogue.read(library)
     attachments = enumerate_attachments(case, result.amendment.structure, effects, result.amendment)
     progress(f"ranking {len(attachments)} hypotheses")
-    tracked = _tracked(result.base, bandwidths)
-    naming = rank(case, result.amendment, attachments, tracked, progress=progress)
+    naming = rank(case, result.amendment, attachments, tracked(result.base, bandwidths), progress=progress)
     result.namings.append(naming)
     return result

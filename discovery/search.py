@@ -1,0 +1,157 @@
+"""The search for what is missing: effects are added one at a time, earlier ones reconsidered given the later ones.
+
+Forward selection alone goes wrong where two effects are hidden: the first one found stands for both as well as it can
+(play and dry friction together look like a Stribeck curve). So after each further effect every earlier one is taken
+out, named anew given the others, and exchanged or dropped where that is better.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+from .amend import Amendment, Attachment
+from .cases import Case
+from .catalogue import Effect
+from .evidence import is_noise, pays
+from .fit import Fit, Objective, fit
+from .hypotheses import enumerate_attachments
+from .judge import Judgement, judge
+from .machine import Machine
+from .name import MIN_GAIN, TIE, Naming, Ranked, rank
+
+MAX_FINDINGS = 3
+RECONSIDERED = 4  # rivals of an earlier finding that are tried again
+
+Progress = Callable[[str], None]
+
+
+@dataclass
+class Finding:
+    """An accepted effect: the round of naming that chose it, and the judgements without and with it."""
+
+    ranked: Ranked
+    naming: Naming
+    before: Judgement
+    after: Judgement
+
+
+@dataclass
+class Search:
+    """How far the search has come: the amended model, its fit and judgement, what was found and what was tried."""
+
+    case: Case
+    effects: list[Effect]
+    bandwidths: tuple[float, ...]
+    floor: dict[str, float]
+    amendment: Amendment
+    fit: Fit
+    judgement: Judgement
+    findings: list[Finding] = field(default_factory=list)
+    namings: list[Naming] = field(default_factory=list)
+    reason: str = ""
+
+    def run(self, progress: Progress) -> None:
+        """Add findings until what is left is noise, or nothing more pays."""
+        while len(self.findings) < MAX_FINDINGS and not is_noise(self.fit):
+            progress(f"looking for missing physics, round {len(self.findings) + 1}")
+            if not self._add(progress):
+                return
+            for k in range(len(self.findings) - 1):
+                self._reconsider(k, progress)
+
+    def _add(self, progress: Progress) -> bool:
+        attachments = enumerate_attachments(self.case, self.amendment.structure, self.effects, self.amendment)
+        naming = rank(self.case, self.amendment, attachments, tracked(self.fit, self.bandwidths), progress=progress)
+        self.namings.append(naming)
+        best = naming.best
+        if best is None or best.score > -MIN_GAIN:
+            return False
+        progress(f"polishing {best.attachment.label}")
+        polished = self._polished(best, self.fit)
+        if polished is None:
+            return False
+        after = judge(polished.machine, polished.point)
+        if not pays(self.judgement.validate, after.validate, self.floor):
+            self.reason = f"{best.attachment.label} fits better but does not pay on the validation recordings"
+            return False
+        best.fit = polished
+        self.findings.append(Finding(best, naming, self.judgement, after))
+        self._take([*self.amendment.attachments, best.attachment], polished, after)
+        return True
+
+    def _take(self, attachments: list[Attachment], found: Fit, judgement: Judgement) -> None:
+        self.amendment = replace(self.amendment, attachments=attachments)
+        self.fit, self.judgement = found, judgement
+
+    def _polished(self, best: Ranked, base: Fit) -> Fit | None:
+        """The hypothesis fitted without trackers; None where that fails or is no better than the base."""
+        if len(self.bandwidths) < 2:
+            return best.fit
+        candidate = best.candidate
+        found = fit(
+            candidate.machine, self.case.fit, base.noise, [*base.estimate.free, *candidate.free],
+            base.fixed | candidate.fixed, start=best.fit.point, bandwidths=self.bandwidths,
+        )  # fmt: skip
+        if found is None or found.deviance(best.fit.correlation()) > base.deviance(best.fit.correlation()):
+            return None
+        found.estimate.normal = best.fit.estimate.normal  # reliable only with the commutation held
+        return found
+
+    def _reconsider(self, k: int, progress: Progress) -> None:
+        """Name finding k anew, given the others: exchange it where a rival is better by more than a tie."""
+        finding = self.findings[k]
+        progress(f"reconsidering {finding.ranked.attachment.label}")
+        others = [a for a in self.amendment.attachments if a is not finding.ranked.attachment]
+        without = replace(self.amendment, attachments=others)
+        base = self._without(finding.ranked, without)
+        if base is None:
+            return
+        attachments = self._rivals(finding, without)
+        naming = rank(self.case, without, attachments, tracked(base, self.bandwidths), progress=progress)
+        best, own = naming.best, naming.of(finding.ranked.identity)
+        if best is None or own is None:
+            return
+        if best.score > own.score - TIE:
+            ranked = replace(finding.ranked, score=own.score, confidence=own.confidence)
+            self.findings[k] = replace(finding, ranked=ranked, naming=naming)
+            return
+        polished = self._polished(best, base)
+        if polished is None or polished.deviance(naming.correlation) > self.fit.deviance(naming.correlation):
+            return
+        after = judge(polished.machine, polished.point)
+        if pays(self.judgement.validate, after.validate, self.floor):
+            progress(f"{best.attachment.label} instead of {finding.ranked.attachment.label}")
+            best.fit = polished
+            self.findings[k] = replace(finding, ranked=best, naming=naming)
+            self.findings[-1] = replace(self.findings[-1], after=after)
+            self._take([*others, best.attachment], polished, after)
+
+    def _without(self, ranked: Ranked, amendment: Amendment) -> Fit | None:
+        """The present model fitted without one of its effects."""
+        prefix = ranked.attachment.component + "."
+        free = [f for f in self.fit.estimate.free if not f.name.startswith(prefix)]
+        fixed = {n: v for n, v in self.fit.fixed.items() if not n.startswith(prefix)}
+        machine = Machine(self.case, amendment, self.fit.machine.solver)
+        return fit(machine, self.case.fit, self.fit.noise, free, fixed, start=self.fit.point)
+
+    def _rivals(self, finding: Finding, without: Amendment) -> list[Attachment]:
+        """The finding's own attachment, the best of the others that were tried beside it, and the laws it nests."""
+        possible = enumerate_attachments(self.case, without.structure, self.effects, without)
+        own = finding.ranked.attachment
+        tried = [r.attachment.label for r in finding.naming.ranked if r.identity != finding.ranked.identity]
+        labels = {own.label, *tried[:RECONSIDERED]}
+        return [
+            a for a in possible
+            if a.label in labels or (a.location == own.location and own.effect.identifier in a.effect.nests_in)
+        ]  # fmt: skip
+
+
+def tracked(base: Fit, bandwidths: tuple[float, ...]) -> Fit:
+    """The fit that hypotheses are compared on: where fits are rough, shafts are held near their recorded motion."""
+    if len(bandwidths) < 2:
+        return base
+    objective = Objective(base.machine, base.machine.case.fit, base.noise)
+    objective.track(bandwidths[0], base.point)
+    fixed = base.fixed | objective.stiffness
+    return fit(base.machine, base.machine.case.fit, base.noise, base.estimate.free, fixed, start=base.point) or base
