@@ -53,7 +53,7 @@ def _on_shafts(case: Case, structure: Structure, effect: Effect) -> list[Attachm
 
 
 def _signal_choices(structure: Structure, shaft: Shaft, effect: Effect) -> list[tuple[tuple[str, str], ...]]:
-    """Variables of the model that can drive the effect's inputs: the machine's torque, torques that pass the shaft."""
+    """Variables of the model that can drive the effect's inputs: the machine's torque, what passes the shaft, its inertia."""
     if not effect.signals:
         return [()]
     choices = []
@@ -61,6 +61,8 @@ def _signal_choices(structure: Structure, shaft: Shaft, effect: Effect) -> list[
         owners = list(dict.fromkeys(m.split(".")[0] for m in shaft.members))
         if meaning == "motor":
             variables = [f"{o}.tau" for o in owners if _is_machine(structure, o)]
+        elif meaning == "inertia":
+            variables = [f"{shaft.location}.J"]
         else:
             variables = [m + ".tau" for m in shaft.members if _passes_torque(structure, m.split(".")[0])]
         choices.append([(name, v) for v in variables])
