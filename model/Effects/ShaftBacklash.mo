@@ -7,11 +7,18 @@ model ShaftBacklash "Play between two parts of a shaft that is believed rigid"
   constant Types.AngularVelocity unit_w = 1;
   Types.RotationalStiffness c_unit = J*unit_w*unit_w "Stiffness that makes the whole inertia swing at 1 rad/s";
   Types.RotationalDamping d_unit = J*unit_w "Damping that stops the whole inertia within 1 s";
+  Types.Angle deflection "Deflection of the contact; 0 within the play";
+  Types.Torque push "Torque of the flanks on each other";
 equation
-  tau_b = if phi_rel > play/2 then max(c*(phi_rel - play/2) + d*w_rel, 0)
-    elseif phi_rel < -play/2 then min(c*(phi_rel + play/2) + d*w_rel, 0) else 0;
+  deflection = noEvent(if phi_rel > play/2 then phi_rel - play/2 elseif phi_rel < -play/2 then phi_rel + play/2 else 0);
+  push = noEvent(min(max(c*abs(deflection) + d*(if deflection > 0 then w_rel else -w_rel), 0), 2*c*abs(deflection)));
+  tau_b = noEvent(if deflection > 0 then push else -push);
   annotation(__Lacuna(effect="backlash", attaches="flange", signals(J="inertia"),
-    starts(play={0.03, 0.3}, c={4e4}, d={15}, share={0.5}), relative(c="c_unit", d="d_unit"),
+    starts(play={0.02, 0.06, 0.2, 0.6}, c={4e4}, d={15}, share={0.5}), relative(c="c_unit", d="d_unit"),
     signature="part of the inertia missing for a moment at every reversal of the torque, then a shock",
-    excitation="reversals of the torque", reference="Nordin, Gutman 2002"));
+    excitation="reversals of the torque", reference="Nordin, Gutman 2002"),
+    Documentation(info="<html>
+<p>The damping part is limited to the elastic one, as in <code>Components.Mechanics.Backlash</code>: the torque begins at zero,
+never pulls, and has corners but no jumps, so it needs no events.</p>
+</html>"));
 end ShaftBacklash;
