@@ -64,9 +64,7 @@ def simulate(
         events=event_rows,
     )  # fmt: skip
     seconds = time.perf_counter() - begin
-    if not len(result):
-        raise UserError(str(result.failure))
-    path = (out or default_folder("simulate", model)) / f"{loaded.name.rsplit('.', 1)[-1]}.csv"
+    path = _destination(result, loaded, out or default_folder("simulate", model))
     written = [runtime.write_csv(result, path)]
     if plot:
         from cli.plot import draw
@@ -90,6 +88,13 @@ def _compiled(model: str, settings: dict[str, str], units: str) -> runtime.Model
         if not loaded.variable(name, "parameter", parameters).settable
     }
     return runtime.Model(compile_model(model, modifications=fixed, units=units).path) if fixed else loaded
+
+
+def _destination(result: runtime.Result, model: runtime.Model, folder: Path) -> Path:
+    """The file for a result. A run that was refused before its first row gets none."""
+    if not len(result):
+        raise UserError(str(result.failure))
+    return folder / f"{model.name.rsplit('.', 1)[-1]}.csv"
 
 
 def _recorded(inputs: list[str] | None, hold: bool) -> dict[str, runtime.RecordedInput]:
