@@ -214,7 +214,11 @@ def test_contact_and_release_keep_the_order_of_the_method(run, body: str) -> Non
     """A body meets an elastic contact and leaves it: x = x_c + w sin(omega t)/omega between, -w after (RK4, order 4)."""
     J, c, w0 = 0.02, 500.0, 3.0
     parts = {
-        "teeth": (f"Backlash contact(c={c}, b=0.6); Fixed wall;", "connect(wall.flange, contact.flange_a);", "flange_b"),
+        "teeth": (
+            f"Backlash contact(c={c}, b=0.6); Fixed wall;",
+            "connect(wall.flange, contact.flange_a);",
+            "flange_b",
+        ),
         "stop": (f"EndStops contact(phi_max=0.3, c={c}, lambda=0);", "", "flange_a"),
     }
     component, wire, flange = parts[body]
