@@ -52,6 +52,7 @@ class Effect:
     nests_in: tuple[str, ...] = ()
     interval: str = ""  # the parameter that takes the recordings' sampling interval
     unit: str = ""  # of the sensor it belongs to; "" any
+    twin: str = ""  # of a sensor's error: the effect of a device that is the same signal in its recorded force
     signature: str = ""
     excitation: str = ""
     reference: str = ""

@@ -131,9 +131,11 @@ def _beside_devices(case: Case, structure: Structure, effect: Effect) -> list[At
 
 
 def _on_sensors(case: Case, structure: Structure, effect: Effect) -> list[Attachment]:
+    """On a device whose force is recorded, the force of an effect's twin is the very same signal: one name suffices."""
+    forces = {d.variable for d in structure.devices} if effect.twin else set()
     return [
         Attachment(effect, _component(effect, s.column), f"sensor:{s.column}", variable=s.variable)
-        for s in case.outputs if effect.unit in ("", s.si_unit)
+        for s in case.outputs if effect.unit in ("", s.si_unit) and s.variable not in forces
     ]  # fmt: skip
 
 

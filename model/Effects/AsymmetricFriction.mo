@@ -1,8 +1,8 @@
 within Lacuna.Effects;
 model AsymmetricFriction "Dry friction with a different level in each direction"
   extends Interfaces.FrictionEffect;
-  parameter Types.Torque tau_pos = 0 "Level while the speed is positive";
-  parameter Types.Torque tau_neg = 0 "Level while the speed is negative";
+  parameter Types.Torque tau_pos(final min=0) = 0 "Level while the speed is positive";
+  parameter Types.Torque tau_neg(final min=0) = 0 "Level while the speed is negative";
 equation
   flange.tau = tau_fric + (tau_pos - tau_neg)/2;
   tau_slide = noEvent(max((tau_pos + tau_neg)/2, 0));

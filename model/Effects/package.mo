@@ -5,14 +5,21 @@ package Effects "Physics that a model may lack: each a component that discovery 
 <code>annotation(__Lacuna(...))</code>:</p>
 <ul>
 <li><code>effect</code>: identifier of the physics, as diagnoses name it.</li>
-<li><code>attaches</code>: <code>flange</code> (a connector <code>flange</code> joined to a shaft), <code>series</code> (pins
-<code>p</code>, <code>n</code> put into a line), <code>phases</code> (the same, in every phase with equal parameters),
-<code>signal</code> (<code>u</code>, <code>y</code> put into a signal that drives the model), <code>sensor</code> (<code>u</code>,
-<code>y</code> after a recorded variable) or <code>replace</code> (takes the place of a component of class
-<code>replaces</code>, which it extends).</li>
+<li><code>attaches</code>: <code>flange</code> (a connector <code>flange</code> joined to a shaft), <code>line</code> (pins
+<code>p</code>, <code>n</code> put into the only line to a machine), <code>star</code> (the same, in every phase of a machine of
+several), <code>phases</code> (either), <code>phase</code> (in one phase of several), <code>imposed</code> (a force <code>f</code>
+beside a device that is moved), <code>sensor</code> (<code>u</code>, <code>y</code> after a recorded variable) or
+<code>replace</code> (takes the place of a component of class <code>replaces</code>, whose connectors and parameters it
+has).</li>
+<li><code>signals(u=\"motor\")</code>: what drives an input of the effect: the torque of the <code>motor</code>, the
+<code>transmitted</code> torque, the <code>inertia</code> of the shaft.</li>
 <li><code>neutral(p=value)</code>: value of the parameter at which the effect vanishes, if there is one.</li>
 <li><code>starts(p={...})</code>: values from which a fit starts; <code>relative(p=\"x\")</code>: in units of the greatest
 value that variable <code>x</code> of the component takes; <code>whole={\"p\"}</code>: whole numbers, scanned and kept.</li>
+<li><code>polar={\"a\", \"phi\"}</code>: amplitude and phase of one wave; <code>fixed={\"p\"}</code>: not fitted;
+<code>variants(p={...})</code>: values written into the model, one hypothesis each.</li>
+<li><code>unit</code>: of the signals to which the error of a sensor may belong; <code>twin</code>: the effect of a device that
+gives the same error in its recorded force.</li>
 <li><code>nests_in</code>: identifiers of richer laws that contain this one.</li>
 <li><code>signature</code>, <code>excitation</code>, <code>reference</code>: what it leaves, what must be done to see it,
 where it is described.</li>
