@@ -211,7 +211,7 @@ def test_ball_screw_drives_a_mass_through_a_compliance(run) -> None:
 
 @pytest.mark.parametrize("body", ["teeth", "stop"])
 def test_contact_and_release_keep_the_order_of_the_method(run, body: str) -> None:
-    """A body meets an elastic contact and leaves it: x = x_c + w sin(omega t)/omega between, -w after (RK4, order 4)."""
+    """A body meets an elastic contact and leaves it: x_c + w sin(omega t)/omega between, -w after. RK4 has order 4."""
     J, c, w0 = 0.02, 500.0, 3.0
     parts = {
         "teeth": (
