@@ -47,17 +47,14 @@ def assess(
     folder = Path(map_folder)
     prepared = Prepared(folder)
     settings = prepared.settings
-    found = read_recording(recording, settings, columns)
-    if unfiltered:
-        found = Recording(found.names, found.sampling_rate, low_pass(found.currents, found.sampling_rate, settings))
+    found = filtered(read_recording(recording, settings, columns), settings, unfiltered)
     prepared.check_start(found)
     features = chain_at(settings, found.sampling_rate).analyse(found.currents)
     estimate = prepared.table.estimate(features)
     warnings = prepared.check_estimate(features, estimate)
     band = settings.bands[estimate.band]
-    summary = {"rms": features.rms.tolist(), "rms_mean": features.rms_mean, "peak_hz": features.peak_hz.tolist(),
-               "frequency": features.frequency.tolist(), "harmonic": features.harmonic.tolist()}  # fmt: skip
-    done = Assessment(str(recording), estimate, band, sentence(settings, estimate, band), warnings, summary)
+    text = sentence(settings, estimate, band)
+    done = Assessment(str(recording), estimate, band, text, warnings, features_of(features))
     if out is not None:
         _write(done, settings, folder, features, Path(out))
     return done
@@ -69,6 +66,25 @@ def chain_at(settings: Settings, sampling_rate: float) -> Chain:
     if replaced != 1:
         raise AnalysisError(f"{settings.path}: sampling_rate must stand on one line of its own")
     return Chain(text)
+
+
+def filtered(recording: Recording, settings: Settings, unfiltered: bool) -> Recording:
+    """Behind the map's current filter, which is applied where the recording is `unfiltered`."""
+    if not unfiltered:
+        return recording
+    rate = recording.sampling_rate
+    return Recording(recording.names, rate, low_pass(recording.currents, rate, settings))
+
+
+def features_of(features: Features) -> dict[str, Any]:
+    """What assessment.json says of the recording itself, SI units."""
+    return {
+        "rms": features.rms.tolist(),
+        "rms_mean": features.rms_mean,
+        "peak_hz": features.peak_hz.tolist(),
+        "frequency": features.frequency.tolist(),
+        "harmonic": features.harmonic.tolist(),
+    }
 
 
 def low_pass(currents: np.ndarray, sampling_rate: float, settings: Settings) -> np.ndarray:
@@ -83,8 +99,8 @@ def low_pass(currents: np.ndarray, sampling_rate: float, settings: Settings) -> 
     return currents
 
 
-def sentence(settings: Settings, estimate: Estimate, band: Band) -> str:
-    """What a technician needs to know."""
+def sentence(settings: Settings, estimate, band: Band) -> str:
+    """What a technician needs to know; `estimate` has severity, low and high."""
     fault = settings.fault
     interval = f"{fault.shown(estimate.low):.1f} to {fault.shown(estimate.high):.1f} {fault.unit}"
     value = f"{fault.shown(estimate.severity):.1f} {fault.unit}"

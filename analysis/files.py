@@ -7,6 +7,11 @@ from contextlib import contextmanager
 from pathlib import Path
 import shutil
 import tempfile
+import zipfile
+
+import numpy as np
+
+from analysis.errors import AnalysisError
 
 
 @contextmanager
@@ -21,3 +26,14 @@ def published_together(folder: Path) -> Iterator[Path]:
             path.replace(folder / path.name)
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
+
+
+def load_arrays(path: Path) -> dict[str, np.ndarray]:
+    """The arrays of an .npz file. Raises AnalysisError where it is missing or damaged."""
+    try:
+        with np.load(path, allow_pickle=False) as content:
+            return {name: content[name] for name in content.files}
+    except FileNotFoundError:
+        raise AnalysisError(f"{path} is missing: the map was not prepared for assessment") from None
+    except (OSError, ValueError, KeyError, EOFError, NotImplementedError, RuntimeError, zipfile.BadZipFile) as error:
+        raise AnalysisError(f"{path} is damaged, prepare the map again: {error}") from None

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import csv
 from dataclasses import dataclass
+import hashlib
+from importlib.metadata import version
 import io
 import json
 import os
@@ -44,8 +46,8 @@ def build_map(
 
     Severities run in parallel over `jobs` threads (default: one a core); `progress(done, total)` follows them. Rows are
     kept in out/rows as they finish, so that an interrupted map goes on where it stopped; `resume=False` computes them
-    all again. The folder's files are replaced together at the end. Raises AnalysisError where a run or its analysis
-    fails; then the folder keeps the map that it had.
+    all again. The folder's files are replaced together at the end, and left alone where nothing changed. Raises
+    AnalysisError where a run or its analysis fails; then the folder keeps the map that it had.
     """
     out = Path(out)
     severities = settings.fault.severities
@@ -62,7 +64,10 @@ def build_map(
         "solver": settings.raw["solver"],
         "jobs": jobs or os.cpu_count(),
         "seconds": {"passes": plant.passes} | seconds,
+        "drawn": drawn_key(store) if figures else None,
     }
+    if resume and _is_drawn(out, summary):
+        return Map(out, rows, summary, seconds)
     with published_together(out) as scratch:
         (scratch / "map.csv").write_text(map_csv(settings, rows), encoding="utf-8")
         (scratch / "settings.toml").write_text(settings.text, encoding="utf-8")
@@ -71,6 +76,25 @@ def build_map(
             seconds["figures"] = _illustrate(plant, settings, rows, summary, scratch)
     store.prune(severities)
     return Map(out, rows, summary, seconds)
+
+
+def drawn_key(store: RowStore) -> str:
+    """Of what decides the figures and the report: the rows' own key, the code that draws, and its library."""
+    digest = hashlib.sha256(store.key.encode() + version("matplotlib").encode())
+    here = Path(__file__).parent
+    for path in sorted([*here.glob("report*"), *(here / "figures").glob("*.py")]):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def _is_drawn(folder: Path, summary: dict[str, Any]) -> bool:
+    """The folder has the figures and the report of this very map."""
+    if not summary["drawn"] or not all((folder / name).exists() for name in ("map.csv", "report.html")):
+        return False
+    try:
+        return json.loads((folder / "summary.json").read_text(encoding="utf-8")).get("drawn") == summary["drawn"]
+    except (OSError, ValueError):
+        return False
 
 
 def _illustrate(plant: Plant, settings: Settings, rows: list[Row], summary: dict, folder: Path) -> float:

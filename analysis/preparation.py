@@ -34,19 +34,24 @@ def prepare_assessment(plant: Plant, settings: Settings, finished: Map, *, jobs:
     plant = plant.with_solver(settings.table("assessment")["solver"])
     nuisances = settings.raw.get("nuisances", [])
     signatures, covariance = [], []
-    for level in conditions(settings):
-        about = Surroundings(plant, settings, chain, nuisances, level)
+    levels = conditions(settings.table("assessment")["conditions"])
+    for level in levels:
+        about = Surroundings(plant, settings, chain, nuisances, level, 1 / len(levels))
         signatures.append(_signatures(about, severities, jobs))
         covariance.append(covariances(about, severities, jobs))
     rms_mean = [row.rms_mean for row in finished.rows]
     contents = _contents(settings, chain, rms_mean, np.array(signatures), np.array(covariance))
     with published_together(finished.folder) as scratch:
         (scratch / TABLE_FILE).write_bytes(table_bytes(contents))
-        starts = _starts(plant, settings, severities)
+        chosen = severities[:: max(1, len(severities) // 5)]
+        starts = np.array([start_of(plant, settings, severity) for severity in chosen])
         np.savez(
-            scratch / MODEL_FILE, rate=START_RATE, currents=starts, map=fingerprint(finished.folder),
-            mean=contents.signature, covariance=contents.covariance,
-        )  # fmt: skip
+            scratch / MODEL_FILE,
+            map=fingerprint(finished.folder),
+            starts=starts,
+            mean=contents.signature,
+            covariance=contents.covariance,
+        )
 
 
 def fingerprint(folder: Path) -> str:
@@ -64,11 +69,10 @@ def _signatures(about: Surroundings, severities: list[float], jobs: int | None) 
         return np.array(list(pool.map(lambda severity: about.signature({fault: severity}), severities)))
 
 
-def _starts(plant: Plant, settings: Settings, severities: list[float]) -> np.ndarray:
-    """[severities, channels, samples] of the first instants of tests at some severities."""
+def start_of(plant: Plant, settings: Settings, severity: float) -> np.ndarray:
+    """[channels, samples] of the first instants of a test, at START_RATE."""
     stride, samples = round(settings.sampling_rate / START_RATE), round(START * settings.sampling_rate)
-    chosen = severities[:: max(1, len(severities) // 5)]
-    return np.array([plant.run(severity).currents[:, :samples:stride] for severity in chosen])
+    return plant.run(severity).currents[:, :samples:stride]
 
 
 def _contents(

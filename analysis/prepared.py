@@ -10,7 +10,8 @@ from scipy.stats import chi2
 
 from analysis.chain import Features, signature
 from analysis.errors import AnalysisError
-from analysis.preparation import MODEL_FILE, TABLE_FILE, fingerprint
+from analysis.files import load_arrays
+from analysis.preparation import MODEL_FILE, START_RATE, TABLE_FILE, fingerprint
 from analysis.recordings import Recording, Refusal, check_phases
 from analysis.settings import load_settings
 from analysis.severity_table import Estimate, SeverityTable
@@ -24,18 +25,17 @@ class Prepared:
     def __init__(self, folder: Path):
         self.settings = load_settings(folder / "settings.toml")
         self.table = SeverityTable(folder / TABLE_FILE)
-        with np.load(folder / MODEL_FILE, allow_pickle=False) as model:
-            if str(model["map"]) != fingerprint(folder):
-                raise AnalysisError(f"{folder}: the map was drawn anew since it was prepared; prepare it again")
-            self._starts, self._rate = model["currents"], float(model["rate"])
-            self._mean, self._covariance = model["mean"], model["covariance"]
+        model = load_arrays(folder / MODEL_FILE)
+        if str(model["map"]) != fingerprint(folder):
+            raise AnalysisError(f"{folder}: the map was drawn anew since it was prepared; prepare it again")
+        self._starts, self._mean, self._covariance = model["starts"], model["mean"], model["covariance"]
         self.key = (folder / TABLE_FILE).read_bytes()  # changes with everything that may change an estimate
         freedom = self._mean.shape[-1] - 1
         self._doubtful = float(chi2.isf(self.settings.table("assessment")["doubtful"], freedom))
 
     def check_start(self, recording: Recording) -> None:
         """Raises Refusal where phases are swapped or the first instants are not those of this test."""
-        check_phases(recording, self._starts, self._rate)
+        check_phases(recording, self._starts, START_RATE)
 
     def check_estimate(self, features: Features, estimate: Estimate | None) -> tuple[str, ...]:
         """Warnings. Raises Refusal where no severity of the map explains the features."""

@@ -107,7 +107,7 @@ class _Study:
         fault, z = settings.fault, np.sqrt(3) * (2 * point[1:] - 1)
         severity = fault.first + (fault.last - fault.first) * float(point[0])
         record = self.plant.run(severity, **self._parameters(z))
-        recording = Recording(settings.currents, settings.sampling_rate, _sensed(record.currents, settings, k))
+        recording = Recording(settings.currents, settings.sampling_rate, sensed(record.currents, settings, k))
         features = self.chain.analyse(recording.currents)
         found = self.prepared.table.estimate(features)
         try:
@@ -128,7 +128,7 @@ class _Study:
         return values | dict(zip(names, self.stranger.get("value", []), strict=False))
 
 
-def _sensed(currents: np.ndarray, settings: Settings, seed: int) -> np.ndarray:
+def sensed(currents: np.ndarray, settings: Settings, seed: int) -> np.ndarray:
     """What sensors and converter make of the currents: gain, offset, noise, steps."""
     sensor, random = settings.table("assessment"), np.random.default_rng(seed)
     per_channel = (len(currents), 1)

@@ -75,10 +75,10 @@ class RowStore:
     def __init__(self, folder: Path, plant: Plant, settings: Settings):
         self._folder = folder
         everything = [plant.hash, settings.text, hashlib.sha256(library_path().read_bytes()).hexdigest()]
-        self._base = json.dumps([*everything, TRACE_RATE, SPECTRUM_LIMIT])
+        self.key = json.dumps([*everything, TRACE_RATE, SPECTRUM_LIMIT])
 
     def _path(self, severity: float) -> Path:
-        return self._folder / f"{hashlib.sha256(f'{self._base} {severity!r}'.encode()).hexdigest()[:32]}.npz"
+        return self._folder / f"{hashlib.sha256(f'{self.key} {severity!r}'.encode()).hexdigest()[:32]}.npz"
 
     def load(self, severity: float) -> Row | None:
         """The row, or None where it was never computed (or its file is damaged: then it is computed again)."""

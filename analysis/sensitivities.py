@@ -26,9 +26,8 @@ from analysis.plant import Plant
 from analysis.settings import Settings
 
 
-def conditions(settings: Settings) -> list[float]:
+def conditions(count: int) -> list[float]:
     """Levels of the first nuisance over its whole range, each in the middle of an equal share of it."""
-    count = settings.table("assessment")["conditions"]
     return (np.sqrt(3) * (2 * np.arange(count) + 1 - count) / count).tolist()
 
 
@@ -43,18 +42,14 @@ def moved(plant: Plant, nuisance: dict, z):
 
 @dataclass(frozen=True)
 class Surroundings:
-    """The nuisances and sensors of a test of `plant`, about a level of the first nuisance."""
+    """The nuisances and sensors of a test of `plant`; the first nuisance within a share of its range about a level."""
 
     plant: Plant
     settings: Settings
     chain: Chain
     nuisances: list[dict]
     level: float = 0.0
-
-    @property
-    def share(self) -> float:
-        """Of the first nuisance's range, that a level stands for."""
-        return 1 / len(conditions(self.settings))
+    share: float = 1.0
 
     def parameters(self, z: Sequence[float] = ()) -> dict[str, float]:
         """Of the plant; the first z is measured from the level."""

@@ -82,6 +82,10 @@ class Settings:
             raise AnalysisError(f"{self.path}: table [{name}] is missing")
         return _Table(f"{self.path}: {name}", self.raw[name])
 
+    def band_of(self, severity: float) -> Band:
+        """In a gap between bands, the nearer one."""
+        return min(self.bands, key=lambda band: max(band.first - severity, severity - band.last))
+
     @property
     def disturbed_model(self) -> str:
         """The model of tests under nuisances: [assessment] may name one that has more of them than the map's."""

@@ -13,6 +13,7 @@ from cli.output import console
 
 if TYPE_CHECKING:
     from analysis.maps import Map
+    from analysis.settings import Settings
 
 
 @reported
@@ -26,13 +27,18 @@ def maps(
     fresh: Annotated[bool, typer.Option("--fresh", help="Compute every row again, also those already there")] = False,
     figures: Annotated[bool, typer.Option(help="Draw the figures and report.html")] = True,
     prepare: Annotated[
-        bool, typer.Option("--prepare", help="Add what `lacuna assess` needs: three more maps' work")
+        bool, typer.Option("--prepare", help="Add what `lacuna assess` needs: a minute or two")
     ] = False,
+    combined: Annotated[
+        str | None, typer.Option("--with", help="Map over two faults: one of those that the settings combine")
+    ] = None,
 ) -> None:
     """Simulate a pre-flight test at every severity of a fault and write the map, its figures and a report.
 
     Without arguments: the paper's actuator over its eccentricity, into out/maps/paper. An interrupted map goes on
     where it stopped; a map whose model and settings are unchanged is there at once.
+
+    With --with friction, a map of two faults at once for `lacuna assess`, into out/maps/paper-with-friction.
     """
     from analysis.maps import build_map
     from analysis.plant import ModelPlant
@@ -42,6 +48,9 @@ def maps(
     from codegen.compile import compile_model
 
     chosen = load_settings(settings or PAPER)
+    if combined:
+        _combined(chosen, actuator, combined, out, jobs)
+        return
     compiled = compile_model(actuator or chosen.model)
     plant = ModelPlant.of(compiled, chosen)
     folder = out or Path("out/maps") / (settings or PAPER).stem
@@ -51,6 +60,21 @@ def maps(
             disturbed = plant if actuator else ModelPlant.of(compile_model(chosen.disturbed_model), chosen)
             prepare_assessment(disturbed, chosen, finished, jobs=jobs)
     _report(finished)
+
+
+def _combined(settings: Settings, actuator: str | None, symbol: str, out: Path | None, jobs: int | None) -> None:
+    from analysis.combined.grid import build_grid, other_fault
+    from analysis.plant import ModelPlant
+    from analysis.progress import progress_bar
+    from codegen.compile import compile_model
+
+    other = other_fault(settings, symbol)
+    folder = out or Path("out/maps") / f"{settings.path.stem}-with-{symbol}"
+    plant = ModelPlant.of(compile_model(actuator or settings.disturbed_model), settings)
+    with progress_bar(f"map of {settings.fault.name} with {other.name}") as progress:
+        grid = build_grid(plant, settings, other, folder, jobs=jobs, progress=progress)
+    typer.echo(f"{len(grid.x)} severities of {settings.fault.name}, {len(grid.y)} of {other.name}")
+    typer.echo(f"written: {folder}")
 
 
 def _report(finished: Map) -> None:

@@ -77,6 +77,16 @@ def test_equal_input_gives_equal_bytes(tmp_path, coarse):
         assert (tmp_path / "one" / file).read_bytes() == (tmp_path / "three" / file).read_bytes(), file
 
 
+def test_an_unchanged_map_is_not_drawn_again(tmp_path, coarse):
+    build_map(ReferencePlant(), coarse, tmp_path / "map")
+    before = {path.name: path.stat().st_mtime_ns for path in (tmp_path / "map").glob("*.*")}
+    build_map(ReferencePlant(), coarse, tmp_path / "map")
+    assert {path.name: path.stat().st_mtime_ns for path in (tmp_path / "map").glob("*.*")} == before
+    (tmp_path / "map" / "report.html").unlink()
+    build_map(ReferencePlant(), coarse, tmp_path / "map")
+    assert (tmp_path / "map" / "report.html").exists()
+
+
 def test_an_interrupted_map_goes_on_where_it_stopped(tmp_path, coarse):
     interrupted = ReferencePlant(fails_at=0.3, error=KeyboardInterrupt())
     with pytest.raises(KeyboardInterrupt):

@@ -1,0 +1,1 @@
+"""Combined faults: maps over two faults at once, both severities of a recording, and where they cannot be separated."""
