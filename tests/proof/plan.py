@@ -51,13 +51,19 @@ OFF = {
 CONSISTENT = {"DcServo": 14, "ScrewEma": 10, "BldcDrive": 6, "Joint": 4, "FrictionDevice": 2, "FlightControl": 2}
 EFFECTS = 64  # cases with one effect
 MOST = {"FlightControl": 6}  # of them on a bench that takes long
+# What a three-phase drive is known to suffer from is tried on the three-phase drive, wherever else it could be.
+ALWAYS = tuple(
+    (effect, "BldcDrive")
+    for effect in ("motor.short_circuit", "motor.imbalance", "motor.eccentricity", "drive.dead_time", "torque.cogging")
+)
 
 
 def _effects(rng: np.random.Generator) -> list[Plan]:
-    """Every effect once, on a bench drawn from those that have it; then others, until there are enough."""
+    """Every effect once, on a bench drawn from those that have it or on that where it must be; then others, until
+    there are enough."""
     pairs = [(effect, bench) for bench in CONSISTENT for effect in catalogue(bench)]
     shuffled = [pairs[k] for k in rng.permutation(len(pairs))]
-    first = {effect: (effect, bench) for effect, bench in shuffled}
+    first = {effect: (effect, bench) for effect, bench in (*shuffled, *ALWAYS)}
     ordered = list(first.values()) + [p for p in shuffled if p not in first.values()]
     chosen: list[Plan] = []
     for effect, bench in ordered:
@@ -91,6 +97,15 @@ def plan(seed: int) -> list[tuple[str, Plan, int]]:
     cases += [Plan("one_way", bench, ("friction.coulomb",)) for bench in ("DcServo", "Joint")]
     cases += _rivals()
     return [(f"c{k + 1:03d}", cases[j], 1000 * seed + int(j)) for k, j in enumerate(rng.permutation(len(cases)))]
+
+
+def spread(cases: list[tuple[str, Plan, int]]) -> list[tuple[str, Plan, int]]:
+    """The cases in an order in which every beginning has of each kind and bench its share."""
+    groups: dict[tuple[str, str], list] = {}
+    for case in cases:
+        groups.setdefault((case[1].kind, case[1].bench), []).append(case)
+    places = [((k + 0.5) / len(group), case[0], case) for group in groups.values() for k, case in enumerate(group)]
+    return [case for _, _, case in sorted(places)]
 
 
 def quick(cases: list[tuple[str, Plan, int]]) -> list[tuple[str, Plan, int]]:
