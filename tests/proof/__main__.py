@@ -1,29 +1,31 @@
-"""The proof: `python -m tests.proof --out DIR [--seed 2] [--quick]`; resumes, and writes docs/proof.md when whole."""
+"""The proof: `python -m tests.proof --out DIR [--seed 4] [--quick]`; resumes, and writes docs/proof.md when whole."""
 
 import argparse
 from concurrent.futures import ProcessPoolExecutor, as_completed
+import os
 from pathlib import Path
 import shutil
 import sys
-import time
 
-from tests.proof import baseline
 from tests.proof.generate import generate
-from tests.proof.plan import plan, quick
+from tests.proof.plan import plan, quick, spread
 from tests.proof.report import page, summary_table
-from tests.proof.runner import ROOT, diagnose, generator_hash, run_all, tool_hash
+from tests.proof.runner import ROOT, diagnose, finished, generator_hash, run_all, tool_hash, usual_hash
 from tests.proof.score import score_folder
+
+USUAL = (sys.executable, "-m", "tests.proof.baseline")
+EXPLAIN = (sys.executable, "-m", "cli.main", "explain")
 
 
 def _arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "prove")
-    parser.add_argument("--seed", type=int, default=2)
+    parser.add_argument("--seed", type=int, default=4)
     parser.add_argument("--quick", action="store_true", help="one case of each kind, and no page")
+    parser.add_argument("--prepare", action="store_true", help="only the cases, and the usual alternative on them")
     parser.add_argument("--report", action="store_true", help="diagnose nothing: score and write up what is finished")
-    parser.add_argument("--jobs", type=int, default=1, help="cases at a time; a diagnosis uses every core by itself")
-    parser.add_argument("--timeout", type=float, default=1800.0, help="seconds for a case")
-    parser.add_argument("--command", nargs="+", default=[str(Path(sys.executable).with_name("lacuna")), "explain"])
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="cases side by side")
+    parser.add_argument("--timeout", type=float, default=300.0, help="seconds for a case")
     return parser.parse_args()
 
 
@@ -37,36 +39,42 @@ def _generate(cases: list, out: Path, jobs: int) -> None:
         stamp.write_text(version)
     missing = [(n, p, s, out) for n, p, s in cases if not (out / "truth" / f"{n}.toml").exists()]
     with ProcessPoolExecutor(jobs) as pool:
-        for k, done in enumerate(as_completed([pool.submit(generate, case) for case in missing])):
-            print(f"[{k + 1}/{len(missing)}] {done.result()}", flush=True)
+        for k, done in enumerate(as_completed([pool.submit(generate, case) for case in missing]), start=1):
+            done.result()
+            print(f"cases [{k}/{len(missing)}]", flush=True)
+
+
+def _diagnose(names: list[str], out: Path, arguments: argparse.Namespace) -> None:
+    """The usual alternative on every case, then the tool; an edit of the tool while it runs ends the run."""
+    usual, version = usual_hash(), tool_hash()
+
+    def alternative(name: str) -> str:
+        return diagnose(USUAL, out / "cases" / name, out / "usual" / name, usual, arguments.timeout)
+
+    def tool(name: str) -> str:
+        if tool_hash() != version:
+            raise SystemExit("the tool has been edited since the run began: start it again")
+        return diagnose(EXPLAIN, out / "cases" / name, out / "lacuna" / name, version, arguments.timeout)
+
+    run_all(names, alternative, arguments.jobs, "usual alternative")
+    if not arguments.prepare:
+        run_all(names, tool, arguments.jobs, "lacuna")
 
 
 def main() -> int:
     arguments = _arguments()
-    every = plan(arguments.seed)
+    every = spread(plan(arguments.seed))
     cases = quick(every) if arguments.quick else every
     names = [name for name, _, _ in cases]
     out = arguments.out / f"seed{arguments.seed}"
-    if arguments.report:
-        names = [name for name in names if (out / "lacuna" / name / "run.json").exists()]
-    else:
-        _generate(cases, out, max(arguments.jobs, 2))
-    version, started, done = tool_hash(), time.monotonic(), []
-
-    def tool(name: str) -> str:
-        return diagnose(arguments.command, out / "cases" / name, out / "lacuna" / name, version, arguments.timeout)
-
-    def usual(name: str) -> str:
-        return baseline.diagnose(out / "cases" / name, out / "usual" / name)
-
-    def progress(name: str, status: str) -> None:
-        done.append(name)
-        print(f"[{len(done)}/{len(names)}] {name} {status}, {time.monotonic() - started:.0f} s", flush=True)
-
     if not arguments.report:
-        run_all(names, tool, arguments.jobs, progress)
-    run_all(names, usual, 2, lambda name, status: None)
-    scores, alternative = (score_folder(out / k, out / "truth", names) for k in ("lacuna", "usual"))
+        _generate(cases, out, arguments.jobs)
+        _diagnose(names, out, arguments)
+    if arguments.prepare:
+        return 0
+    versions = {"lacuna": tool_hash(), "usual": usual_hash()}
+    names = sorted(n for n in names if all(finished(out / k / n, v) for k, v in versions.items()))
+    scores, alternative = (score_folder(out / k, out / "truth", names) for k in versions)
     print(summary_table(scores, alternative))
     text = page(scores, alternative, arguments.seed, len(every))
     target = arguments.out / "proof.md" if arguments.quick else ROOT / "docs" / "proof.md"
