@@ -6,6 +6,7 @@ has to be put in series or take another's place, the class is extended selective
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from .catalogue import Effect
@@ -26,6 +27,8 @@ class Attachment:
     variable: str = ""  # of a sensor: the recorded variable
     signals: tuple[tuple[str, str], ...] = ()  # input of the effect -> variable of the model
     values: tuple[tuple[str, float], ...] = ()
+    definition: str = ""  # source of the effect's class where it is in no library
+    expression: Callable[[dict[str, float]], str] | None = None  # of an empirical law, in variables of the model
 
     @property
     def label(self) -> str:
@@ -79,6 +82,8 @@ class _Writer:
         base = self.amendment.structure.path
         inherited = f"extends {base}" + (f"({', '.join(modification)})" if modification else "") + ";"
         lines = [f'model {name} "{comment or "Believed model with what was found missing"}"', *_wrapped(inherited)]
+        definitions = dict.fromkeys(a.definition for a in self.amendment.attachments if a.definition)
+        lines += [f"  {line}" for text in definitions for line in text.split("\n")]
         lines += [f"  {d}" for d in self.declarations]
         if self.equations:
             lines += ["equation", *(f"  {e}" for e in self.equations)]
@@ -127,6 +132,7 @@ class _Writer:
             shared = {p.name: attachment.full_name(p.name) for p in attachment.effect.parameters} if k else {}
             self._declare(attachment, bound=shared, name=name)
             self._insert(name, line)
+        self._signals(attachment)
 
     _line = _star = _phases
 

@@ -67,15 +67,25 @@ def _finding(result: Explanation, finding: Finding) -> dict[str, Any]:
             parameters[parameter.name] = {"value": value, "std": errors.get(full, 0.0), "unit": parameter.unit}
     if attachment.effect.polar:
         _positive_phase(parameters, attachment.effect.polar[1])
+    law = {"law": law_text(result, finding)} if attachment.expression else {}
     return {
         "effect": attachment.effect.identifier,
         "location": attachment.location,
+        **law,
         "confidence": _confidence(finding),
         "where": _where(result, finding),
         "parameters": parameters,
         "alternatives": _alternatives(finding),
         "nrmse": _nrmse(finding.before, finding.after),
     }
+
+
+def law_text(result: Explanation, finding: Finding) -> str:
+    """An empirical law with its numbers, in variables of the model."""
+    attachment = finding.ranked.attachment
+    prefix = f"{attachment.component}."
+    values = {n.removeprefix(prefix): v for n, v in result.final.point.items() if n.startswith(prefix)}
+    return attachment.expression(values)
 
 
 def _positive_phase(parameters: dict[str, dict], name: str) -> None:

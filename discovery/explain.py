@@ -13,6 +13,7 @@ from codegen.library import Library
 
 from . import catalogue, places
 from .amend import Amendment
+from .beyond import consider
 from .cases import Case
 from .evidence import is_noise, like_noise, outside_belief, whiteness
 from .fit import Fit, bandwidths_for, believed, fit, noise_of
@@ -91,6 +92,7 @@ def explain(case: Case, progress: Progress = lambda text: None, library: Library
         result.findings, result.namings,
     )  # fmt: skip
     search.run(progress)
+    consider(search, result.base, result.before, progress)
     result.amendment, result.final, result.after = search.amendment, search.fit, search.judgement
     result.reason = search.reason
     clock.done("name")

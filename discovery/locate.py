@@ -11,15 +11,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from scipy.linalg import block_diag
 
-from runtime import RecordedInput
-
-from .amend import probe_name
-from .cases import Case, Recording
-from .fit import Fit, Objective
-from .least_squares import _pool
+from .cases import Case
+from .fit import Fit
 from .machine import Machine
 from .places import Line, Shaft
+from .response import respond
 from .screen import Screen
 
 NODES = 24  # of a probe in each recording
@@ -55,7 +53,7 @@ def locate(case: Case, base: Fit) -> Located:
     """Rank the places of the fitted model by what an effort there could explain."""
     structure = base.machine.amendment.structure
     probes: list[Shaft | Line] = [*structure.shafts, *structure.lines]
-    screen = Screen(base, Objective(base.machine, case.fit, base.noise))
+    screen = Screen(base)
     places = [_sensor(case, screen, k) for k in range(len(case.outputs))]
     if probes:
         machine = Machine(case, replace(base.machine.amendment, probes=tuple(probes)), base.machine.solver)
@@ -67,52 +65,16 @@ def locate(case: Case, base: Fit) -> Located:
     return located
 
 
-def _nodes(recording: Recording) -> np.ndarray:
-    return np.linspace(recording.time[0], recording.time[-1], NODES)
-
-
 def _probe(machine: Machine, screen: Screen, base: Fit, k: int, probe: Shaft | Line) -> PlaceEffort:
     torque = isinstance(probe, Shaft)
-    columns, amount = _responses(machine, screen, base, k)
-    share, nodes = _smoothest(screen, columns)
+    response = respond(machine, base, k, NODES)
+    blocks = [b * w[:, None] for b, w in zip(response.blocks, screen.weights, strict=True)]
+    share, nodes = _smoothest(screen, block_diag(*blocks))
     location = probe.location if torque else f"{probe.load}{':' + probe.phase if probe.phase else ''}"
-    effort = {r.name: (_nodes(r), amount * nodes[i * NODES : (i + 1) * NODES]) for i, r in enumerate(screen.recordings)}
+    effort = {
+        r.name: (response.nodes[i], nodes[i * NODES : (i + 1) * NODES]) for i, r in enumerate(screen.recordings)
+    }
     return PlaceEffort(location, "torque" if torque else "voltage", "N.m" if torque else "V", share, effort)
-
-
-def _responses(machine: Machine, screen: Screen, base: Fit, k: int) -> tuple[np.ndarray, float]:
-    """(columns (rows, recordings x NODES), amount of effort that makes them)."""
-    amount, rows = 1e-4, len(screen.residual)
-    for _ in range(4):
-        size = float(np.linalg.norm(_node_response(machine, screen, base, k, 0, NODES // 2, amount)))
-        if 1e-3 * screen.norm < size < 0.3 * screen.norm:
-            break
-        amount *= min(max(0.03 * screen.norm / size, 1e-4), 1e4) if size > 0 else 1e4
-    tasks = [(i, j) for i in range(len(screen.recordings)) for j in range(NODES)]
-    offsets = np.cumsum([0, *(len(w) for w in screen.weights)])
-    columns = np.zeros((rows, len(tasks)))
-    for c, ((i, _), part) in enumerate(
-        zip(tasks, _pool.map(lambda t: _node_response(machine, screen, base, k, *t, amount), tasks), strict=True)
-    ):
-        columns[offsets[i] : offsets[i + 1], c] = part
-    return columns, amount
-
-
-def _node_response(machine: Machine, screen: Screen, base: Fit, k: int, i: int, j: int, amount: float) -> np.ndarray:
-    """Change of the weighted residual of recording i by a hat of effort at node j."""
-    recording = screen.recordings[i]
-    nodes = _nodes(recording)
-    hat = np.zeros(NODES)
-    hat[j] = amount
-    simulated = machine.simulate(base.point, recording, {probe_name(k): RecordedInput(nodes, hat)})
-    residual = base.residuals[recording.name]
-    if simulated is None:
-        return np.zeros(len(screen.weights[i]))
-    parts = [
-        np.nan_to_num(recording.columns[c] - simulated[c] - residual[c]) * base.weights[recording.name][c] / n.std
-        for c, n in screen.noise.items()
-    ]
-    return np.concatenate(parts) * screen.weights[i]
 
 
 def _smoothest(screen: Screen, columns: np.ndarray) -> tuple[float, np.ndarray]:

@@ -1,0 +1,89 @@
+"""When the catalogue is not enough: an empirical law instead of what was found, or beside it.
+
+A law takes the place of findings only where it leaves noise and the evidence is clearly for it: an effect of the
+catalogue, which has a name and a reason, is the better answer to the same residual.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from .empirical_law import find, score
+from .evidence import is_noise, like_noise, pays
+from .fit import Fit
+from .judge import Judgement, judge
+from .name import MIN_GAIN, Naming, Ranked
+from .screen import Candidate
+from .search import Finding, Search, tracked
+
+MARGIN = 40.0  # of the deviance, by which a law has to beat effects of the catalogue that leave as little
+
+Progress = Callable[[str], None]
+
+
+def consider(search: Search, base: Fit, before: Judgement, progress: Progress) -> None:
+    """Try a law where the search of the catalogue ended with misfit, or needed several effects; updates `search`.
+
+    `base` and `before` are the believed model's fit and judgement.
+    """
+    if like_noise(base) or (is_noise(search.fit) and len(search.findings) < 2):
+        return
+    progress("looking for an empirical law")
+    if _instead(search, base, before, progress) or is_noise(search.fit) or not search.findings:
+        return
+    progress("looking for an empirical law beside what was found")
+    start = tracked(search.fit, search.bandwidths)
+    candidate = find(search.case, search.amendment, start, progress)
+    if candidate is None or score(candidate, start, candidate.fit.correlation()) > -MIN_GAIN:
+        return
+    ranked = _ranked(candidate, start)
+    polished = search._polished(ranked, search.fit)
+    after = judge(polished.machine, polished.point) if polished is not None else None
+    if after is not None and pays(search.judgement.validate, after.validate, search.floor):
+        ranked.fit = polished
+        search.findings.append(Finding(ranked, Naming([ranked], []), search.judgement, after))
+        search._take([*search.amendment.attachments, candidate.attachment], polished, after)
+
+
+def _instead(search: Search, base: Fit, before: Judgement, progress: Progress) -> bool:
+    """One law for all of the misfit of the believed model, in place of every finding."""
+    start = tracked(base, search.bandwidths)
+    amendment = replace(search.amendment, attachments=[])
+    candidate = find(search.case, amendment, start, progress)
+    if candidate is None or not like_noise(candidate.fit):
+        return False
+    correlation = candidate.fit.correlation()
+    gain = score(candidate, start, correlation)
+    if gain > -MIN_GAIN or (search.findings and gain > _found(search, start, correlation) - MARGIN):
+        return False
+    ranked = _ranked(candidate, start)
+    polished = search._polished(ranked, base)
+    after = judge(polished.machine, polished.point) if polished is not None else None
+    if after is None or not pays(before.validate, after.validate, search.floor):
+        return False
+    ranked.fit = polished
+    search.findings[:] = [Finding(ranked, Naming([ranked, *_others(search)], []), before, after)]
+    search.amendment = amendment
+    search._take([candidate.attachment], polished, after)
+    search.reason = ""
+    return True
+
+
+def _found(search: Search, base: Fit, correlation: dict[str, float]) -> float:
+    """What the findings of the catalogue score against the believed model, as a law does."""
+    free = [f for f in search.fit.estimate.free if f.name not in {b.name for b in base.estimate.free}]
+    informative = sum(count / correlation[c] for c, count in base.counts().items())
+    price = len(free) * float(np.log(max(informative, 2.0)))
+    return search.fit.deviance(correlation) + price - base.deviance(correlation)
+
+
+def _ranked(candidate: Candidate, base: Fit) -> Ranked:
+    return Ranked(candidate, candidate.fit, score(candidate, base, candidate.fit.correlation()), 1.0)
+
+
+def _others(search: Search) -> list[Ranked]:
+    """What the first round tried: the law's rivals, none of which leaves noise."""
+    return [replace(r, confidence=0.0) for r in search.namings[0].ranked] if search.namings else []

@@ -1,0 +1,126 @@
+"""Terms of empirical laws: expressions in the variables at a place, each made dimensionless by its largest value.
+
+A term's text is Modelica and is evaluated along a trajectory from that same text, so what is screened is what will be
+simulated. `{p}`, `{k}`, `{tau}` and `{omega}` stand for shape parameters, which a fit may move.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+_FUNCTIONS = {"sin": np.sin, "cos": np.cos, "exp": np.exp, "tanh": np.tanh, "abs": np.abs, "sign": np.sign}
+DRY = "tanh(50*{x})"  # the sign of a variable, smooth over two per cent of its range: no second sticking element
+ORDERS = (0.5, 1, 1.5, 2, 3, 4, 5, 6, 8, 10, 12)  # per turn
+TIMES = (0.1, 0.3, 1.0)  # of the longest recording: time constants of what fades or drifts
+HIGHEST = 200.0  # rad/s: fastest vibration that is looked for
+OCTAVE = 1.6  # times pi over the longest recording: spacing of the frequencies that are looked at
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A quantity at a place: its name in the law's component and in the model; `size` makes it dimensionless."""
+
+    local: str
+    name: str
+    unit: str
+    kind: str  # speed | position | current
+    size: float
+
+    @property
+    def scaled(self) -> str:
+        return f"({self.local}/{self.local}_ref)"
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A parameter inside a term. Values of `simple` are preferred where the data allows them."""
+
+    name: str
+    unit: str
+    start: float
+    lower: float
+    upper: float
+    simple: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class Group:
+    """Terms that come together, one coefficient each, such as the sine and the cosine of one order."""
+
+    texts: tuple[str, ...]
+    shapes: tuple[Shape, ...] = ()
+
+    def values(self, trajectory: Mapping[str, np.ndarray], sizes: Mapping[str, float]) -> list[np.ndarray]:
+        """Each term (n,) along a trajectory (local names and `time`) with its shapes at their starts."""
+        return [evaluate(text.format(**{s.name: s.start for s in self.shapes}), trajectory, sizes)
+                for text in self.texts]  # fmt: skip
+
+
+def evaluate(text: str, trajectory: Mapping[str, np.ndarray], sizes: Mapping[str, float]) -> np.ndarray:
+    """A term's text (of this module's making) along a trajectory."""
+    names = {**_FUNCTIONS, **trajectory, **{f"{n}_ref": s for n, s in sizes.items()}}
+    value = eval(text.replace("^", "**"), {"__builtins__": {}}, names)
+    return np.broadcast_to(np.asarray(value, float), trajectory["time"].shape)
+
+
+def groups(variables: list[Variable], duration: float) -> list[Group]:
+    """Every group of terms in these variables and time; `duration` (s) is that of the longest recording."""
+    found = [Group(("exp(-time/{tau})",), (_fading(duration * t),)) for t in TIMES] + _vibrations(duration)
+    angles = [v for v in variables if v.kind == "position" and v.unit == "rad"]
+    for v in variables:
+        found += _powers(v) + _with_time(v, duration)
+        found += [g for angle in angles if angle is not v for g in _with_angle(v, angle)]
+    for angle in angles:
+        found += [Group((f"sin({{k}}*{angle.local})", f"cos({{k}}*{angle.local})"), (_order(m),)) for m in ORDERS]
+    for n, a in enumerate(variables):
+        found += [g for b in variables[n + 1 :] for g in _products(a, b)]
+    return found
+
+
+def _powers(v: Variable) -> list[Group]:
+    x = v.scaled
+    odd = [Group((f"sign({v.local})*abs{x}^{{p}}",), (_exponent(p),)) for p in (0.5, 2.0, 3.0, 5.0)]
+    return [*odd, Group((f"{x}^2",)), Group((f"abs{x}",)), Group((f"{x}^3",))]
+
+
+def _products(a: Variable, b: Variable) -> list[Group]:
+    x, y = a.scaled, b.scaled
+    return [
+        Group((f"{x}*{y}",)), Group((f"{x}*{y}^2",)), Group((f"{x}^2*{y}",)), Group((f"{x}*abs{y}",)),
+        Group((f"abs{x}*{y}",)), Group((DRY.format(x=x) + f"*{y}",)), Group((DRY.format(x=x) + f"*{y}^2",)),
+    ]  # fmt: skip
+
+
+def _with_angle(v: Variable, angle: Variable) -> list[Group]:
+    laws = [v.scaled] + ([DRY.format(x=v.scaled)] if v.kind == "speed" else [])
+    return [Group((f"{x}*sin({{k}}*{angle.local})", f"{x}*cos({{k}}*{angle.local})"), (_order(m),))
+            for x in laws for m in ORDERS]  # fmt: skip
+
+
+def _with_time(v: Variable, duration: float) -> list[Group]:
+    laws = [v.scaled] + ([DRY.format(x=v.scaled)] if v.kind == "speed" else [])
+    return [Group((f"{x}*exp(-time/{{tau}})",), (_fading(duration * t),)) for x in laws for t in TIMES]
+
+
+def _vibrations(duration: float) -> list[Group]:
+    step = OCTAVE * np.pi / duration
+    frequencies = np.arange(2 * step, HIGHEST, step)
+    return [
+        Group(("sin({omega}*time)", "cos({omega}*time)"), (Shape("omega", "rad/s", float(f), 0.5 * f, 2.0 * f),))
+        for f in frequencies
+    ]
+
+
+def _exponent(start: float) -> Shape:
+    return Shape("p", "1", start, 0.1, 8.0, (1 / 3, 0.5, 2 / 3, 1.5, 2.0, 3.0, 4.0, 5.0))
+
+
+def _order(start: float) -> Shape:
+    return Shape("k", "1", start, 0.5 * start, 2.0 * start, tuple(range(1, 25)))
+
+
+def _fading(start: float) -> Shape:
+    return Shape("tau", "s", start, 0.05 * start, 20.0 * start)
