@@ -24,7 +24,7 @@ def explain(
     """
     from discovery import cases, diagnosis, report
     from discovery.explain import explain as explained
-    from discovery.explain import write_amended
+    from discovery.explain import judge_written, write_amended
 
     loaded = cases.load(case)
     folder = out or Path("out/explain") / case.resolve().name
@@ -32,6 +32,8 @@ def explain(
         result = explained(loaded, progress=status.update)
     folder.mkdir(parents=True, exist_ok=True)
     amended = write_amended(result, folder)
+    if amended is not None:
+        judge_written(result, amended)
     written = [diagnosis.write(result, folder, amended), report.write(result, folder, amended), amended]
     typer.echo(diagnosis.sentence(result))
     for path in filter(None, written):

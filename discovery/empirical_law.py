@@ -17,7 +17,7 @@ from .amend import Amendment, Attachment
 from .cases import Case
 from .catalogue import Effect, EffectParameter
 from .evidence import is_noise
-from .fit import Fit, Objective, fit
+from .fit import Fit, fit
 from .law_terms import Group, Shape, Variable, groups
 from .least_squares import Free
 from .machine import Machine, try_machine

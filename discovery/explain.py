@@ -16,8 +16,9 @@ from .amend import Amendment
 from .beyond import consider
 from .cases import Case
 from .evidence import is_noise, like_noise, outside_belief, whiteness
+from .experiments import Experiment, separate
 from .fit import Fit, bandwidths_for, believed, fit, noise_of
-from .judge import Judgement, judge, noise_floor
+from .judge import Judgement, judge, judge_file, noise_floor
 from .locate import Located, locate
 from .machine import Machine
 from .name import Naming, Ranked
@@ -38,6 +39,7 @@ class Explanation:
     verdict: str = "undetermined"
     reason: str = ""
     experiment: str = ""
+    trial: Experiment | None = None  # the recording that would separate tied explanations, simulated
     base: Fit | None = None
     final: Fit | None = None
     amendment: Amendment | None = None
@@ -141,7 +143,9 @@ def _conclude(result: Explanation) -> None:
             result.verdict = "undetermined"
             names = ", ".join(dict.fromkeys(r.attachment.label for r in rivals[:3]))
             result.reason = f"{first.ranked.attachment.label} and {names} explain the data equally well"
-            result.experiment = experiment_for(first.ranked, rivals)
+            result.trial = separate(result.case, first.ranked.fit, rivals[0].fit)
+            labels = (first.ranked.attachment.label, rivals[0].attachment.label)
+            result.experiment = result.trial.sentence(labels) if result.trial else experiment_for(first.ranked, rivals)
         else:
             result.verdict = "missing_physics"
         return
@@ -185,3 +189,10 @@ def write_amended(result: Explanation, folder: Path) -> Path | None:
     partial.write_text(amendment.text(name, effects, f"{result.case.model} with {titles}"), encoding="utf-8")
     partial.replace(path)
     return path
+
+
+def judge_written(result: Explanation, path: Path) -> None:
+    """Judge the amended file as it is written: its own numbers are those that are reported."""
+    starts = {n: v for n, v in result.final.point.items() if n.startswith("start:")}
+    result.after = judge_file(result.case, result.amendment, path, starts)
+    result.findings[-1] = replace(result.findings[-1], after=result.after)

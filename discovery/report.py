@@ -179,4 +179,19 @@ def _left(result: Explanation) -> list[str]:
         else "<ul>" + "".join(f"<li>{escape(t)}</li>" for t in left) + "</ul>"
     )
     extra = f"<p>To decide: {escape(result.experiment)}.</p>" if result.experiment else ""
-    return ["<h2>What remains unexplained</h2>", text + extra]
+    return ["<h2>What remains unexplained</h2>", text + extra, *_trial(result)]
+
+
+def _trial(result: Explanation) -> list[str]:
+    """The recording that would tell tied explanations apart, as both of them expect it."""
+    trial = result.trial
+    if trial is None:
+        return []
+    figure, ax = plt.subplots(figsize=(9, 2.4))
+    keep = slice(None, None, max(1, len(trial.recording.time) // 1500))
+    ax.plot(trial.recording.time[keep], trial.first[keep], "C0", lw=1, label="first explanation")
+    ax.plot(trial.recording.time[keep], trial.second[keep], "C1", lw=1, label="its rival")
+    ax.set_xlabel("time / s")
+    ax.set_ylabel(f"{trial.column} / {result.case.signals[trial.column].si_unit}")
+    ax.legend(loc="upper right", fontsize="small")
+    return [_svg(figure)]

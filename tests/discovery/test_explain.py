@@ -14,7 +14,7 @@ from discovery import catalogue, diagnosis, report
 from discovery.amend import Amendment
 from discovery.cases import load
 from discovery.evidence import is_noise
-from discovery.explain import Explanation, explain, fit_believed, write_amended
+from discovery.explain import Explanation, explain, fit_believed, judge_written, write_amended
 from discovery.judge import judge_file
 from discovery.least_squares import Free, Problem, solve
 from discovery.locate import locate
@@ -81,9 +81,12 @@ def test_friction_is_named_with_its_level(explained: Explanation) -> None:
 
 def test_the_amended_file_gives_the_reported_numbers(explained: Explanation, tmp_path: Path) -> None:
     path = write_amended(explained, tmp_path)
+    in_memory = explained.after.validate[""]
+    judge_written(explained, path)
     judged = judge_file(explained.case, explained.amendment, path, {})
     data = json.loads(diagnosis.write(explained, tmp_path, path).read_text())
     assert judged.validate[""] == pytest.approx(data["nrmse"]["validate"]["after"], rel=1e-4)
+    assert data["nrmse"]["validate"]["after"] == pytest.approx(in_memory, rel=1e-4)
     assert data["amended_model"] == path.name
     page = report.write(explained, tmp_path, path).read_text()
     assert "friction.coulomb" in page and 'src="http' not in page and 'href="http' not in page

@@ -1,0 +1,62 @@
+"""A law that no catalogue holds is found as an expression; and rivals are told apart by a simulated experiment."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from codegen.library import Library
+from discovery.amend import Amendment
+from discovery.cases import load
+from discovery.empirical_law import find
+from discovery.experiments import separate
+from discovery.explain import fit_believed
+from discovery.law_terms import Group, evaluate
+from discovery.machine import Machine
+from discovery.places import read
+from tests.discovery.conftest import BELIEVED, write_case
+
+CUBIC = """model CubicServo
+  extends Lacuna.Benches.DcServo;
+  Lacuna.Components.Mechanics.TorqueSource loss;
+  parameter Real c3(unit="N.m.s3/rad3") = 5e-10;
+equation
+  connect(loss.flange, shaft.flange_b);
+  loss.u = -c3*w^3;
+end CubicServo;
+"""
+
+
+def test_a_terms_text_is_what_is_evaluated() -> None:
+    trajectory = {"w": np.array([-2.0, 0.0, 4.0]), "time": np.arange(3.0)}
+    assert evaluate("sign(w)*abs(w/w_ref)^0.5", trajectory, {"w": 4.0}) == pytest.approx([-(0.5**0.5), 0.0, 1.0])
+    assert Group(("cos(time)*0+1",)).values(trajectory, {})[0] == pytest.approx([1.0, 1.0, 1.0])
+
+
+@pytest.mark.slow
+def test_a_cubic_loss_is_found_as_a_law(tmp_path: Path) -> None:
+    (tmp_path / "CubicServo.mo").write_text(CUBIC, encoding="utf-8")
+    case = load(write_case(tmp_path, str(tmp_path / "CubicServo.mo"), BELIEVED | {"R": 3.45}))
+    machine = Machine(case, Amendment(read(Library(), case.model)))
+    base, _ = fit_believed(case, machine)
+    law = find(case, machine.amendment, base)
+    prefix = f"{law.attachment.component}."
+    values = {n.removeprefix(prefix): v for n, v in law.fit.point.items() if n.startswith(prefix)}
+    text = law.attachment.expression(values)
+    assert law.attachment.location == "shaft" and "shaft.w" in text and "^3" in text
+    at_200 = eval(text.replace("^", "**").replace("shaft.w", "200.0"), {"sign": np.sign, "abs": abs})
+    assert at_200 == pytest.approx(0.004, rel=0.02)
+
+
+def test_an_experiment_separates_two_explanations(consistent_case: Path) -> None:
+    case = load(consistent_case)
+    base, _ = fit_believed(case, Machine(case, Amendment(read(Library(), case.model))))
+    other, _ = fit_believed(case, Machine(case, Amendment(read(Library(), case.model))))
+    other.estimate.values = other.estimate.values * 1.05
+    best = separate(case, base, other)
+    assert best.sigmas > 1.0 and np.max(np.abs(best.recording.columns["u"])) <= 2.01 * 4.0
+    assert best.sentence(("this", "that")).startswith("record r")
+    same = separate(case, base, base)
+    assert same.sigmas == 0.0 and "no variant" in same.sentence(("this", "that"))
