@@ -23,8 +23,8 @@ ROUNDING = 1e-14  # of a signal's largest magnitude: differences below it are no
 CAPTIONS = {
     "overlay": "Reference and the coarsest run of each fixed-step family.",
     "difference": "Distance from the reference over time; a gap means equal to 14 digits of the largest value.",
-    "work_precision": "Largest relative deviation of any signal over the time of the run; further left and down is "
-    "better. Open markers: events taken at the end of a step.",
+    "work_precision": "Largest relative deviation of any signal over the processor time of the run; further left and "
+    "down is better. Open markers: events taken at the end of a step.",
 }
 
 
@@ -114,7 +114,7 @@ def work_precision(study: Study, units: Mapping[str, str]) -> Figure:
             *zip(*points, strict=True), "-", color=COLOURS[family], label=family, linewidth=1.4,
             marker=MARKERS[group[0].lane.solver], markerfacecolor=COLOURS[family] if group[0].lane.located else "white",
         )  # fmt: skip
-    axes.set_xlabel("time of the run (s)")
+    axes.set_xlabel("processor time of the run (s)")
     axes.set_ylabel("largest relative deviation of any signal")
     axes.set_title(f"{study.scenario.title}: work and precision")
     figure.legend(loc="outside right center", fontsize=8, frameon=False)

@@ -102,7 +102,7 @@ def _section(study: Study, stems: Sequence[str], folder: Path) -> str:
 
 def _lanes(study: Study) -> str:
     return _table(
-        ["run", "time, s", "worst signal", "largest deviation", "relative", "event times, s", "worst at, s",
+        ["run", "processor time, s", "worst signal", "largest deviation", "relative", "event times, s", "worst at, s",
          "without partner", "steps"],
         [_lane_row(result) for result in (study.second, *study.lanes)],
     )  # fmt: skip

@@ -47,7 +47,7 @@ class Lane:
 @dataclass
 class LaneResult:
     lane: Lane
-    seconds: float
+    seconds: float  # of processor time
     counters: dict[str, int]
     failure: str | None
     events: EventDeviation
@@ -119,12 +119,12 @@ def run(scenario: Scenario, model: runtime.Model, tick: Callable[[Lane], None] =
 
 
 def _simulate(scenario: Scenario, model: runtime.Model, lane: Lane, grid: np.ndarray) -> tuple[runtime.Result, float]:
-    begin = clock.perf_counter()
+    begin = clock.thread_time()
     result = runtime.simulate(
         model, solver=lane.solver, parameters=scenario.parameters, stop=scenario.stop, rtol=lane.rtol,
         step=lane.step, locate_events=lane.located, output_times=grid, events=False,
     )  # fmt: skip
-    return result, clock.perf_counter() - begin
+    return result, clock.thread_time() - begin
 
 
 def _scales(model: runtime.Model, reference: runtime.Result) -> dict[str, float]:
