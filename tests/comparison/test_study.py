@@ -1,0 +1,66 @@
+"""A whole comparison of a servo that sticks and slips: what location of its events is worth."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from analysis.comparison.report import findings, order_text
+from analysis.comparison.scenarios import Scenario, load
+from analysis.comparison.study import Study, run
+from codegen.compile import compile_model
+import runtime
+
+MODEL = Path(__file__).parents[1] / "models" / "SquareWaveServo.mo"
+
+
+@pytest.fixture(scope="module")
+def study() -> Study:
+    scenario = Scenario(
+        "servo", "Servo", str(MODEL), stop=0.5, interval=1e-3, steps=(1e-4, 5e-5, 2.5e-5), shown=(),
+        reference_rtol=1e-10,
+    )  # fmt: skip
+    return run(scenario, runtime.Model(compile_model(str(MODEL)).path))
+
+
+def test_located_events_keep_the_order_and_others_cost_it(study: Study) -> None:
+    assert study.reference.events.matched > 0 and not study.off_course
+    assert study.orders["rk4"] > 3.8
+    assert study.orders["euler"] == pytest.approx(1.0, abs=0.1)
+    assert study.orders["rk4, events not located"] < 2.0
+
+
+def test_event_times_agree_within_ten_times_the_tolerance(study: Study) -> None:
+    variable = [lane for lane in study.lanes if lane.lane.rtol]
+    assert len(variable) == 9
+    for lane in variable:
+        assert lane.events.unmatched == 0
+        assert lane.events.maximum <= 10 * lane.lane.rtol * study.scenario.stop
+
+
+def test_the_reference_is_known_better_than_any_lane(study: Study) -> None:
+    assert 0 < study.second.rms_error < min(lane.rms_error for lane in study.lanes if lane.lane.step)
+
+
+def test_findings_say_the_orders(study: Study) -> None:
+    text = "\n".join(findings([study]))
+    assert f"rk4: order {study.orders['rk4']:.2f}" in text
+    assert "6 of 6 variable-step runs" in text
+    assert order_text(study, "rk4") == f"{study.orders['rk4']:.2f}"
+
+
+def test_a_run_on_another_course_is_starred(study: Study) -> None:
+    lanes = [
+        replace(lane, events=replace(lane.events, unmatched=int(lane.lane.family == "euler"))) for lane in study.lanes
+    ]
+    strayed = replace(study, lanes=lanes, orders=study.orders | {"lost": -0.3, "unknown": np.nan})
+    assert order_text(strayed, "euler").endswith("*") and not order_text(strayed, "rk4").endswith("*")
+    assert (order_text(strayed, "lost"), order_text(strayed, "unknown")) == ("none", "-")
+
+
+def test_scenarios_of_the_project_halve_their_steps() -> None:
+    for scenario in load():
+        assert np.allclose(np.divide(scenario.steps[:-1], scenario.steps[1:]), 2.0), scenario.name
