@@ -53,7 +53,7 @@ def _on_shafts(case: Case, structure: Structure, effect: Effect) -> list[Attachm
 
 
 def _signal_choices(structure: Structure, shaft: Shaft, effect: Effect) -> list[tuple[tuple[str, str], ...]]:
-    """Variables of the model for the effect's inputs: the machine's torque, torques that pass the shaft, its inertia."""
+    """Variables of the model for the effect's inputs: the machine's torque, torques that pass, the shaft's inertia."""
     if not effect.signals:
         return [()]
     choices = []

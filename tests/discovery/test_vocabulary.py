@@ -1,4 +1,4 @@
-"""Every effect of the vocabulary, at every place where it may sit on every bench: it attaches, and it vanishes when small."""
+"""Every effect of the vocabulary attaches wherever it may sit on every bench, and vanishes when it is small."""
 
 from __future__ import annotations
 
@@ -17,9 +17,12 @@ from discovery.cases import Signal
 from discovery.hypotheses import enumerate_attachments
 from runtime import Model, RecordedInput, simulate
 
-FRICTIONS = {f"friction.{law}" for law in ("viscous", "coulomb", "asymmetric", "stribeck", "presliding", "load", "position")}
+FRICTIONS = {
+    f"friction.{law}" for law in ("viscous", "coulomb", "asymmetric", "stribeck", "presliding", "load", "position")
+}
 SHAFT = FRICTIONS | {
-    "drag.quadratic", "backlash", "compliance", "end_stop", "stiffness", "load.constant", "load.gravity", "torque.cogging",
+    "drag.quadratic", "backlash", "compliance", "end_stop", "stiffness",
+    "load.constant", "load.gravity", "torque.cogging",
 }  # fmt: skip
 DC = {"torque.ripple", "motor.saturation", "motor.heating", "motor.iron_loss"} | {
     f"drive.{law}" for law in ("dead_time", "supply_sag", "saturation", "deadband", "delay")
@@ -44,7 +47,7 @@ EXPECTED = {
     "FlightControl": SHAFT | STAR | SENSORS | ANGLES,
     "Joint": SHAFT | SENSORS | ANGLES | {"drive.saturation", "drive.deadband", "drive.delay"},
     "FrictionDevice": FRICTIONS - {"friction.viscous", "friction.load"}
-    | {"drag.quadratic", "backlash", "stiffness", "load.constant", "sensor.gain", "sensor.lag"},
+    | {"drag.quadratic", "backlash", "end_stop", "stiffness", "load.constant", "sensor.gain", "sensor.lag"},
 }
 
 
