@@ -1,14 +1,19 @@
-"""The usual alternative: equation-error regression with sparse selection (as PySINDy's STLSQ does), then a polish.
+"""The usual alternative: equation-error regression with sparse selection (PySINDy's STLSQ), then a polish.
+
+    python -m tests.proof.baseline CASE --out DIR
 
 It answers in the contract of a diagnosis, so that the same scoring judges it.
 """
 
+import argparse
 from collections.abc import Mapping, Sequence
 import json
 from pathlib import Path
 import tomllib
+import warnings
 
 import numpy as np
+from pysindy.optimizers import STLSQ
 from scipy.ndimage import uniform_filter1d
 
 from tests.proof.benches import BENCHES, Bench
@@ -16,25 +21,23 @@ from tests.proof.equations import EQUATIONS, Equation
 from tests.proof.naming import named
 from tests.proof.refit import Refit, case_nrmse
 
-WORTH = 0.88  # a term (or pair of terms) must leave at most this share of the residual's RMS
-MOST_TERMS = 3
+THRESHOLDS = np.geomspace(0.05, 1.0, 10)  # of a term's share in what the known terms leave of the target
+SLACK = 1.25  # the sparsest solution is taken that leaves at most this many times what the best leaves
 
-Solution = tuple[dict[str, float], list[str]]  # every coefficient, and the groups of terms in the order of their choice
+Columns = Mapping[str, np.ndarray]
+Solution = tuple[dict[str, float], list[str]]  # every coefficient, and the groups of terms, the largest first
 
 
-def _solve(columns: Mapping[str, np.ndarray], target: np.ndarray) -> dict[str, float]:
+def _solve(columns: Columns, target: np.ndarray) -> tuple[dict[str, float], float]:
+    """Least squares: coefficients, and the RMS of what they leave."""
     A = np.column_stack(list(columns.values()))
     scale = np.linalg.norm(A, axis=0) + 1e-30
     solution, *_ = np.linalg.lstsq(A / scale, target, rcond=1e-8)
-    return dict(zip(columns, solution / scale, strict=True))
+    left = float(np.sqrt(np.mean((target - A / scale @ solution) ** 2)))
+    return dict(zip(columns, solution / scale, strict=True)), left
 
 
-def _left(columns: Mapping[str, np.ndarray], target: np.ndarray) -> float:
-    solution = _solve(columns, target)
-    return float(np.sqrt(np.mean((target - sum(solution[n] * columns[n] for n in columns)) ** 2)))
-
-
-def _groups(library: Mapping[str, np.ndarray]) -> dict[str, list[str]]:
+def _groups(library: Columns) -> dict[str, list[str]]:
     """Terms by group: a sine and its cosine enter together."""
     groups: dict[str, list[str]] = {}
     for name in library:
@@ -42,22 +45,35 @@ def _groups(library: Mapping[str, np.ndarray]) -> dict[str, list[str]]:
     return groups
 
 
+def _beside(known: Columns, columns: np.ndarray) -> np.ndarray:
+    """What the known terms leave of each column, at unit length: those keep their place whatever is thresholded."""
+    basis, _ = np.linalg.qr(np.column_stack([c / (np.linalg.norm(c) + 1e-30) for c in known.values()]))
+    left = columns - basis @ (basis.T @ columns)
+    return left / (np.linalg.norm(left, axis=0) + 1e-12 * np.linalg.norm(columns, axis=0) + 1e-30)
+
+
+def _support(equation: Equation, threshold: float) -> list[str]:
+    """Groups of library terms that sequential thresholding keeps, the largest first."""
+    library, target = np.column_stack(list(equation.library.values())), equation.target[:, None]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # that nothing is kept is an answer
+        model = STLSQ(threshold=threshold, unbias=False)
+        model.fit(_beside(equation.known, library), _beside(equation.known, target))
+    share = dict(zip(equation.library, model.coef_[0], strict=True))
+    size = {g: float(np.hypot.reduce([share[n] for n in names])) for g, names in _groups(equation.library).items()}
+    return [g for g in sorted(size, key=size.get, reverse=True) if size[g] > 0]
+
+
 def sparse(equation: Equation) -> Solution:
-    """Forward selection: again and again the term that leaves least, while it is worth its place."""
-    chosen: list[str] = []
-    columns, groups = dict(equation.known), _groups(equation.library)
-    left = _left(columns, equation.target)
-    while groups and len(chosen) < MOST_TERMS:
-        trials = {
-            g: _left(columns | {n: equation.library[n] for n in names}, equation.target) for g, names in groups.items()
-        }
-        best = min(trials, key=trials.get)
-        if trials[best] > WORTH * left:
-            break
-        columns |= {n: equation.library[n] for n in groups.pop(best)}
-        chosen.append(best)
-        left = trials[best]
-    return _solve(columns, equation.target), chosen
+    """The sparsest of the solutions over a path of thresholds that leaves little more than the best of them."""
+    groups, solutions = _groups(equation.library), []
+    for chosen in [[], *(_support(equation, threshold) for threshold in THRESHOLDS)]:
+        kept = {n: equation.library[n] for g in chosen for n in groups[g]}
+        coefficients, left = _solve({**equation.known, **kept}, equation.target)
+        solutions.append((len(chosen), left, coefficients, chosen))
+    least = min(left for _, left, _, _ in solutions)
+    _, _, coefficients, chosen = min((s for s in solutions if s[1] <= SLACK * least), key=lambda s: s[:2])
+    return coefficients, chosen
 
 
 def _read(case: Path) -> tuple[dict, Bench, list[dict[str, np.ndarray]], int]:
@@ -73,13 +89,13 @@ def _read(case: Path) -> tuple[dict, Bench, list[dict[str, np.ndarray]], int]:
 
 
 def _stacked(model: str, believed: Mapping[str, float], recordings: Sequence[Mapping], period: float) -> list[Equation]:
-    """Equations over all recordings, every column averaged over the same moving window: derivatives are as noisy as
-    they are, and a window leaves a linear relation as it was."""
+    """Equations over all recordings, every column averaged over the same moving window and thinned to three rows a
+    window: derivatives are as noisy as they are, and a window leaves a linear relation as it was."""
     width = max(3, round((0.004 if period < 1e-3 else 0.05) / period))
     each = [EQUATIONS[model](believed, r, period) for r in recordings]
 
     def joined(columns: list[np.ndarray]) -> np.ndarray:
-        return np.concatenate([uniform_filter1d(c, width) for c in columns])
+        return np.concatenate([uniform_filter1d(c, width)[:: width // 3] for c in columns])
 
     return [
         Equation(
@@ -129,14 +145,17 @@ def explain(case: Path) -> dict:
     }
 
 
-def diagnose(case: Path, out: Path) -> str:
-    """Writes the diagnosis of a case, unless it is there; returns a word for the log."""
-    target = out / "diagnosis.json"
-    if target.exists() and target.stat().st_mtime > (case / "case.toml").stat().st_mtime:
-        return "kept"
-    out.mkdir(parents=True, exist_ok=True)
-    diagnosis = explain(case)
-    after = diagnosis["nrmse"]["validate"]["after"]
-    diagnosis["nrmse"]["validate"]["after"] = after if np.isfinite(after) else None
-    target.write_text(json.dumps(diagnosis))
-    return "ok"
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("case", type=Path)
+    parser.add_argument("--out", type=Path, required=True)
+    arguments = parser.parse_args()
+    diagnosis = explain(arguments.case)
+    after = diagnosis["nrmse"]["validate"]
+    after["after"] = after["after"] if np.isfinite(after["after"]) else None
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    (arguments.out / "diagnosis.json").write_text(json.dumps(diagnosis))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,13 +1,10 @@
 """The proof in small, whole: generate, diagnose by the command line, score, print."""
 
-from pathlib import Path
-import sys
-
-from tests.proof import baseline
+from tests.proof.__main__ import EXPLAIN, USUAL
 from tests.proof.generate import generate
 from tests.proof.plan import Plan
 from tests.proof.report import page, summary_table
-from tests.proof.runner import diagnose, tool_hash
+from tests.proof.runner import diagnose, tool_hash, usual_hash
 from tests.proof.score import score_folder
 
 CASES = (
@@ -17,12 +14,12 @@ CASES = (
 
 
 def test_a_small_proof(tmp_path):
-    command = [str(Path(sys.executable).with_name("lacuna")), "explain"]
     for item in CASES:
         generate((*item, tmp_path))
         name = item[0]
-        assert diagnose(command, tmp_path / "cases" / name, tmp_path / "lacuna" / name, tool_hash(), 250) == "ok"
-        baseline.diagnose(tmp_path / "cases" / name, tmp_path / "usual" / name)
+        assert diagnose(EXPLAIN, tmp_path / "cases" / name, tmp_path / "lacuna" / name, tool_hash(), 250) == "ok"
+        usual = tmp_path / "usual" / name
+        assert diagnose(USUAL, tmp_path / "cases" / name, usual, usual_hash(), 100) == "ok"
     names = [name for name, _, _ in CASES]
     tool, usual = (score_folder(tmp_path / k, tmp_path / "truth", names) for k in ("lacuna", "usual"))
     assert all(s.verdict_right for s in tool)
