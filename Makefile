@@ -67,6 +67,9 @@ prove: setup ## The blind proof of the diagnosis (long, resumes), writes docs/pr
 bench: setup ## Times and errors against hand-written programs, into out/bench/
 	@$(PYTHON) -m bench --out $(OUT)/bench
 
+real-machines: setup ## Explain the recordings of real machines, writes docs/real-machines.md and its figures
+	@$(PYTHON) -m bench.real_machines
+
 tolerance-study: setup ## Justify the map's tolerance, writes docs/tolerance.md
 	@$(PYTHON) -m bench.tolerance
 
