@@ -41,6 +41,7 @@ app.command("explain", rich_help_panel=PHYSICS)(explain.explain)
 app.command("fit", rich_help_panel=PHYSICS)(steps.fit)
 app.command("locate", rich_help_panel=PHYSICS)(steps.locate)
 app.command("name", rich_help_panel=PHYSICS)(steps.name)
+app.command("amend", rich_help_panel=PHYSICS)(steps.amend)
 app.command("judge", rich_help_panel=PHYSICS)(steps.judge)
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""`lacuna fit`, `locate`, `name`, `judge`: the steps of an explanation, each to be run and looked at alone."""
+"""`lacuna fit`, `locate`, `name`, `amend`, `judge`: the steps of an explanation, each to be run and looked at alone."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from rich.console import Console
 from rich.table import Table
 import typer
 
-from cli.errors import reported
+from cli.errors import UserError, reported
 from cli.output import console
 
 if TYPE_CHECKING:
-    from discovery.explain import Explanation
+    from discovery.explanation import Explanation
 
 Case = Annotated[Path, typer.Argument(metavar="CASE", help="Folder with case.toml and its recordings")]
 Out = Annotated[Path | None, typer.Option(help="Folder of report.html; default: out/STEP/CASE")]
@@ -27,7 +27,7 @@ def fit(case: Case, out: Out = None) -> None:
     from discovery.steps import fitted
 
     with Console(stderr=True).status("reading the recordings") as status:
-        result, _ = fitted(load(case), status.update)
+        result = fitted(load(case), status.update)
     _parameters(result)
     _errors(result.before.validate, result.floor)
     _report(result, "fit", case, out)
@@ -37,10 +37,11 @@ def fit(case: Case, out: Out = None) -> None:
 def locate(case: Case, out: Out = None) -> None:
     """Which effort is missing, and where? Rank the places of the model by what an effort there would explain."""
     from discovery.cases import load
-    from discovery.steps import located
+    from discovery.steps import add_location, fitted
 
     with Console(stderr=True).status("reading the recordings") as status:
-        result = located(load(case), status.update)
+        result = fitted(load(case), status.update)
+        add_location(result, status.update)
     found = result.located
     table = Table("place", "missing", "misfit explained")
     for place in found.places[:SHOWN]:
@@ -54,11 +55,14 @@ def locate(case: Case, out: Out = None) -> None:
 @reported
 def name(case: Case, out: Out = None) -> None:
     """Which physics is it? Attach the catalogue's effects, simulate and fit again, and rank them by the evidence."""
+    from codegen.library import Library
     from discovery.cases import load
-    from discovery.steps import named
+    from discovery.steps import add_naming, fitted
 
     with Console(stderr=True).status("reading the recordings") as status:
-        result = named(load(case), status.update)
+        library = Library()
+        result = fitted(load(case), status.update, library)
+        add_naming(result, library, status.update)
     table = Table("hypothesis", "evidence against none", "confidence")
     for ranked in result.namings[0].ranked[:SHOWN]:
         table.add_row(ranked.attachment.label, f"{-ranked.score:.1f}", f"{ranked.confidence:.3f}")
@@ -67,9 +71,34 @@ def name(case: Case, out: Out = None) -> None:
 
 
 @reported
+def amend(
+    case: Case,
+    effect: Annotated[str, typer.Option(help="Identifier, such as friction.coulomb; default: the best")] = "",
+    out: Out = None,
+) -> None:
+    """Write the model amended by one effect of the catalogue, fitted, and judge the file as it is written."""
+    from codegen.library import Library
+    from discovery.cases import load
+    from discovery.explain import judge_written, write_amended
+    from discovery.steps import add_amendment, fitted
+
+    with Console(stderr=True).status("reading the recordings") as status:
+        library = Library()
+        result = fitted(load(case), status.update, library)
+        add_amendment(result, library, effect, status.update)
+    folder = _folder("amend", case, out)
+    path = write_amended(result, folder)
+    judge_written(result, path)
+    _errors(result.after.validate, result.floor)
+    typer.echo(f"written: {path}")
+    _report(result, "amend", case, out, path)
+
+
+@reported
 def judge(
     case: Case,
     model: Annotated[Path, typer.Argument(metavar="MODEL.mo", help="A model file with the believed model's variables")],
+    out: Out = None,
 ) -> None:
     """How well does a model file, as written, simulate the recordings that nothing was fitted to?"""
     from codegen.library import Library
@@ -77,10 +106,14 @@ def judge(
     from discovery.amend import Amendment
     from discovery.cases import load
     from discovery.judge import judge_file
+    from discovery.report import write_judgement
 
     loaded = load(case)
+    if not model.is_file():
+        raise UserError(f"{model}: there is no such file")
     found = judge_file(loaded, Amendment(places.read(Library(), loaded.model)), model, {})
     _errors(found.validate, None)
+    typer.echo(f"written: {write_judgement(loaded, found, _folder('judge', case, out), model.name)}")
 
 
 def _parameters(result: Explanation) -> None:
@@ -102,9 +135,13 @@ def _errors(nrmse: dict[str, float], floor: dict[str, float] | None) -> None:
     console().print(table)
 
 
-def _report(result: Explanation, step: str, case: Path, out: Path | None) -> None:
-    from discovery.report import write
-
+def _folder(step: str, case: Path, out: Path | None) -> Path:
     folder = out or Path("out") / step / case.resolve().name
     folder.mkdir(parents=True, exist_ok=True)
-    typer.echo(f"written: {write(result, folder, None)}")
+    return folder
+
+
+def _report(result: Explanation, step: str, case: Path, out: Path | None, amended: Path | None = None) -> None:
+    from discovery.report import write
+
+    typer.echo(f"written: {write(result, _folder(step, case, out), amended)}")

@@ -19,6 +19,7 @@ from .name import MIN_GAIN, Naming, Ranked
 from .screen import Candidate
 from .search import Finding, Search, tracked
 
+LEFT = 1.2  # RMS of what a law leaves, in units of the noise, up to which it stands for all of the misfit
 MARGIN = 40.0  # of the deviance, by which a law has to beat effects of the catalogue that leave as little
 
 Progress = Callable[[str], None]
@@ -40,12 +41,12 @@ def consider(search: Search, base: Fit, before: Judgement, progress: Progress) -
     if candidate is None or score(candidate, start, candidate.fit.correlation()) > -MIN_GAIN:
         return
     ranked = _ranked(candidate, start)
-    polished = search._polished(ranked, search.fit)
+    polished = search.polished(ranked, search.fit)
     after = judge(polished.machine, polished.point) if polished is not None else None
     if after is not None and pays(search.judgement.validate, after.validate, search.floor):
         ranked.fit = polished
         search.findings.append(Finding(ranked, Naming([ranked], []), search.judgement, after))
-        search._take([*search.amendment.attachments, candidate.attachment], polished, after)
+        search.take([*search.amendment.attachments, candidate.attachment], polished, after)
 
 
 def _instead(search: Search, base: Fit, before: Judgement, progress: Progress) -> bool:
@@ -53,21 +54,21 @@ def _instead(search: Search, base: Fit, before: Judgement, progress: Progress) -
     start = tracked(base, search.bandwidths)
     amendment = replace(search.amendment, attachments=[])
     candidate = find(search.case, amendment, start, progress)
-    if candidate is None or not like_noise(candidate.fit):
+    if candidate is None or not (like_noise(candidate.fit) or max(candidate.fit.level.values()) < LEFT):
         return False
     correlation = candidate.fit.correlation()
     gain = score(candidate, start, correlation)
     if gain > -MIN_GAIN or (search.findings and gain > _found(search, start, correlation) - MARGIN):
         return False
     ranked = _ranked(candidate, start)
-    polished = search._polished(ranked, base)
+    polished = search.polished(ranked, base)
     after = judge(polished.machine, polished.point) if polished is not None else None
     if after is None or not pays(before.validate, after.validate, search.floor):
         return False
     ranked.fit = polished
     search.findings[:] = [Finding(ranked, Naming([ranked, *_others(search)], []), before, after)]
     search.amendment = amendment
-    search._take([candidate.attachment], polished, after)
+    search.take([candidate.attachment], polished, after)
     search.reason = ""
     return True
 

@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 
 from .evidence import whiteness
-from .explain import Explanation, Finding
+from .explanation import Explanation
 from .fit import Fit
 from .least_squares import Free
+from .search import Finding
 
 
 def build(result: Explanation, amended: Path | None) -> dict[str, Any]:

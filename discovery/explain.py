@@ -3,134 +3,38 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
-import time
-
-import numpy as np
 
 from codegen.library import Library
 
-from . import catalogue, places
-from .amend import Amendment
-from .beyond import consider
 from .cases import Case
 from .evidence import is_noise, like_noise, outside_belief, whiteness
-from .experiments import Experiment, separate
-from .fit import Fit, bandwidths_for, believed, fit, noise_of
-from .judge import Judgement, judge, judge_file, noise_floor
-from .locate import Located, locate
-from .machine import Machine
-from .name import Naming, Ranked
-from .recordings_check import Problem, check_case
-from .search import Finding, Search, tracked
-from .semantic_check import check_against_model
-from .tracking import trackable
+from .experiments import separate
+from .explanation import Clock, Explanation
+from .judge import judge_file
+from .name import Ranked
+from .steps import add_findings, add_fit, add_location, opened
 
 Progress = Callable[[str], None]
 
 
-@dataclass
-class Explanation:
-    """Everything that is known about a case in the end; diagnosis.json and the report are written from it."""
-
-    case: Case
-    problems: list[Problem]
-    verdict: str = "undetermined"
-    reason: str = ""
-    experiment: str = ""
-    trial: Experiment | None = None  # the recording that would separate tied explanations, simulated
-    base: Fit | None = None
-    final: Fit | None = None
-    amendment: Amendment | None = None
-    findings: list[Finding] = field(default_factory=list)
-    namings: list[Naming] = field(default_factory=list)
-    located: Located | None = None
-    before: Judgement | None = None
-    after: Judgement | None = None
-    floor: dict[str, float] = field(default_factory=dict)
-    seconds: dict[str, float] = field(default_factory=dict)
-
-
-class _Clock:
-    """Seconds of each step."""
-
-    def __init__(self, seconds: dict[str, float]):
-        self.seconds, self.last = seconds, time.perf_counter()
-
-    def done(self, step: str) -> None:
-        now = time.perf_counter()
-        self.seconds[step] = self.seconds.get(step, 0.0) + now - self.last
-        self.last = now
-
-
 def explain(case: Case, progress: Progress = lambda text: None, library: Library | None = None) -> Explanation:
     """Explain a case. Raises CaseError where model and case do not fit, Diagnostic where the model is wrong."""
-    result = Explanation(case, check_case(case))
-    if any(p.fatal for p in result.problems):
-        result.reason = "the recordings cannot be trusted: " + "; ".join(str(p) for p in result.problems if p.fatal)
-        return result
-    clock = _Clock(result.seconds)
     library = library or Library()
-    structure = places.read(library, case.model)
-    effects = catalogue.read(library)
-    machine = _believed_machine(case, structure)
-    result.problems += check_against_model(machine, believed(case, machine))
-    if any(p.fatal for p in result.problems):
-        result.reason = "the recordings contradict themselves: " + "; ".join(str(p) for p in result.problems if p.fatal)
+    result, machine = opened(case, library)
+    if machine is None:
         return result
-    progress("fitting the believed model")
-    result.base, bandwidths = fit_believed(case, machine)
-    result.amendment, result.final = machine.amendment, result.base
-    result.before = result.after = judge(machine, result.base.point)
-    result.floor = noise_floor(case, case.validate, result.base.noise)
+    clock = Clock(result.seconds)
+    add_fit(result, machine, progress)
     clock.done("fit")
     if not is_noise(result.base):
-        progress("locating the missing effort")
-        result.located = locate(case, tracked(result.base, bandwidths))
+        add_location(result, progress)
         clock.done("locate")
-    search = Search(
-        case, effects, bandwidths, result.floor, result.amendment, result.final, result.after,
-        result.findings, result.namings,
-    )  # fmt: skip
-    search.run(progress)
-    consider(search, result.base, result.before, progress)
-    result.amendment, result.final, result.after = search.amendment, search.fit, search.judgement
-    result.reason = search.reason
+    add_findings(result, library, progress)
     clock.done("name")
     _conclude(result)
     return result
-
-
-def _believed_machine(case: Case, structure: places.Structure) -> Machine:
-    """The believed model; with trackers on recorded shafts where its events make a fit rough."""
-    machine = Machine(case, Amendment(structure))
-    free, fixed = believed(case, machine)
-    shafts = trackable(case, machine.model, structure)[:1]
-    values = fixed | {f.name: f.centre for f in free}
-    if not shafts or machine.events_per_second(values, case.fit[0]) < 20:
-        return machine
-    return Machine(case, Amendment(structure, trackers=shafts))
-
-
-def fit_believed(case: Case, machine: Machine) -> tuple[Fit, tuple[float, ...]]:
-    """The believed model's best fit from several starts, and the bandwidths that lead fits of this model."""
-    noise = noise_of(case)
-    free, fixed = believed(case, machine)
-    bandwidths = bandwidths_for(case, machine, fixed | {f.name: f.centre for f in free})
-    best = fit(machine, case.fit, noise, free, fixed, bandwidths=bandwidths)
-    if best is not None and is_noise(best):
-        return best, bandwidths
-    random = np.random.default_rng(1)
-    start = {f.name: f.clip(f.centre + f.scale * float(random.normal())) for f in free}
-    other = (
-        fit(machine, case.fit, noise, free, fixed, start=start, bandwidths=bandwidths) if len(bandwidths) < 2 else None
-    )
-    if other is not None and (best is None or other.deviance() < best.deviance()):
-        best = other
-    if best is None:
-        raise RuntimeError(f"{case.model} cannot be simulated with the recorded inputs of {case.label}")
-    return best, bandwidths
 
 
 def _conclude(result: Explanation) -> None:

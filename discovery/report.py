@@ -12,9 +12,10 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from .cases import Recording
+from .cases import Case
 from .diagnosis import build, left_over, sentence
-from .explain import Explanation
+from .explanation import Explanation
+from .judge import Judgement
 from .locate import Located
 
 _STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}
@@ -34,14 +35,14 @@ def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
         parts += _findings(result) + _rivals(result) + _parameters(result) + _left(result)
     if amended is not None:
         parts += ["<h2>The amended model</h2>", f"<pre>{escape(amended.read_text(encoding='utf-8'))}</pre>"]
-    title = escape(f"Lacuna: {result.case.label}")
-    text = (
-        f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{title}</title><style>{_STYLE}</style>'
-        + "\n".join(parts)
-    )
+    return _page(parts, f"Lacuna: {result.case.label}", folder)
+
+
+def _page(parts: list[str], title: str, folder: Path) -> Path:
+    head = f'<meta charset="utf-8"><title>{escape(title)}</title><style>{_STYLE}</style>'
     path = folder / "report.html"
     partial = path.with_suffix(".tmp")
-    partial.write_text(text + "</html>\n", encoding="utf-8")
+    partial.write_text(f'<!doctype html><html lang="en">{head}' + "\n".join(parts) + "</html>\n", encoding="utf-8")
     partial.replace(path)
     return path
 
@@ -91,26 +92,35 @@ def _quality(result: Explanation) -> list[str]:
 
 
 def _overlays(result: Explanation) -> list[str]:
-    recording = result.case.validate[0]
-    outputs = result.case.outputs
-    figure, axes = plt.subplots(len(outputs), 1, figsize=(9, 2.1 * len(outputs)), sharex=True, squeeze=False)
+    name = result.case.validate[0].name
+    curves = [("believed", "C3", result.before.residuals[name])]
+    if result.findings:
+        curves.append(("amended", "C0", result.after.residuals[name]))
+    return _overlay(result.case, curves)
+
+
+def _overlay(case: Case, curves: list[tuple[str, str, dict[str, np.ndarray]]]) -> list[str]:
+    """The first validation recording and simulations of it: (label, colour, residual of each column)."""
+    recording = case.validate[0]
+    figure, axes = plt.subplots(len(case.outputs), 1, figsize=(9, 2.1 * len(case.outputs)), sharex=True, squeeze=False)
     keep = slice(None, None, max(1, len(recording.time) // 1500))
-    for ax, signal in zip(axes[:, 0], outputs, strict=True):
+    for ax, signal in zip(axes[:, 0], case.outputs, strict=True):
         measured = recording.columns[signal.column]
-        _draw(ax, recording, measured, "measured", "0.6", keep)
-        _draw(ax, recording, measured - result.before.residuals[recording.name][signal.column], "believed", "C3", keep)
-        if result.findings:
-            _draw(
-                ax, recording, measured - result.after.residuals[recording.name][signal.column], "amended", "C0", keep
-            )
+        ax.plot(recording.time[keep], measured[keep], "0.6", lw=1, label="measured")
+        for label, colour, residual in curves:
+            ax.plot(recording.time[keep], (measured - residual[signal.column])[keep], colour, lw=1, label=label)
         ax.set_ylabel(f"{signal.column} / {signal.si_unit}")
     axes[0, 0].legend(loc="upper right", fontsize="small")
     axes[-1, 0].set_xlabel("time / s")
     return [f"<h2>On a recording that nothing was fitted to ({escape(recording.name)})</h2>", _svg(figure)]
 
 
-def _draw(ax: plt.Axes, recording: Recording, values: np.ndarray, label: str, colour: str, keep: slice) -> None:
-    ax.plot(recording.time[keep], values[keep], color=colour, lw=1, label=label)
+def write_judgement(case: Case, judged: Judgement, folder: Path, model: str) -> Path:
+    """The page of one judged model file: its errors and its course on a validation recording."""
+    rows = [[column or "all", judged.validate[column], judged.fit[column]] for column in judged.validate]
+    parts = [f"<h1>{escape(case.title)}: {escape(model)}</h1>", _table(["signal", "NRMSE, unseen", "fitted"], rows)]
+    parts += _overlay(case, [(model, "C0", judged.residuals[case.validate[0].name])])
+    return _page(parts, f"Lacuna: {case.label}", folder)
 
 
 def _located(located: Located) -> list[str]:

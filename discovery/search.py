@@ -55,12 +55,12 @@ class Search:
         """Add findings until what is left is noise, or nothing more pays."""
         while len(self.findings) < MAX_FINDINGS and not is_noise(self.fit):
             progress(f"looking for missing physics, round {len(self.findings) + 1}")
-            if not self._add(progress):
+            if not self.add(progress):
                 return
             for k in range(len(self.findings) - 1):
                 self._reconsider(k, progress)
 
-    def _add(self, progress: Progress) -> bool:
+    def add(self, progress: Progress) -> bool:
         attachments = enumerate_attachments(self.case, self.amendment.structure, self.effects, self.amendment)
         naming = rank(self.case, self.amendment, attachments, tracked(self.fit, self.bandwidths), progress=progress)
         self.namings.append(naming)
@@ -68,7 +68,7 @@ class Search:
         if best is None or best.score > -MIN_GAIN:
             return False
         progress(f"polishing {best.attachment.label}")
-        polished = self._polished(best, self.fit)
+        polished = self.polished(best, self.fit)
         if polished is None:
             return False
         after = judge(polished.machine, polished.point)
@@ -77,14 +77,14 @@ class Search:
             return False
         best.fit = polished
         self.findings.append(Finding(best, naming, self.judgement, after))
-        self._take([*self.amendment.attachments, best.attachment], polished, after)
+        self.take([*self.amendment.attachments, best.attachment], polished, after)
         return True
 
-    def _take(self, attachments: list[Attachment], found: Fit, judgement: Judgement) -> None:
+    def take(self, attachments: list[Attachment], found: Fit, judgement: Judgement) -> None:
         self.amendment = replace(self.amendment, attachments=attachments)
         self.fit, self.judgement = found, judgement
 
-    def _polished(self, best: Ranked, base: Fit) -> Fit | None:
+    def polished(self, best: Ranked, base: Fit) -> Fit | None:
         """The hypothesis fitted without trackers; None where that fails or is no better than the base."""
         if len(self.bandwidths) < 2:
             return best.fit
@@ -116,7 +116,7 @@ class Search:
             ranked = replace(finding.ranked, score=own.score, confidence=own.confidence)
             self.findings[k] = replace(finding, ranked=ranked, naming=naming)
             return
-        polished = self._polished(best, base)
+        polished = self.polished(best, base)
         if polished is None or polished.deviance(naming.correlation) > self.fit.deviance(naming.correlation):
             return
         after = judge(polished.machine, polished.point)
@@ -125,7 +125,7 @@ class Search:
             best.fit = polished
             self.findings[k] = replace(finding, ranked=best, naming=naming)
             self.findings[-1] = replace(self.findings[-1], after=after)
-            self._take([*others, best.attachment], polished, after)
+            self.take([*others, best.attachment], polished, after)
 
     def _without(self, ranked: Ranked, amendment: Amendment) -> Fit | None:
         """The present model fitted without one of its effects."""

@@ -1,53 +1,140 @@
-"""The steps of an explanation one at a time, each giving an explanation that is filled so far: fit, locate, name."""
+"""The steps of an explanation: each fills in more of it, and can be the last that is wanted."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
 
 from codegen.library import Library
 
 from . import catalogue, places
+from .amend import Amendment
+from .beyond import consider
 from .cases import Case, CaseError
-from .explain import Explanation, Progress, _believed_machine, fit_believed
-from .fit import believed
+from .evidence import is_noise
+from .explanation import Explanation
+from .fit import Fit, bandwidths_for, believed, fit, noise_of
 from .hypotheses import enumerate_attachments
 from .judge import judge, noise_floor
 from .locate import locate
+from .machine import Machine
 from .name import rank
 from .recordings_check import check_case
-from .search import tracked
+from .search import Search, tracked
 from .semantic_check import check_against_model
+from .tracking import trackable
+
+Progress = Callable[[str], None]
 
 
-def fitted(case: Case, progress: Progress, library: Library | None = None) -> tuple[Explanation, tuple[float, ...]]:
-    """The believed model fitted and judged, and the bandwidths that led the fit. Raises CaseError on bad recordings."""
+def opened(case: Case, library: Library) -> tuple[Explanation, Machine | None]:
+    """The case with what is wrong with its recordings, and the believed model; none where they are of no use."""
     result = Explanation(case, check_case(case))
-    machine = _believed_machine(case, places.read(library or Library(), case.model))
+    if not _trusted(result, "the recordings cannot be trusted"):
+        return result, None
+    machine = _believed_machine(case, places.read(library, case.model))
     result.problems += check_against_model(machine, believed(case, machine))
-    fatal = [str(problem) for problem in result.problems if problem.fatal]
+    return result, machine if _trusted(result, "the recordings contradict themselves") else None
+
+
+def _trusted(result: Explanation, otherwise: str) -> bool:
+    fatal = [str(p) for p in result.problems if p.fatal]
     if fatal:
-        raise CaseError("the recordings cannot be used: " + "; ".join(fatal))
+        result.reason = f"{otherwise}: " + "; ".join(fatal)
+    return not fatal
+
+
+def fitted(case: Case, progress: Progress, library: Library | None = None) -> Explanation:
+    """The believed model fitted and judged. Raises CaseError on recordings that are of no use."""
+    result, machine = opened(case, library or Library())
+    if machine is None:
+        raise CaseError(result.reason)
+    add_fit(result, machine, progress)
+    return result
+
+
+def add_fit(result: Explanation, machine: Machine, progress: Progress) -> None:
     progress("fitting the believed model")
-    result.base, bandwidths = fit_believed(case, machine)
+    case = result.case
+    result.base, result.bandwidths = fit_believed(case, machine)
     result.amendment, result.final = machine.amendment, result.base
     result.before = result.after = judge(machine, result.base.point)
     result.floor = noise_floor(case, case.validate, result.base.noise)
-    return result, bandwidths
 
 
-def located(case: Case, progress: Progress) -> Explanation:
+def add_location(result: Explanation, progress: Progress) -> None:
     """What effort is missing, where, in the fitted believed model."""
-    result, bandwidths = fitted(case, progress)
     progress("locating the missing effort")
-    result.located = locate(case, tracked(result.base, bandwidths))
-    return result
+    result.located = locate(result.case, tracked(result.base, result.bandwidths))
 
 
-def named(case: Case, progress: Progress) -> Explanation:
+def add_naming(result: Explanation, library: Library, progress: Progress) -> None:
     """The catalogue's effects that could be missing from the fitted believed model, ranked: one round of naming."""
-    library = Library()
-    result, bandwidths = fitted(case, progress, library)
     effects = catalogue.read(library)
-    attachments = enumerate_attachments(case, result.amendment.structure, effects, result.amendment)
+    attachments = enumerate_attachments(result.case, result.amendment.structure, effects, result.amendment)
     progress(f"ranking {len(attachments)} hypotheses")
-    naming = rank(case, result.amendment, attachments, tracked(result.base, bandwidths), progress=progress)
-    result.namings.append(naming)
-    return result
+    base = tracked(result.base, result.bandwidths)
+    result.namings.append(rank(result.case, result.amendment, attachments, base, progress=progress))
+
+
+def add_amendment(result: Explanation, library: Library, effect: str, progress: Progress) -> None:
+    """The model amended by one effect: the named one, or the best of all. Raises CaseError where it does not pay."""
+    effects = [e for e in catalogue.read(library) if effect in ("", e.identifier)]
+    if not effects:
+        raise CaseError(f"the catalogue has no effect {effect}")
+    search = _search(result, effects)
+    if not search.add(progress):
+        raise CaseError(search.reason or f"{effect or 'no effect of the catalogue'} does not explain these recordings")
+    _take(result, search)
+
+
+def add_findings(result: Explanation, library: Library, progress: Progress) -> None:
+    """Findings until what is left is noise or nothing pays: of the catalogue, then an empirical law."""
+    search = _search(result, catalogue.read(library))
+    search.run(progress)
+    consider(search, result.base, result.before, progress)
+    _take(result, search)
+
+
+def _search(result: Explanation, effects: list[catalogue.Effect]) -> Search:
+    return Search(
+        result.case, effects, result.bandwidths, result.floor, result.amendment, result.final, result.after,
+        result.findings, result.namings,
+    )  # fmt: skip
+
+
+def _take(result: Explanation, search: Search) -> None:
+    result.amendment, result.final, result.after = search.amendment, search.fit, search.judgement
+    result.reason = search.reason
+
+
+def _believed_machine(case: Case, structure: places.Structure) -> Machine:
+    """The believed model; with trackers on recorded shafts where its events make a fit rough."""
+    machine = Machine(case, Amendment(structure))
+    free, fixed = believed(case, machine)
+    shafts = trackable(case, machine.model, structure)[:1]
+    values = fixed | {f.name: f.centre for f in free}
+    if not shafts or machine.events_per_second(values, case.fit[0]) < 20:
+        return machine
+    return Machine(case, Amendment(structure, trackers=shafts))
+
+
+def fit_believed(case: Case, machine: Machine) -> tuple[Fit, tuple[float, ...]]:
+    """The believed model's best fit from several starts, and the bandwidths that lead fits of this model."""
+    noise = noise_of(case)
+    free, fixed = believed(case, machine)
+    bandwidths = bandwidths_for(case, machine, fixed | {f.name: f.centre for f in free})
+    best = fit(machine, case.fit, noise, free, fixed, bandwidths=bandwidths)
+    if best is not None and is_noise(best):
+        return best, bandwidths
+    random = np.random.default_rng(1)
+    start = {f.name: f.clip(f.centre + f.scale * float(random.normal())) for f in free}
+    other = (
+        fit(machine, case.fit, noise, free, fixed, start=start, bandwidths=bandwidths) if len(bandwidths) < 2 else None
+    )
+    if other is not None and (best is None or other.deviance() < best.deviance()):
+        best = other
+    if best is None:
+        raise RuntimeError(f"{case.model} cannot be simulated with the recorded inputs of {case.label}")
+    return best, bandwidths

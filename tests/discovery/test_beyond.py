@@ -12,10 +12,10 @@ from discovery.amend import Amendment
 from discovery.cases import load
 from discovery.empirical_law import find
 from discovery.experiments import separate
-from discovery.explain import fit_believed
 from discovery.law_terms import Group, evaluate
 from discovery.machine import Machine
 from discovery.places import read
+from discovery.steps import fit_believed
 from tests.discovery.conftest import BELIEVED, write_case
 
 CUBIC = """model CubicServo

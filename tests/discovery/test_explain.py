@@ -14,13 +14,15 @@ from discovery import catalogue, diagnosis, report
 from discovery.amend import Amendment
 from discovery.cases import load
 from discovery.evidence import is_noise
-from discovery.explain import Explanation, explain, fit_believed, judge_written, write_amended
+from discovery.explain import explain, judge_written, write_amended
+from discovery.explanation import Explanation
 from discovery.judge import judge_file
 from discovery.least_squares import Free, Problem, solve
 from discovery.locate import locate
 from discovery.machine import Machine
 from discovery.noise import estimate, quantum
 from discovery.places import read
+from discovery.steps import fit_believed
 
 
 def test_least_squares_finds_rosenbrock_within_bounds() -> None:

@@ -1,0 +1,51 @@
+"""What is known about a case, filled step by step; the verdict, diagnosis.json and the report are made of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+import time
+
+from .amend import Amendment
+from .cases import Case
+from .experiments import Experiment
+from .fit import Fit
+from .judge import Judgement
+from .locate import Located
+from .name import Naming
+from .recordings_check import Problem
+from .search import Finding
+
+
+@dataclass
+class Explanation:
+    """Everything that is known about a case in the end; diagnosis.json and the report are written from it."""
+
+    case: Case
+    problems: list[Problem]
+    verdict: str = "undetermined"
+    reason: str = ""
+    experiment: str = ""
+    trial: Experiment | None = None  # the recording that would separate tied explanations, simulated
+    base: Fit | None = None
+    final: Fit | None = None
+    amendment: Amendment | None = None
+    findings: list[Finding] = field(default_factory=list)
+    namings: list[Naming] = field(default_factory=list)
+    located: Located | None = None
+    before: Judgement | None = None
+    after: Judgement | None = None
+    floor: dict[str, float] = field(default_factory=dict)
+    seconds: dict[str, float] = field(default_factory=dict)
+    bandwidths: tuple[float, ...] = (0.0,)  # that lead fits of this model
+
+
+class Clock:
+    """Seconds of each step."""
+
+    def __init__(self, seconds: dict[str, float]):
+        self.seconds, self.last = seconds, time.perf_counter()
+
+    def done(self, step: str) -> None:
+        now = time.perf_counter()
+        self.seconds[step] = self.seconds.get(step, 0.0) + now - self.last
+        self.last = now
