@@ -289,8 +289,12 @@ def nrmse(
 
 def bandwidths_for(case: Case, machine: Machine, values: Mapping[str, float]) -> tuple[float, ...]:
     """The bandwidths that lead a fit: just 0, or falling ones where events make the sum of squares rough."""
-    motions = [m for m in machine.motions() if m is not None]
-    if not motions or machine.events_per_second(values, case.fit[0]) < 20:
+    if not any(machine.motions()) or machine.events_per_second(values, case.fit[0]) < 20:
         return (0.0,)
-    top = min(noise_bandwidth(case, m) for m in motions)
+    return falling_bandwidths(case, machine)
+
+
+def falling_bandwidths(case: Case, machine: Machine) -> tuple[float, ...]:
+    """Bandwidths (rad/s) of the trackers, from about what noise allows down to none."""
+    top = min(noise_bandwidth(case, m) for m in machine.motions() if m is not None)
     return (top / 8, top / 25, 0.0)

@@ -21,18 +21,21 @@ from .cases import Case, CaseError, Recording, Signal
 from .tracking import Motion, recorded_motion
 
 RTOL = 1e-6
-STEPS_PER_SAMPLE, STEPS_PER_SECOND = (
-    40,
-    8000,
-)  # a run that needs more is given up: its parameters are absurd
+STEPS_PER_SAMPLE, STEPS_PER_SECOND = 40, 8000  # a run that needs more is given up: its parameters are absurd
+STEPS_GROWTH = 10  # so is a hypothesis that needs so many times the steps of the model it amends
 _compile_lock = threading.Lock()
 
 
 class Machine:
     """The believed model of a case with an amendment, compiled; safe to simulate from several threads."""
 
-    def __init__(self, case: Case, amendment: Amendment, solver: str = "dopri5", source: Path | None = None):
+    def __init__(
+        self, case: Case, amendment: Amendment, solver: str = "dopri5", source: Path | None = None,
+        step_limits: Mapping[str, int] | None = None,
+    ):  # fmt: skip
         self.case, self.amendment, self.solver = case, amendment, solver
+        self.step_limits = step_limits or {}
+        self.steps: dict[str, int] = {}
         self.path = source or write_source(amendment)
         with _compile_lock:
             self.compiled = compile_model(str(self.path))
@@ -96,6 +99,7 @@ class Machine:
             self._sessions[recording.name].put(session)
         if not result.complete or len(result) != len(recording.time):
             return None
+        self.steps[recording.name] = int(result.counters["steps"])
         names = self.columns | {t: f"{t}.tau" for t in self._trackers()}
         return {column: np.array(result[name]) for column, name in names.items()}
 
@@ -105,7 +109,7 @@ class Machine:
         """Any variables of the model along a recording; raises SimulationError where the run fails."""
         session = Session(
             self.model, solver=self.solver, rtol=RTOL, outputs=names, output_times=recording.time, events=False,
-            inputs=self._inputs_of(recording), max_steps=_step_limit(recording),
+            inputs=self._inputs_of(recording), max_steps=self._step_limit(recording),
         )  # fmt: skip
         time = recording.time
         values = _plain(parameters)
@@ -149,8 +153,13 @@ class Machine:
             outputs = list(dict.fromkeys([*self.columns.values(), *(f"{t}.tau" for t in self._trackers())]))
             return Session(
                 self.model, solver=self.solver, rtol=RTOL, outputs=outputs, output_times=recording.time, events=False,
-                inputs=self._inputs_of(recording), max_steps=_step_limit(recording),
+                inputs=self._inputs_of(recording), max_steps=self._step_limit(recording),
             )  # fmt: skip
+
+    def _step_limit(self, recording: Recording) -> int:
+        duration = float(recording.time[-1] - recording.time[0])
+        largest = int(max(STEPS_PER_SAMPLE * len(recording.time), STEPS_PER_SECOND * duration))
+        return min(largest, self.step_limits.get(recording.name, largest))
 
     def _inputs_of(self, recording: Recording) -> dict[str, RecordedInput]:
         with self._lock:
@@ -190,11 +199,6 @@ class Machine:
         return next(n for n, v in self.model.states.items() if v.index == variable.index)
 
 
-def _step_limit(recording: Recording) -> int:
-    duration = float(recording.time[-1] - recording.time[0])
-    return int(max(STEPS_PER_SAMPLE * len(recording.time), STEPS_PER_SECOND * duration))
-
-
 def _plain(parameters: Mapping[str, float]) -> dict[str, float]:
     """Without the start values of states."""
     return {k: v for k, v in parameters.items() if not k.startswith("start:")}
@@ -230,9 +234,10 @@ def write_source(amendment: Amendment) -> Path:
     return path
 
 
-def try_machine(case: Case, amendment: Amendment, solver: str = "dopri5") -> tuple[Machine | None, str]:
-    """A machine, or None and why the amended model cannot be built (a hypothesis that does not fit this model)."""
+def try_machine(case: Case, amendment: Amendment, base: Machine) -> tuple[Machine | None, str]:
+    """A richer machine than `base`, or None and why it cannot be built (a hypothesis that does not fit this model)."""
+    limits = {name: STEPS_GROWTH * max(steps, 1000) for name, steps in base.steps.items()}
     try:
-        return Machine(case, amendment, solver), ""
+        return Machine(case, amendment, base.solver, step_limits=limits), ""
     except (Diagnostic, CompilerError, SimulationError) as error:
         return None, str(error)

@@ -16,10 +16,13 @@ import numpy as np
 
 from .amend import Amendment, Attachment
 from .cases import Case
-from .fit import Fit, Objective, fit, residuals_of
+from .evidence import is_noise
+from .fit import Fit, falling_bandwidths, fit, residuals_of
 from .least_squares import WORKERS, Free
 from .machine import try_machine
-from .screen import Candidate, Screen, prepare
+from .places import Shaft
+from .screen import Candidate, Screen, prepare, telling_recordings
+from .tracking import trackable
 
 MIN_GAIN = 20.0  # drop of the deviance, prices paid, below which nothing is believed missing
 CLOSE = 0.3  # share of the best gain within which hypotheses are cross-validated against each other
@@ -27,7 +30,9 @@ CONTENDERS = 4
 TIE = 8.0  # difference of two scores below which the data does not tell them apart
 FIRST_ROUND = 8
 STARTS = 3  # from which a hypothesis is fitted in the first round
-ROUNDS = ((3, 2, 100), (3, 3, 4), (10, 4, 2))  # (stages, iterations, hypotheses): successive halving
+ROUNDS = ((2, 2, 100), (2, 3, 10), (3, 3, 4), (10, 4, 2))  # (stages, iterations, fits): successive halving
+SEVERAL_STARTS = 1  # rounds after which only the best start of each hypothesis goes on
+LED = 2  # hypotheses that are fitted again, led by trackers, where none has left noise
 
 Progress = Callable[[str], None]
 
@@ -83,13 +88,12 @@ def screen_all(
     case: Case, amendment: Amendment, attachments: list[Attachment], base: Fit, progress: Progress
 ) -> tuple[list[Candidate], list[tuple[str, str]]]:
     """Candidates (one for each start), most promising first; and the hypotheses that do not fit this model."""
-    objective = Objective(base.machine, case.fit, base.noise)
-    screen = Screen(base, objective)
+    screen = Screen(base, telling_recordings(base))
     failures: list[tuple[str, str]] = []
 
     def one(attachment: Attachment) -> list[Candidate]:
         amended = replace(amendment, attachments=[*amendment.attachments, attachment])
-        machine, why = try_machine(case, amended, base.machine.solver)
+        machine, why = try_machine(case, amended, base.machine)
         if machine is None:
             failures.append((attachment.label, why))
             return []
@@ -111,8 +115,8 @@ def rank(
     screened = [(c.attachment.label, c.predicted) for c in _best_starts(candidates)]
     pool = _first_round(candidates)
     fitted: dict[str, Candidate] = {}
-    for stages, iterations, keep in ROUNDS:
-        pool = pool[:keep]
+    for k, (stages, iterations, keep) in enumerate(ROUNDS):
+        pool = (pool if k <= SEVERAL_STARTS else _best_starts(pool))[:keep]
         with ThreadPoolExecutor(WORKERS) as workers:
             fits = workers.map(partial(fit_candidate, case, base, bandwidths, stages, iterations), pool)
             for candidate, found in zip(pool, fits, strict=True):
@@ -122,12 +126,13 @@ def rank(
         if not pool:
             break
         correlation = _best_correlation(pool)
-        pool = _best_starts(sorted(pool, key=lambda c: _score(c, base, correlation)))
-        fitted |= {c.attachment.label: c for c in pool}
-        for c in pool:
+        pool.sort(key=lambda c: _score(c, base, correlation))
+        fitted |= {c.attachment.label: c for c in _best_starts(pool)}
+        for c in _best_starts(pool):
             progress(f"fitted {c.attachment.label}: {_score(c, base, correlation):.1f}")
     if not fitted:
         return Naming([], screened, failures)
+    _lead(case, base, list(fitted.values()), progress)
     correlation = _best_correlation(list(fitted.values()))
     ranked = [Ranked(c, c.fit, _score(c, base, correlation)) for c in fitted.values()]
     ranked.sort(key=lambda r: r.score)
@@ -177,6 +182,33 @@ def fit_candidate(
         candidate.machine, case.fit, base.noise, free, fixed, start=start, bandwidths=bandwidths, stages=stages,
         iterations=iterations, known=base.sensitivities() if candidate.fit is None else None,
     )  # fmt: skip
+
+
+def _lead(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
+    """Fit the best hypotheses again, shafts held near their recorded motion at first, where none of them left noise.
+
+    Stick and slip make the sum of squares rough: a fit that starts far away can end in one of its many dips.
+    """
+    ordered = sorted(candidates, key=lambda c: c.fit.deviance())
+    shafts = trackable(case, base.machine.model, base.machine.amendment.structure)
+    if not shafts or base.machine.amendment.trackers or is_noise(ordered[0].fit):
+        return
+    for candidate in ordered[:LED]:
+        progress(f"leading {candidate.attachment.label}")
+        found = _fit_led(case, base, candidate, shafts)
+        if found is not None and found.deviance() < candidate.fit.deviance():
+            candidate.fit = found
+
+
+def _fit_led(case: Case, base: Fit, candidate: Candidate, shafts: list[Shaft]) -> Fit | None:
+    amendment = replace(candidate.machine.amendment, trackers=shafts)
+    machine, _ = try_machine(case, amendment, base.machine)
+    if machine is None:
+        return None
+    free, fixed = [*base.estimate.free, *candidate.free], base.fixed | candidate.fixed
+    start = base.point | candidate.start
+    led = fit(machine, case.fit, base.noise, free, fixed, start=start, bandwidths=falling_bandwidths(case, machine))
+    return led and fit(candidate.machine, case.fit, base.noise, free, fixed, start=led.point)
 
 
 def cross_validated(

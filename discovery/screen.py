@@ -7,7 +7,7 @@ min |r + J x + D y|^2 + belief(x) over x and y against y = 0 (a score test). One
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
 import math
@@ -18,6 +18,7 @@ from scipy.optimize import lsq_linear
 from runtime import SimulationError
 
 from .amend import Attachment
+from .cases import Recording
 from .catalogue import Effect, EffectParameter
 from .fit import Fit, Objective
 from .least_squares import Free
@@ -25,6 +26,7 @@ from .machine import Machine
 
 RESPONSE = 0.1  # of the residual: size of the response from which a column is taken
 PROBES = 5
+TELLING = 0.5  # share of the misfit that screened recordings hold
 RANGE = 10.0  # how far beyond its start values a parameter without a neutral value may go
 
 
@@ -44,11 +46,11 @@ class Candidate:
 class Screen:
     """The linearised base fit against which hypotheses are measured."""
 
-    def __init__(self, base: Fit, objective: Objective):
+    def __init__(self, base: Fit, recordings: Sequence[Recording] | None = None):
         self.base = base
         self.noise = base.noise
-        objective.track(0.0, {})
-        self.recordings = objective.recordings
+        self.recordings = list(base.machine.case.fit if recordings is None else recordings)
+        objective = Objective(base.machine, self.recordings, base.noise)
         self.weights = objective.weights(base.level)
         parts = [objective(base.point, k) * w for k, w in enumerate(self.weights)]
         self.residual = np.concatenate(parts)
@@ -57,10 +59,10 @@ class Screen:
         beliefs = [(f, v) for f, v in zip(estimate.free, estimate.values, strict=True)]
         rows = np.diag([f.scale / f.sigma if f.sigma else 0.0 for f, _ in beliefs])
         pulls = np.array([(v - f.centre) / f.sigma if f.sigma else 0.0 for f, v in beliefs])
-        self.jacobian = (
-            np.vstack([*estimate.jacobian, rows]) if estimate.jacobian else np.zeros((len(self.residual), 0))
-        )
-        self.load = np.concatenate([self.residual, pulls]) if estimate.jacobian else self.residual
+        names = {r.name for r in self.recordings}
+        blocks = [b for name, b in zip(base.residuals, estimate.jacobian, strict=False) if name in names]
+        self.jacobian = np.vstack([*blocks, rows]) if blocks else np.zeros((len(self.residual), 0))
+        self.load = np.concatenate([self.residual, pulls]) if blocks else self.residual
         self.orthogonal, _ = np.linalg.qr(self.jacobian)
         self.cost = float(np.sum(self._project(self.load) ** 2))
 
@@ -97,6 +99,22 @@ class Screen:
             solution[alive] = _bounded(stack[:, alive], -target, np.array(bounds)[alive] if bounds else None)
         left = target + stack @ solution
         return 1.0 - float(left @ left) / self.cost, solution
+
+
+def telling_recordings(base: Fit) -> list[Recording]:
+    """The fewest recordings that hold most of the misfit: a first look at a hypothesis needs no others."""
+    misfit = dict.fromkeys(base.residuals, 0.0)
+    for name, residuals in base.residuals.items():
+        for column, noise in base.noise.items():
+            error = base.weights[name][column] * np.nan_to_num(residuals[column]) / (base.level[column] * noise.std)
+            misfit[name] += float(error @ error)
+    chosen: set[str] = set()
+    held = 0.0
+    for name in sorted(misfit, key=lambda n: -misfit[n]):
+        if held < TELLING * sum(misfit.values()):
+            chosen.add(name)
+            held += misfit[name]
+    return [r for r in base.machine.case.fit if r.name in chosen]
 
 
 def _bounded(columns: np.ndarray, target: np.ndarray, bounds: np.ndarray | None) -> np.ndarray:
