@@ -58,7 +58,7 @@ def findings(studies: Sequence[Study]) -> list[str]:
     said.append(
         f"event times: within ten times the relative tolerance of the duration in {len(checked) - len(late)} of "
         f"{len(checked)} variable-step runs at 1e-6 or tighter"
-        + ("; not where a guard creeps through zero, so that a small error of it is a long time:" * bool(late))
+        + ("; the others:" * bool(late))
     )
     return said + late
 
