@@ -57,8 +57,7 @@ def findings(studies: Sequence[Study]) -> list[str]:
     late = [_late(study, lane) for study, lane in checked if _is_late(study, lane)]
     said.append(
         f"event times: within ten times the relative tolerance of the duration in {len(checked) - len(late)} of "
-        f"{len(checked)} variable-step runs at 1e-6 or tighter"
-        + ("; the others:" * bool(late))
+        f"{len(checked)} variable-step runs at 1e-6 or tighter" + ("; the others:" * bool(late))
     )
     return said + late
 
