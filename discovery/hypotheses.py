@@ -105,6 +105,8 @@ def _instead_of_part(case: Case, structure: Structure, effect: Effect) -> list[A
     for part in structure.parts.values():
         if part.ancestors[0] != effect.replaces:
             continue
+        if effect.identifier.startswith("drive.") and structure.lines and "TwoPin" not in part.ancestors:
+            continue  # where an electric machine drives, a source of torque is a load
         for k, values in enumerate(_values(effect)):
             location = _stage_of(structure, part.name) if effect.identifier.startswith("drive.") else part.name
             if effect.location:

@@ -92,6 +92,7 @@ def test_every_effect_attaches_wherever_it_may_sit(
 ) -> None:
     plain, attachments = _attachments(library, effects, bench)
     assert {a.effect.identifier for a in attachments} >= EXPECTED[bench]
+    assert not [a.label for a in attachments if a.location == "load"], "a load is no drive"
     if bench == "FlightControl":  # its places are those of the smaller benches; a few suffice
         attachments = [a for a in attachments if a.effect.name in ("Compliance", "ShortCircuit", "BusResistance")]
     for number, attachment in enumerate(attachments):
