@@ -20,21 +20,34 @@ from .screen import Candidate
 from .search import Finding, Search, tracked
 
 LEFT = 1.2  # RMS of what a law leaves, in units of the noise, up to which it stands for all of the misfit
+COLOURED = 5.0  # RMS, in units of the noise as estimated, that coloured noise may have
+SHORT = 3  # parameters of a law that is believed before further effects are tried
 MARGIN = 40.0  # of the deviance, by which a law has to beat effects of the catalogue that leave as little
 
 Progress = Callable[[str], None]
 
 
-def consider(search: Search, base: Fit, before: Judgement, progress: Progress) -> None:
-    """Try a law where the search of the catalogue ended with misfit, or needed several effects; updates `search`.
+def explain_beyond(search: Search, base: Fit, before: Judgement, progress: Progress) -> None:
+    """Run the search, with a law in place of its findings or beside them where the catalogue is not enough.
 
-    `base` and `before` are the believed model's fit and judgement.
+    `base` and `before` are the believed model's fit and judgement. A law of one group that leaves noise where the best
+    effect does not ends the search; a longer one has to beat all that the catalogue finds in the end.
     """
-    if like_noise(base) or (is_noise(search.fit) and len(search.findings) < 2):
+    search.run(progress, most=1)
+    if is_noise(search.fit) or (like_noise(base) and max(base.level.values()) < COLOURED):
         return
     progress("looking for an empirical law")
-    if _instead(search, base, before, progress) or is_noise(search.fit) or not search.findings:
+    law = find(search.case, replace(search.amendment, attachments=[]), tracked(base, search.bandwidths), progress)
+    if law is not None and len(law.free) <= SHORT and _instead(search, base, before, law):
         return
+    search.run(progress)
+    if (law is not None and _instead(search, base, before, law)) or is_noise(search.fit) or not search.findings:
+        return
+    _beside(search, progress)
+
+
+def _beside(search: Search, progress: Progress) -> None:
+    """A law for what the findings leave."""
     progress("looking for an empirical law beside what was found")
     start = tracked(search.fit, search.bandwidths)
     candidate = find(search.case, search.amendment, start, progress)
@@ -49,26 +62,23 @@ def consider(search: Search, base: Fit, before: Judgement, progress: Progress) -
         search.take([*search.amendment.attachments, candidate.attachment], polished, after)
 
 
-def _instead(search: Search, base: Fit, before: Judgement, progress: Progress) -> bool:
+def _instead(search: Search, base: Fit, before: Judgement, law: Candidate) -> bool:
     """One law for all of the misfit of the believed model, in place of every finding."""
-    start = tracked(base, search.bandwidths)
-    amendment = replace(search.amendment, attachments=[])
-    candidate = find(search.case, amendment, start, progress)
-    if candidate is None or not (like_noise(candidate.fit) or max(candidate.fit.level.values()) < LEFT):
+    if not (like_noise(law.fit) or max(law.fit.level.values()) < LEFT):
         return False
-    correlation = candidate.fit.correlation()
-    gain = score(candidate, start, correlation)
+    start = tracked(base, search.bandwidths)
+    correlation = law.fit.correlation()
+    gain = score(law, start, correlation)
     if gain > -MIN_GAIN or (search.findings and gain > _found(search, start, correlation) - MARGIN):
         return False
-    ranked = _ranked(candidate, start)
+    ranked = _ranked(law, start)
     polished = search.polished(ranked, base)
     after = judge(polished.machine, polished.point) if polished is not None else None
     if after is None or not pays(before.validate, after.validate, search.floor):
         return False
     ranked.fit = polished
     search.findings[:] = [Finding(ranked, Naming([ranked, *_others(search)], []), before, after)]
-    search.amendment = amendment
-    search.take([candidate.attachment], polished, after)
+    search.take([law.attachment], polished, after)
     search.reason = ""
     return True
 

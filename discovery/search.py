@@ -51,9 +51,9 @@ class Search:
     namings: list[Naming] = field(default_factory=list)
     reason: str = ""
 
-    def run(self, progress: Progress) -> None:
-        """Add findings until what is left is noise, or nothing more pays."""
-        while len(self.findings) < MAX_FINDINGS and not is_noise(self.fit):
+    def run(self, progress: Progress, most: int = MAX_FINDINGS) -> None:
+        """Add findings, `most` of them, until what is left is noise, or nothing more pays."""
+        while len(self.findings) < most and not is_noise(self.fit):
             progress(f"looking for missing physics, round {len(self.findings) + 1}")
             if not self.add(progress):
                 return

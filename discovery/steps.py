@@ -10,7 +10,7 @@ from codegen.library import Library
 
 from . import catalogue, places
 from .amend import Amendment
-from .beyond import consider
+from .beyond import explain_beyond
 from .cases import Case, CaseError
 from .evidence import is_noise
 from .explanation import Explanation
@@ -92,8 +92,7 @@ def add_amendment(result: Explanation, library: Library, effect: str, progress: 
 def add_findings(result: Explanation, library: Library, progress: Progress) -> None:
     """Findings until what is left is noise or nothing pays: of the catalogue, then an empirical law."""
     search = _search(result, catalogue.read(library))
-    search.run(progress)
-    consider(search, result.base, result.before, progress)
+    explain_beyond(search, result.base, result.before, progress)
     _take(result, search)
 
 
