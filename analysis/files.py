@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 import shutil
@@ -28,12 +28,12 @@ def published_together(folder: Path) -> Iterator[Path]:
         shutil.rmtree(scratch, ignore_errors=True)
 
 
-def load_arrays(path: Path) -> dict[str, np.ndarray]:
-    """The arrays of an .npz file. Raises AnalysisError where it is missing or damaged."""
+def load_arrays(path: Path, names: Sequence[str]) -> dict[str, np.ndarray]:
+    """These arrays of an .npz file. Raises AnalysisError where it is missing or damaged, or has not all of them."""
     try:
         with np.load(path, allow_pickle=False) as content:
-            return {name: content[name] for name in content.files}
+            return {name: content[name] for name in names}
     except FileNotFoundError:
         raise AnalysisError(f"{path} is missing: the map was not prepared for assessment") from None
     except (OSError, ValueError, KeyError, EOFError, NotImplementedError, RuntimeError, zipfile.BadZipFile) as error:
-        raise AnalysisError(f"{path} is damaged, prepare the map again: {error}") from None
+        raise AnalysisError(f"{path} is damaged or of another version, prepare the map again: {error}") from None

@@ -107,7 +107,7 @@ class ModelPlant:
         Raises AnalysisError with severity, time and reason where the run does not complete.
         """
         settings = self._settings
-        values = settings.raw["actuator"].get("parameters", {}) | {settings.fault.parameter: severity} | parameters
+        values = settings.own_parameters | {settings.fault.parameter: severity} | parameters
         result = self._session().run(values, start=0.0, stop=float(self._times[-1]))
         if not result.complete:
             raise AnalysisError(f"{self.name} at {settings.fault.symbol} = {severity:g}: {result.failure}")

@@ -25,7 +25,7 @@ class Prepared:
     def __init__(self, folder: Path):
         self.settings = load_settings(folder / "settings.toml")
         self.table = SeverityTable(folder / TABLE_FILE)
-        model = load_arrays(folder / MODEL_FILE)
+        model = load_arrays(folder / MODEL_FILE, ("map", "starts", "mean", "covariance"))
         if str(model["map"]) != fingerprint(folder):
             raise AnalysisError(f"{folder}: the map was drawn anew since it was prepared; prepare it again")
         self._starts, self._mean, self._covariance = model["starts"], model["mean"], model["covariance"]

@@ -82,6 +82,12 @@ class Settings:
             raise AnalysisError(f"{self.path}: table [{name}] is missing")
         return _Table(f"{self.path}: {name}", self.raw[name])
 
+    @property
+    def own_parameters(self) -> dict[str, float]:
+        """Parameters of the model that every test has, other than declared."""
+        actuator = self.raw["actuator"]
+        return dict(zip(actuator.get("parameters", []), actuator.get("values", []), strict=True))
+
     def band_of(self, severity: float) -> Band:
         """In a gap between bands, the nearer one."""
         return min(self.bands, key=lambda band: max(band.first - severity, severity - band.last))

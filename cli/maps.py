@@ -26,9 +26,7 @@ def maps(
     jobs: Annotated[int | None, typer.Option(min=1, help="Simulations at once; default: one a core")] = None,
     fresh: Annotated[bool, typer.Option("--fresh", help="Compute every row again, also those already there")] = False,
     figures: Annotated[bool, typer.Option(help="Draw the figures and report.html")] = True,
-    prepare: Annotated[
-        bool, typer.Option("--prepare", help="Add what `lacuna assess` needs: a minute or two")
-    ] = False,
+    prepare: Annotated[bool, typer.Option("--prepare", help="Add what `lacuna assess` needs: a minute or two")] = False,
     combined: Annotated[
         str | None, typer.Option("--with", help="Map over two faults: one of those that the settings combine")
     ] = None,
@@ -86,7 +84,8 @@ def _report(finished: Map) -> None:
     table.add_column("unit")
     for row in finished.summary["comparison"]:
         table.add_row(row["quantity"], _text(row["published"]), _text(row["reproduced"]), row["unit"])
-    out.print(table)
+    if table.rows:
+        out.print(table)
     split = ", ".join(f"{name.replace('_cpu', ' (all cores)')} {s:.2f} s" for name, s in finished.seconds.items())
     out.print(f"{len(finished.rows)} severities: {split}")
     out.print(f"written: {finished.folder}")

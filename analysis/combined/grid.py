@@ -99,6 +99,7 @@ def build_grid(
 
 def load_grid(folder: Path) -> Grid:
     """Raises AnalysisError where a file is missing or damaged."""
-    settings, arrays = load_settings(folder / SETTINGS_FILE), load_arrays(folder / GRID_FILE)
+    settings = load_settings(folder / SETTINGS_FILE)
+    arrays = load_arrays(folder / GRID_FILE, ("other", "x", "y", "mean", "covariance", "starts"))
     other = other_fault(settings, str(arrays.pop("other")))
     return Grid(settings, other, **arrays)

@@ -24,10 +24,11 @@ from analysis.settings import Settings
 TITLE = "Peak-hold spectra and first peak"
 CAPTION = (
     "Above: peak-hold amplitude spectra, first peaks marked. Below: the line of the first peak is the spectral line "
-    "nearest to the electrical frequency, which falls smoothly as the motor slows; the published switch is where it "
+    "nearest to the electrical frequency, which changes smoothly with the speed of the motor; a switch is where it "
     "crosses the middle between two lines, not a threshold of the machine."
 )
-SHOWN = 160.0  # Hz
+SHOWN = 4.8  # times the frequency of the first peak: with its harmonics
+FEW = 4  # switches that can be marked one by one
 
 
 def draw(settings: Settings, rows: list[Row]) -> Figure:
@@ -46,14 +47,17 @@ def draw(settings: Settings, rows: list[Row]) -> Figure:
 
 
 def _draw_spectrum(axes: Axes, settings: Settings, rows: list[Row], channel: int) -> None:
+    limit = float(rows[0].traces["frequency"][-1])
+    peaks = [hz for row in rows for hz in row.peak_hz if hz is not None]
+    limit = min(limit, SHOWN * float(np.median(peaks))) if peaks else limit
     for row, colour in reversed(landmarks(settings, rows)):
         frequency, held = row.traces["frequency"], 1e3 * row.traces["held"][channel]
-        shown = frequency <= SHOWN
+        shown = frequency <= limit
         label = settings.fault.text(row.severity)
         axes.plot(frequency[shown], held[shown], color=colour, linewidth=1.3, label=label)
         if row.peak_bin[channel] is not None and row.peak_bin[channel] < len(held):
             axes.plot(row.peak_hz[channel], held[row.peak_bin[channel]], "o", color=colour, markersize=4.5)
-    axes.set_xlim(0, SHOWN)
+    axes.set_xlim(0, limit)
     axes.set_xlabel("frequency  (Hz)")
     axes.set_title(f"phase {phase_name(channel)}", color=PHASES[channel])
     if channel == 0:
@@ -85,10 +89,12 @@ def _draw_electrical_frequency(axes: Axes, settings: Settings, rows: list[Row], 
     axes.plot(severity, electrical, color=INK, linewidth=1.2)
     label_line_end(axes, severity[-1], electrical[-1], "electrical\nfrequency", INK)
     low, high = np.nanmin(electrical), np.nanmax(electrical)
-    for middle in np.arange(np.floor(low) + 0.5, np.ceil(high)):
-        if low <= middle <= high:
-            axes.axhline(middle, color=MUTED, linestyle=":", linewidth=1.2)
-            text = f"  middle between lines {middle - 0.5:.0f} and {middle + 0.5:.0f}"
-            axes.text(settings.fault.shown(settings.fault.first), middle, text, va="bottom", fontsize=9, color=MUTED)
+    switches = [middle for middle in np.arange(np.floor(low) + 0.5, np.ceil(high)) if low <= middle <= high]
+    if len(switches) > FEW:
+        return
+    for middle in switches:
+        axes.axhline(middle, color=MUTED, linestyle=":", linewidth=1.2)
+        text = f"  middle between lines {middle - 0.5:.0f} and {middle + 0.5:.0f}"
+        axes.text(settings.fault.shown(settings.fault.first), middle, text, va="bottom", fontsize=9, color=MUTED)
     axes.set_ylim(np.floor(low) + 0.4, np.ceil(high) + 0.45)
     axes.set_yticks(np.arange(np.floor(low) + 1, np.ceil(high) + 1))

@@ -12,7 +12,7 @@ from tests.analysis.plants import ReferencePlant, paper_settings
 @pytest.fixture(scope="session")
 def map_folder(tmp_path_factory):
     folder = tmp_path_factory.mktemp("assessment")
-    fewer = [("step = 0.01", "step = 0.02"), ("conditions = 7", "conditions = 3"), ("every = 10", "every = 5")]
+    fewer = [("conditions = 7", "conditions = 3"), ("every = 10", "every = 13")]
     settings = paper_settings(folder, *fewer)
     plant = ReferencePlant()
     prepare_assessment(plant, settings, build_map(plant, settings, folder / "map", figures=False))

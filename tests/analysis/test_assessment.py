@@ -127,6 +127,35 @@ def test_a_map_drawn_anew_must_be_prepared_anew(tmp_path, map_folder):
         assess(write(tmp_path / "r.csv", simulate(0.1)[:3]), tmp_path / "map", columns=COLUMNS)
 
 
+@pytest.mark.parametrize("name", ["expected.npz", "severity.table", "settings.toml"])
+@pytest.mark.parametrize("harm", ["cut", "flip", "empty"])
+def test_a_damaged_map_is_refused(tmp_path, map_folder, name, harm):
+    """Whatever file is harmed: an error that names it, or the same reading; never another one."""
+    shutil.copytree(map_folder, tmp_path / "map", ignore=shutil.ignore_patterns("rows"))
+    path, recording = tmp_path / "map" / name, write(tmp_path / "r.csv", simulate(0.1)[:3])
+    data = bytearray(path.read_bytes())
+    if harm == "flip":
+        data[len(data) // 3] ^= 0x10
+    path.write_bytes({"cut": data[: len(data) // 2], "flip": data, "empty": b""}[harm])
+    with pytest.raises(AnalysisError, match=r"map|expected\.npz|severity\.table|settings\.toml"):
+        assess(recording, tmp_path / "map", columns=COLUMNS)
+
+
+def test_a_recording_unlike_most_is_read_with_a_warning(tmp_path, map_folder):
+    """Between doubtful and improbable: a supply that is off by a little more than the nuisances allow."""
+    found = []
+    for share in np.linspace(1.0, 1.4, 9):
+        try:
+            path = write(tmp_path / "r.csv", simulate(0.1, V=share * declared("V"))[:3])
+            found.append(assess(path, map_folder, columns=COLUMNS).warnings)
+        except Refusal as refusal:
+            assert "standard deviations" in str(refusal)
+            found.append(None)
+    assert found[0] == () and found[-1] is None
+    warned = [warnings for warnings in found if warnings]
+    assert warned and "standard deviations" in warned[0][0]
+
+
 def test_another_actuator_is_refused(tmp_path, map_folder):
     currents = simulate(0.1, Ke=0.08, R=1.0, pp=4.0)[:3]
     with pytest.raises(Refusal, match=r"no severity of the map explains|not those of this test"):

@@ -66,7 +66,7 @@ def test_a_study_resumes_and_beats_the_mean_rms(tmp_path, map_folder):
     assert np.sqrt((paper**2).mean()) > 0.06
 
     assert results.covered.all()
-    stranger = {"name": "a dragging brake", "parameters": ["tau_c", "V"], "factor": [8.0, 0.8]}
+    stranger = {"name": "a dragging brake", "parameters": ["tau_c", "V"], "factor": [3.0, 0.8]}
     strange = run_tests(ReferencePlant(), prepared, tmp_path / "store", 16, stranger=stranger)
     assert not strange.covered.any()
 
