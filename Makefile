@@ -14,7 +14,7 @@ run_ctest = ctest --test-dir $(1) --output-on-failure -j 2 > $(1)/ctest.log && t
   || { cat $(1)/ctest.log; exit 1; }
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*')
 
-.PHONY: help setup build test maps compare explain assess bench check fuzz prove robustness combined tolerance-study \
+.PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined tolerance-study \
         figures format lint sanitize ctest pytest lock clean
 
 help: ## Print this list
@@ -63,6 +63,9 @@ combined: setup ## Maps over two faults at once and how well both are read (minu
 
 prove: setup ## The blind proof of the diagnosis (long, resumes), writes docs/proof.md
 	@$(PYTHON) -m tests.proof --out $(OUT)/prove
+
+degrade: setup ## The diagnosis with more noise, shorter recordings and no current, writes docs/degradation.md
+	@$(PYTHON) -m tests.proof.degrade --out $(OUT)/degrade
 
 bench: setup ## Times and errors against hand-written programs, into out/bench/
 	@$(PYTHON) -m bench --out $(OUT)/bench

@@ -74,6 +74,8 @@ def main() -> int:
         return 0
     versions = {"lacuna": tool_hash(), "usual": usual_hash()}
     names = sorted(n for n in names if all(finished(out / k / n, v) for k, v in versions.items()))
+    if not names:
+        raise SystemExit("nothing is finished by this version of the tool")
     scores, alternative = (score_folder(out / k, out / "truth", names) for k in versions)
     print(summary_table(scores, alternative))
     text = page(scores, alternative, arguments.seed, len(every))

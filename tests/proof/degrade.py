@@ -5,11 +5,14 @@ not that the effect is still named, but that nothing wrong is.
 """
 
 import argparse
+from collections import Counter
 from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+import os
 from pathlib import Path
-import sys
 
+from tests.proof.__main__ import EXPLAIN
 from tests.proof.case import Case, noise_std
 from tests.proof.generate import build, judge
 from tests.proof.plan import Plan
@@ -17,13 +20,12 @@ from tests.proof.runner import ROOT, diagnose, run_all, tool_hash
 from tests.proof.score import Score, score_folder
 from tests.proof.write import write_case, write_truth
 
-DC, EMA = ("i", "w", "theta"), ("u", "i", "thm", "ths")
+DC = ("i", "w", "theta")
 SOURCES = (
-    Plan("effect", "DcServo", ("friction.coulomb",), gain=(3.0, 5.0), outputs=DC),
-    Plan("effect", "DcServo", ("torque.cogging",), gain=(3.0, 5.0), outputs=DC),
-    Plan("effect", "DcServo", ("drive.dead_time",), gain=(3.0, 5.0), outputs=DC),
-    Plan("effect", "ScrewEma", ("backlash",), gain=(3.0, 5.0), outputs=EMA),
-    Plan("effect", "ScrewEma", ("friction.stribeck",), gain=(3.0, 5.0), outputs=EMA),
+    *(
+        Plan("effect", "DcServo", (effect,), gain=(3.0, 5.0), outputs=DC)
+        for effect in ("friction.coulomb", "friction.stribeck", "torque.cogging", "drive.dead_time", "sensor.lag")
+    ),
     Plan("effect", "Joint", ("load.gravity",), gain=(3.0, 5.0), outputs=("w", "theta")),
 )
 
@@ -51,23 +53,22 @@ VARIANTS: dict[str, Callable[[Case], Case]] = {
 SEEN = 1.05  # a misfit below this many floors is not in the data
 
 
-def _write(out: Path, seed: int) -> dict[str, tuple[str, str]]:
-    """Writes every case under every variant; returns what each is: (effect and bench, variant)."""
-    names: dict[str, tuple[str, str]] = {}
-    for k, planned in enumerate(SOURCES):
-        case = build("base", planned, 1000 * seed + k)
-        for j, (label, change) in enumerate(VARIANTS.items()):
-            if label == "without the current" and "i" not in case.outputs:
-                continue
-            name = f"d{k}{j}"
-            names[name] = (f"{planned.effects[0]} on {planned.bench}", label)
-            if (out / "truth" / f"{name}.toml").exists():
-                continue
-            changed = replace(change(case), name=name)
-            judge(changed, 1000 * seed + k, case.true)
+def _applies(planned: Plan, label: str) -> bool:
+    return label != "without the current" or "i" in planned.outputs
+
+
+def _write(k: int, out: Path, seed: int) -> dict[str, tuple[str, str]]:
+    """Writes a case under every variant, unless it is there; returns what each is: (effect and bench, variant)."""
+    planned, own = SOURCES[k], 1000 * seed + k
+    labels = {f"d{k}{j}": label for j, label in enumerate(VARIANTS) if _applies(planned, label)}
+    if not all((out / "truth" / f"{name}.toml").exists() for name in labels):
+        case = build("base", planned, own)
+        for name, label in labels.items():
+            changed = replace(VARIANTS[label](case), name=name)
+            judge(changed, own, case.true)
             write_case(changed, out / "cases" / name, {n: noise_std(changed, n) for n in changed.outputs})
-            write_truth(changed, out / "truth" / f"{name}.toml", seed)
-    return names
+            write_truth(changed, out / "truth" / f"{name}.toml", own)
+    return {name: (f"{planned.effects[0]} on {planned.bench}", label) for name, label in labels.items()}
 
 
 def _word(score: Score) -> str:
@@ -77,6 +78,8 @@ def _word(score: Score) -> str:
         return "undetermined"
     if score.verdict in ("consistent", "parameters"):
         return "not seen" if score.misfit < SEEN else f"**{score.verdict}**"
+    if score.verdict == "out of time":
+        return score.verdict
     return f"**{score.first}**"
 
 
@@ -84,14 +87,19 @@ def _page(words: dict[tuple[str, str], str], seed: int) -> str:
     rows = list(dict.fromkeys(effect for effect, _ in words))
     lines = ["| concealed | " + " | ".join(VARIANTS) + " |", "|" + " --- |" * (len(VARIANTS) + 1)]
     lines += [f"| {r} | " + " | ".join(words.get((r, v), "-") for v in VARIANTS) + " |" for r in rows]
+    count = Counter(words.values())
     wrong = sum("**" in w for w in words.values())
     return (
         f"""# How the diagnosis degrades
 
-Written by `python -m tests.proof.degrade` (seed {seed}). The same recordings with more noise, cut short, and without
-the current. *right*: the effect is the first finding; *undetermined*: it says that the data cannot tell; *not seen*:
-it says that nothing is missing, and the misfit of the refitted believed model is below {SEEN} times the floor, so that
-there is nothing to see; **bold**: something else, which is wrong: {wrong} of {len(words)}.
+Written by `make degrade` (seed {seed}). The same recordings with more noise, cut short, and without the current.
+
+* right, {count["right"]} of {len(words)}: the effect is the first finding.
+* undetermined, {count["undetermined"]}: it says that the data cannot tell.
+* not seen, {count["not seen"]}: it says that no physics is missing, and the misfit of the refitted believed model is
+  below {SEEN} times the floor, so that there is nothing to see.
+* wrong, {wrong}: **something else**, in bold.
+* out of time, {count["out of time"]}.
 
 """
         + "\n".join(lines)
@@ -103,15 +111,19 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "degrade")
     parser.add_argument("--seed", type=int, default=3)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="cases side by side")
     arguments = parser.parse_args()
     out = arguments.out / f"seed{arguments.seed}"
-    names, version = _write(out, arguments.seed), tool_hash()
-    command = [str(Path(sys.executable).with_name("lacuna")), "explain"]
+    with ProcessPoolExecutor(arguments.jobs) as pool:
+        every = range(len(SOURCES))
+        written = pool.map(_write, every, [out] * len(every), [arguments.seed] * len(every))
+        names = {name: what for part in written for name, what in part.items()}
+    version = tool_hash()
     run_all(
         list(names),
-        lambda name: diagnose(command, out / "cases" / name, out / "lacuna" / name, version, 900.0),
-        1,
-        lambda name, status: print(name, *names[name], status, flush=True),
+        lambda name: diagnose(EXPLAIN, out / "cases" / name, out / "lacuna" / name, version, 300.0),
+        arguments.jobs,
+        "degraded",
     )
     scores = score_folder(out / "lacuna", out / "truth", names)
     words = {names[s.case]: _word(s) for s in scores}
@@ -121,4 +133,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    raise SystemExit(main())

@@ -133,14 +133,15 @@ def score(case: str, diagnosis: Mapping, truth: Mapping, seconds: float = math.n
 
 
 def score_folder(diagnoses: Path, truths: Path, names: Iterable[str]) -> list[Score]:
-    """Scores of DIAGNOSES/NAME/diagnosis.json against TRUTHS/NAME.toml; a missing diagnosis scores as verdict none."""
+    """Scores of DIAGNOSES/NAME/diagnosis.json against TRUTHS/NAME.toml; where there is none, the
+    verdict is what the run came to (out of time, say), which is never right."""
     scores = []
     for name in names:
         truth = tomllib.loads((truths / f"{name}.toml").read_text())
         file, run = diagnoses / name / "diagnosis.json", diagnoses / name / "run.json"
-        diagnosis = json.loads(file.read_text()) if file.exists() else {}
-        seconds = json.loads(run.read_text())["seconds"] if run.exists() else math.nan
-        scores.append(score(name, diagnosis, truth, seconds))
+        outcome = json.loads(run.read_text()) if run.exists() else {}
+        diagnosis = json.loads(file.read_text()) if file.exists() else {"verdict": outcome.get("status", "none")}
+        scores.append(score(name, diagnosis, truth, outcome.get("seconds", math.nan)))
     return scores
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from tests.proof.report import page
 from tests.proof.runner import diagnose
-from tests.proof.score import coverage, gain_share, score, wilson
+from tests.proof.score import coverage, gain_share, score, score_folder, wilson
 
 
 def _truth(kind="effect", verdict="missing_physics", effects=("friction.coulomb",)):
@@ -112,7 +112,28 @@ def test_runner_resumes_and_hides_the_rest(tmp_path):
 def test_page_reports_right_and_wrong():
     right = score("c001", _diagnosis(), _truth())
     wrong = score("c002", _diagnosis("backlash"), _truth())
-    text = page([right, wrong], [wrong], seed=2, all_cases=3)
+    text = page([right, wrong], [right, wrong], seed=2, all_cases=3)
     assert "1 of 2 = 50%" in text
     assert "2 of 3 cases" in text
     assert "backlash 1" in text
+
+
+def test_out_of_time_is_never_right(tmp_path):
+    case, truth = tmp_path / "cases" / "c001", tmp_path / "truth"
+    case.mkdir(parents=True)
+    truth.mkdir()
+    (truth / "c001.toml").write_text(
+        """kind = "weak"
+model = "Benches.Joint"
+accept_verdicts = ["undetermined", "consistent"]
+[nrmse]
+fit = {refit_believed = 0.1, floor = 0.1}
+validate = {refit_believed = 0.1, floor = 0.1}
+[true_parameters]
+"""
+    )
+    sleeper = [sys.executable, "-c", "import time; time.sleep(60)"]
+    assert diagnose(sleeper, case, tmp_path / "out" / "c001", "v1", 0.2) == "out of time"
+    (score,) = score_folder(tmp_path / "out", truth, ["c001"])
+    assert score.verdict == "out of time"
+    assert not score.verdict_right
