@@ -20,17 +20,17 @@ def explain(
 
     Fits the believed model, locates the missing effort, ranks effects of the catalogue, writes the amended model and
     judges it on recordings that nothing was fitted to. Writes diagnosis.json, report.html and, where there is one, the
-    amended model; prints the verdict.
+    amended model; prints the verdict. After an interruption, the same call takes up the fits that were finished.
     """
     from discovery import cases, diagnosis, report
     from discovery.explain import explain as explained
     from discovery.explain import judge_written, write_amended
+    from discovery.store import kept
 
     loaded = cases.load(case)
     folder = out or Path("out/explain") / case.resolve().name
-    with Console(stderr=True).status("reading the recordings") as status:
+    with Console(stderr=True).status("reading the recordings") as status, kept(folder / ".unfinished"):
         result = explained(loaded, progress=status.update)
-    folder.mkdir(parents=True, exist_ok=True)
     amended = write_amended(result, folder)
     if amended is not None:
         judge_written(result, amended)

@@ -65,7 +65,8 @@ def _finding(result: Explanation, finding: Finding) -> dict[str, Any]:
         full = attachment.full_name(parameter.name)
         value = point.get(full, dict(attachment.values).get(parameter.name))
         if value is not None and parameter.name != attachment.effect.interval:
-            parameters[parameter.name] = {"value": value, "std": errors.get(full, 0.0), "unit": parameter.unit}
+            unit = _unit(result, finding, parameter.name)
+            parameters[parameter.name] = {"value": value, "std": errors.get(full, 0.0), "unit": unit}
     if attachment.effect.polar:
         _positive_phase(parameters, attachment.effect.polar[1])
     law = {"law": law_text(result, finding)} if attachment.expression else {}
@@ -79,6 +80,14 @@ def _finding(result: Explanation, finding: Finding) -> dict[str, Any]:
         "alternatives": _alternatives(finding),
         "nrmse": _nrmse(finding.before, finding.after),
     }
+
+
+def _unit(result: Explanation, finding: Finding, name: str) -> str:
+    """A parameter's unit; what a sensor adds to its signal is in the signal's."""
+    attachment = finding.ranked.attachment
+    if attachment.variable and name == "offset":
+        return next(s.si_unit for s in result.case.outputs if s.variable == attachment.variable)
+    return attachment.effect.parameter(name).unit
 
 
 def law_text(result: Explanation, finding: Finding) -> str:

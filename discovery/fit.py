@@ -18,6 +18,7 @@ from .cases import Case, Recording
 from .least_squares import Estimate, Free, Problem, solve
 from .machine import Machine
 from .noise import Noise, correlation_time, estimate, sample_weights
+from .store import remembered
 from .tracking import noise_bandwidth
 
 LOWER_SHARE = 0.02  # of its believed value, below which no positive parameter is tried
@@ -232,18 +233,36 @@ def fit(
     problem = Problem(free, objective, len(objective.recordings), dict(fixed))
     first = dict(start or {})
     values = np.array([f.clip(first.get(f.name, f.centre if f.start is None else f.start)) for f in free])
+
+    def led() -> tuple[Estimate | None, dict[str, float]]:
+        return _led(objective, problem, values, bandwidths, known or {}, stages, iterations)
+
+    found, level = remembered(
+        lambda: (machine.compiled.hash, recordings, noise, free, dict(fixed), first, tuple(bandwidths), stages,
+                 iterations, bool(known)),
+        led,
+    )  # fmt: skip
+    if found is None:
+        return None
+    return _finish(machine, recordings, dict(noise), found, level, problem.simulations, dict(fixed))
+
+
+def _led(
+    objective: Objective, problem: Problem, values: np.ndarray, bandwidths: Sequence[float],
+    known: Mapping[str, list[np.ndarray]], stages: int, iterations: int,
+) -> tuple[Estimate | None, dict[str, float]]:  # fmt: skip
+    """The fit led by trackers of falling bandwidth; None where it fails or where the last one still tracks."""
+    free, fixed = problem.free, problem.fixed
     found, level = None, {}
     for bandwidth in bandwidths:
-        objective.track(bandwidth, dict(fixed) | {f.name: v for f, v in zip(free, values, strict=True)})
+        objective.track(bandwidth, fixed | {f.name: v for f, v in zip(free, values, strict=True)})
         columns = (
-            {} if objective.stiffness else {k: known[f.name] for k, f in enumerate(free) if known and f.name in known}
+            {} if objective.stiffness else {k: known[f.name] for k, f in enumerate(free) if f.name in known}
         )
         result, level_here = anneal(objective, problem, values, stages=stages, iterations=iterations, known=columns)
         if result is not None:
             found, level, values = result, level_here, result.values
-    if found is None or objective.stiffness:
-        return None
-    return _finish(machine, recordings, dict(noise), found, level, problem.simulations, dict(fixed))
+    return (None, {}) if objective.stiffness else (found, level)
 
 
 def _finish(
