@@ -1,7 +1,7 @@
 """The proof: `python -m tests.proof --out DIR [--seed 4] [--quick]`; resumes, and writes docs/proof.md when whole."""
 
 import argparse
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import ProcessPoolExecutor
 import os
 from pathlib import Path
 import shutil
@@ -29,51 +29,50 @@ def _arguments() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def _generate(cases: list, out: Path, jobs: int) -> None:
-    """Writes the cases that are not there yet; those of another version of the generator go."""
+def _fresh(out: Path) -> None:
+    """Makes room for the cases; those of another version of the generator go."""
     stamp, version = out / "generator", generator_hash()
     if not (stamp.exists() and stamp.read_text() == version):
         for kind in ("cases", "truth"):
             shutil.rmtree(out / kind, ignore_errors=True)
         out.mkdir(parents=True, exist_ok=True)
         stamp.write_text(version)
-    missing = [(n, p, s, out) for n, p, s in cases if not (out / "truth" / f"{n}.toml").exists()]
-    with ProcessPoolExecutor(jobs) as pool:
-        for k, done in enumerate(as_completed([pool.submit(generate, case) for case in missing]), start=1):
-            done.result()
-            print(f"cases [{k}/{len(missing)}]", flush=True)
 
 
-def _diagnose(names: list[str], out: Path, arguments: argparse.Namespace) -> None:
-    """The usual alternative on every case, then the tool; an edit of the tool while it runs ends the run."""
+def _run(cases: list, out: Path, arguments: argparse.Namespace) -> None:
+    """Every case: generated, diagnosed by the usual alternative and by the tool. An edit of the tool ends the run."""
     usual, version = usual_hash(), tool_hash()
+    planned = {item[0]: (*item, out) for item in cases}
 
-    def alternative(name: str) -> str:
-        return diagnose(USUAL, out / "cases" / name, out / "usual" / name, usual, arguments.timeout)
+    def diagnosed(command: tuple[str, ...], kind: str, name: str, key: str) -> str:
+        return diagnose(command, out / "cases" / name, out / kind / name, key, arguments.timeout)
 
-    def tool(name: str) -> str:
+    def work(name: str) -> str:
+        if not (out / "truth" / f"{name}.toml").exists():
+            generators.submit(generate, planned[name]).result()
+        status = diagnosed(USUAL, "usual", name, usual)
+        if arguments.prepare:
+            return status
         if tool_hash() != version:
             raise SystemExit("the tool has been edited since the run began: start it again")
-        return diagnose(EXPLAIN, out / "cases" / name, out / "lacuna" / name, version, arguments.timeout)
+        return diagnosed(EXPLAIN, "lacuna", name, version)
 
-    run_all(names, alternative, arguments.jobs, "usual alternative")
-    if not arguments.prepare:
-        run_all(names, tool, arguments.jobs, "lacuna")
+    _fresh(out)
+    with ProcessPoolExecutor(arguments.jobs) as generators:
+        run_all(list(planned), work, arguments.jobs)
 
 
 def main() -> int:
     arguments = _arguments()
     every = spread(plan(arguments.seed))
     cases = quick(every) if arguments.quick else every
-    names = [name for name, _, _ in cases]
     out = arguments.out / f"seed{arguments.seed}"
     if not arguments.report:
-        _generate(cases, out, arguments.jobs)
-        _diagnose(names, out, arguments)
+        _run(cases, out, arguments)
     if arguments.prepare:
         return 0
     versions = {"lacuna": tool_hash(), "usual": usual_hash()}
-    names = sorted(n for n in names if all(finished(out / k / n, v) for k, v in versions.items()))
+    names = sorted(n for n, _, _ in cases if all(finished(out / k / n, v) for k, v in versions.items()))
     if not names:
         raise SystemExit("nothing is finished by this version of the tool")
     scores, alternative = (score_folder(out / k, out / "truth", names) for k in versions)

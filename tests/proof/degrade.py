@@ -123,7 +123,6 @@ def main() -> int:
         list(names),
         lambda name: diagnose(EXPLAIN, out / "cases" / name, out / "lacuna" / name, version, 300.0),
         arguments.jobs,
-        "degraded",
     )
     scores = score_folder(out / "lacuna", out / "truth", names)
     words = {names[s.case]: _word(s) for s in scores}

@@ -92,7 +92,7 @@ def diagnose(command: Sequence[str], case: Path, out: Path, version: str, timeou
     return status
 
 
-def run_all(names: Sequence[str], work: Callable[[str], str], jobs: int, label: str) -> None:
+def run_all(names: Sequence[str], work: Callable[[str], str], jobs: int) -> None:
     """`work(name)` for every name, `jobs` at a time; says after each how many are done and how long the rest takes.
 
     The first error, or Ctrl-C, drops what has not begun.
@@ -105,6 +105,6 @@ def run_all(names: Sequence[str], work: Callable[[str], str], jobs: int, label: 
             status = done.result()
             fresh += status != "kept"
             left = (time.monotonic() - started) / max(fresh, 1) * (len(names) - k) / 60
-            print(f"{label} [{k}/{len(names)}] {pending[done]} {status}, about {left:.0f} min left", flush=True)
+            print(f"[{k}/{len(names)}] {pending[done]} {status}, about {left:.0f} min left", flush=True)
     finally:
         pool.shutdown(wait=True, cancel_futures=True)
