@@ -18,6 +18,7 @@ from analysis.settings import Settings
 
 SLOWEST = 5000.0  # Hz; below, the third harmonic of the commutation ripple folds into the analysed band
 
+LARGEST = 1 << 30  # bytes of a file: a hundred times a second of three currents at 100 kHz as text
 LIKENESS = 0.9  # of the first instants of a test to those on the map: a cosine
 
 
@@ -38,6 +39,8 @@ def read_recording(path: Path | str, settings: Settings, columns: Sequence[str] 
     `columns` name the phase currents in the order of the map's channels; by default they are called as in the map.
     """
     path = Path(path)
+    if path.exists() and not (path.is_file() and path.stat().st_size <= LARGEST):
+        raise Refusal(f"{path}: not a file of at most {LARGEST >> 20} MB, as a recording of this test would be")
     names = tuple(columns or settings.currents)
     if len(names) != len(settings.currents):
         raise Refusal(f"{len(names)} currents named where the map has {len(settings.currents)}")

@@ -1,4 +1,4 @@
-"""Figure 7 of the paper: the filtered phase currents around one electrical turn of the rotor."""
+"""As figure 7 of the paper: the filtered phase currents around one electrical turn of the rotor."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from analysis.settings import Settings
 
 TITLE = "Phase currents and rotor position"
 CAPTION = (
-    "Figure 7 of the paper, over the last two electrical turns. Around: electrical rotor angle, zero where phase A's "
-    "back-EMF rises through zero. Outwards: filtered phase current; the dotted circle is zero current. The red arrow "
-    "marks the angle at which the fault raises the back-EMF most. The healthy motor draws the same pattern three "
-    "times, 120 degrees apart; the fault weakens the back-EMF on the side away from the arrow, and the current rushes "
-    "in there."
+    "As figure 7 of the paper, over the last two electrical turns. Around: electrical rotor angle, zero where "
+    "phase A's back-EMF rises through zero. Outwards: filtered phase current; the dotted circle is zero current. "
+    "The red arrow marks the angle at which the fault raises the back-EMF most. The healthy motor draws the same "
+    "pattern three times, 120 degrees apart; the fault weakens the back-EMF on the side away from the arrow, and "
+    "the current rushes in there."
 )
 
 

@@ -20,7 +20,7 @@ from analysis.settings import Settings
 
 TITLE = "RMS of the filtered phase currents"
 CAPTION = (
-    "Figure 4 of the paper. The currents grow with the fault and drift apart. They differ slightly without a fault "
+    "As figure 4 of the paper. The currents grow with the fault and drift apart. They differ slightly without a fault "
     "already, because the start-up belongs to the record."
 )
 

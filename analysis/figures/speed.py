@@ -21,8 +21,8 @@ from analysis.settings import Settings
 
 TITLE = "Rotor speed"
 CAPTION = (
-    "Figure 6 of the paper. Left: the last tenth of a second; with the fault the rotor is slower and its speed "
-    "ripples more. Right: mean speed over whole turns after the start-up."
+    "As figure 6 of the paper. Left: the last tenth of a second; the speed ripples more with the fault."
+    " Right: mean speed over whole turns after the start-up."
 )
 ZOOM = 0.1  # s, end of the record
 

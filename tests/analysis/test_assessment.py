@@ -183,6 +183,14 @@ def test_broken_files_are_refused(tmp_path, map_folder, text, reason):
         assess(path, map_folder, columns=COLUMNS)
 
 
+def test_an_endless_file_is_refused(tmp_path, map_folder):
+    with (tmp_path / "r.csv").open("wb") as file:
+        file.truncate(5 << 30)  # a hole: takes no space
+    for path in (tmp_path / "r.csv", "/dev/zero"):
+        with pytest.raises(Refusal, match="not a file of at most 1024 MB"):
+            assess(path, map_folder, columns=COLUMNS)
+
+
 def test_a_broken_mat_file_is_refused(tmp_path, map_folder):
     (tmp_path / "r.mat").write_bytes(b"MATLAB 5.0 MAT-file" + bytes(100))
     with pytest.raises(Refusal):

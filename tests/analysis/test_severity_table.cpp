@@ -1,6 +1,7 @@
 // The severity table under harm: whatever the bytes, an error or a usable table, under the sanitizers too.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -10,6 +11,7 @@
 
 #include "lacuna/onboard/monitor.hpp"
 #include "lacuna/severity_table.hpp"
+#include "malloc_trap.h"
 
 using lacuna::SeverityTable;
 
@@ -116,14 +118,20 @@ TEST(SeverityTable, SurvivesAnyBytesBehindARightChecksum) {
   EXPECT_GT(usable, 25);
 }
 
-TEST(SeverityTable, AMonitorOfItsConfigurationAnalysesARecord) {
+TEST(SeverityTable, AMonitorOfItsConfigurationAnalysesARecordAndAllocatesNothing) {
   const SeverityTable table(small_table().with_checksum());
   lacuna::onboard::Monitor monitor(table.configuration());
+  const long before = allocations();
   bool complete = false;
   for (int k = 0; k < 1000; ++k) {
     const double current = std::cos(0.4 * k);
     complete = monitor.push({&current, 1}, 0.0);
   }
-  EXPECT_TRUE(complete);
+  std::array<double, n> found{};
+  const bool has_peaks = lacuna::signature({monitor.features().channels.data(), 1}, found);
+  const auto estimate = table.estimate(found, monitor.features().rms_mean);
+  EXPECT_EQ(allocations(), before);
+  EXPECT_TRUE(complete && has_peaks);
+  EXPECT_LE(estimate.low, estimate.high);
   EXPECT_NEAR(monitor.features().channels[0].frequency, 0.4 * 1000 / (2 * 3.14159265), 0.1);
 }
