@@ -9,7 +9,7 @@ import pytest
 from tests.proof.benches import BENCHES
 from tests.proof.case import noise_std
 from tests.proof.generate import build, generate
-from tests.proof.plan import Plan, plan, quick
+from tests.proof.plan import ALWAYS, Plan, plan, quick, spread
 
 
 def test_plan_has_what_the_proof_promises():
@@ -21,11 +21,21 @@ def test_plan_has_what_the_proof_promises():
     assert kinds["law"] >= 6
     assert len({e for _, p, _ in cases if p.kind == "effect" for e in p.effects}) >= 24
     assert {p.bench for _, p, _ in cases} == set(BENCHES)
+    assert set(ALWAYS) <= {(e, p.bench) for _, p, _ in cases if p.kind == "effect" for e in p.effects}
     assert len({name for name, _, _ in cases}) == len(cases) == len({seed for _, _, seed in cases})
 
 
 def test_quick_has_every_kind():
     assert {p.kind for _, p, _ in quick(plan(2))} == {p.kind for _, p, _ in plan(2)}
+
+
+def test_a_beginning_has_of_each_kind_its_share():
+    cases = spread(plan(2))
+    assert {name for name, _, _ in cases} == {name for name, _, _ in plan(2)}
+    third = Counter(p.kind for _, p, _ in cases[: len(cases) // 3])
+    whole = Counter(p.kind for _, p, _ in cases)
+    for kind in ("effect", "consistent", "parameters"):
+        assert third[kind] == pytest.approx(whole[kind] / 3, abs=4)
 
 
 def _texts(folder):
