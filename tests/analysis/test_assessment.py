@@ -183,6 +183,32 @@ def test_broken_files_are_refused(tmp_path, map_folder, text, reason):
         assess(path, map_folder, columns=COLUMNS)
 
 
+@pytest.mark.parametrize("harm", ["bits", "digits", "cut"])
+def test_a_fuzzed_recording_is_refused_warned_of_or_read_rightly(tmp_path, map_folder, harm):
+    random = np.random.default_rng(8)
+    currents = simulate(0.2, step=1 / 5000, rows=5000)[:3]
+    whole = write(tmp_path / "r.csv", currents + 0.02 * random.normal(size=currents.shape), rate=5000).read_bytes()
+    digits = [k for k, byte in enumerate(whole) if chr(byte).isdigit()]
+    refused = 0
+    for _ in range(12):
+        data = bytearray(whole)
+        for _ in range(random.choice([1, 5, 50])):
+            if harm == "bits":
+                data[random.integers(len(data))] ^= 1 << random.integers(8)
+            elif harm == "digits":
+                data[random.choice(digits)] = ord("0") + random.integers(10)
+        if harm == "cut":
+            data = data[: random.integers(len(data))]
+        (tmp_path / "f.csv").write_bytes(data)
+        try:
+            done = assess(tmp_path / "f.csv", map_folder, columns=COLUMNS)
+        except Refusal:
+            refused += 1
+        else:
+            assert done.warnings or done.estimate.severity == pytest.approx(0.2, abs=0.015)
+    assert refused >= 5
+
+
 def test_an_endless_file_is_refused(tmp_path, map_folder):
     with (tmp_path / "r.csv").open("wb") as file:
         file.truncate(5 << 30)  # a hole: takes no space
