@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from matplotlib.figure import Figure
-import numpy as np
 
 from analysis.combined.estimate import JointEstimate, JointEstimator
 from analysis.combined.study import Study
@@ -17,8 +16,8 @@ def draw_limits(study: Study) -> Figure:
     fault, other = grid.settings.fault, grid.other
     x, y = fault.shown(grid.x), other.shown(grid.y)
     panels = (
-        (f"{fault.name}: 95 % half width  ({fault.unit})", fault.shown(limits.half_first), "viridis_r", None),
-        (f"{other.name}: 95 % half width  ({other.unit})", other.shown(limits.half_second), "viridis_r", None),
+        (f"{fault.name}: 95 % half width  ({fault.unit})", fault.shown(limits.half_first), "Blues", None),
+        (f"{other.name}: 95 % half width  ({other.unit})", other.shown(limits.half_second), "Blues", None),
         ("correlation of the two readings", limits.correlation, "RdBu_r", (-1, 1)),
     )
     figure = new_figure(13.0, 4.2)
@@ -27,8 +26,7 @@ def draw_limits(study: Study) -> Figure:
         mesh = axes.pcolormesh(x, y, values.T, cmap=colours, vmin=low, vmax=high, shading="nearest")
         figure.colorbar(mesh, ax=axes)
         if not limits.readable.all():
-            unreadable = np.ma.masked_where(limits.readable, np.ones_like(values))
-            axes.pcolor(x, y, unreadable.T, hatch="///", alpha=0, shading="nearest")
+            axes.contourf(x, y, limits.readable.T.astype(float), levels=[-0.5, 0.5], colors="none", hatches=["///"])
         axes.set_title(title, fontsize=10)
         axes.set_xlabel(f"{fault.name}  ({fault.unit})")
         axes.set_ylabel(f"{other.name}  ({other.unit})")

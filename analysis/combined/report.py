@@ -30,7 +30,9 @@ SECTION = """
 
 ![Half widths of the 95 % intervals and correlation](figures/combined_{symbol}.svg)
 
-{verdict} Between the readings the correlation is at most {correlation:.2f} in magnitude{where}. The 95 % interval of
+{verdict}
+
+Between the readings the correlation is at most {correlation:.2f} in magnitude{where}. The 95 % interval of
 {first} has a half width of {best:.2f} to {worst:.2f} {unit}.
 """
 
@@ -93,12 +95,12 @@ def _column(study: Study) -> list[str]:
     axis = other.shown(other.last - other.first)
     return [
         f"{_rms(first):.2f}",
-        f"{holds[0]:.1%}",
-        f"{_rms(second):.3g} {other.unit} ({_rms(second) / axis:.0%})",
-        f"{holds[1]:.1%}",
-        f"{np.mean([test.joint.second.readable for test in read]):.1%}",
-        f"{refused.value:.1%}",
-        f"{alone.mean():.1%}",
+        _percent(holds[0]),
+        f"{_rms(second):.3g} {other.unit} ({100 * _rms(second) / axis:.0f} %)",
+        _percent(holds[1]),
+        _percent(np.mean([test.joint.second.readable for test in read])),
+        _percent(refused.value),
+        _percent(alone.mean()),
         f"{wrong:.1f}" if taken else "-",
     ]
 
@@ -109,11 +111,12 @@ def _section(study: Study) -> str:
     if share == 1:
         verdict = f"Both are separated everywhere on the map: {other.name} can be read at every severity."
     elif share == 0:
-        verdict = f"This test cannot read {other.name} at any severity: its interval spans more than half of the axis."
-    else:
         verdict = (
-            f"{other.name[0].upper() + other.name[1:]} can be read on {share:.0%} of the map; hatched is where not."
+            f"This test cannot read {other.name} anywhere: its interval spans more than half of the axis (hatched)."
         )
+    else:
+        name = other.name[0].upper() + other.name[1:]
+        verdict = f"{name} can be read on {100 * share:.0f} % of the map; hatched is where not."
     at = np.unravel_index(np.abs(limits.correlation).argmax(), limits.correlation.shape)
     where = f" (at {fault.text(study.grid.x[at[0]])} and {other.text(study.grid.y[at[1]])})"
     half = fault.shown(limits.half_first)
@@ -122,6 +125,10 @@ def _section(study: Study) -> str:
         verdict=verdict, correlation=np.abs(limits.correlation).max(), where=where, first=fault.name,
         best=half.min(), worst=half.max(), unit=_points(fault.unit),
     )  # fmt: skip
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.1f} %"
 
 
 def _points(unit: str) -> str:
