@@ -42,8 +42,8 @@ def _conclude(result: Explanation) -> None:
     left = [w for w in whiteness(result.final).values() if not w.passed]
     if result.findings:
         first = result.findings[0]
-        rivals = first.naming.rivals(first.ranked)
-        if rivals and first.ranked.confidence < 0.5:
+        rivals = [r for r in first.naming.rivals(first.ranked) if r.identity[1] != first.ranked.identity[1]]
+        if rivals and first.ranked.confidence < 0.5:  # a tie at one place leaves no doubt that physics is missing there
             result.verdict = "undetermined"
             names = ", ".join(dict.fromkeys(r.attachment.label for r in rivals[:3]))
             result.reason = f"{first.ranked.attachment.label} and {names} explain the data equally well"

@@ -32,6 +32,7 @@ FIRST_ROUND = 8
 STARTS = 3  # from which a hypothesis is fitted in the first round
 ROUNDS = ((2, 2, 100), (2, 3, 10), (3, 3, 4), (10, 4, 2))  # (stages, iterations, fits): successive halving
 SEVERAL_STARTS = 1  # rounds after which only the best start of each hypothesis goes on
+COLOUR = 30.0  # samples at most that count as one
 LED = 2  # hypotheses that are fitted again, led by trackers, where none has left noise
 
 Progress = Callable[[str], None]
@@ -112,6 +113,15 @@ def rank(
 ) -> Naming:  # fmt: skip
     """Screen, fit and rank hypotheses on top of `base`, the fit of the amendment so far."""
     candidates, failures = screen_all(case, amendment, attachments, base, progress)
+    naming = compete(case, candidates, base, bandwidths=bandwidths, progress=progress)
+    return replace(naming, failures=failures)
+
+
+def compete(
+    case: Case, candidates: list[Candidate], base: Fit, *, bandwidths: tuple[float, ...] = (0.0,),
+    progress: Progress = lambda text: None,
+) -> Naming:  # fmt: skip
+    """Fit and rank candidates (most promising first) on top of `base`."""
     screened = [(c.attachment.label, c.predicted) for c in _best_starts(candidates)]
     pool = _first_round(candidates)
     fitted: dict[str, Candidate] = {}
@@ -131,14 +141,15 @@ def rank(
         for c in _best_starts(pool):
             progress(f"fitted {c.attachment.label}: {_score(c, base, correlation):.1f}")
     if not fitted:
-        return Naming([], screened, failures)
+        return Naming([], screened)
     _lead(case, base, list(fitted.values()), progress)
+    _simplify(case, base, list(fitted.values()))
     correlation = _best_correlation(list(fitted.values()))
     ranked = [Ranked(c, c.fit, _score(c, base, correlation)) for c in fitted.values()]
     ranked.sort(key=lambda r: r.score)
     ranked = cross_validated(case, base, ranked, correlation, progress)
     _confidences(ranked)
-    return Naming(ranked, screened, failures, correlation)
+    return Naming(ranked, screened, correlation=correlation)
 
 
 def _best_starts(candidates: list[Candidate]) -> list[Candidate]:
@@ -200,6 +211,24 @@ def _lead(case: Case, base: Fit, candidates: list[Candidate], progress: Progress
             candidate.fit = found
 
 
+def _simplify(case: Case, base: Fit, candidates: list[Candidate]) -> None:
+    """Start the laws that the best hypothesis contains from where it ended: a simpler one may do as well."""
+    best = min(candidates, key=lambda c: c.fit.deviance())
+    own = best.attachment
+    for candidate in candidates:
+        other = candidate.attachment
+        if own.effect.identifier not in other.effect.nests_in or other.location != own.location:
+            continue
+        point = best.fit.point
+        shared = {f.name: point.get(own.full_name(f.name.rsplit(".", 1)[-1])) for f in candidate.free}
+        start = candidate.fit.point | {f.name: point[f.name] for f in base.estimate.free}
+        start |= {name: value for name, value in shared.items() if value is not None}
+        free = [*base.estimate.free, *candidate.free]
+        found = fit(candidate.machine, case.fit, base.noise, free, base.fixed | candidate.fixed, start=start)
+        if found is not None and found.deviance() < candidate.fit.deviance():
+            candidate.fit = found
+
+
 def _fit_led(case: Case, base: Fit, candidate: Candidate, shafts: list[Shaft]) -> Fit | None:
     amendment = replace(candidate.machine.amendment, trackers=shafts)
     machine, _ = try_machine(case, amendment, base.machine)
@@ -207,7 +236,8 @@ def _fit_led(case: Case, base: Fit, candidate: Candidate, shafts: list[Shaft]) -
         return None
     free, fixed = [*base.estimate.free, *candidate.free], base.fixed | candidate.fixed
     start = base.point | candidate.start
-    led = fit(machine, case.fit, base.noise, free, fixed, start=start, bandwidths=falling_bandwidths(case, machine))
+    bandwidths = falling_bandwidths(case, machine)
+    led = fit(machine, case.fit, base.noise, free, fixed, start=start, bandwidths=bandwidths, stages=4)
     return led and fit(candidate.machine, case.fit, base.noise, free, fixed, start=led.point)
 
 
@@ -255,18 +285,20 @@ def held_out_deviance(case: Case, base: Fit, contender: Ranked, correlation: dic
 
 
 def _best_correlation(candidates: list[Candidate]) -> dict[str, float]:
-    return min((c.fit for c in candidates), key=lambda f: f.deviance()).correlation()
+    """Samples that count as one in the best fit; few enough that a misfit which drifts over a recording still tells."""
+    found = min((c.fit for c in candidates), key=lambda f: f.deviance()).correlation()
+    return {column: min(samples, COLOUR) for column, samples in found.items()}
 
 
-def _price(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> float:
+def price(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> float:
     """ln n for each parameter of the effect, n independent samples."""
     informative = sum(count / correlation[c] for c, count in base.counts().items())
     return len(candidate.free) * float(np.log(max(informative, 2.0)))
 
 
 def _score(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> float:
-    price = _price(candidate, base, correlation)
-    return candidate.fit.deviance(correlation) + price - base.deviance(correlation)
+    paid = candidate.fit.deviance(correlation) + price(candidate, base, correlation)
+    return paid - base.deviance(correlation)
 
 
 def _confidences(ranked: list[Ranked]) -> None:

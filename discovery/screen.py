@@ -81,19 +81,18 @@ class Screen:
         self, columns: list[np.ndarray], offset: np.ndarray | None = None,
         bounds: list[tuple[float, float]] | None = None,
     ) -> tuple[float, np.ndarray]:  # fmt: skip
-        """(share of the cost explained, coefficients) of columns; `offset` moves the residual itself.
+        """(share of the cost explained, coefficients of the columns).
+
+        `offset` is the residual where the columns start, instead of the base's own.
 
         `bounds` are the least and the largest value of each coefficient: an amount of friction is not negative.
         """
         pad = np.zeros(len(self.load) - len(self.residual))
-        target = self._project(
-            self.load if offset is None else np.concatenate([offset, self.load[len(self.residual) :]])
-        )
-        if not columns:
-            return 1.0 - float(target @ target) / self.cost, np.zeros(0)
-        stack = np.column_stack([self._project(np.concatenate([c, pad])) for c in columns])
-        raw = np.array([np.linalg.norm(c) for c in columns])
-        alive = np.linalg.norm(stack, axis=0) > 1e-3 * np.maximum(raw, 1e-300)
+        load = self.load if offset is None else np.concatenate([offset, self.load[len(self.residual) :]])
+        target = self._project(load)
+        full = np.column_stack([np.concatenate([c, pad]) for c in columns]) if columns else np.zeros((len(load), 0))
+        stack = np.column_stack([self._project(c) for c in full.T]) if columns else full
+        alive = np.linalg.norm(stack, axis=0) > 1e-3 * np.maximum(np.linalg.norm(full, axis=0), 1e-300)
         solution = np.zeros(len(columns))
         if alive.any():
             solution[alive] = _bounded(stack[:, alive], -target, np.array(bounds)[alive] if bounds else None)
@@ -226,7 +225,8 @@ def _linearised(
             start[attachment.full_name(name)] = effect.neutral[name] + float(value)
     fixed = {n: v for n, v in shape.items() if n.rsplit(".", 1)[-1] in (*effect.whole, *effect.fixed)}
     free = [_free(attachment, effect, n, start, scales, limits) for n in names if attachment.full_name(n) not in fixed]
-    return Candidate(attachment, machine, free, fixed, {k: v for k, v in start.items() if k not in fixed}, share)
+    start = {k: v for k, v in start.items() if k not in fixed}
+    return Candidate(attachment, machine, free, fixed, start, share)
 
 
 def _reach(effect: Effect, name: str) -> tuple[float, float]:

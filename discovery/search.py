@@ -17,8 +17,9 @@ from .evidence import is_noise, pays
 from .fit import Fit, Objective, fit
 from .hypotheses import enumerate_attachments
 from .judge import Judgement, judge
-from .machine import Machine
-from .name import MIN_GAIN, TIE, Naming, Ranked, rank
+from .machine import Machine, try_machine
+from .name import MIN_GAIN, TIE, Naming, Ranked, compete, price, rank
+from .screen import Candidate
 
 MAX_FINDINGS = 3
 RECONSIDERED = 4  # rivals of an earlier finding that are tried again
@@ -50,12 +51,14 @@ class Search:
     findings: list[Finding] = field(default_factory=list)
     namings: list[Naming] = field(default_factory=list)
     reason: str = ""
+    exhausted: bool = False
 
     def run(self, progress: Progress, most: int = MAX_FINDINGS) -> None:
         """Add findings, `most` of them, until what is left is noise, or nothing more pays."""
-        while len(self.findings) < most and not is_noise(self.fit):
+        while len(self.findings) < most and not self.exhausted and not is_noise(self.fit):
             progress(f"looking for missing physics, round {len(self.findings) + 1}")
             if not self.add(progress):
+                self.exhausted = True
                 return
             for k in range(len(self.findings) - 1):
                 self._reconsider(k, progress)
@@ -107,8 +110,8 @@ class Search:
         base = self._without(finding.ranked, without)
         if base is None:
             return
-        attachments = self._rivals(finding, without)
-        naming = rank(self.case, without, attachments, tracked(base, self.bandwidths), progress=progress)
+        candidates = self._rivals(finding, without)
+        naming = compete(self.case, candidates, tracked(base, self.bandwidths), progress=progress)
         best, own = naming.best, naming.of(finding.ranked.identity)
         if best is None or own is None:
             return
@@ -117,7 +120,10 @@ class Search:
             self.findings[k] = replace(finding, ranked=ranked, naming=naming)
             return
         polished = self.polished(best, base)
-        if polished is None or polished.deviance(naming.correlation) > self.fit.deviance(naming.correlation):
+        if polished is None:
+            return
+        saved = price(own.candidate, base, naming.correlation) - price(best.candidate, base, naming.correlation)
+        if polished.deviance(naming.correlation) - saved > self.fit.deviance(naming.correlation):
             return
         after = judge(polished.machine, polished.point)
         if pays(self.judgement.validate, after.validate, self.floor):
@@ -128,23 +134,27 @@ class Search:
             self.take([*others, best.attachment], polished, after)
 
     def _without(self, ranked: Ranked, amendment: Amendment) -> Fit | None:
-        """The present model fitted without one of its effects."""
+        """The present model without one of its effects, all else left where it is: what is missing then is that."""
         prefix = ranked.attachment.component + "."
         free = [f for f in self.fit.estimate.free if not f.name.startswith(prefix)]
         fixed = {n: v for n, v in self.fit.fixed.items() if not n.startswith(prefix)}
         machine = Machine(self.case, amendment, self.fit.machine.solver)
-        return fit(machine, self.case.fit, self.fit.noise, free, fixed, start=self.fit.point)
+        return fit(machine, self.case.fit, self.fit.noise, free, fixed, start=self.fit.point, stages=1, iterations=0)
 
-    def _rivals(self, finding: Finding, without: Amendment) -> list[Attachment]:
-        """The finding's own attachment, the best of the others that were tried beside it, and the laws it nests."""
-        possible = enumerate_attachments(self.case, without.structure, self.effects, without)
-        own = finding.ranked.attachment
-        tried = [r.attachment.label for r in finding.naming.ranked if r.identity != finding.ranked.identity]
-        labels = {own.label, *tried[:RECONSIDERED]}
-        return [
-            a for a in possible
-            if a.label in labels or (a.location == own.location and own.effect.identifier in a.effect.nests_in)
-        ]  # fmt: skip
+    def _rivals(self, finding: Finding, without: Amendment) -> list[Candidate]:
+        """The finding and the best of what was tried beside it, with the values they had, in the model without it."""
+        own = finding.ranked.identity
+        rivals = [r for r in finding.naming.ranked if r.identity != own][:RECONSIDERED]
+        result = []
+        for ranked in [finding.ranked, *rivals]:
+            old = ranked.candidate
+            amendment = replace(without, attachments=[*without.attachments, ranked.attachment])
+            machine, _ = try_machine(self.case, amendment, self.fit.machine)
+            point = self.fit.point if ranked is finding.ranked else ranked.fit.point
+            if machine is not None:
+                start = {f.name: point[f.name] for f in old.free}
+                result.append(Candidate(ranked.attachment, machine, old.free, old.fixed, start))
+        return result
 
 
 def tracked(base: Fit, bandwidths: tuple[float, ...]) -> Fit:
