@@ -24,18 +24,18 @@ BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
 
 @dataclass(frozen=True)
 class Machine:
-    """A case folder, the recordings to show, and the input against which the output is drawn."""
+    """A case folder, the recordings to show, and the input against which the second is drawn ("" for time)."""
 
     case: str
-    over_time: str
-    over_input: str
+    first: str
+    second: str
     abscissa: str
 
 
 MACHINES = (
     Machine("lab-dc-motor", "ramp_5.csv", "sine_1hz.csv", "u"),
     Machine("band-damper", "sine_0.5hz_25mm.csv", "sine_0.25hz_38mm.csv", "x"),
-    Machine("servo-hsm150", "neg_0.04_3.csv", "pos_0.06_2.csv", "tau"),
+    Machine("servo-hsm150", "neg_0.04_3.csv", "pos_0.06_2.csv", ""),
 )
 
 
@@ -85,10 +85,10 @@ def table(results: list[Explanation]) -> str:
 
 
 def draw(machine: Machine, result: Explanation, path: Path) -> None:
-    """Measured, believed and amended output of two validation recordings: over time and over the input."""
+    """Measured, believed and amended output of two validation recordings."""
     case, signal = result.case, result.case.outputs[0]
     figure, (left, right) = plt.subplots(1, 2, figsize=(11, 3.8), layout="constrained")
-    for axes, name, abscissa in ((left, machine.over_time, ""), (right, machine.over_input, machine.abscissa)):
+    for axes, name, abscissa in ((left, machine.first, ""), (right, machine.second, machine.abscissa)):
         recording = next(r for r in case.validate if r.name == name)
         x, label = _abscissa(case, recording, abscissa)
         measured = recording.columns[signal.column]
