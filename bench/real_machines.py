@@ -19,6 +19,8 @@ from discovery.explain import Explanation, explain, write_amended
 
 ROOT = Path(__file__).parents[1]
 PAGE = ROOT / "docs" / "real-machines.md"
+HEAD = """| recordings | found | parameters | NRMSE of the fit, before, after | of validation, before, after |
+| --- | --- | --- | ---: | ---: |"""
 BEGIN, END = "<!-- measured: begin -->", "<!-- measured: end -->"
 
 
@@ -61,27 +63,29 @@ def explained(name: str, out: Path, library: Library) -> Explanation:
 
 def row(result: Explanation) -> str:
     """One line of the table."""
-    found = diagnosis.build(result, None)
-    findings = "; ".join(f"{f['effect']} at {f['location']}" for f in found["findings"]) or found["verdict"]
+    return line(result.case.folder.name, diagnosis.build(result, None))
+
+
+def line(name: str, found: dict) -> str:
+    """The same from a diagnosis as written."""
+    findings = [
+        f"{f['effect']} at {f['location']}" + (f": `{f['law']}`" if f.get("law") else "") for f in found["findings"]
+    ]
     values = [
-        f"{name} {p['value']:.3g} ± {p['std']:.1g} {p['unit']}"
+        f"{n} {p['value']:.3g} ± {p['std']:.1g} {p['unit']}"
         for f in found["findings"]
-        for name, p in f["parameters"].items()
+        for n, p in f["parameters"].items()
+        if not f.get("law")
     ]
     fit, validate = (found["nrmse"][k] for k in ("fit", "validate"))
-    seconds = sum(found["seconds"].values())
     return (
-        f"| {result.case.folder.name} | {findings} | {', '.join(values)} | {fit['before']:.4f}, {fit['after']:.4f} | "
-        f"{validate['before']:.4f}, {validate['after']:.4f} | {seconds:.0f} |"
+        f"| {name} | {'; '.join(findings) or found['verdict']} | {', '.join(values)} | {fit['before']:.4f}, "
+        f"{fit['after']:.4f} | {validate['before']:.4f}, {validate['after']:.4f} |"
     )
 
 
 def table(results: list[Explanation]) -> str:
-    head = (
-        "| recordings | found | parameters | NRMSE of the fit, before, after | of validation, before, after | s |\n"
-        "| --- | --- | --- | ---: | ---: | ---: |"
-    )
-    return "\n".join([head, *(row(r) for r in results)])
+    return "\n".join([HEAD, *(row(r) for r in results)])
 
 
 def draw(machine: Machine, result: Explanation, path: Path) -> None:
