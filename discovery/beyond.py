@@ -11,11 +11,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from .empirical_law import find, score
+from .comparison import MIN_GAIN, Ranked, score
+from .empirical_law import find
 from .evidence import is_noise, like_noise, pays
 from .fit import Fit
 from .judge import Judgement, judge
-from .name import MIN_GAIN, Naming, Ranked
+from .name import Naming
 from .screen import Candidate
 from .search import Finding, Search, tracked
 

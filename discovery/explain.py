@@ -9,11 +9,11 @@ from pathlib import Path
 from codegen.library import Library
 
 from .cases import Case
+from .comparison import Ranked
 from .evidence import is_noise, like_noise, outside_belief, whiteness
 from .experiments import separate
 from .explanation import Clock, Explanation
 from .judge import judge_file
-from .name import Ranked
 from .steps import add_findings, add_fit, add_location, opened
 
 Progress = Callable[[str], None]

@@ -71,9 +71,7 @@ def _probe(machine: Machine, screen: Screen, base: Fit, k: int, probe: Shaft | L
     blocks = [b * w[:, None] for b, w in zip(response.blocks, screen.weights, strict=True)]
     share, nodes = _smoothest(screen, block_diag(*blocks))
     location = probe.location if torque else f"{probe.load}{':' + probe.phase if probe.phase else ''}"
-    effort = {
-        r.name: (response.nodes[i], nodes[i * NODES : (i + 1) * NODES]) for i, r in enumerate(screen.recordings)
-    }
+    effort = {r.name: (response.nodes[i], nodes[i * NODES : (i + 1) * NODES]) for i, r in enumerate(screen.recordings)}
     return PlaceEffort(location, "torque" if torque else "voltage", "N.m" if torque else "V", share, effort)
 
 

@@ -13,12 +13,14 @@ from dataclasses import dataclass, field, replace
 from .amend import Amendment, Attachment
 from .cases import Case
 from .catalogue import Effect
+from .comparison import MIN_GAIN, TIE, Ranked, price
 from .evidence import is_noise, pays
-from .fit import Fit, Objective, fit
+from .fit import Fit, fit
 from .hypotheses import enumerate_attachments
 from .judge import Judgement, judge
 from .machine import Machine, try_machine
-from .name import MIN_GAIN, TIE, Naming, Ranked, compete, price, rank
+from .name import Naming, compete, rank
+from .objective import Objective
 from .screen import Candidate
 
 MAX_FINDINGS = 3
