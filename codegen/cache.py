@@ -18,6 +18,7 @@ import subprocess
 import tempfile
 
 from .errors import Diagnostic, Span
+from .library import MODEL_FOLDER
 from .prepared import Prepared
 
 COMPILER = (
@@ -57,8 +58,12 @@ def generator_version() -> str:
 def request_key(
     name: str, search_path: Sequence[str] | None, modifications: Mapping[str, object] | None, units: str
 ) -> str:
-    """Digest of what was asked for."""
-    paths = [str(Path(p).resolve()) for p in search_path or ()]
+    """Digest of what was asked for, and where it is looked up: `search_path`, else this checkout's library.
+
+    The text of the files is not part of it: the index holds that of each file read, so that an edit makes only those
+    models new that read the edited file. The folder is, because a compiled model names its source lines by file.
+    """
+    paths = [str(Path(p).resolve()) for p in search_path or (MODEL_FOLDER,)]
     model = str(Path(name).resolve()) if name.endswith(".mo") else name
     changes = sorted((k, repr(v)) for k, v in (modifications or {}).items())
     return _digest(json.dumps([model, paths, changes, units]))

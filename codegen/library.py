@@ -16,7 +16,7 @@ from .suggest import did_you_mean
 from .syntax import ast, parse
 
 HOME_PACKAGE = "Lacuna"
-_MODEL_FOLDER = Path(__file__).resolve().parent.parent / "model"
+MODEL_FOLDER = Path(__file__).resolve().parent.parent / "model"
 
 
 @lru_cache(maxsize=4096)
@@ -30,7 +30,7 @@ class Library:
     `files` lists every file read so far with the SHA-256 of its text.
     """
 
-    def __init__(self, paths: Iterable[str | Path] = (_MODEL_FOLDER,)) -> None:
+    def __init__(self, paths: Iterable[str | Path] = (MODEL_FOLDER,)) -> None:
         self.files: dict[str, str] = {}
         self.root = ast.Class(Span("", 0, 0), "package", "")
         self._folders: dict[int, Path] = {}  # id of a package class -> its folder

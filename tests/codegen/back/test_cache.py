@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from pathlib import Path
+import shutil
+import subprocess
+import sys
 import threading
 
 import pytest
@@ -12,6 +15,7 @@ from codegen.compile import compile_model, translate
 from codegen.emit.source import generate
 from tests.codegen.generated import write_model
 
+ROOT = Path(__file__).parents[3]
 MODEL = """model Decay
   parameter Real k = 2; parameter Integer n = 2; Real x[n](each start = 1); input Real u;
 equation
@@ -53,6 +57,37 @@ def test_a_new_generator_makes_models_new(model: str, tmp_path: Path, monkeypatc
     again = compile_model(model, cache_directory=str(tmp_path))
     assert not again.report.cached
     assert again.path != first.path
+
+
+def _checkout(folder: Path, gain: int) -> Path:
+    """A copy of the generator with a library of its own, in which Decay has this gain."""
+    shutil.copytree(ROOT / "codegen", folder / "codegen", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(ROOT / "runtime" / "include", folder / "runtime" / "include")
+    (folder / "model").mkdir()
+    (folder / "model" / "package.mo").write_text("package Lacuna\nend Lacuna;\n")
+    (folder / "model" / "Decay.mo").write_text(f"within Lacuna;\n{MODEL.replace('k = 2', f'k = {gain}')}")
+    return folder
+
+
+def _compiled_in(checkout: Path, cache_directory: Path) -> str:
+    """Path of the library that this checkout gets for its model Decay."""
+    code = (
+        "import codegen.compile, sys; print(codegen.compile.compile_model('Decay', cache_directory=sys.argv[1]).path)"
+    )
+    command = [sys.executable, "-c", code, str(cache_directory)]
+    return subprocess.run(command, cwd=checkout, check=True, capture_output=True, text=True).stdout.strip()
+
+
+def test_checkouts_that_share_a_cache_keep_their_own_models(tmp_path: Path) -> None:
+    one, two = _checkout(tmp_path / "one", 2), _checkout(tmp_path / "two", 3)
+    shared = tmp_path / "cache"
+    paths = [_compiled_in(checkout, shared) for checkout in (one, two, one, two)]
+    assert paths[:2] == paths[2:]
+    for path, checkout, other in ((paths[0], one, two), (paths[1], two, one)):
+        text = Path(path).with_suffix(".c").read_text()
+        assert f"{checkout}/model/Decay.mo" in text
+        assert str(other) not in text
+    assert paths[0] != paths[1]
 
 
 def test_equal_input_gives_equal_bytes(model: str) -> None:
