@@ -46,7 +46,7 @@ class CDescriptor(Structure):
 
     _fields_ = [
         ("abi_version", c_int), ("name", c_char_p), ("hash", c_char_p), *((name, c_int) for name in COUNTS),
-        ("variables", POINTER(CVariable)), ("equations", POINTER(CEquation)), ("asserts", POINTER(CEquation)),
+        ("variables", POINTER(CVariable)), ("equations", POINTER(CEquation)), ("asserts", c_void_p),
         ("relations", POINTER(CRelation)), ("messages", POINTER(c_char_p)), ("z_index", POINTER(c_int)),
         ("residual_equation", POINTER(c_int)), ("p_start", POINTER(c_double)), ("start_time", c_double),
         ("stop_time", c_double), ("tolerance", c_double), ("interval", c_double),

@@ -11,6 +11,7 @@ from ..prepared import Prepared
 from ..structure.causal import Step, unknowns_of
 from ..structure.residual_form import CJ, needed
 from ..structure.tearing import Assignment
+from .asserts import of_the_run, write_assert
 from .body import Body
 from .equations import EquationTable
 from .names import Names
@@ -174,12 +175,9 @@ class Continuous:
 
     def check(self) -> str:
         body = Body(self._names, self._storage.point)
-        asserts = [a for a in self._p.model.asserts if a.level == "error"]
-        body.plan(a.condition for a in asserts)
-        for k, a in enumerate(asserts):
+        asserts = of_the_run(self._p)
+        body.plan(a.condition for _, a in asserts)
+        for row, a in asserts:
             body.line(f"/* {a.span.file.rsplit('/', 1)[-1]}:{a.span.line}  assert */")
-            body.line(f"if (!({body.value(a.condition)})) {{")
-            body.line(f"  (void)mdl_fail(m, MDL_FAILURE_ASSERT, {k}, 0.0);")
-            body.line("  return -1;")
-            body.line("}")
+            write_assert(body, a.condition, row)
         return function(CHECK, body)

@@ -11,8 +11,8 @@ from ..expr import relation, sub, var, walk
 from ..hybrid import Relation
 from ..leaves import leaves
 from ..prepared import Prepared
-from ..rewrite import all_statements
 from ..structure.constants import dependency_order
+from .asserts import assert_index, of_parameters, write_assert
 from .body import Body
 from .continuous import function
 from .names import Names
@@ -108,11 +108,7 @@ class Discrete:
     def _assert(self, s: flat.Assert) -> None:
         if s.level != "error":
             return
-        index = assert_index(self._p, s)
-        self._body.line(f"if (!({self._body.value(s.condition)})) {{")
-        self._body.line(f"  (void)mdl_fail(m, MDL_FAILURE_ASSERT, {index}, 0.0);")
-        self._body.line("  return -1;")
-        self._body.line("}")
+        write_assert(self._body, s.condition, assert_index(self._p, s))
 
     def _branches(self, branches: Sequence[tuple[str, Sequence[flat.Statement]]]) -> None:
         """if (c1) {...} else if (c2) {...} ..."""
@@ -169,7 +165,7 @@ class Discrete:
         return function(SAMPLES, body)
 
     def parameters(self) -> str:
-        """Dependent parameters in order, then bounds."""
+        """Dependent parameters in order, then bounds and asserts."""
         body, model, storage = Body(self._names, self._storage.frozen), self._p.model, self._storage
         dependent = [n for n in dependency_order(model) if not is_settable(model.variables[n])]
         body.plan(model.variables[n].binding for n in dependent)
@@ -180,6 +176,9 @@ class Discrete:
             body.line(f"m->p[{storage.slot(name).index}] = {self._names.identifier(name)};")
         for name in storage.parameters:
             self._bounds(body, model.variables[name])
+        for row, a in of_parameters(self._p):
+            body.line(f"/* {a.span.file.rsplit('/', 1)[-1]}:{a.span.line}  assert */")
+            write_assert(body, a.condition, row)
         return function(PARAMETERS, body)
 
     def _bounds(self, body: Body, v: flat.Variable) -> None:
@@ -191,7 +190,7 @@ class Discrete:
             if inside.op != "const":
                 body.line(f"if (!({body.value(inside)})) {{")
                 body.line(f"  m->failure = (mdl_failure){{MDL_FAILURE_BOUND, -1, {self._rows[v.name]}, "
-                          f"{body.value(leaf)}}};")  # fmt: skip
+                          f"{body.value(leaf)}, {body.value(limit)}}};")  # fmt: skip
                 body.line("  return -1;")
                 body.line("}")
 
@@ -200,17 +199,3 @@ def is_settable(v: flat.Variable) -> bool:
     """A parameter that may be given another value at run time."""
     literal = v.binding is None or v.binding.op == "const"
     return v.variability == flat.PARAMETER and literal and not v.final and not v.evaluated
-
-
-def all_asserts(p: Prepared) -> list[flat.Assert]:
-    """Asserts in the order of the descriptor: those of the model, of its when clauses, of its functions."""
-    bodies = [[step] if isinstance(step, flat.When) else step.statements for step in p.events
-              if not isinstance(step, DiscreteEquation)]  # fmt: skip
-    bodies += [f.body for f in p.model.functions.values()]
-    inside = [s for body in bodies for s in all_statements(body) if isinstance(s, flat.Assert)]
-    return [a for a in (*p.model.asserts, *inside) if a.level == "error"]
-
-
-def assert_index(p: Prepared, s: flat.Assert) -> int:
-    """Row of an assert in the table."""
-    return next(k for k, a in enumerate(all_asserts(p)) if (a.span, a.origin) == (s.span, s.origin))

@@ -8,7 +8,7 @@ from .expression import HELPERS
 
 _FAIL = """\
 static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double value) {
-  m->failure = (mdl_failure){kind, equation, -1, value};
+  m->failure = (mdl_failure){kind, equation, -1, value, 0.0};
   return 1;
 }"""
 

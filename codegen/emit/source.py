@@ -8,8 +8,9 @@ from ..expr import Expr
 from ..prepared import Prepared
 from ..rewrite import expressions
 from ..structure.causal import expressions_of
+from .asserts import assert_index
 from .continuous import Continuous
-from .discrete import Discrete, assert_index
+from .discrete import Discrete
 from .equations import EquationTable
 from .expression import number
 from .names import Names
@@ -88,7 +89,8 @@ def _arrays(tables: Tables, messages: list[str]) -> tuple[list[str], dict[str, i
     contents = {
         "variables": ("mdl_variable mdl_variables", tables.variables()),
         "relations": ("mdl_relation mdl_relations", tables.relations()),
-        "asserts": ("mdl_equation mdl_asserts", tables.asserts()),
+        "assert_values": ("int mdl_assert_values", tables.assert_values()),
+        "asserts": ("mdl_assert mdl_asserts", tables.asserts()),
         "z": ("int mdl_z_index", tables.z_index()),
         "residuals": ("int mdl_residual_equation", tables.residual_equations()),
         "p_start": ("double mdl_p_start", tables.parameter_starts()),

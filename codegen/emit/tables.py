@@ -6,11 +6,13 @@ from collections.abc import Sequence
 import json
 
 from .. import flat
-from ..expr import relation
+from ..expr import Expr, relation
+from ..leaves import leaves
 from ..prepared import Prepared
 from ..storage import Slot
 from ..structure.system import DeclaredValues
-from .discrete import all_asserts, is_settable
+from .asserts import all_asserts, shown_values
+from .discrete import is_settable
 from .equations import EquationTable
 from .expression import number
 
@@ -55,7 +57,7 @@ class Tables:
         final = self._p.model.variables[target]
         start = self._number(self._values.variable(target), 0.0)
         limits = [
-            number(self._number(self._values(e) if e is not None else None, default))
+            number(self._number(self._values(e) if e is not None and not self._moves(e) else None, default))
             for e, default in ((v.min, float("-inf")), (v.max, float("inf")), (v.nominal, 0.0))
         ]
         fields = [
@@ -65,6 +67,12 @@ class Tables:
             number(sign * start), *limits,
         ]  # fmt: skip
         return "{" + ", ".join(fields) + "}"
+
+    def _moves(self, limit: Expr) -> bool:
+        """Whether a bound follows parameters that may be set: then it holds for their values, not the declared ones."""
+        names = (str(n.value) for n in leaves(limit) if n.op == "var")
+        used = [self._p.model.variables[self._p.aliases.get(n, (n, 1))[0]] for n in names]
+        return any(is_settable(v) or (v.binding is not None and self._moves(v.binding)) for v in used)
 
     @staticmethod
     def _number(value: float | int | bool | None, default: float) -> float:
@@ -79,10 +87,20 @@ class Tables:
         return f"{{{c_string(text)}, {c_string(e.span.file)}, {e.span.line}, {c_string(e.origin)}}}"
 
     def asserts(self) -> list[str]:
-        return [
-            f"{{{c_string(a.message)}, {c_string(a.span.file)}, {a.span.line}, {c_string(a.origin)}}}"
-            for a in all_asserts(self._p)
-        ]
+        first, result = 0, []
+        for a, shown in zip(all_asserts(self._p), self._shown(), strict=True):
+            source = f"{{{c_string(a.message)}, {c_string(a.span.file)}, {a.span.line}, {c_string(a.origin)}}}"
+            values = f"mdl_assert_values + {first}" if shown else "NULL"
+            result.append(f"{{{source}, {len(shown)}, {values}}}")
+            first += len(shown)
+        return result
+
+    def assert_values(self) -> list[str]:
+        return [str(row) for rows in self._shown() for row in rows]
+
+    def _shown(self) -> list[list[int]]:
+        rows = self.rows()
+        return [[rows[name] for name in names if name in rows] for names in shown_values(self._p)]
 
     def relations(self) -> list[str]:
         return [

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 1
+#define MDL_ABI_VERSION 2
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
@@ -36,6 +36,7 @@ typedef struct {
   int equation; /* index into `equations` (or `asserts`), -1 unknown */
   int variable; /* index into `variables`, -1 unknown */
   double value; /* offending value, where there is one */
+  double bound; /* of a parameter: the one that it violates */
 } mdl_failure;
 
 /* All memory of one run of one model; allocated by the runtime from the counts of the descriptor. */
@@ -92,6 +93,13 @@ typedef struct {
 } mdl_equation;
 
 typedef struct {
+  mdl_equation source; /* `text` is the message */
+  int n_values;
+  const int
+      *values; /* [n_values] rows of the variables that its condition compares, to be shown where it is violated */
+} mdl_assert;
+
+typedef struct {
   mdl_equation source;
   int is_time; /* 1: depends on time, parameters and discretes only; switched by a time event, not a root */
 } mdl_relation;
@@ -104,7 +112,7 @@ typedef struct mdl_descriptor {
 
   const mdl_variable *variables;                     /* [n_variables] in order of declaration */
   const mdl_equation *equations;                     /* [n_equations] */
-  const mdl_equation *asserts;                       /* [n_asserts] `text` is the message */
+  const mdl_assert *asserts;                         /* [n_asserts] */
   const mdl_relation *relations;                     /* [n_rel] */
   const char *const *messages;                       /* [n_messages] of terminate() */
   const int *z_index;                                /* [n_z] z[k] is v[z_index[k]] */
@@ -117,7 +125,8 @@ typedef struct mdl_descriptor {
   const int *jac_colptr; /* [n_x + n_z + 1] */
   const int *jac_rowidx; /* [jac_nnz] */
 
-  /* Dependent parameters from the settable ones, then bounds. Call after every change of p. */
+  /* Dependent parameters from the settable ones, then bounds, and the asserts that depend on parameters alone. Call
+   * after every change of p. */
   int (*parameters)(mdl_data *m);
 
   /* Start times and intervals (s) of the sample() operators. */
@@ -158,7 +167,7 @@ typedef struct mdl_descriptor {
    * true and m->when (the condition before this pass) is false; event() updates m->when itself. */
   int (*event)(mdl_data *m, double t, double *x, const double *xdot, const double *v);
 
-  /* Check asserts at an accepted point; < 0 with m->failure set where one is violated. */
+  /* Check the other asserts at an accepted point; < 0 with m->failure set where one is violated. */
   int (*check)(mdl_data *m, double t, const double *x, const double *xdot, const double *v);
 } mdl_descriptor;
 

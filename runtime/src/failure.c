@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "session.h"
 
@@ -65,16 +66,45 @@ static rt_status status_of(mdl_failure_kind kind) {
   }
 }
 
-static rt_status fail_bound(rt_session *s, double time, const mdl_failure *f) {
-  const mdl_variable *v = &s->d->variables[f->variable];
-  return rt_fail(s, RT_BOUND, time, f->variable, NULL, "parameter %s = %.9g is outside its bounds [%.9g, %.9g] %s",
-                 v->name, f->value, v->min, v->max, v->unit);
+rt_status rt_fail_bound(rt_session *s, double time, int variable, double value, double min, double max) {
+  const mdl_variable *v = &s->d->variables[variable];
+  return rt_fail(s, RT_BOUND, time, variable, NULL, "parameter %s = %.9g is outside its bounds [%.9g, %.9g] %s",
+                 v->name, value, min, max, v->unit);
 }
 
-static rt_status fail_assert(rt_session *s, double time, const mdl_equation *where) {
+/* A bound that follows other parameters is not in the table: the model says what it was. */
+static rt_status fail_bound(rt_session *s, double time, const mdl_failure *f) {
+  const mdl_variable *v = &s->d->variables[f->variable];
+  double min = f->value < f->bound ? f->bound : v->min, max = f->value > f->bound ? f->bound : v->max;
+  return rt_fail_bound(s, time, f->variable, f->value, min, max);
+}
+
+static double present_value(const rt_session *s, const mdl_variable *v) {
+  const mdl_data *m = &s->data;
+  const double *const arrays[] = {[MDL_STATE] = m->x,     [MDL_ALGEBRAIC] = m->v, [MDL_DISCRETE] = m->d,
+                                  [MDL_PARAMETER] = m->p, [MDL_INPUT] = m->u,     [MDL_DERIVATIVE] = m->xdot};
+  return v->sign * arrays[v->storage][v->index];
+}
+
+/* Append the values that the rule compares: ` (a.y_min = 3 V, a.y_max = 1 V)`. */
+static void append_values(rt_session *s, const mdl_assert *rule) {
+  char *message = s->failure.message;
+  size_t size = sizeof s->failure.message, n = strlen(message);
+  for (int k = 0; k < rule->n_values && n < size; k++) {
+    const mdl_variable *v = &s->d->variables[rule->values[k]];
+    int written = snprintf(message + n, size - n, "%s%s = %.9g%s%s", k ? ", " : " (", v->name, present_value(s, v),
+                           v->unit[0] ? " " : "", v->unit);
+    n += written > 0 ? (size_t)written : 0;
+  }
+  if (rule->n_values && n < size) snprintf(message + n, size - n, ")");
+}
+
+static rt_status fail_assert(rt_session *s, double time, const mdl_assert *rule) {
+  const mdl_equation *where = &rule->source;
   const char *component = where->origin;
   rt_fail(s, RT_ASSERT, time, -1, NULL, "%s:%d: %s%sassertion violated at time %.9g s: %s", where->file, where->line,
           component, component[0] ? ": " : "", time, where->text);
+  append_values(s, rule);
   s->failure.file = where->file;
   s->failure.line = where->line;
   return RT_ASSERT;
@@ -85,13 +115,12 @@ rt_status rt_fail_model(rt_session *s, double time, const char *doing) {
   const mdl_descriptor *d = s->d;
   const mdl_failure *f = &s->data.failure;
   bool is_assert = f->kind == MDL_FAILURE_ASSERT;
-  const mdl_equation *table = is_assert ? d->asserts : d->equations;
-  int size = is_assert ? d->n_asserts : d->n_equations;
-  const mdl_equation *where = f->equation >= 0 && f->equation < size ? &table[f->equation] : NULL;
+  bool placed = f->equation >= 0 && f->equation < (is_assert ? d->n_asserts : d->n_equations);
+  if (is_assert && placed) return fail_assert(s, time, &d->asserts[f->equation]);
+  const mdl_equation *where = placed && !is_assert ? &d->equations[f->equation] : NULL;
   bool named = f->variable >= 0 && f->variable < d->n_variables;
   int variable = named ? f->variable : -1;
   if (f->kind == MDL_FAILURE_BOUND && named) return fail_bound(s, time, f);
-  if (is_assert && where) return fail_assert(s, time, where);
   return rt_fail(s, status_of(f->kind), time, variable, where, "%s at time %.9g s: %s%s%s (value %.9g)", doing, time,
                  describe(f->kind), named ? ", variable " : "", named ? d->variables[variable].name : "", f->value);
 }

@@ -36,7 +36,7 @@ static int residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *us
   int row = 0;
   while (row < n - 1 && isfinite(values[row]))
     row++;
-  s->data.failure = (mdl_failure){MDL_FAILURE_NONFINITE, s->d->residual_equation[row], -1, values[row]};
+  s->data.failure = (mdl_failure){MDL_FAILURE_NONFINITE, s->d->residual_equation[row], -1, values[row], 0};
   return 1;
 }
 

@@ -97,7 +97,7 @@ static int factor(rt_session *s, work *w, double h) {
       w->matrix[j * n + m->jac_rowidx[k]] = w->fy[k] + cj * w->fyp[k];
   int singular = rt_lu_factor(n, w->matrix, w->pivot);
   if (!singular) return 0;
-  s->data.failure = (mdl_failure){MDL_FAILURE_SINGULAR, -1, rt_unknown_variable(s, singular - 1), 0};
+  s->data.failure = (mdl_failure){MDL_FAILURE_SINGULAR, -1, rt_unknown_variable(s, singular - 1), 0, 0};
   return 1;
 }
 

@@ -158,8 +158,7 @@ rt_status rt_session_parameters(rt_session *s, int n, const int *variables, cons
     const mdl_variable *v = variable(s, variables[i]);
     if (!v || v->storage != MDL_PARAMETER || !v->settable) return refuse(s, "not a parameter that may be set");
     if (!(values[i] >= v->min && values[i] <= v->max))
-      return rt_fail(s, RT_BOUND, 0, variables[i], NULL, "parameter %s = %.9g is outside its bounds [%.9g, %.9g] %s",
-                     v->name, values[i], v->min, v->max, v->unit);
+      return rt_fail_bound(s, 0, variables[i], values[i], v->min, v->max);
     s->p_run[v->index] = v->sign * values[i];
   }
   return RT_OK;

@@ -149,6 +149,7 @@ static inline double rt_smallest_step(const rt_session *s) {
 rt_status rt_fail(rt_session *s, rt_status status, double time, int variable, const mdl_equation *where,
                   const char *format, ...) __attribute__((format(printf, 6, 7)));
 rt_status rt_fail_model(rt_session *s, double time, const char *doing);
+rt_status rt_fail_bound(rt_session *s, double time, int variable, double value, double min, double max);
 rt_status rt_fail_collapse(rt_session *s, double h, const char *why);
 
 /* evaluate.c: the model's functions, counted and guarded; > 0 recoverable, < 0 not, m->failure says why */

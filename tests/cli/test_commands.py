@@ -153,6 +153,18 @@ def test_mistakes_are_said_in_a_sentence(words: list[str], expected: str) -> Non
     assert expected in refused(*words)
 
 
+def test_limits_that_contradict_each_other_are_shown(tmp_path: Path) -> None:
+    (tmp_path / "Limited.mo").write_text(
+        "model Limited\n  Lacuna.Components.Control.Limiter limiter(y_min=0, y_max=1);\n"
+        "  parameter Real k(min=0) = 1;\nequation\n  limiter.u = k*time;\nend Limited;\n"
+    )
+    said = refused("simulate", "Limited.mo", "-p", "limiter.y_max=-2")
+    assert "limiter: assertion violated" in said
+    assert "y_min must not exceed y_max (limiter.y_min = 0, limiter.y_max = -2)" in said
+    assert "k = -1 is outside its bounds [0, inf]" in refused("simulate", "Limited.mo", "-p", "k=-1")
+    assert not (tmp_path / "out").exists()
+
+
 def test_failed_run_keeps_what_it_has(tmp_path: Path) -> None:
     (tmp_path / "Escape.mo").write_text(
         "model Escape\n  Real x(start=1, fixed=true);\nequation\n  der(x) = x^2;\n"

@@ -14,7 +14,7 @@ _DOUBLES = POINTER(c_double)
 
 
 class Failure(Structure):
-    _fields_ = [("kind", c_int), ("equation", c_int), ("variable", c_int), ("value", c_double)]
+    _fields_ = [("kind", c_int), ("equation", c_int), ("variable", c_int), ("value", c_double), ("bound", c_double)]
 
 
 class Data(Structure):

@@ -80,8 +80,10 @@ template <class M> struct Generated {
   static const mdl_descriptor *descriptor() {
     static const std::vector<mdl_variable> variables = M::variables();
     static const mdl_equation equation = {"der(x) = f", "hand.mo", 5, ""};
-    static const std::vector<mdl_equation> equations(n, equation),
-        asserts(M::n_asserts + 1, mdl_equation{"x stays small", "hand.mo", 7, ""});
+    static const std::vector<mdl_equation> equations(n, equation);
+    static const int compared[] = {0};
+    static const std::vector<mdl_assert> asserts(M::n_asserts + 1,
+                                                 mdl_assert{{"x stays small", "hand.mo", 7, "spring"}, 1, compared});
     static const std::vector<double> p_start = M::start_parameters();
     static const std::vector<int> z_index = M::z_index();
     static const char *const messages[] = {"arrived"};

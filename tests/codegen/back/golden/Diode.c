@@ -66,7 +66,7 @@ static const mdl_equation mdl_equations[] = {
 };
 
 static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double value) {
-  m->failure = (mdl_failure){kind, equation, -1, value};
+  m->failure = (mdl_failure){kind, equation, -1, value, 0.0};
   return 1;
 }
 

@@ -23,8 +23,8 @@ static const mdl_relation mdl_relations[] = {
   {{"0.2 > x", "Sampler.mo", 16, ""}, 0}
 };
 
-static const mdl_equation mdl_asserts[] = {
-  {"too many saturations", "Sampler.mo", 18, ""}
+static const mdl_assert mdl_asserts[] = {
+  {{"too many saturations", "Sampler.mo", 18, ""}, 0, NULL}
 };
 
 static const int mdl_residual_equation[] = {
@@ -51,7 +51,7 @@ static const mdl_equation mdl_equations[] = {
 };
 
 static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double value) {
-  m->failure = (mdl_failure){kind, equation, -1, value};
+  m->failure = (mdl_failure){kind, equation, -1, value, 0.0};
   return 1;
 }
 

@@ -65,7 +65,7 @@ static const mdl_equation mdl_equations[] = {
 };
 
 static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double value) {
-  m->failure = (mdl_failure){kind, equation, -1, value};
+  m->failure = (mdl_failure){kind, equation, -1, value, 0.0};
   return 1;
 }
 
@@ -80,7 +80,7 @@ static int mdl_parameters(mdl_data *m) {
   const double inverse_of_J2 = 1.0 / J2;
   m->p[7] = inverse_of_J2;
   if (!(J1 >= 1e-09)) {
-    m->failure = (mdl_failure){MDL_FAILURE_BOUND, -1, 0, J1};
+    m->failure = (mdl_failure){MDL_FAILURE_BOUND, -1, 0, J1, 1e-09};
     return -1;
   }
   return 0;
