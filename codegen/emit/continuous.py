@@ -22,9 +22,7 @@ RESIDUAL = "static int mdl_residual(mdl_data *m, double t, const double *y, cons
 JACOBIAN = (
     "static int mdl_jacobian(mdl_data *m, double t, const double *y, const double *yp, double cj, double *values)"
 )
-ALGEBRAICS = "static int mdl_algebraics(mdl_data *m, double t, const double *y, const double *yp, double *v)"
 ROOTS = "static int mdl_roots(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *g)"
-DAE_ROOTS = "static int mdl_dae_roots(mdl_data *m, double t, const double *y, const double *yp, double *g)"
 INITIAL = "static int mdl_initial_system(mdl_data *m, double t)"
 CHECK = "static int mdl_check(mdl_data *m, double t, const double *x, const double *xdot, const double *v)"
 STARTS = "static int mdl_starts(mdl_data *m)"
@@ -106,32 +104,20 @@ class Continuous:
 
     # -- residual form ----------------------------------------------------------------------------------------
 
-    def _residual_body(self) -> Body:
-        tears = self._p.residual.tears
-        return Body(self._names, lambda n: self._storage.residual(n, tears))
-
     def _assign(self, body: Body, chain: Sequence[Assignment]) -> None:
         for step in chain:
             body.line(comment(step.row.source, step.row.text))
             body.let(step.unknown, step.value)
 
     def residual(self) -> str:
-        form, body = self._p.residual, self._residual_body()
-        chain = needed(form.assignments, (row.leaves for row in form.residuals))
-        body.plan([*(s.value for s in chain), *(row.residual for row in form.residuals)])
-        self._assign(body, chain)
+        form, tears = self._p.residual, self._p.residual.tears
+        body = Body(self._names, lambda n: self._storage.residual(n, tears))
+        body.plan([*(s.value for s in form.assignments), *(row.residual for row in form.residuals)])
+        self._assign(body, form.assignments)
         for k, row in enumerate(form.residuals):
             body.line(comment(row.source, row.text))
             body.line(f"r[{k}] = {body.value(row.residual)};")
         return function(RESIDUAL, body)
-
-    def algebraics(self) -> str:
-        form, body = self._p.residual, self._residual_body()
-        body.plan(s.value for s in form.assignments)
-        self._assign(body, form.assignments)
-        for u in (*form.tears, *(s.unknown for s in form.assignments)):
-            body.line(f"{self._storage.place(u)} = {body.value(u)};")
-        return function(ALGEBRAICS, body)
 
     def jacobian(self) -> str:
         form, jac = self._p.residual, self._p.jacobian
@@ -152,26 +138,11 @@ class Continuous:
 
     def roots(self) -> str:
         body = Body(self._names, self._storage.point)
-        body.plan(self._root_differences())
-        self._root_values(body)
-        return function(ROOTS, body)
-
-    def _root_differences(self) -> list[Expr]:
-        return [sub(r.left, r.right) for r in self._p.relations if r.slope is None]
-
-    def dae_roots(self) -> str:
-        form, body = self._p.residual, self._residual_body()
-        differences = self._root_differences()
-        chain = needed(form.assignments, map(leaves, differences))
-        body.plan([*(s.value for s in chain), *differences])
-        self._assign(body, chain)
-        self._root_values(body)
-        return function(DAE_ROOTS, body)
-
-    def _root_values(self, body: Body) -> None:
+        body.plan(sub(r.left, r.right) for r in self._p.relations if r.slope is None)
         for k, r in enumerate(self._p.relations):
             value = body.value(sub(r.left, r.right)) if r.slope is None else "0.0"
             body.line(f"g[{k}] = {value};  {comment(r.source, str(relation('>', r.left, r.right)))}")
+        return function(ROOTS, body)
 
     def check(self) -> str:
         body = Body(self._names, self._storage.point)

@@ -19,8 +19,8 @@ from .tables import Tables, c_string
 from .user_functions import calls, user_functions
 
 _CALLBACKS = (
-    "starts", "parameters", "samples", "initial_system", "rhs", "residual", "jacobian", "algebraics", "roots",
-    "dae_roots", "time_relations", "next_time_event", "event", "check",
+    "starts", "parameters", "samples", "initial_system", "rhs", "residual", "jacobian", "roots", "time_relations",
+    "next_time_event", "event", "check",
 )  # fmt: skip
 
 
@@ -34,9 +34,8 @@ def generate(prepared: Prepared) -> str:
     discrete = Discrete(prepared, names, tables.rows())
     functions = [
         discrete.parameters(), continuous.starts(), discrete.samples(), continuous.rhs(), continuous.initial_system(),
-        continuous.residual(), continuous.jacobian(), continuous.algebraics(), continuous.roots(),
-        continuous.dae_roots(), discrete.time_relations(), discrete.next_time_event(), discrete.event(),
-        continuous.check(),
+        continuous.residual(), continuous.jacobian(), continuous.roots(), discrete.time_relations(),
+        discrete.next_time_event(), discrete.event(), continuous.check(),
     ]  # fmt: skip
     code = "\n\n".join(functions)
     called = user_functions(model.functions, called_functions(prepared), names, lambda a: assert_index(prepared, a))

@@ -16,7 +16,7 @@ from .tearing import Assignment, Tearing
 
 @dataclass
 class ResidualForm:
-    """F(t, [x; z], y'): assignments in order, then one residual a row."""
+    """F(t, [x; z], y'): the assignments that the residuals need, in order, then one residual a row."""
 
     assignments: list[Assignment]
     tears: list[Expr]
@@ -34,7 +34,8 @@ def residual_form(system: System, explicit: Sequence[Step], tearing: Tearing) ->
     if tearing.amplifies(torn, map(var, system.states)):
         blocks = [unknowns_of(step) for step in explicit if isinstance(step, LinearBlock)]
         torn = tearing.tear(rows, algebraics, rough, [u for block in blocks for u in block if u.op == "var"])
-    return ResidualForm(torn.assignments, torn.tears, torn.residuals)
+    used = needed(torn.assignments, (row.leaves for row in torn.residuals))
+    return ResidualForm(used, torn.tears, torn.residuals)
 
 
 def _speed(row: Row, system: System) -> tuple[Expr, Expr] | None:
@@ -78,7 +79,7 @@ def jacobian(form: ResidualForm, system: System) -> Jacobian:
     """Forward differentiation through the assigned sequence, one column at a time. The state x and its
     derivative share a column: their seeds are 1 and cj."""
     result = Jacobian([], [])
-    used = needed(form.assignments, (row.leaves for row in form.residuals))
+    used = form.assignments
     for name, derivative in zip(system.states, system.derivatives, strict=True):
         result.entries.append(_column({var(name): ONE, derivative: CJ}, used, form.residuals, result, name))
     for tear in form.tears:

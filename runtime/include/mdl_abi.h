@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 2
+#define MDL_ABI_VERSION 3
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
@@ -147,14 +147,10 @@ typedef struct mdl_descriptor {
   /* Residual form. `values` [jac_nnz] in the pattern above. */
   int (*residual)(mdl_data *m, double t, const double *y, const double *yp, double *r);
   int (*jacobian)(mdl_data *m, double t, const double *y, const double *yp, double cj, double *values);
-  /* v[n_v] belonging to a point (y, y') of the residual form. */
-  int (*algebraics)(mdl_data *m, double t, const double *y, const double *yp, double *v);
 
   /* g[n_rel]: left minus right side of each relation, which is true exactly where g > 0 (a >= b is kept as the
-   * negation of b > a), from a complete point (roots) or from the residual form
-   * (dae_roots, computing only what the relations need). Time relations give 0. */
+   * negation of b > a), at a complete point. Time relations give 0. */
   int (*roots)(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *g);
-  int (*dae_roots)(mdl_data *m, double t, const double *y, const double *yp, double *g);
 
   /* Set m->rel of the time relations to their value just after time t. */
   int (*time_relations)(mdl_data *m, double t);

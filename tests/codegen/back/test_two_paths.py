@@ -39,16 +39,6 @@ def test_explicit_point_has_no_residual(points: tuple[Generated, list]) -> None:
         assert np.all(np.abs(model.residual(0.1, y, yp)) <= 1e-13 * terms)
 
 
-def test_algebraic_variables_agree(points: tuple[Generated, list]) -> None:
-    model, states = points
-    for x, rel in states:
-        model.arrays["rel"][: len(rel)] = rel
-        y, yp = model.dae_point(0.1, x)
-        v = np.zeros(model.descriptor.n_v)
-        assert model.call("algebraics", 0.1, y, yp, v) == 0
-        np.testing.assert_allclose(v, model.rhs(0.1, x)[1], rtol=1e-11, atol=1e-11)
-
-
 def test_jacobian_is_the_derivative_of_the_residual(points: tuple[Generated, list]) -> None:
     """Central differences: truncation and rounding leave about 1e-7 of the row's largest entry."""
     model, states = points

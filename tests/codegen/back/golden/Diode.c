@@ -258,38 +258,12 @@ static int mdl_jacobian(mdl_data *m, double t, const double *y, const double *yp
   return 0;
 }
 
-static int mdl_algebraics(mdl_data *m, double t, const double *y, const double *yp, double *v) {
-  (void)t;
-  const double C = m->p[1];
-  const double U = m->p[4];
-  const int rel0 = m->rel[0];
-  const double v_2 = y[1];
-  const double der_u_C = yp[0];
-  /* Diode.mo:13  u = if time < T then U else -U */
-  const double u = rel0 ? U : -U;
-  /* Diode.mo:16  C*der(u_C) = i */
-  const double i = C * der_u_C;
-  v[1] = v_2;
-  v[0] = u;
-  v[2] = i;
-  return 0;
-}
-
 static int mdl_roots(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *g) {
   (void)m;
   (void)t;
   (void)x;
   (void)xdot;
   (void)v;
-  g[0] = 0.0;  /* Diode.mo:13  T > time */
-  return 0;
-}
-
-static int mdl_dae_roots(mdl_data *m, double t, const double *y, const double *yp, double *g) {
-  (void)m;
-  (void)t;
-  (void)y;
-  (void)yp;
   g[0] = 0.0;  /* Diode.mo:13  T > time */
   return 0;
 }
@@ -364,9 +338,7 @@ static const mdl_descriptor mdl_model = {
   .rhs = mdl_rhs,
   .residual = mdl_residual,
   .jacobian = mdl_jacobian,
-  .algebraics = mdl_algebraics,
   .roots = mdl_roots,
-  .dae_roots = mdl_dae_roots,
   .time_relations = mdl_time_relations,
   .next_time_event = mdl_next_time_event,
   .event = mdl_event,

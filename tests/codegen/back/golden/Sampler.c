@@ -116,31 +116,12 @@ static int mdl_jacobian(mdl_data *m, double t, const double *y, const double *yp
   return 0;
 }
 
-static int mdl_algebraics(mdl_data *m, double t, const double *y, const double *yp, double *v) {
-  (void)m;
-  (void)t;
-  (void)y;
-  (void)yp;
-  (void)v;
-  return 0;
-}
-
 static int mdl_roots(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *g) {
   (void)m;
   (void)t;
   (void)xdot;
   (void)v;
   const double x_2 = x[0];
-  g[0] = x_2 - 0.7;  /* Sampler.mo:11  x > 0.7 */
-  g[1] = 0.2 - x_2;  /* Sampler.mo:16  0.2 > x */
-  return 0;
-}
-
-static int mdl_dae_roots(mdl_data *m, double t, const double *y, const double *yp, double *g) {
-  (void)m;
-  (void)t;
-  (void)yp;
-  const double x_2 = y[0];
   g[0] = x_2 - 0.7;  /* Sampler.mo:11  x > 0.7 */
   g[1] = 0.2 - x_2;  /* Sampler.mo:16  0.2 > x */
   return 0;
@@ -247,9 +228,7 @@ static const mdl_descriptor mdl_model = {
   .rhs = mdl_rhs,
   .residual = mdl_residual,
   .jacobian = mdl_jacobian,
-  .algebraics = mdl_algebraics,
   .roots = mdl_roots,
-  .dae_roots = mdl_dae_roots,
   .time_relations = mdl_time_relations,
   .next_time_event = mdl_next_time_event,
   .event = mdl_event,

@@ -204,45 +204,6 @@ static int mdl_jacobian(mdl_data *m, double t, const double *y, const double *yp
   return 0;
 }
 
-static int mdl_algebraics(mdl_data *m, double t, const double *y, const double *yp, double *v) {
-  (void)t;
-  const double J1 = m->p[0];
-  const double J2 = m->p[1];
-  const double ratio = m->p[2];
-  const double k = m->p[3];
-  const double tau_max = m->p[4];
-  const double w_ref = m->p[5];
-  const int rel0 = m->rel[0];
-  const double phi1 = y[0];
-  const double w1 = y[1];
-  const double der_w1 = yp[1];
-  /* Shaft.mo:18  drive = min(k*(w_ref - w1), tau_max) */
-  const double drive = !rel0 ? k * (w_ref - w1) : tau_max;
-  /* Shaft.mo:19  J1*der(w1) = drive - tau */
-  const double tau = drive - J1 * der_w1;
-  /* Shaft.mo:15  d/dt of w1 = der(phi1) */
-  const double der_der_phi1_ = der_w1;
-  /* Shaft.mo:17  phi1 = ratio*phi2 */
-  const double phi2 = phi1 / ratio;
-  /* Shaft.mo:20  J2*der(w2) = ratio*tau */
-  const double der_w2_ = ratio * tau / J2;
-  /* Shaft.mo:16  d/dt of w2 = der(phi2) */
-  const double der_der_phi2_ = der_w2_;
-  /* Shaft.mo:17  d/dt of phi1 = ratio*phi2 */
-  const double der_phi2_ = w1 / ratio;
-  /* Shaft.mo:16  w2 = der(phi2) */
-  const double w2 = der_phi2_;
-  v[2] = drive;
-  v[3] = tau;
-  v[4] = der_der_phi1_;
-  v[0] = phi2;
-  v[7] = der_w2_;
-  v[6] = der_der_phi2_;
-  v[5] = der_phi2_;
-  v[1] = w2;
-  return 0;
-}
-
 static int mdl_roots(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *g) {
   (void)t;
   (void)xdot;
@@ -251,17 +212,6 @@ static int mdl_roots(mdl_data *m, double t, const double *x, const double *xdot,
   const double tau_max = m->p[4];
   const double w_ref = m->p[5];
   const double w1 = x[1];
-  g[0] = k * (w_ref - w1) - tau_max;  /* Shaft.mo:18  k * (w_ref - w1) > tau_max */
-  return 0;
-}
-
-static int mdl_dae_roots(mdl_data *m, double t, const double *y, const double *yp, double *g) {
-  (void)t;
-  (void)yp;
-  const double k = m->p[3];
-  const double tau_max = m->p[4];
-  const double w_ref = m->p[5];
-  const double w1 = y[1];
   g[0] = k * (w_ref - w1) - tau_max;  /* Shaft.mo:18  k * (w_ref - w1) > tau_max */
   return 0;
 }
@@ -336,9 +286,7 @@ static const mdl_descriptor mdl_model = {
   .rhs = mdl_rhs,
   .residual = mdl_residual,
   .jacobian = mdl_jacobian,
-  .algebraics = mdl_algebraics,
   .roots = mdl_roots,
-  .dae_roots = mdl_dae_roots,
   .time_relations = mdl_time_relations,
   .next_time_event = mdl_next_time_event,
   .event = mdl_event,
