@@ -9,9 +9,10 @@ from .. import expr as ex
 from .. import flat
 from ..errors import Diagnostic, Span
 from ..expr import BOOLEAN, FALSE, INTEGER, REAL, TRUE, Expr
+from ..rewrite import Rewriter
 from ..syntax import ast
 from .asserts import lower_assert
-from .constants import AtRunTime
+from .constants import AtRunTime, evaluate
 from .context import Context
 from .elements import element, local_value
 from .function_locals import Signature, declared_sizes, fit, typed
@@ -119,12 +120,19 @@ def _emit(name: str, signature: Signature, shapes: dict[str, tuple[int, ...]], c
                 value = fit(d, lower(default, scope), scope, default.span)
                 writer.assign([((d.name, None), value)], default.span, function.body)
         function.body += writer.block(signature.body)
+        function.body = Rewriter(lambda e: _package_constant(e, context, span)).statements(function.body)
     except AtRunTime as reason:
         del context.functions[name], context.function_sources[name]
         message = f"in {cls.name}, {reason.args[0]} depends on an argument's value"
         error = Diagnostic("F036", message, span, "sizes may depend on the sizes of arguments, not on their values")
         error.notes.append((reason.args[1], "here"))
         raise error from None
+
+
+def _package_constant(e: Expr, context: Context, span: Span) -> Expr | None:
+    """The value of a constant of a package, which only models keep as a variable; local names have no dot."""
+    entry = context.scalars.get(str(e.value)) if e.op == "var" and "." in str(e.value) else None
+    return evaluate(e, context, span) if entry is not None and entry[0].variability == "constant" else None
 
 
 class _Writer:

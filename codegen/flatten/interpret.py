@@ -15,6 +15,7 @@ from .asserts import lower_assert
 from .constants import AtRunTime
 from .context import Context
 from .function_locals import Local, Signature, declared_sizes, fit, signature_of, typed
+from .instance import package_of
 from .lower import iterate, lower, lower_results, lower_scalar
 from .references import apply_subscripts
 from .scope import Scope
@@ -39,7 +40,8 @@ def interpret(signature: Signature, arguments: dict[str, Value], context: Contex
         scope = replace(local.scope, locals=run.locals)
         default = local.declaration.modification.value
         if default is not None:
-            run.locals[local.name] = fit(local, lower(default, scope), scope, default.span)
+            value = fit(local, lower(default, scope), scope, default.span)
+            run.locals[local.name] = _named_constant(local, signature.cls, value, context) if run.symbolic else value
         elif local.type.primitive is None:
             run.locals[local.name] = _blank_record(local, context)
         else:
@@ -53,6 +55,13 @@ def interpret(signature: Signature, arguments: dict[str, Value], context: Contex
             message = f"the output {local.name} of {signature.cls.name} is not assigned in every case"
             raise Diagnostic("F033", message, local.declaration.span, "assign it, or give it a value first")
     return results
+
+
+def _named_constant(local: Local, cls: ast.Class, value: Value, context: Context) -> Value:
+    """A constant with a unit stays a constant of the model, by its name: a mere number would have no unit."""
+    if local.declaration.variability != "constant" or not local.unit or isinstance(value, Record):
+        return value
+    return package_of(context, cls).child(local.name).value()
 
 
 def _blank_record(local: Local, context: Context) -> Record:

@@ -155,3 +155,29 @@ def test_bindings_starts_and_events_are_checked(tmp_path: Path) -> None:
         flatten_text(tmp_path, text)
     lines = [refused.value.span.line, *(other.span.line for other in refused.value.others)]
     assert sorted(lines) == [3, 4, 9, 10]
+
+
+WEIGHT = """function weight
+  input Real m(unit = "kg"); output Real f(unit = "N");
+protected
+  constant Real g(unit = "m/s2") = 9.81;
+algorithm
+  f := m*g;
+end weight;
+"""
+
+
+def test_a_constant_of_a_function_keeps_its_unit(tmp_path: Path) -> None:
+    """Inlined, the body is checked as equations are: g as a mere number would leave kilograms."""
+    text = WEIGHT + 'model M parameter Real m(unit = "{}") = 2; Real f(unit = "N") = weight(m); end M;'
+    model = flatten_text(tmp_path, text.format("kg"))
+    assert (model.variables["weight.g"].unit, model.variables["weight.g"].variability) == ("m/s2", "constant")
+    with pytest.raises(Diagnostic, match="input m of weight"):
+        flatten_text(tmp_path, text.format("A"))
+
+
+def test_a_constant_of_a_function_is_a_number_where_all_is_known(tmp_path: Path) -> None:
+    text = WEIGHT + 'model M parameter Real f(unit = "N") = weight(3); end M;'
+    model = flatten_text(tmp_path, text)
+    assert model.variables["f"].binding.value == pytest.approx(29.43)
+    assert "weight.g" not in model.variables
