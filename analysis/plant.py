@@ -13,6 +13,7 @@ import numpy as np
 from analysis.errors import AnalysisError
 from analysis.settings import Settings
 import runtime
+from runtime.errors import suggestion
 from runtime.library import library_path as runtime_library_path
 
 
@@ -69,9 +70,10 @@ class ModelPlant:
         self._times = np.arange(settings.samples) / settings.sampling_rate
         self._outputs = [*settings.currents, settings.speed, settings.angle]
         self._of_thread = threading.local()
-        missing = [v for v in [settings.fault.parameter, *self._outputs] if v not in self._model.variables]
+        known = self._model.variables
+        missing = [v + suggestion(v, known) for v in [settings.fault.parameter, *self._outputs] if v not in known]
         if missing:
-            raise AnalysisError(f"{settings.path}: model {name} has no variable {', '.join(missing)}")
+            raise AnalysisError(f"{settings.path}: model {name} has no variable {', nor '.join(missing)}")
         runtime_hash = hashlib.sha256(runtime_library_path().read_bytes()).hexdigest()
         self.hash = f"{model_hash} {runtime_hash[:16]} {self._solver}"
         self.equations = [
@@ -122,5 +124,6 @@ class ModelPlant:
         """The declared value of a parameter. Raises AnalysisError where the model has none of that name."""
         parameter = self._model.parameters.get(name)
         if parameter is None:
-            raise AnalysisError(f"{self._settings.path}: model {self.name} has no parameter {name}")
+            hint = suggestion(name, self._model.parameters)
+            raise AnalysisError(f"{self._settings.path}: model {self.name} has no parameter {name}{hint}")
         return parameter.start

@@ -70,7 +70,7 @@ def _chosen(file: Path | None, names: list[str] | None) -> list[Scenario]:
     known = {scenario.name: scenario for scenario in load(file or DEFAULT_FILE)}
     for name in names or []:
         if name not in known:
-            raise UserError(f"there is no scenario {name}{nearest(name, known)}; there are {', '.join(known)}")
+            raise UserError(f"there is no scenario {name}{nearest(name, known)}")
     return [known[name] for name in names or known]
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-import difflib
 import functools
 import os
 import sys
@@ -55,7 +54,8 @@ def message_of(error: Exception) -> str:
     return text if _is_diagnostic(error) or text.startswith("error") else f"error: {text}"
 
 
-def nearest(name: str, valid: Iterable[str], count: int = 3) -> str:
-    """A hint naming the valid names closest to `name`, or an empty string."""
-    close = difflib.get_close_matches(name, list(valid), n=count, cutoff=0.5)
-    return f"; did you mean {' or '.join(close)}?" if close else ""
+def nearest(name: str, valid: Iterable[str]) -> str:
+    """The end of a refusal of `name`: the valid names that may be meant, or else some that there are."""
+    from runtime.errors import suggestion
+
+    return suggestion(name, valid)
