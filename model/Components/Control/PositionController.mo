@@ -8,7 +8,7 @@ protected
   Types.AngularVelocity error "Speed error";
   Types.Current i_free "Reference current before its limit";
   Types.Current beyond "How far it is beyond the limit towards which the error drives it";
-  constant Types.PerUnit onset = 1e-2 "Part of the limit over which holding sets in";
+  constant Types.PerUnit onset = 1e-4 "Part of the limit over which holding sets in";
 equation
   w_free = Kp*N*(command - position);
   w_ref = if w_free > w_max then w_max elseif w_free < -w_max then -w_max else w_free;

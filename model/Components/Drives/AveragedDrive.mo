@@ -11,7 +11,7 @@ protected
   Types.Current error "Current error";
   Types.Voltage v_free "Voltage command before the limit";
   Types.Voltage beyond "How far it is beyond the limit towards which the error drives it";
-  constant Types.PerUnit onset = 1e-2 "Part of the bus voltage over which holding sets in";
+  constant Types.PerUnit onset = 1e-4 "Part of the bus voltage over which holding sets in";
 equation
   commutation.dir = 1;
   connect(commutation.leg, bridge.leg);
