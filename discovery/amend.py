@@ -108,7 +108,7 @@ class _Writer:
 
     def _flange(self, attachment: Attachment) -> None:
         bound = {}
-        friction = self._stuck_part(attachment.shaft) if attachment.effect.friction else None
+        friction = self.amendment.structure.friction_of(attachment.shaft) if attachment.effect.friction else None
         if friction is not None:
             self.left_out.append(friction.name)
             names = [p.name for p in attachment.effect.parameters]
@@ -116,11 +116,6 @@ class _Writer:
         self._declare(attachment, bound=bound)
         self.equations.append(f"connect({attachment.component}.flange, {attachment.shaft.flange});")
         self._signals(attachment)
-
-    def _stuck_part(self, shaft: Shaft) -> Part | None:
-        parts = self.amendment.structure.parts
-        owners = dict.fromkeys(m.split(".")[0] for m in shaft.members)
-        return next((parts[o] for o in owners if "PartialFriction" in parts[o].ancestors), None)
 
     def _signals(self, attachment: Attachment) -> None:
         for name, variable in attachment.signals:

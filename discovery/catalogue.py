@@ -48,6 +48,7 @@ class Effect:
     whole: tuple[str, ...] = ()
     polar: tuple[str, ...] = ()
     fixed: tuple[str, ...] = ()
+    levels: tuple[str, ...] = ()  # of friction: neutral at the level of the element that it takes the place of
     location: tuple[str, ...] = ()
     nests_in: tuple[str, ...] = ()
     interval: str = ""  # the parameter that takes the recordings' sampling interval
@@ -110,7 +111,7 @@ def _effect(library: Library, cls: ast.Class, entry: ast.Modification) -> Effect
     unknown = set(fields) - set(Effect.__dataclass_fields__)
     if unknown:
         raise CatalogueError(f"{where}: __Lacuna does not know {', '.join(sorted(unknown))}")
-    for name in ("whole", "polar", "fixed", "location", "nests_in"):
+    for name in ("whole", "polar", "fixed", "levels", "location", "nests_in"):
         value = fields.get(name, ())
         fields[name] = (value,) if isinstance(value, str) else tuple(value)
     friction = any(base.name == "FrictionEffect" for base in base_classes(library, cls))

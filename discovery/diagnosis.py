@@ -11,16 +11,17 @@ import numpy as np
 
 from .evidence import whiteness
 from .explanation import Explanation
-from .fit import Fit
+from .intervals import standard_errors
 from .least_squares import Free
 from .search import Finding
 
 
 def build(result: Explanation, amended: Path | None) -> dict[str, Any]:
     """The diagnosis as plain data."""
+    errors = standard_errors(result.final, result.bandwidths) if result.final else {}
     diagnosis: dict[str, Any] = {
         "case": result.case.label, "model": result.case.model, "verdict": result.verdict,
-        "findings": [_finding(result, f) for f in result.findings],
+        "findings": [_finding(result, f, errors) for f in result.findings],
     }  # fmt: skip
     if result.before is not None:
         diagnosis["nrmse"] = _nrmse(result.before, result.after)
@@ -28,7 +29,7 @@ def build(result: Explanation, amended: Path | None) -> dict[str, Any]:
             c: {"before": result.before.validate[c], "after": result.after.validate[c], "noise_floor": result.floor[c]}
             for c in result.floor
         }
-        diagnosis["parameters"] = _parameters(result)
+        diagnosis["parameters"] = _parameters(result, errors)
     if amended is not None:
         diagnosis["amended_model"] = amended.name
     diagnosis["sentence"] = sentence(result)
@@ -50,15 +51,8 @@ def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
     return path
 
 
-def standard_errors(fit: Fit) -> dict[str, float]:
-    """1-sigma of each free parameter: from the sensitivities, widened for coloured residuals."""
-    covariance = fit.estimate.covariance(fit.inflation())
-    return {f.name: float(math.sqrt(max(covariance[k, k], 0.0))) for k, f in enumerate(fit.estimate.free)}
-
-
-def _finding(result: Explanation, finding: Finding) -> dict[str, Any]:
+def _finding(result: Explanation, finding: Finding, errors: dict[str, float]) -> dict[str, Any]:
     attachment = finding.ranked.attachment
-    errors = standard_errors(result.final)
     point = result.final.point
     parameters = {}
     for parameter in attachment.effect.parameters:
@@ -171,8 +165,7 @@ def _nrmse(before: Any, after: Any) -> dict[str, Any]:
     }
 
 
-def _parameters(result: Explanation) -> dict[str, Any]:
-    errors = standard_errors(result.final)
+def _parameters(result: Explanation, errors: dict[str, float]) -> dict[str, Any]:
     variables = result.final.machine.model.variables
     table = {}
     for f in result.base.estimate.free:

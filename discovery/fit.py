@@ -165,14 +165,24 @@ def _led(
 ) -> tuple[Estimate | None, dict[str, float]]:  # fmt: skip
     """The fit led by trackers of falling bandwidth; None where it fails or where the last one still tracks."""
     free, fixed = problem.free, problem.fixed
-    found, level = None, {}
+    found, level, path = None, {}, []
     for bandwidth in bandwidths:
+        if not bandwidth and len(path) > 1:
+            values = _extrapolated(problem, *path[-2:])
         objective.track(bandwidth, fixed | {f.name: v for f, v in zip(free, values, strict=True)})
         columns = {} if objective.stiffness else {k: known[f.name] for k, f in enumerate(free) if f.name in known}
         result, level_here = anneal(objective, problem, values, stages=stages, iterations=iterations, known=columns)
         if result is not None:
             found, level, values = result, level_here, result.values
+            path.append((bandwidth, values))
     return (None, {}) if objective.stiffness else (found, level)
+
+
+def _extrapolated(problem: Problem, before: tuple[float, np.ndarray], last: tuple[float, np.ndarray]) -> np.ndarray:
+    """Values at bandwidth 0 on the line through two tracked fits: what noise in the tracked motion spoils falls so."""
+    (wide, there), (narrow, here) = before, last
+    values = here + (here - there) * narrow / (wide - narrow)
+    return np.array([f.clip(v) for f, v in zip(problem.free, values, strict=True)])
 
 
 def _finish(
@@ -226,4 +236,4 @@ def bandwidths_for(case: Case, machine: Machine, values: Mapping[str, float]) ->
 def falling_bandwidths(case: Case, machine: Machine) -> tuple[float, ...]:
     """Bandwidths (rad/s) of the trackers, from about what noise allows down to none."""
     top = min(noise_bandwidth(case, m) for m in machine.motions() if m is not None)
-    return (top / 8, top / 25, 0.0)
+    return (top / 8, top / 16, top / 50, 0.0)

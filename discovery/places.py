@@ -77,6 +77,11 @@ class Structure:
     def shaft_of(self, flange: str) -> Shaft | None:
         return next((s for s in self.shafts if flange in s.members), None)
 
+    def friction_of(self, shaft: Shaft) -> Part | None:
+        """The element of the model that holds this shaft by dry friction."""
+        owners = dict.fromkeys(m.split(".")[0] for m in shaft.members)
+        return next((self.parts[o] for o in owners if "PartialFriction" in self.parts[o].ancestors), None)
+
     def phases(self) -> list[list[Line]]:
         """Lines that carry a load's current: one list for each load, a line for each of its phases."""
         loads: dict[str, list[Line]] = {}

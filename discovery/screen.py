@@ -131,6 +131,7 @@ def prepare(screen: Screen, attachment: Attachment, machine: Machine) -> list[Ca
 
     Starts differ in the parameters that have no neutral value: the place of a stop, a Stribeck speed, a time constant.
     """
+    asked, attachment = attachment, _in_place(screen, attachment)
     effect = attachment.effect
     point = dict(screen.base.point)
     bound = _bound_parameters(machine, attachment)
@@ -146,7 +147,19 @@ def prepare(screen: Screen, attachment: Attachment, machine: Machine) -> list[Ca
     amounts: dict[str, float] = {}
     limits = _limits(shapes)
     found = [_linearised(screen, attachment, machine, names, point, shape, limits, amounts) for shape in shapes]
-    return sorted([c for c in found if c is not None], key=lambda c: -c.predicted)
+    found = [replace(c, attachment=asked) for c in found if c is not None]
+    return sorted(found, key=lambda c: -c.predicted)
+
+
+def _in_place(screen: Screen, attachment: Attachment) -> Attachment:
+    """The attachment with an effect whose levels are neutral at that of the dry friction in whose place it is put."""
+    effect, base = attachment.effect, screen.base
+    shaft = attachment.shaft if effect.friction and effect.levels else None
+    part = base.machine.amendment.structure.friction_of(shaft) if shaft else None
+    level = base.machine.constants(base.point).get(f"{part.name}.tau_c") if part else None
+    if level is None:
+        return attachment
+    return replace(attachment, effect=replace(effect, neutral=effect.neutral | dict.fromkeys(effect.levels, level)))
 
 
 def _bound_parameters(machine: Machine, attachment: Attachment) -> set[str]:

@@ -25,6 +25,7 @@ from .screen import Candidate
 
 MAX_FINDINGS = 3
 RECONSIDERED = 4  # rivals of an earlier finding that are tried again
+HELD = 1  # which of the bandwidths holds the shafts while hypotheses are compared: edges stay, misfit shows
 
 Progress = Callable[[str], None]
 
@@ -96,11 +97,10 @@ class Search:
         candidate = best.candidate
         found = fit(
             candidate.machine, self.case.fit, base.noise, [*base.estimate.free, *candidate.free],
-            base.fixed | candidate.fixed, start=best.fit.point, bandwidths=self.bandwidths,
+            base.fixed | candidate.fixed, start=best.fit.point, bandwidths=self.bandwidths[HELD:],
         )  # fmt: skip
         if found is None or found.deviance(best.fit.correlation()) > base.deviance(best.fit.correlation()):
             return None
-        found.estimate.normal = best.fit.estimate.normal  # reliable only with the commutation held
         return found
 
     def _reconsider(self, k: int, progress: Progress) -> None:
@@ -159,11 +159,11 @@ class Search:
         return result
 
 
-def tracked(base: Fit, bandwidths: tuple[float, ...]) -> Fit:
+def tracked(base: Fit, bandwidths: tuple[float, ...], which: int = HELD) -> Fit:
     """The fit that hypotheses are compared on: where fits are rough, shafts are held near their recorded motion."""
     if len(bandwidths) < 2:
         return base
     objective = Objective(base.machine, base.machine.case.fit, base.noise)
-    objective.track(bandwidths[0], base.point)
+    objective.track(bandwidths[which], base.point)
     fixed = base.fixed | objective.stiffness
     return fit(base.machine, base.machine.case.fit, base.noise, base.estimate.free, fixed, start=base.point) or base

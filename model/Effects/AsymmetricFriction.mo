@@ -8,6 +8,7 @@ equation
   tau_slide = noEvent(max((tau_pos + tau_neg)/2, 0));
   tau_break = tau_slide;
   annotation(__Lacuna(effect="friction.asymmetric", attaches="flange", neutral(tau_pos=0, tau_neg=0),
+    levels={"tau_pos", "tau_neg"},
     signature="effort of constant size with the sign of the speed, larger one way",
     excitation="both directions at several speeds",
     reference="Armstrong-Helouvry 1991, chapter 4"),

@@ -16,6 +16,7 @@ from discovery.cases import load
 from discovery.evidence import is_noise
 from discovery.explain import explain, judge_written, write_amended
 from discovery.explanation import Explanation
+from discovery.intervals import standard_errors
 from discovery.judge import judge_file
 from discovery.least_squares import Free, Problem, solve
 from discovery.locate import locate
@@ -77,7 +78,7 @@ def test_friction_is_named_with_its_level(explained: Explanation) -> None:
     first = explained.findings[0].ranked
     assert first.identity == ("friction.coulomb", "shaft")
     assert first.effect_values()["tau_c"] == pytest.approx(0.0015, rel=0.01)
-    errors = diagnosis.standard_errors(explained.final)
+    errors = standard_errors(explained.final)
     assert abs(first.effect_values()["tau_c"] - 0.0015) < 4 * errors[first.attachment.full_name("tau_c")]
 
 
