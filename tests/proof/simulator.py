@@ -141,7 +141,7 @@ class Machine:
 
 SERVO = Machine("servo", ("u",), ("i", "w", "theta"), 2e-5)
 JOINT = Machine("servo", ("tau",), ("i", "w", "theta"), 5e-5)
-SCREW = Machine("screw", ("theta_cmd", "T_aero"), ("u", "i", "thm", "ths"), 2e-5)
+SCREW = Machine("screw", ("theta_cmd", "T_aero"), ("u", "i", "thm", "ths"), 5e-6)
 BLDC = Machine("bldc", ("v_bus", "dir"), ("ia", "ib", "ic", "theta", "w"), 1e-5)
 DEVICE = Machine("device", ("x", "v"), ("F",), 1e-4)
 ACTUATOR = Machine("actuator", ("theta_cmd", "T_aero"), ("ia", "ib", "ic", "thm", "ths"), 2e-5)
