@@ -2,7 +2,8 @@
 
 Each output is compared with the believed model's simulation: a slip leaves the shape and changes the scale, or leaves
 the scale and moves the time. A machine that merely misbehaves changes both a little, so the thresholds are far from
-what an effect does.
+what an effect does. Where the simulation runs out of step with the recording (commutated currents) the shape says
+nothing; then the size from window to window is compared, and what the model's outputs always obey together.
 """
 
 from __future__ import annotations
@@ -14,7 +15,8 @@ import numpy as np
 from .cases import Recording
 from .least_squares import Free
 from .machine import Machine
-from .recordings_check import Problem
+from .recordings_check import Problem, longest_run
+from .tracking import filled
 
 SCALES = {
     -1.0: "its sign is reversed", 1000.0: "it is 1000 times too large", 1e-3: "it is 1000 times too small",
@@ -25,8 +27,12 @@ SCALES = {
     30 / math.pi: "it is in rpm where rad/s is stated", math.pi / 30: "it is in rad/s where rpm is stated",
 }  # fmt: skip
 SHAPE = 0.9  # least correlation with the simulation at which a scale is read
-WITHIN = 0.25  # relative distance from a listed scale
+WITHIN, FAR = 0.25, 1.0  # relative distance from a listed scale; from one that no physics comes near to
 LATE, EARLY = 50, 8  # samples: a signal may be somewhat late by a sensor or a drive, but not early
+WINDOWS, STEADY = 40, 0.8  # of the recording, and the share of them in which a slipped unit shows
+STANDS = 0.1  # share of the recording in which a signal stands, and of the simulated range that it leaves out
+OBEYED, BROKEN = 1e-6, 0.3  # residual of a relation between outputs over its largest term
+AS_GOOD = 0.1  # part of what moving the signal takes away that the least of several moves may leave
 CHANGE = 10  # samples over which changes are compared when looking for a shift
 
 
@@ -46,6 +52,7 @@ def _check(machine: Machine, recording: Recording, simulated: dict[str, np.ndarr
     outputs = machine.case.outputs
     scales = {s.column: _scale(recording.columns[s.column], simulated[s.column]) for s in outputs}
     slips = {c: text for c, scale in scales.items() if scale and (text := _slip(scale)) is not None}
+    slips = slips or _broken_relation([s.column for s in outputs], recording.columns, simulated)
     begin = float(recording.time[0])
     if slips and len(slips) == len(outputs) and len(outputs) > 1 and len(set(slips.values())) == 1:
         column = machine.case.inputs[0].column
@@ -53,24 +60,90 @@ def _check(machine: Machine, recording: Recording, simulated: dict[str, np.ndarr
         text = f"all outputs answer as if {slip}: input or outputs slipped"
         return [Problem("scale", recording.name, column, begin, text, True)]
     found = [
-        Problem("scale", recording.name, c, begin, text + " (against the model)", True) for c, text in slips.items()
+        Problem("scale", recording.name, c, begin, f"{text}, against the model driven by {_driven(machine)}", True)
+        for c, text in slips.items()
     ]
+    found += [p for s in outputs if (p := _still(machine, recording, simulated, s.column)) is not None]
     return found or _shifts(machine, recording, simulated)
 
 
+def _driven(machine: Machine) -> str:
+    return " and ".join(f"`{s.column}`" for s in machine.case.inputs)
+
+
 def _scale(measured: np.ndarray, simulated: np.ndarray) -> float | None:
-    """Slope of measured over simulated where their shapes agree, else None."""
+    """Slope of measured over simulated where their shapes agree, or a factor of 1000 in size throughout; else None."""
     good = np.isfinite(measured)
     m, s = measured[good] - measured[good].mean(), simulated[good] - simulated[good].mean()
     power = math.sqrt(float(m @ m) * float(s @ s))
     if power <= 0 or abs(float(m @ s)) / power < SHAPE:
-        return None
+        return _size(m, s)
     return float(m @ s) / float(s @ s)
+
+
+def _size(measured: np.ndarray, simulated: np.ndarray) -> float | None:
+    """1000 or 1/1000 where nearly every window of the recording is that much larger or smaller, else None."""
+    pairs = zip(np.array_split(measured, WINDOWS), np.array_split(simulated, WINDOWS), strict=True)
+    sizes = np.array([(np.sqrt(np.mean(m**2)), np.sqrt(np.mean(s**2))) for m, s in pairs])
+    ratios = sizes[:, 0] / np.maximum(sizes[:, 1], 1e-300)
+    for factor in (1000.0, 1e-3):
+        if np.mean((ratios > factor / 2) & (ratios < factor * 2)) >= STEADY:
+            return factor
+    return None
+
+
+def _broken_relation(
+    columns: list[str], measured: dict[str, np.ndarray], simulated: dict[str, np.ndarray]
+) -> dict[str, str]:
+    """The one slip after whose correction the recording obeys what the simulated outputs obey, such as currents that
+    add up to zero; empty where there is no such relation, it is not broken, or no single slip explains that."""
+    good = np.all([np.isfinite(measured[c]) for c in columns], axis=0)
+    s, m = (np.array([v[c][good] - v[c][good].mean() for c in columns]) for v in (simulated, measured))
+    size = np.sqrt(np.mean(s**2, axis=1))
+    if len(columns) < 2 or not np.all(size > 0):
+        return {}
+    left, singular, _ = np.linalg.svd(s / size[:, None], full_matrices=False)
+    if singular[-1] > OBEYED * singular[0]:
+        return {}
+    terms = (left[:, -1] / size)[:, None] * m
+    if _violation(terms) < BROKEN:
+        return {}
+    found = {}
+    for k, column in enumerate(columns):
+        for factor, text in SCALES.items():
+            corrected = terms.copy()
+            corrected[k] /= factor
+            if abs(left[k, -1]) > 0.1 and _violation(corrected) < BROKEN:
+                found[column] = text
+    return found if len(found) == 1 else {}
+
+
+def _violation(terms: np.ndarray) -> float:
+    """RMS of the sum of the terms (k, n) over that of the largest."""
+    return float(np.std(terms.sum(axis=0)) / max(np.std(terms, axis=1).max(), 1e-300))
+
+
+def _still(machine: Machine, recording: Recording, simulated: dict[str, np.ndarray], column: str) -> Problem | None:
+    """An output that stands while the model moves it and the others move as the model does: a machine that truly stood
+    would show in them."""
+    start, length = longest_run(np.diff(recording.columns[column]) == 0)
+    window = slice(start, start + length + 1)
+    moved = np.ptp(simulated[column][window]) > STANDS * np.ptp(simulated[column]) > 0
+    if length < STANDS * len(recording.time) or not moved:
+        return None
+    others = [s.column for s in machine.case.outputs if s.column != column]
+    scales = [_scale(recording.columns[c][window], simulated[c][window]) for c in others]
+    if not others or not all(scale and abs(scale - 1.0) < WITHIN for scale in scales):
+        return None
+    begin, end = recording.time[start], recording.time[start + length]
+    text = f"stands for {end - begin:.4g} s where the model moves it and the other signals agree with the model"
+    return Problem("constant", recording.name, column, float(begin), text, True)
 
 
 def _slip(scale: float) -> str | None:
     for factor, text in SCALES.items():
-        if abs(scale / factor - 1.0) < WITHIN:
+        within = FAR if factor < 0 or abs(math.log10(factor)) == 3 else WITHIN
+        if abs(math.log(scale / factor) if scale / factor > 0 else math.inf) < within:
             return text
     return None
 
@@ -79,8 +152,12 @@ def _shifts(machine: Machine, recording: Recording, simulated: dict[str, np.ndar
     lags = {s.column: _lag(recording.columns[s.column], simulated[s.column]) for s in machine.case.outputs}
     found = []
     together = len(lags) > 1 and np.ptp([lag for lag, _ in lags.values()]) <= 4  # that is the drive, or a delay
+    if together and all(lag <= -EARLY and gain > 0.8 for lag, gain in lags.values()):
+        seconds = -max(lag for lag, _ in lags.values()) * recording.interval
+        text = f"shifted in time by {seconds:+.4g} s: every output answers before it"
+        return [Problem("shift", recording.name, machine.case.inputs[0].column, float(recording.time[0]), text, True)]
     for column, (lag, gain) in lags.items():
-        late, early = lag >= LATE and gain > 0.8, lag <= -EARLY and gain > 0.97
+        late, early = lag >= LATE and gain > 0.8, lag <= -EARLY and gain > (0.8 if lag <= -LATE else 0.97)
         if (late or early) and not together:
             seconds = lag * recording.interval
             text = f"shifted in time by {seconds:+.4g} s against the other signals"
@@ -93,15 +170,16 @@ def _lag(measured: np.ndarray, simulated: np.ndarray, reach: int = 400) -> tuple
 
     Changes over a few samples are compared, not values: a wrong parameter lets an angle drift, which is no shift.
     """
-    measured = np.nan_to_num(measured, nan=float(np.nanmean(measured)))
-    measured, simulated = (v[CHANGE:] - v[:-CHANGE] for v in (measured, simulated))
+    measured, simulated = (v[CHANGE:] - v[:-CHANGE] for v in (filled(measured), simulated))
+    outlying = np.abs(measured) > 8 * np.quantile(np.abs(measured), 0.99)
+    measured = filled(np.where(outlying, np.nan, measured))
     reach = min(reach, len(measured) // 4)
     inner = slice(reach, len(measured) - reach)
-    best, least = 0, math.inf
     base = float(np.sum((measured[inner] - simulated[inner]) ** 2))
-    for lag in range(-reach, reach + 1, 2):
-        moved = measured[inner.start + lag : inner.stop + lag]
-        error = float(np.sum((moved - simulated[inner]) ** 2))
-        if error < least:
-            best, least = lag, error
-    return best, 1.0 - least / base if base > 0 else 0.0
+    lags = np.arange(-reach, reach + 1, 2)
+    errors = np.array([np.sum((measured[inner.start + k : inner.stop + k] - simulated[inner]) ** 2) for k in lags])
+    good = np.flatnonzero(errors <= errors.min() + AS_GOOD * (base - errors.min()))
+    best = int(good[np.argmin(np.abs(lags[good]))])  # of a periodic signal, not a period later
+    while (lower := max(best - 1, 0) + int(np.argmin(errors[max(best - 1, 0) : best + 2]))) != best:
+        best = lower
+    return int(lags[best]), 1.0 - errors[best] / base if base > 0 else 0.0

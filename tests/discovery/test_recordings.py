@@ -1,4 +1,8 @@
-"""Broken recordings are recognised, with column and time; sound ones are not suspected."""
+"""Broken recordings are recognised, with column and time; sound ones are not suspected.
+
+The table below is tried on a motor simulated here; what needs other machines (currents that add up to zero, a closed
+loop) on practice cases, where they are.
+"""
 
 from __future__ import annotations
 
@@ -9,87 +13,235 @@ import numpy as np
 import pytest
 
 from codegen.library import Library
-from discovery.amend import Amendment
-from discovery.cases import Case, Recording, load
+from discovery.cases import Case, CaseError, Recording, load
 from discovery.explain import explain
-from discovery.fit import believed
-from discovery.machine import Machine
-from discovery.places import read
-from discovery.recordings_check import check_case
-from discovery.semantic_check import check_against_model
+from discovery.recordings_check import Problem, check_case
+from discovery.steps import opened
+
+Spoil = Callable[[Recording], None]
 
 
-def frozen(r: Recording) -> None:
-    r.columns["i"][600:800] = r.columns["i"][600]
+def changed(column: str, change: Callable[[np.ndarray], np.ndarray]) -> Spoil:
+    """A recording with `column` replaced by what `change` makes of its samples."""
+
+    def spoil(r: Recording) -> None:
+        r.columns[column] = change(r.columns[column].copy())
+
+    return spoil
 
 
-def clipped(r: Recording) -> None:
-    r.columns["i"] = np.minimum(r.columns["i"], 0.5 * r.columns["i"].max())
+def between(first: int, end: int, value: float | None = None) -> Callable[[np.ndarray], np.ndarray]:
+    """Samples from `first` to `end` all equal: to `value`, else to the first of them."""
+
+    def hold(v: np.ndarray) -> np.ndarray:
+        v[first:end] = v[first] if value is None else value
+        return v
+
+    return hold
+
+
+def clip(v: np.ndarray) -> np.ndarray:
+    return np.minimum(v, 0.5 * v.max())
+
+
+def later(samples: int) -> Callable[[np.ndarray], np.ndarray]:
+    """What is recorded arrives later by this number of samples (earlier where negative); mirrored at the ends."""
+
+    def move(v: np.ndarray) -> np.ndarray:
+        n = abs(samples)
+        return np.concatenate([v[n - 1 :: -1], v[:-n]] if samples > 0 else [v[n:], v[: -n - 1 : -1]])
+
+    return move
 
 
 def backwards(r: Recording) -> None:
     r.time[700] = r.time[690]
 
 
+def repeated(r: Recording) -> None:
+    r.time[700] = r.time[699]
+
+
 def gap(r: Recording) -> None:
     r.time[900:] += 0.4
 
 
-def missing(r: Recording) -> None:
-    r.columns["u"][300:340] = np.nan
+def no_time(r: Recording) -> None:
+    r.time[700] = np.nan
 
 
-def reversed_sign(r: Recording) -> None:
-    r.columns["i"] = -r.columns["i"]
+def short(r: Recording, length: int = 49) -> None:
+    r.time = r.time[:length]
+    r.columns = {name: v[:length] for name, v in r.columns.items()}
 
 
-def thousand(r: Recording) -> None:
-    r.columns["i"] = 1000 * r.columns["i"]
+def empty(r: Recording) -> None:
+    short(r, 0)
 
 
-def degrees(r: Recording) -> None:
-    r.columns["theta"] = np.degrees(r.columns["theta"])
+def spike(v: np.ndarray) -> np.ndarray:
+    v[700] += 5 * np.ptp(v)
+    return v
 
 
-def shifted(r: Recording) -> None:
-    r.columns["i"] = np.concatenate([np.full(80, r.columns["i"][0]), r.columns["i"][:-80]])
+WITHOUT_A_MODEL = [  # what is done to r2.csv, the kind, the column, the time (s) at which it is seen
+    (backwards, "time_order", "time", 0.69),
+    (repeated, "time_order", "time", 0.699),
+    (gap, "gap", "time", 0.899),
+    (no_time, "time_missing", "time", 0.699),
+    (short, "too_short", "time", 0.0),
+    (empty, "too_short", "time", None),
+    (changed("u", between(300, 340, np.nan)), "missing_samples", "u", 0.3),
+    (changed("i", between(300, 700, np.nan)), "missing_samples", "i", 0.3),
+    (changed("i", between(0, 1500, np.nan)), "missing_samples", "i", 0.0),
+    (changed("i", between(600, 800)), "frozen", "i", 0.6),
+    (changed("i", between(600, 800, 0.0)), "frozen", "i", 0.6),
+    (changed("theta", between(600, 1500)), "frozen", "theta", 0.6),
+    (changed("i", clip), "clipped", "i", None),
+    (changed("i", lambda v: 0 * v), "constant", "i", 0.0),
+]  # fmt: skip
+
+AGAINST_THE_MODEL = [  # what is done to r2.csv, words of the text, the column
+    (changed("i", np.negative), "its sign is reversed", "i"),
+    (changed("theta", np.negative), "its sign is reversed", "theta"),
+    (changed("u", np.negative), "its sign is reversed", "u"),
+    (changed("i", lambda v: 1000 * v), "1000 times too large", "i"),
+    (changed("theta", lambda v: v / 1000), "1000 times too small", "theta"),
+    (changed("theta", np.degrees), "degrees where radians", "theta"),
+    (changed("theta", np.radians), "radians where degrees", "theta"),
+    (changed("i", later(80)), "shifted in time by +0.08", "i"),
+    (changed("theta", later(-60)), "shifted in time by -0.0", "theta"),
+    (changed("u", later(60)), "every output answers before it", "u"),
+]  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("spoil", "kind", "column"),
-    [(frozen, "frozen", "i"), (clipped, "clipped", "i"), (backwards, "time_order", "time"), (gap, "gap", "time"),
-     (missing, "missing_samples", "u")],
-)  # fmt: skip
+def problems_of(case: Case) -> list[Problem]:
+    return opened(case, Library())[0].problems
+
+
+def diagnosed(case: Case, column: str) -> None:
+    """A broken file must never lead to a confident diagnosis."""
+    result = explain(case)
+    assert result.verdict == "undetermined" and not result.findings
+    assert f"column `{column}`" in result.reason
+
+
+@pytest.mark.parametrize(("spoil", "kind", "column", "time"), WITHOUT_A_MODEL)
 def test_broken_recordings_are_seen_without_a_model(
-    consistent_case: Path, spoil: Callable[[Recording], None], kind: str, column: str
+    consistent_case: Path, spoil: Spoil, kind: str, column: str, time: float | None
 ) -> None:
     case = load(consistent_case)
     assert check_case(case) == []
     spoil(case.fit[1])
-    found = [p for p in check_case(case) if p.kind == kind]
-    assert found and found[0].column == column and found[0].recording == "r2.csv" and found[0].fatal
+    first = check_case(case)[0]
+    assert (first.kind, first.column, first.recording, first.fatal) == (kind, column, "r2.csv", True)
+    assert time is None or first.time == pytest.approx(time, abs=2e-3)
+    diagnosed(case, column)
+
+
+@pytest.mark.parametrize(("spoil", "text", "column"), AGAINST_THE_MODEL)
+def test_slips_are_seen_against_the_model(consistent_case: Path, spoil: Spoil, text: str, column: str) -> None:
+    case = load(consistent_case)
+    assert problems_of(case) == []
+    spoil(case.fit[1])
+    problems = problems_of(case)
+    assert problems and all(p.recording == "r2.csv" and p.fatal for p in problems)
+    assert text.removeprefix("its") in problems[0].text and problems[0].column == column
+    diagnosed(case, column)
+
+
+@pytest.mark.parametrize(("column", "words"), [("i", "may be fitted"), ("theta", "may be fitted"), ("u", "no input")])
+def test_what_never_changes_is_of_no_use(consistent_case: Path, column: str, words: str) -> None:
+    case = load(consistent_case)
+    for recording in case.fit:
+        recording.columns[column][:] = 0.5
+    problems = [p for p in check_case(case) if p.kind == "constant"]
+    assert [p.column for p in problems] == [column] and words in problems[0].text
+    diagnosed(case, column)
+
+
+def test_a_signal_at_rest_is_not_frozen(consistent_case: Path) -> None:
+    """An encoder without noise stands while the shaft does: the first 0.1 s, and after the supply is cut."""
+    case = load(consistent_case)
+    for recording in case.fit + case.validate:
+        theta = np.round(recording.columns["theta"] / 0.01) * 0.01
+        theta[:100], theta[1300:] = theta[100], theta[1300]
+        recording.columns["theta"] = theta
+    assert check_case(case) == []
 
 
 @pytest.mark.parametrize(
-    ("spoil", "text"),
-    [(reversed_sign, "reversed"), (thousand, "1000"), (degrees, "degrees"), (shifted, "shifted")],
+    ("change", "kind"), [(between(500, 503, np.nan), "missing_samples"), (spike, "outlier")], ids=["missing", "outlier"]
+)  # fmt: skip
+@pytest.mark.parametrize("column", ["i", "theta"])
+def test_single_bad_samples_are_said_and_left_at_that(
+    consistent_case: Path, column: str, change: Callable[[np.ndarray], np.ndarray], kind: str
+) -> None:
+    case = load(consistent_case)
+    changed(column, change)(case.fit[1])
+    assert [(p.kind, p.column, p.fatal) for p in problems_of(case)] == [(kind, column, False)]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('unit = "A"', "", r"signals\.i\] has no unit"),
+        ('unit = "A"', 'unit = "amp"', "amp"),
+        ('unit = "A"', 'unit = "V"', "unit V does not fit i, which is in A"),
+        ("time,u,i,theta", "time,u,current,theta", "r2.csv: column `i` is missing"),
+        ("time,u,i,theta", "t,u,i,theta", "r2.csv: column `time` is missing"),
+    ],
 )
-def test_slips_are_seen_against_the_model(consistent_case: Path, spoil: Callable[[Recording], None], text: str) -> None:
-    case = load(consistent_case)
-    machine = _machine(case)
-    assert check_against_model(machine, believed(case, machine)) == []
+def test_columns_and_units_have_to_be_there(
+    consistent_case: Path, tmp_path: Path, old: str, new: str, words: str
+) -> None:
+    for file in ("r1.csv", "r2.csv", "r3.csv", "case.toml"):
+        text = (consistent_case / file).read_text()
+        (tmp_path / file).write_text(text.replace(old, new, 1) if file in ("r2.csv", "case.toml") else text)
+    with pytest.raises(CaseError, match=words):
+        opened(load(tmp_path), Library())
+
+
+PRACTICE = [f"p{k:02d}" for k in range(1, 11)]
+
+
+@pytest.fixture
+def practice(shared: Path) -> Callable[[str], Case]:
+    """Reads a practice case by its name; skips where there is none."""
+
+    def read(name: str) -> Case:
+        folder = shared / "recordings" / "practice" / name
+        if not folder.is_dir():
+            pytest.skip(f"needs the practice recordings; not at {folder}")
+        return load(folder)
+
+    return read
+
+
+@pytest.mark.parametrize("name", PRACTICE)
+def test_practice_recordings_are_not_suspected(practice: Callable[[str], Case], name: str) -> None:
+    assert problems_of(practice(name)) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "spoil", "kind", "column"),
+    [
+        ("p01", changed("theta", between(3000, 6001)), "constant", "theta"),
+        ("p04", changed("theta", np.negative), "scale", "theta"),
+        ("p06", changed("i", clip), "clipped", "i"),
+        ("p06", changed("thm", later(80)), "shift", "thm"),
+        ("p08", changed("ths", np.degrees), "scale", "ths"),
+        ("p08", changed("u", between(600, 800)), "frozen", "u"),
+        ("p09", changed("ia", np.negative), "scale", "ia"),
+        ("p09", changed("ic", lambda v: 1000 * v), "scale", "ic"),
+        ("p10", changed("ib", np.negative), "scale", "ib"),
+        ("p10", changed("ia", lambda v: 0 * v), "constant", "ia"),
+    ],
+)  # fmt: skip
+def test_practice_recordings_are_seen_when_broken(
+    practice: Callable[[str], Case], name: str, spoil: Spoil, kind: str, column: str
+) -> None:
+    case = practice(name)
     spoil(case.fit[1])
-    problems = check_against_model(machine, believed(case, machine))
-    assert problems and all(p.recording == "r2.csv" for p in problems)
-    assert text in problems[0].text
-
-
-def _machine(case: Case) -> Machine:
-    return Machine(case, Amendment(read(Library(), case.model)))
-
-
-def test_no_confident_diagnosis_from_a_broken_file(consistent_case: Path) -> None:
-    case = load(consistent_case)
-    frozen(case.fit[0])
-    result = explain(case)
-    assert result.verdict == "undetermined" and not result.findings and "column `i`" in result.reason
+    found = [p for p in problems_of(case) if p.fatal]
+    assert (kind, column, case.fit[1].name) in [(p.kind, p.column, p.recording) for p in found]
