@@ -65,7 +65,8 @@ def _beside(search: Search, progress: Progress) -> None:
 
 def _instead(search: Search, base: Fit, before: Judgement, law: Candidate) -> bool:
     """One law for all of the misfit of the believed model, in place of every finding."""
-    if not (like_noise(law.fit) or max(law.fit.level.values()) < LEFT):
+    left = max(law.fit.level.values())
+    if left > (COLOURED if like_noise(law.fit) else LEFT):
         return False
     start = tracked(base, search.bandwidths)
     correlation = law.fit.correlation()
@@ -85,11 +86,12 @@ def _instead(search: Search, base: Fit, before: Judgement, law: Candidate) -> bo
 
 
 def _found(search: Search, base: Fit, correlation: dict[str, float]) -> float:
-    """What the findings of the catalogue score against the believed model, as a law does."""
-    free = [f for f in search.fit.estimate.free if f.name not in {b.name for b in base.estimate.free}]
+    """What the findings of the catalogue score against the believed model, their shafts held as a law's are."""
+    found = tracked(search.fit, search.bandwidths)
+    free = [f for f in found.estimate.free if f.name not in {b.name for b in base.estimate.free}]
     informative = sum(count / correlation[c] for c, count in base.counts().items())
     price = len(free) * float(np.log(max(informative, 2.0)))
-    return search.fit.deviance(correlation) + price - base.deviance(correlation)
+    return found.deviance(correlation) + price - base.deviance(correlation)
 
 
 def _ranked(candidate: Candidate, base: Fit) -> Ranked:
