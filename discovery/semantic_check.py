@@ -33,7 +33,7 @@ WINDOWS, STEADY = 40, 0.8  # of the recording, and the share of them in which a 
 STANDS = 0.1  # share of the recording in which a signal stands, and of the simulated range that it leaves out
 OBEYED, BROKEN = 1e-6, 0.3  # residual of a relation between outputs over its largest term
 AS_GOOD = 0.1  # part of what moving the signal takes away that the least of several moves may leave
-CHANGE = 10  # samples over which changes are compared when looking for a shift
+CHANGES = (10, 100)  # samples over which changes are compared when looking for a shift: fast ones, and beyond noise
 
 
 def check_against_model(machine: Machine, start: tuple[list[Free], dict[str, float]]) -> list[Problem]:
@@ -158,19 +158,30 @@ def _shifts(machine: Machine, recording: Recording, simulated: dict[str, np.ndar
         return [Problem("shift", recording.name, machine.case.inputs[0].column, float(recording.time[0]), text, True)]
     for column, (lag, gain) in lags.items():
         late, early = lag >= LATE and gain > 0.8, lag <= -EARLY and gain > (0.8 if lag <= -LATE else 0.97)
-        if (late or early) and not together:
+        if (late or early) and not together and _agrees(recording.columns[column], simulated[column], lag):
             seconds = lag * recording.interval
             text = f"shifted in time by {seconds:+.4g} s against the other signals"
             found.append(Problem("shift", recording.name, column, float(recording.time[0]), text, True))
     return found
 
 
-def _lag(measured: np.ndarray, simulated: np.ndarray, reach: int = 400) -> tuple[int, float]:
+def _agrees(measured: np.ndarray, simulated: np.ndarray, lag: int) -> bool:
+    """Whether the shapes agree when `measured` is moved forward by `lag` samples: what is out of step is not late."""
+    moved, still = (measured[lag:], simulated[:-lag]) if lag > 0 else (measured[:lag], simulated[-lag:])
+    return bool(np.corrcoef(filled(moved), still)[0, 1] > SHAPE)
+
+
+def _lag(measured: np.ndarray, simulated: np.ndarray) -> tuple[int, float]:
+    """(lag, gain) of the span of changes in which a shift shows most."""
+    return max((_lag_of_changes(measured, simulated, span) for span in CHANGES), key=lambda found: found[1])
+
+
+def _lag_of_changes(measured: np.ndarray, simulated: np.ndarray, span: int, reach: int = 400) -> tuple[int, float]:
     """(samples by which `measured` is late, share of the squared difference that moving it takes away).
 
-    Changes over a few samples are compared, not values: a wrong parameter lets an angle drift, which is no shift.
+    Changes over `span` samples are compared, not values: a wrong parameter lets an angle drift, which is no shift.
     """
-    measured, simulated = (v[CHANGE:] - v[:-CHANGE] for v in (filled(measured), simulated))
+    measured, simulated = (v[span:] - v[:-span] for v in (filled(measured), simulated))
     outlying = np.abs(measured) > 8 * np.quantile(np.abs(measured), 0.99)
     measured = filled(np.where(outlying, np.nan, measured))
     reach = min(reach, len(measured) // 4)
