@@ -30,6 +30,7 @@ SHAPE = 0.9  # least correlation with the simulation at which a scale is read
 WITHIN, FAR = 0.25, 1.0  # relative distance from a listed scale; from one that no physics comes near to
 LATE, EARLY = 50, 8  # samples: a signal may be somewhat late by a sensor or a drive, but not early
 WINDOWS, STEADY = 40, 0.8  # of the recording, and the share of them in which a slipped unit shows
+ALIKE = 0.3  # gain from which the lag of another signal is one
 STANDS = 0.1  # share of the recording in which a signal stands, and of the simulated range that it leaves out
 OBEYED, BROKEN = 1e-6, 0.3  # residual of a relation between outputs over its largest term
 AS_GOOD = 0.1  # part of what moving the signal takes away that the least of several moves may leave
@@ -158,6 +159,9 @@ def _shifts(machine: Machine, recording: Recording, simulated: dict[str, np.ndar
         return [Problem("shift", recording.name, machine.case.inputs[0].column, float(recording.time[0]), text, True)]
     for column, (lag, gain) in lags.items():
         late, early = lag >= LATE and gain > 0.8, lag <= -EARLY and gain > (0.8 if lag <= -LATE else 0.97)
+        others = [other for c, (other, found) in lags.items() if c != column and found > ALIKE]
+        if late and any(lag - LATE < other for other in others):  # a machine slower than believed delays them all
+            continue
         if (late or early) and not together and _agrees(recording.columns[column], simulated[column], lag):
             seconds = lag * recording.interval
             text = f"shifted in time by {seconds:+.4g} s against the other signals"
