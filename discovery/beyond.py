@@ -13,12 +13,12 @@ import numpy as np
 
 from .comparison import MIN_GAIN, Ranked, score
 from .empirical_law import find
-from .evidence import is_noise, like_noise, pays
+from .evidence import like_noise, pays, settled
 from .fit import Fit
 from .judge import Judgement, judge
 from .name import Naming
 from .screen import Candidate
-from .search import Finding, Search, tracked
+from .search import Finding, Search
 
 LEFT = 1.2  # RMS of what a law leaves, in units of the noise, up to which it stands for all of the misfit
 COLOURED = 5.0  # RMS, in units of the noise as estimated, that coloured noise may have
@@ -35,14 +35,15 @@ def explain_beyond(search: Search, base: Fit, before: Judgement, progress: Progr
     effect does not ends the search; a longer one has to beat all that the catalogue finds in the end.
     """
     search.run(progress, most=1)
-    if is_noise(search.fit) or (like_noise(base) and max(base.level.values()) < COLOURED):
+    if settled(search.fit) or (like_noise(base) and max(base.level.values()) < COLOURED):
         return
     progress("looking for an empirical law")
-    law = find(search.case, replace(search.amendment, attachments=[]), tracked(base, search.bandwidths), progress)
+    held = search.lead.hold(base)
+    law = find(held.machine.case, replace(search.amendment, attachments=[]), held, progress)
     if law is not None and len(law.free) <= SHORT and _instead(search, base, before, law):
         return
     search.run(progress)
-    if (law is not None and _instead(search, base, before, law)) or is_noise(search.fit) or not search.findings:
+    if (law is not None and _instead(search, base, before, law)) or settled(search.fit) or not search.findings:
         return
     _beside(search, progress)
 
@@ -50,8 +51,8 @@ def explain_beyond(search: Search, base: Fit, before: Judgement, progress: Progr
 def _beside(search: Search, progress: Progress) -> None:
     """A law for what the findings leave."""
     progress("looking for an empirical law beside what was found")
-    start = tracked(search.fit, search.bandwidths)
-    candidate = find(search.case, search.amendment, start, progress)
+    start = search.lead.hold(search.fit)
+    candidate = find(start.machine.case, search.amendment, start, progress)
     if candidate is None or score(candidate, start, candidate.fit.correlation()) > -MIN_GAIN:
         return
     ranked = _ranked(candidate, start)
@@ -68,7 +69,7 @@ def _instead(search: Search, base: Fit, before: Judgement, law: Candidate) -> bo
     left = max(law.fit.level.values())
     if left > (COLOURED if like_noise(law.fit) else LEFT):
         return False
-    start = tracked(base, search.bandwidths)
+    start = search.lead.hold(base)
     correlation = law.fit.correlation()
     gain = score(law, start, correlation)
     if gain > -MIN_GAIN or (search.findings and gain > _found(search, start, correlation) - MARGIN):
@@ -87,7 +88,7 @@ def _instead(search: Search, base: Fit, before: Judgement, law: Candidate) -> bo
 
 def _found(search: Search, base: Fit, correlation: dict[str, float]) -> float:
     """What the findings of the catalogue score against the believed model, their shafts held as a law's are."""
-    found = tracked(search.fit, search.bandwidths)
+    found = search.lead.hold(search.fit, base)
     free = [f for f in found.estimate.free if f.name not in {b.name for b in base.estimate.free}]
     informative = sum(count / correlation[c] for c, count in base.counts().items())
     price = len(free) * float(np.log(max(informative, 2.0)))

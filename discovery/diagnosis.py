@@ -18,7 +18,7 @@ from .search import Finding
 
 def build(result: Explanation, amended: Path | None) -> dict[str, Any]:
     """The diagnosis as plain data."""
-    errors = standard_errors(result.final, result.bandwidths) if result.final else {}
+    errors = standard_errors(result.final, result.lead) if result.final else {}
     diagnosis: dict[str, Any] = {
         "case": result.case.label, "model": result.case.model, "verdict": result.verdict,
         "findings": [_finding(result, f, errors) for f in result.findings],

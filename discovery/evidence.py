@@ -13,6 +13,7 @@ BLOCKS = (1, 8, 40, 200)  # samples over which a residual is averaged
 SIGMAS = 5.0
 ROUNDING = 2.5  # allowance for rounding errors of a slow signal, which are alike from sample to sample
 GROWTH = 1.3  # of the power of block means from one block length to the next that colour may still explain
+INPUTS = 2.0  # times the power that the resolution of the inputs gives on average, which may be there
 TOLERANCE = 0.04  # of the noise level, within which it counts as known
 
 
@@ -36,21 +37,30 @@ def whiteness(fit: Fit) -> dict[str, Whiteness]:
 
 
 def _blocks(fit: Fit, column: str, block: int) -> Whiteness:
+    total, count = _block_power(fit, {n: r[column] for n, r in fit.residuals.items()}, column, block)
+    inputs = fit.input_errors()
+    draws = [{n: d[k][column] for n, d in inputs.items()} for k in range(min(map(len, inputs.values()), default=0))]
+    allowed = sum(_block_power(fit, draw, column, block)[0] for draw in draws) / max(len(draws), 1)
+    noise = fit.noise[column]
+    level = 1.0 + TOLERANCE if noise.given else 1.3
+    colour = ROUNDING if noise.quantum and noise.std < 0.5 * noise.quantum and block > 1 else 1.0
+    limit = colour * level**2 * (1.0 + SIGMAS * np.sqrt(2.0 / count)) + INPUTS * allowed / count
+    return Whiteness(column, block, total / count, limit)
+
+
+def _block_power(fit: Fit, errors: Mapping[str, np.ndarray], column: str, block: int) -> tuple[float, int]:
+    """Sum over blocks of the squared means of `errors` (by recording), where white noise gives one each; the blocks."""
     total, count = 0.0, 0
-    for name, residual in fit.residuals.items():
+    for name, error in errors.items():
         weight = fit.weights[name][column]
-        values = np.nan_to_num(residual[column]) * weight / fit.noise[column].std
+        values = np.nan_to_num(error) * weight / fit.noise[column].std
         usable = len(values) // block * block
         sums = values[:usable].reshape(-1, block).sum(axis=1)
         power = (weight[:usable] ** 2).reshape(-1, block).sum(axis=1)
         alive = power > 0.5
         total += float(np.sum(sums[alive] ** 2 / power[alive]))
         count += int(alive.sum())
-    count = max(count, 1)
-    noise = fit.noise[column]
-    level = 1.0 + TOLERANCE if noise.given else 1.3
-    colour = ROUNDING if noise.quantum and noise.std < 0.5 * noise.quantum and block > 1 else 1.0
-    return Whiteness(column, block, total / count, colour * level**2 * (1.0 + SIGMAS * np.sqrt(2.0 / count)))
+    return total, max(count, 1)
 
 
 def is_noise(fit: Fit) -> bool:
@@ -73,6 +83,11 @@ def like_noise(fit: Fit) -> bool:
         if sizes[40].ratio > 2 * GROWTH * chance[40] * max(sizes[8].ratio, 1.0):
             return False
     return True
+
+
+def settled(fit: Fit) -> bool:
+    """Whether nothing is left to look for: noise, or noise of the level that is given with a colour of its own."""
+    return is_noise(fit) or (all(n.given for n in fit.noise.values()) and like_noise(fit))
 
 
 def outside_belief(fit: Fit, sigmas: float = 3.0) -> dict[str, float]:

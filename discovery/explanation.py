@@ -10,6 +10,7 @@ from .cases import Case
 from .experiments import Experiment
 from .fit import Fit
 from .judge import Judgement
+from .lead import Lead
 from .locate import Located
 from .name import Naming
 from .recordings_check import Problem
@@ -36,7 +37,7 @@ class Explanation:
     after: Judgement | None = None
     floor: dict[str, float] = field(default_factory=dict)
     seconds: dict[str, float] = field(default_factory=dict)
-    bandwidths: tuple[float, ...] = (0.0,)  # that lead fits of this model
+    lead: Lead = field(default_factory=Lead)  # of fits of this model
 
 
 class Clock:

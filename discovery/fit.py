@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .cases import Case, Recording
+from .input_error import input_errors
 from .least_squares import Estimate, Free, Problem
 from .machine import Machine
 from .noise import Noise, correlation_time, estimate, sample_weights
@@ -38,6 +39,14 @@ class Fit:
     noise: dict[str, Noise]
     simulations: int
     fixed: dict[str, float] = field(default_factory=dict)
+    _input_errors: dict[str, list[dict[str, np.ndarray]]] | None = field(default=None, repr=False)
+
+    def input_errors(self) -> dict[str, list[dict[str, np.ndarray]]]:
+        """What the resolution of the recorded inputs can do to the outputs: see `input_error`."""
+        if self._input_errors is None:
+            recordings = [r for r in self.machine.case.fit if r.name in self.residuals]
+            self._input_errors = input_errors(self.machine, recordings, self.point)
+        return self._input_errors
 
     @property
     def point(self) -> dict[str, float]:
@@ -224,13 +233,6 @@ def nrmse(
         result[signal.column] = float(np.sqrt(np.nanmean(error**2)) / spread) if spread > 0 else float("inf")
     result[""] = float(np.sqrt(np.mean([result[s.column] ** 2 for s in case.outputs])))
     return result
-
-
-def bandwidths_for(case: Case, machine: Machine, values: Mapping[str, float]) -> tuple[float, ...]:
-    """The bandwidths that lead a fit: just 0, or falling ones where events make the sum of squares rough."""
-    if not any(machine.motions()) or machine.events_per_second(values, case.fit[0]) < 20:
-        return (0.0,)
-    return falling_bandwidths(case, machine)
 
 
 def falling_bandwidths(case: Case, machine: Machine) -> tuple[float, ...]:

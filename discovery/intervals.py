@@ -11,15 +11,12 @@ from __future__ import annotations
 import numpy as np
 
 from .fit import Fit
-from .input_error import input_errors
-from .search import tracked
-
-WIDEST = 0  # which of the bandwidths holds the shafts most
+from .lead import Lead
 
 
-def standard_errors(fit: Fit, bandwidths: tuple[float, ...] = (0.0,)) -> dict[str, float]:
-    """1-sigma of each free parameter (in its unit; 0 at a bound); `bandwidths` are those that led the fit."""
-    held = tracked(fit, bandwidths, WIDEST) if len(bandwidths) > 1 else fit
+def standard_errors(fit: Fit, lead: Lead | None = None) -> dict[str, float]:
+    """1-sigma of each free parameter (in its unit; 0 at a bound); `lead` is how the fit was led."""
+    held = lead.hold_fast(fit) if lead else fit
     variance = np.diag(covariance(held)) + (held.estimate.values - fit.estimate.values) ** 2
     return {
         f.name: 0.0 if fit.estimate.at_bound(f.name) else float(np.sqrt(max(v, 0.0)))
@@ -57,7 +54,7 @@ def _score_covariance(fit: Fit) -> np.ndarray:
 def _input_gradients(fit: Fit) -> list[np.ndarray]:
     """Half the gradient (p,) that each draw of the inputs' rounding errors adds."""
     recordings = fit.machine.case.fit
-    draws = input_errors(fit.machine, recordings, fit.point)
+    draws = fit.input_errors()
     total: dict[int, np.ndarray] = {}
     for block, recording in zip(fit.estimate.jacobian, recordings, strict=True):
         for k, moved in enumerate(draws.get(recording.name, [])):

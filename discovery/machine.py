@@ -236,7 +236,8 @@ def write_source(amendment: Amendment) -> Path:
 
 def try_machine(case: Case, amendment: Amendment, base: Machine) -> tuple[Machine | None, str]:
     """A richer machine than `base`, or None and why it cannot be built (a hypothesis that does not fit this model)."""
-    limits = {name: STEPS_GROWTH * max(steps, 1000) for name, steps in base.steps.items()}
+    samples = {r.name: len(r.time) for r in case.fit}
+    limits = {name: STEPS_GROWTH * max(steps, 1000, samples.get(name, 0)) for name, steps in base.steps.items()}
     try:
         return Machine(case, amendment, base.solver, step_limits=limits), ""
     except (Diagnostic, CompilerError, SimulationError) as error:

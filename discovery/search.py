@@ -14,18 +14,17 @@ from .amend import Amendment, Attachment
 from .cases import Case
 from .catalogue import Effect
 from .comparison import MIN_GAIN, TIE, Ranked, price
-from .evidence import is_noise, pays
+from .evidence import pays, settled
 from .fit import Fit, fit
 from .hypotheses import enumerate_attachments
 from .judge import Judgement, judge
+from .lead import Lead
 from .machine import Machine, try_machine
 from .name import Naming, compete, rank
-from .objective import Objective
 from .screen import Candidate
 
 MAX_FINDINGS = 3
 RECONSIDERED = 4  # rivals of an earlier finding that are tried again
-HELD = 1  # which of the bandwidths holds the shafts while hypotheses are compared: edges stay, misfit shows
 
 Progress = Callable[[str], None]
 
@@ -46,7 +45,7 @@ class Search:
 
     case: Case
     effects: list[Effect]
-    bandwidths: tuple[float, ...]
+    lead: Lead
     floor: dict[str, float]
     amendment: Amendment
     fit: Fit
@@ -58,7 +57,7 @@ class Search:
 
     def run(self, progress: Progress, most: int = MAX_FINDINGS) -> None:
         """Add findings, `most` of them, until what is left is noise, or nothing more pays."""
-        while len(self.findings) < most and not self.exhausted and not is_noise(self.fit):
+        while len(self.findings) < most and not self.exhausted and not settled(self.fit):
             progress(f"looking for missing physics, round {len(self.findings) + 1}")
             if not self.add(progress):
                 self.exhausted = True
@@ -68,7 +67,8 @@ class Search:
 
     def add(self, progress: Progress) -> bool:
         attachments = enumerate_attachments(self.case, self.amendment.structure, self.effects, self.amendment)
-        naming = rank(self.case, self.amendment, attachments, tracked(self.fit, self.bandwidths), progress=progress)
+        held = self.lead.hold(self.fit)
+        naming = rank(held.machine.case, self.amendment, attachments, held, progress=progress)
         self.namings.append(naming)
         best = naming.best
         if best is None or best.score > -MIN_GAIN:
@@ -91,14 +91,12 @@ class Search:
         self.fit, self.judgement = found, judgement
 
     def polished(self, best: Ranked, base: Fit) -> Fit | None:
-        """The hypothesis fitted without trackers; None where that fails or is no better than the base."""
-        if len(self.bandwidths) < 2:
+        """The hypothesis fitted to all, nothing held; None where that fails or is no better than the base."""
+        if self.lead.direct:
             return best.fit
         candidate = best.candidate
-        found = fit(
-            candidate.machine, self.case.fit, base.noise, [*base.estimate.free, *candidate.free],
-            base.fixed | candidate.fixed, start=best.fit.point, bandwidths=self.bandwidths[HELD:],
-        )  # fmt: skip
+        machine = Machine(self.case, candidate.machine.amendment, self.fit.machine.solver)
+        found = self.lead.release(machine, self.case, base, [*base.estimate.free, *candidate.free], best.fit)
         if found is None or found.deviance(best.fit.correlation()) > base.deviance(best.fit.correlation()):
             return None
         return found
@@ -112,8 +110,9 @@ class Search:
         base = self._without(finding.ranked, without)
         if base is None:
             return
-        candidates = self._rivals(finding, without)
-        naming = compete(self.case, candidates, tracked(base, self.bandwidths), progress=progress)
+        held = self.lead.hold(base)
+        candidates = self._rivals(finding, without, held)
+        naming = compete(held.machine.case, candidates, held, progress=progress)
         best, own = naming.best, naming.of(finding.ranked.identity)
         if best is None or own is None:
             return
@@ -143,7 +142,7 @@ class Search:
         machine = Machine(self.case, amendment, self.fit.machine.solver)
         return fit(machine, self.case.fit, self.fit.noise, free, fixed, start=self.fit.point, stages=1, iterations=0)
 
-    def _rivals(self, finding: Finding, without: Amendment) -> list[Candidate]:
+    def _rivals(self, finding: Finding, without: Amendment, held: Fit) -> list[Candidate]:
         """The finding and the best of what was tried beside it, with the values they had, in the model without it."""
         own = finding.ranked.identity
         rivals = [r for r in finding.naming.ranked if r.identity != own][:RECONSIDERED]
@@ -151,19 +150,9 @@ class Search:
         for ranked in [finding.ranked, *rivals]:
             old = ranked.candidate
             amendment = replace(without, attachments=[*without.attachments, ranked.attachment])
-            machine, _ = try_machine(self.case, amendment, self.fit.machine)
+            machine, _ = try_machine(held.machine.case, amendment, held.machine)
             point = self.fit.point if ranked is finding.ranked else ranked.fit.point
             if machine is not None:
                 start = {f.name: point[f.name] for f in old.free}
                 result.append(Candidate(ranked.attachment, machine, old.free, old.fixed, start))
         return result
-
-
-def tracked(base: Fit, bandwidths: tuple[float, ...], which: int = HELD) -> Fit:
-    """The fit that hypotheses are compared on: where fits are rough, shafts are held near their recorded motion."""
-    if len(bandwidths) < 2:
-        return base
-    objective = Objective(base.machine, base.machine.case.fit, base.noise)
-    objective.track(bandwidths[which], base.point)
-    fixed = base.fixed | objective.stiffness
-    return fit(base.machine, base.machine.case.fit, base.noise, base.estimate.free, fixed, start=base.point) or base

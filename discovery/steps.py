@@ -14,14 +14,15 @@ from .beyond import explain_beyond
 from .cases import Case, CaseError
 from .evidence import is_noise
 from .explanation import Explanation
-from .fit import Fit, bandwidths_for, believed, fit, noise_of
+from .fit import Fit, believed, fit, noise_of
 from .hypotheses import enumerate_attachments
 from .judge import judge, noise_floor
+from .lead import ROUGH, Lead, lead_for
 from .locate import locate
 from .machine import Machine
 from .name import rank
 from .recordings_check import check_case
-from .search import Search, tracked
+from .search import Search
 from .semantic_check import check_against_model
 from .tracking import trackable
 
@@ -57,7 +58,7 @@ def fitted(case: Case, progress: Progress, library: Library | None = None) -> Ex
 def add_fit(result: Explanation, machine: Machine, progress: Progress) -> None:
     progress("fitting the believed model")
     case = result.case
-    result.base, result.bandwidths = fit_believed(case, machine)
+    result.base, result.lead = fit_believed(case, machine)
     result.amendment, result.final = machine.amendment, result.base
     result.before = result.after = judge(machine, result.base.point)
     result.floor = noise_floor(case, case.validate, result.base.noise)
@@ -66,7 +67,8 @@ def add_fit(result: Explanation, machine: Machine, progress: Progress) -> None:
 def add_location(result: Explanation, progress: Progress) -> None:
     """What effort is missing, where, in the fitted believed model."""
     progress("locating the missing effort")
-    result.located = locate(result.case, tracked(result.base, result.bandwidths))
+    held = result.lead.hold(result.base)
+    result.located = locate(held.machine.case, held)
 
 
 def add_naming(result: Explanation, library: Library, progress: Progress) -> None:
@@ -74,8 +76,8 @@ def add_naming(result: Explanation, library: Library, progress: Progress) -> Non
     effects = catalogue.read(library)
     attachments = enumerate_attachments(result.case, result.amendment.structure, effects, result.amendment)
     progress(f"ranking {len(attachments)} hypotheses")
-    base = tracked(result.base, result.bandwidths)
-    result.namings.append(rank(result.case, result.amendment, attachments, base, progress=progress))
+    base = result.lead.hold(result.base)
+    result.namings.append(rank(base.machine.case, result.amendment, attachments, base, progress=progress))
 
 
 def add_amendment(result: Explanation, library: Library, effect: str, progress: Progress) -> None:
@@ -98,7 +100,7 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
 
 def _search(result: Explanation, effects: list[catalogue.Effect]) -> Search:
     return Search(
-        result.case, effects, result.bandwidths, result.floor, result.amendment, result.final, result.after,
+        result.case, effects, result.lead, result.floor, result.amendment, result.final, result.after,
         result.findings, result.namings,
     )  # fmt: skip
 
@@ -114,26 +116,24 @@ def _believed_machine(case: Case, structure: places.Structure) -> Machine:
     free, fixed = believed(case, machine)
     shafts = trackable(case, machine.model, structure)[:1]
     values = fixed | {f.name: f.centre for f in free}
-    if not shafts or machine.events_per_second(values, case.fit[0]) < 20:
+    if not shafts or machine.events_per_second(values, case.fit[0]) < ROUGH:
         return machine
     return Machine(case, Amendment(structure, trackers=shafts))
 
 
-def fit_believed(case: Case, machine: Machine) -> tuple[Fit, tuple[float, ...]]:
-    """The believed model's best fit from several starts, and the bandwidths that lead fits of this model."""
+def fit_believed(case: Case, machine: Machine) -> tuple[Fit, Lead]:
+    """The believed model's best fit from several starts, and how fits of this model are led."""
     noise = noise_of(case)
     free, fixed = believed(case, machine)
-    bandwidths = bandwidths_for(case, machine, fixed | {f.name: f.centre for f in free})
-    best = fit(machine, case.fit, noise, free, fixed, bandwidths=bandwidths)
+    lead = lead_for(case, machine, fixed | {f.name: f.centre for f in free})
+    best = lead.fit(machine, case, noise, free, fixed)
     if best is not None and is_noise(best):
-        return best, bandwidths
+        return best, lead
     random = np.random.default_rng(1)
     start = {f.name: f.clip(f.centre + f.scale * float(random.normal())) for f in free}
-    other = (
-        fit(machine, case.fit, noise, free, fixed, start=start, bandwidths=bandwidths) if len(bandwidths) < 2 else None
-    )
+    other = fit(machine, case.fit, noise, free, fixed, start=start) if lead.direct else None
     if other is not None and (best is None or other.deviance() < best.deviance()):
         best = other
     if best is None:
         raise RuntimeError(f"{case.model} cannot be simulated with the recorded inputs of {case.label}")
-    return best, bandwidths
+    return best, lead
