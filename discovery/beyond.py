@@ -13,7 +13,7 @@ import numpy as np
 
 from .comparison import MIN_GAIN, Ranked, score
 from .empirical_law import find
-from .evidence import like_noise, pays, settled
+from .evidence import like_noise, pays
 from .fit import Fit
 from .judge import Judgement, judge
 from .name import Naming
@@ -35,7 +35,7 @@ def explain_beyond(search: Search, base: Fit, before: Judgement, progress: Progr
     effect does not ends the search; a longer one has to beat all that the catalogue finds in the end.
     """
     search.run(progress, most=1)
-    if settled(search.fit) or (like_noise(base) and max(base.level.values()) < COLOURED):
+    if search.settled() or (like_noise(base) and max(base.level.values()) < COLOURED):
         return
     progress("looking for an empirical law")
     held = search.lead.hold(base)
@@ -43,7 +43,7 @@ def explain_beyond(search: Search, base: Fit, before: Judgement, progress: Progr
     if law is not None and len(law.free) <= SHORT and _instead(search, base, before, law):
         return
     search.run(progress)
-    if (law is not None and _instead(search, base, before, law)) or settled(search.fit) or not search.findings:
+    if (law is not None and _instead(search, base, before, law)) or search.settled() or not search.findings:
         return
     _beside(search, progress)
 

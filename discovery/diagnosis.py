@@ -193,7 +193,8 @@ def sentence(result: Explanation) -> str:
         gain = result.before.validate[""] / max(result.after.validate[""], 1e-12)
         return f"The model lacks {' and '.join(parts)}; with it the error on unseen recordings falls {gain:.2g} times."
     if result.verdict == "parameters":
-        names = [n for n, p in _parameters(result).items() if p["outside_belief"]]
+        fitted = [f for f in result.base.estimate.free if not f.name.startswith("start:")]
+        names = [f.name for f in fitted if _outside(f, result.final.point[f.name])]
         return f"Nothing is missing; {', '.join(names)} differ{'s' if len(names) == 1 else ''} from what was believed."
     if result.verdict == "consistent":
         return "The model explains the recordings: what is left is noise."

@@ -10,7 +10,7 @@ from codegen.library import Library
 
 from .cases import Case
 from .comparison import Ranked
-from .evidence import is_noise, like_noise, outside_belief, whiteness
+from .evidence import is_noise, like_noise, outside_belief, settled, whiteness
 from .experiments import separate
 from .explanation import Clock, Explanation
 from .judge import judge_file
@@ -54,7 +54,7 @@ def _conclude(result: Explanation) -> None:
             result.verdict = "missing_physics"
         return
     outside = outside_belief(result.base)
-    if left and not like_noise(result.final):
+    if left and not like_noise(result.final) and not settled(result.final, rough=not result.lead.direct):
         result.verdict = "undetermined"
         worst = max(left, key=lambda w: w.ratio / w.limit)
         result.reason = result.reason or (

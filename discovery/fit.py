@@ -14,7 +14,6 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .cases import Case, Recording
-from .input_error import input_errors
 from .least_squares import Estimate, Free, Problem
 from .machine import Machine
 from .noise import Noise, correlation_time, estimate, sample_weights
@@ -39,14 +38,6 @@ class Fit:
     noise: dict[str, Noise]
     simulations: int
     fixed: dict[str, float] = field(default_factory=dict)
-    _input_errors: dict[str, list[dict[str, np.ndarray]]] | None = field(default=None, repr=False)
-
-    def input_errors(self) -> dict[str, list[dict[str, np.ndarray]]]:
-        """What the resolution of the recorded inputs can do to the outputs: see `input_error`."""
-        if self._input_errors is None:
-            recordings = [r for r in self.machine.case.fit if r.name in self.residuals]
-            self._input_errors = input_errors(self.machine, recordings, self.point)
-        return self._input_errors
 
     @property
     def point(self) -> dict[str, float]:

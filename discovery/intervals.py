@@ -1,9 +1,9 @@
-"""Standard errors of fitted parameters: noise with its colour, resolution of the recorded inputs, and rough ground.
+"""Standard errors of fitted parameters: noise with its colour, and rough ground.
 
-Sandwich covariance: each signal's share of the score has the variance that the colour of its residual gives it. What
-the inputs' resolution can do is drawn and projected onto the parameters. Where events make the sum of squares rough,
-sensitivities are taken with the shafts held near their recorded motion, and what the values move by when they are
-released is an error too: no derivative at the end of such a fit says how far it may be from the best one.
+Sandwich covariance: each signal's share of the score has the variance that the colour of its residual gives it. Where
+events make the sum of squares rough, sensitivities are taken with the shafts held near their recorded motion, and what
+the values move by when they are released is an error too: no derivative at the end of such a fit says how far it may
+be from the best one.
 """
 
 from __future__ import annotations
@@ -33,9 +33,7 @@ def covariance(fit: Fit) -> np.ndarray:
     inside = scales > 0
     inverse = np.zeros_like(estimate.normal)
     inverse[np.ix_(inside, inside)] = np.linalg.pinv(estimate.normal[np.ix_(inside, inside)], hermitian=True)
-    moves = [inverse @ gradient for gradient in _input_gradients(fit)]
-    drawn = sum(np.outer(m, m) for m in moves) / max(len(moves), 1)
-    return (inverse @ _score_covariance(fit) @ inverse + drawn) * np.outer(scales, scales)
+    return inverse @ _score_covariance(fit) @ inverse * np.outer(scales, scales)
 
 
 def _score_covariance(fit: Fit) -> np.ndarray:
@@ -49,16 +47,3 @@ def _score_covariance(fit: Fit) -> np.ndarray:
             data += rows.T @ rows
             total += colour[column] * (rows.T @ rows)
     return total + np.maximum(fit.estimate.normal - data, 0.0) * np.eye(len(total))
-
-
-def _input_gradients(fit: Fit) -> list[np.ndarray]:
-    """Half the gradient (p,) that each draw of the inputs' rounding errors adds."""
-    recordings = fit.machine.case.fit
-    draws = fit.input_errors()
-    total: dict[int, np.ndarray] = {}
-    for block, recording in zip(fit.estimate.jacobian, recordings, strict=True):
-        for k, moved in enumerate(draws.get(recording.name, [])):
-            weights = fit.weights[recording.name]
-            change = np.concatenate([moved[c] * weights[c] / (n.std * fit.level[c]) for c, n in fit.noise.items()])
-            total[k] = total.get(k, 0.0) + block[: len(change)].T @ change
-    return list(total.values())

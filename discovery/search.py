@@ -57,13 +57,17 @@ class Search:
 
     def run(self, progress: Progress, most: int = MAX_FINDINGS) -> None:
         """Add findings, `most` of them, until what is left is noise, or nothing more pays."""
-        while len(self.findings) < most and not self.exhausted and not settled(self.fit):
+        while len(self.findings) < most and not self.exhausted and not self.settled():
             progress(f"looking for missing physics, round {len(self.findings) + 1}")
             if not self.add(progress):
                 self.exhausted = True
                 return
             for k in range(len(self.findings) - 1):
                 self._reconsider(k, progress)
+
+    def settled(self) -> bool:
+        """Whether nothing is left to look for."""
+        return settled(self.fit, rough=not self.lead.direct)
 
     def add(self, progress: Progress) -> bool:
         attachments = enumerate_attachments(self.case, self.amendment.structure, self.effects, self.amendment)
