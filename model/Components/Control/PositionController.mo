@@ -1,6 +1,7 @@
 within Lacuna.Components.Control;
 block PositionController "Position and speed loops in continuous time"
   extends Interfaces.PartialController;
+  parameter Types.PerUnit onset(final min=1e-9) = 1e-2 "Part of the limit over which holding sets in";
   Types.AngularVelocity w_ref "Reference speed";
   Types.Current x(start=0, fixed=true) "Integral part of the reference current";
 protected
@@ -8,7 +9,6 @@ protected
   Types.AngularVelocity error "Speed error";
   Types.Current i_free "Reference current before its limit";
   Types.Current beyond "How far it is beyond the limit towards which the error drives it";
-  constant Types.PerUnit onset = 1e-4 "Part of the limit over which holding sets in";
 equation
   w_free = Kp*N*(command - position);
   w_ref = if w_free > w_max then w_max elseif w_free < -w_max then -w_max else w_free;

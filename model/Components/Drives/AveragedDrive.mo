@@ -4,6 +4,7 @@ model AveragedDrive "Current control with a continuous duty, averaged over the m
   parameter Types.Voltage V(final min=0, start=28) "Bus voltage for which the duty is computed";
   parameter Types.Resistance Kp(final min=0, start=5) "Proportional gain of the current loop";
   parameter Real Ki(final min=0, final unit="Ohm/s", start=1000) "Integral gain of the current loop";
+  parameter Types.PerUnit onset(final min=1e-9) = 1e-2 "Part of the bus voltage over which holding sets in";
   AveragedBridge bridge "Inverter";
   Types.PerUnit duty "Duty of the driven pair";
   Types.Voltage x(start=0, fixed=true) "Integral part of the voltage command";
@@ -11,7 +12,6 @@ protected
   Types.Current error "Current error";
   Types.Voltage v_free "Voltage command before the limit";
   Types.Voltage beyond "How far it is beyond the limit towards which the error drives it";
-  constant Types.PerUnit onset = 1e-4 "Part of the bus voltage over which holding sets in";
 equation
   commutation.dir = 1;
   connect(commutation.leg, bridge.leg);
