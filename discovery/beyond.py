@@ -13,14 +13,13 @@ import numpy as np
 
 from .comparison import MIN_GAIN, Ranked, score
 from .empirical_law import find
-from .evidence import like_noise, pays
+from .evidence import LEFT, like_noise, nearly_noise, pays
 from .fit import Fit
 from .judge import Judgement, judge
 from .name import Naming
 from .screen import Candidate
 from .search import Finding, Search
 
-LEFT = 1.2  # RMS of what a law leaves, in units of the noise, up to which it stands for all of the misfit
 COLOURED = 5.0  # RMS, in units of the noise as estimated, that coloured noise may have
 SHORT = 3  # parameters of a law that is believed before further effects are tried
 MARGIN = 40.0  # of the deviance, by which a law has to beat effects of the catalogue that leave as little
@@ -37,15 +36,18 @@ def explain_beyond(search: Search, base: Fit, before: Judgement, progress: Progr
     search.run(progress, most=1)
     if search.settled() or (like_noise(base) and max(base.level.values()) < COLOURED):
         return
-    progress("looking for an empirical law")
-    held = search.lead.hold(base)
-    law = find(held.machine.case, replace(search.amendment, attachments=[]), held, progress)
-    if law is not None and len(law.free) <= SHORT and _instead(search, base, before, law):
-        return
+    law = None
+    if not (search.findings and nearly_noise(search.fit)):
+        progress("looking for an empirical law")
+        held = search.lead.hold(base)
+        law = find(held.machine.case, replace(search.amendment, attachments=[]), held, progress)
+        if law is not None and len(law.free) <= SHORT and _instead(search, base, before, law):
+            return
     search.run(progress)
-    if (law is not None and _instead(search, base, before, law)) or search.settled() or not search.findings:
+    if law is not None and _instead(search, base, before, law):
         return
-    _beside(search, progress)
+    if search.findings and not search.settled() and not nearly_noise(search.fit):
+        _beside(search, progress)
 
 
 def _beside(search: Search, progress: Progress) -> None:

@@ -11,14 +11,13 @@ import numpy as np
 
 from .evidence import whiteness
 from .explanation import Explanation
-from .intervals import standard_errors
 from .least_squares import Free
 from .search import Finding
 
 
 def build(result: Explanation, amended: Path | None) -> dict[str, Any]:
     """The diagnosis as plain data."""
-    errors = standard_errors(result.final, result.lead) if result.final else {}
+    errors = result.errors()
     diagnosis: dict[str, Any] = {
         "case": result.case.label, "model": result.case.model, "verdict": result.verdict,
         "findings": [_finding(result, f, errors) for f in result.findings],

@@ -13,6 +13,7 @@ BLOCKS = (1, 8, 40, 200)  # samples over which a residual is averaged
 SIGMAS = 5.0
 ROUNDING = 2.5  # allowance for rounding errors of a slow signal, which are alike from sample to sample
 GROWTH = 1.3  # of the power of block means from one block length to the next that colour may still explain
+LEFT = 1.2  # RMS in units of the noise, up to which a model stands for all of the misfit
 ROUGH_SLACK = 0.3  # RMS misfit, in units of the noise, that the end of a fit on rough ground may leave
 SPREAD = 0.005  # relative spread of an RMS over 20 000 samples of noise: a smaller gain is none
 TOLERANCE = 0.04  # of the noise level, within which it counts as known
@@ -89,6 +90,11 @@ def settled(fit: Fit, rough: bool = False) -> bool:
     if all(w.passed for w in whiteness(fit, ROUGH_SLACK if rough else 0.0).values()):
         return True
     return all(n.given for n in fit.noise.values()) and like_noise(fit)
+
+
+def nearly_noise(fit: Fit) -> bool:
+    """Whether no signal leaves much more than its noise: what may still be there is too little to be told apart."""
+    return max(fit.level.values()) < LEFT
 
 
 def outside_belief(fit: Fit, sigmas: float = 3.0) -> dict[str, float]:

@@ -9,6 +9,7 @@ from .amend import Amendment
 from .cases import Case
 from .experiments import Experiment
 from .fit import Fit
+from .intervals import standard_errors
 from .judge import Judgement
 from .lead import Lead
 from .locate import Located
@@ -38,6 +39,13 @@ class Explanation:
     floor: dict[str, float] = field(default_factory=dict)
     seconds: dict[str, float] = field(default_factory=dict)
     lead: Lead = field(default_factory=Lead)  # of fits of this model
+    _errors: dict[str, float] | None = None
+
+    def errors(self) -> dict[str, float]:
+        """1-sigma of each parameter of the final fit."""
+        if self._errors is None:
+            self._errors = standard_errors(self.final, self.lead) if self.final else {}
+        return self._errors
 
 
 class Clock:

@@ -48,6 +48,11 @@ class Located:
     bin_centres: np.ndarray = field(default_factory=lambda: np.zeros(0))
     bin_means: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
+    @property
+    def best(self) -> PlaceEffort | None:
+        """The best place where an effort can act."""
+        return next((p for p in self.places if p.effort), None)
+
 
 def locate(case: Case, base: Fit) -> Located:
     """Rank the places of the fitted model by what an effort there could explain."""
@@ -60,7 +65,7 @@ def locate(case: Case, base: Fit) -> Located:
         places += [_probe(machine, screen, base, k, probe) for k, probe in enumerate(probes)]
     places.sort(key=lambda p: -p.explained)
     located = Located(places)
-    if places[0].effort:
+    if located.best is not None:
         _organise(located, base, case)
     return located
 
@@ -104,7 +109,7 @@ def _sensor(case: Case, screen: Screen, k: int) -> PlaceEffort:
 
 def _organise(located: Located, base: Fit, case: Case) -> None:
     """Find the variable whose value tells the best place's effort (correlation ratio over bins)."""
-    best = located.places[0]
+    best = located.best
     shafts = base.machine.amendment.structure.shafts
     names = [f"{s.location}.{v}" for s in shafts for v in ("w", "phi")] + [s.variable for s in case.signals.values()]
     names = [n for n in dict.fromkeys(names) if n in base.machine.model.variables]

@@ -14,7 +14,7 @@ from functools import partial
 from .amend import Amendment, Attachment
 from .cases import Case
 from .comparison import TIE, Progress, Ranked, best_correlation, confidences, cross_validated, score
-from .evidence import is_noise
+from .evidence import nearly_noise
 from .fit import Fit, falling_bandwidths, fit
 from .least_squares import WORKERS, Free
 from .machine import try_machine
@@ -168,7 +168,7 @@ def _lead(case: Case, base: Fit, candidates: list[Candidate], progress: Progress
     """
     ordered = sorted(candidates, key=lambda c: c.fit.deviance())
     shafts = trackable(case, base.machine.model, base.machine.amendment.structure)
-    if not shafts or base.machine.amendment.trackers or is_noise(ordered[0].fit):
+    if not shafts or base.machine.amendment.trackers or nearly_noise(ordered[0].fit):
         return
     for candidate in ordered[:LED]:
         progress(f"leading {candidate.attachment.label}")

@@ -15,6 +15,7 @@ import numpy as np
 from .cases import Case
 from .diagnosis import build, left_over, sentence
 from .explanation import Explanation
+from .fit import Fit
 from .judge import Judgement
 from .locate import Located
 
@@ -31,7 +32,7 @@ def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
     parts += _problems(result)
     if result.before is not None:
         parts += _quality(result) + _overlays(result)
-        parts += _located(result.located) if result.located and result.located.places[0].effort else []
+        parts += _located(result.located) if result.located and result.located.best else []
         parts += _findings(result) + _rivals(result) + _parameters(result) + _left(result)
     if amended is not None:
         parts += ["<h2>The amended model</h2>", f"<pre>{escape(amended.read_text(encoding='utf-8'))}</pre>"]
@@ -102,16 +103,21 @@ def _overlays(result: Explanation) -> list[str]:
 def _overlay(case: Case, curves: list[tuple[str, str, dict[str, np.ndarray]]]) -> list[str]:
     """The first validation recording and simulations of it: (label, colour, residual of each column)."""
     recording = case.validate[0]
-    figure, axes = plt.subplots(len(case.outputs), 1, figsize=(9, 2.1 * len(case.outputs)), sharex=True, squeeze=False)
+    size = (11, 2.1 * len(case.outputs))
+    figure, axes = plt.subplots(len(case.outputs), 2, figsize=size, sharex=True, squeeze=False)
     keep = slice(None, None, max(1, len(recording.time) // 1500))
-    for ax, signal in zip(axes[:, 0], case.outputs, strict=True):
+    for (ax, beside), signal in zip(axes, case.outputs, strict=True):
         measured = recording.columns[signal.column]
         ax.plot(recording.time[keep], measured[keep], "0.6", lw=1, label="measured")
         for label, colour, residual in curves:
             ax.plot(recording.time[keep], (measured - residual[signal.column])[keep], colour, lw=1, label=label)
+            beside.plot(recording.time[keep], residual[signal.column][keep], colour, lw=0.7)
         ax.set_ylabel(f"{signal.column} / {signal.si_unit}")
     axes[0, 0].legend(loc="upper right", fontsize="small")
-    axes[-1, 0].set_xlabel("time / s")
+    axes[0, 1].set_title("measured minus simulated", fontsize="medium")
+    for ax in axes[-1]:
+        ax.set_xlabel("time / s")
+    figure.tight_layout()
     return [f"<h2>On a recording that nothing was fitted to ({escape(recording.name)})</h2>", _svg(figure)]
 
 
@@ -125,11 +131,11 @@ def write_judgement(case: Case, judged: Judgement, folder: Path, model: str) -> 
 
 def _located(located: Located) -> list[str]:
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3))
-    best = located.places[0]
+    best = located.best
     for name, (time, effort) in best.effort.items():
         left.plot(time, effort, lw=1, label=name)
     left.set_xlabel("time / s")
-    left.set_ylabel(f"missing {best.kind} / {best.unit}")
+    left.set_ylabel(f"missing {best.kind} at {best.location} / {best.unit}")
     left.legend(fontsize="x-small")
     right.plot(located.organiser_values, located.organiser_effort, ".", ms=2, color="0.6")
     right.plot(located.bin_centres, located.bin_means, "C0-", lw=2)
@@ -149,7 +155,7 @@ def _findings(result: Explanation) -> list[str]:
     rows = []
     for f in build(result, None)["findings"]:
         values = ", ".join(
-            f"{n} = {p['value']:.5g} &plusmn; {2 * p['std']:.2g} {p['unit']}" for n, p in f["parameters"].items()
+            f"{n} = {p['value']:.5g} &plusmn; {1.96 * p['std']:.2g} {p['unit']}" for n, p in f["parameters"].items()
         )
         said = f"{escape(f['location'])}, confidence {f['confidence']:.2f}: {values}. {escape(f['where']['text'])}"
         rows.append(f"<li><b>{escape(f['effect'])}</b> at {said}.</li>")
@@ -159,10 +165,10 @@ def _findings(result: Explanation) -> list[str]:
 def _rivals(result: Explanation) -> list[str]:
     parts = []
     for k, naming in enumerate(result.namings):
-        rows = [[r.attachment.label, r.score - naming.ranked[0].score, f"{r.confidence:.3f}", len(r.candidate.free)]
-                for r in naming.ranked[:10]]  # fmt: skip
-        parts += [f"<h2>Hypotheses fitted, round {k + 1}</h2>",
-                  _table(["hypothesis", "evidence behind the best", "confidence", "parameters"], rows)]  # fmt: skip
+        rows = [[r.attachment.label, r.score - naming.ranked[0].score, f"{r.confidence:.3f}", len(r.candidate.free),
+                 _leaves(r.candidate.fit)] for r in naming.ranked[:10]]  # fmt: skip
+        header = ["hypothesis", "evidence behind the best", "confidence", "parameters", "leaves"]
+        parts += [f"<h2>Hypotheses fitted, round {k + 1}</h2>", _table(header, rows)]
         rest = ", ".join(
             f"{label} ({share:.0%})" for label, share in naming.screened[len(naming.ranked) : len(naming.ranked) + 12]
         )
@@ -170,14 +176,21 @@ def _rivals(result: Explanation) -> list[str]:
     return parts
 
 
+def _leaves(fit: Fit) -> str:
+    """The signal that a hypothesis explains worst; a finding that lost leaves more, or needs more parameters."""
+    worst = max(fit.level, key=lambda c: fit.level[c])
+    return f"{fit.level[worst]:.2f} x noise in {worst}"
+
+
 def _parameters(result: Explanation) -> list[str]:
-    rows = []
+    rows, refitted = [], result.base.point
     for name, p in build(result, None)["parameters"].items():
         flag = "outside belief" if p["outside_belief"] else ""
-        rows.append([name, p["believed"], p["value"], f"{2 * p['std']:.2g}", p["unit"], flag])
+        interval = f"\u00b1 {1.96 * p['std']:.2g}"
+        rows.append([name, p["believed"], refitted[name], p["value"], interval, p["unit"], flag])
     return [
         "<h2>Parameters</h2>",
-        _table(["parameter", "believed", "fitted", "&plusmn; (95 %)".replace("&plusmn;", "+-"), "unit", ""], rows),
+        _table(["parameter", "believed", "refitted before", "after", "95 %", "unit", ""], rows),
     ]
 
 
