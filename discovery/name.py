@@ -89,23 +89,9 @@ def compete(
 ) -> Naming:  # fmt: skip
     """Fit and rank candidates (most promising first) on top of `base`."""
     screened = [(c.attachment.label, c.predicted) for c in _best_starts(candidates)]
-    pool = _first_round(candidates)
     fitted: dict[str, Candidate] = {}
-    for k, (stages, iterations, keep) in enumerate(ROUNDS):
-        pool = (pool if k <= SEVERAL_STARTS else _best_starts(pool))[:keep]
-        with ThreadPoolExecutor(WORKERS) as workers:
-            fits = workers.map(partial(fit_candidate, case, base, bandwidths, stages, iterations), pool)
-            for candidate, found in zip(pool, fits, strict=True):
-                better = candidate.fit is None or (found is not None and found.deviance() < candidate.fit.deviance())
-                candidate.fit = found if better else candidate.fit
-        pool = [c for c in pool if c.fit is not None]
-        if not pool:
-            break
-        correlation = best_correlation(pool)
-        pool.sort(key=lambda c: score(c, base, correlation))
-        fitted |= {c.attachment.label: c for c in _best_starts(pool)}
-        for c in _best_starts(pool):
-            progress(f"fitted {c.attachment.label}: {score(c, base, correlation):.1f}")
+    _halve(case, base, _first_round(candidates), bandwidths, fitted, progress)
+    _halve(case, base, _other_forms(candidates, fitted), bandwidths, fitted, progress)
     if not fitted:
         return Naming([], screened)
     _lead(case, base, list(fitted.values()), progress)
@@ -116,6 +102,45 @@ def compete(
     ranked = cross_validated(case, base, ranked, correlation, progress)
     confidences(ranked)
     return Naming(ranked, screened, correlation=correlation)
+
+
+def _halve(
+    case: Case, base: Fit, pool: list[Candidate], bandwidths: tuple[float, ...], fitted: dict[str, Candidate],
+    progress: Progress,
+) -> None:  # fmt: skip
+    """Fit a pool by successive halving; the best start of each hypothesis ends in `fitted`."""
+    for k, (stages, iterations, keep) in enumerate(ROUNDS):
+        pool = (pool if k <= SEVERAL_STARTS else _best_starts(pool))[:keep]
+        with ThreadPoolExecutor(WORKERS) as workers:
+            fits = workers.map(partial(fit_candidate, case, base, bandwidths, stages, iterations), pool)
+            for candidate, found in zip(pool, fits, strict=True):
+                better = candidate.fit is None or (found is not None and found.deviance() < candidate.fit.deviance())
+                candidate.fit = found if better else candidate.fit
+        pool = [c for c in pool if c.fit is not None]
+        if not pool:
+            return
+        correlation = best_correlation(pool)
+        pool.sort(key=lambda c: score(c, base, correlation))
+        fitted |= {c.attachment.label: c for c in _best_starts(pool)}
+        for c in _best_starts(pool):
+            progress(f"fitted {c.attachment.label}: {score(c, base, correlation):.1f}")
+
+
+def _other_forms(candidates: list[Candidate], fitted: dict[str, Candidate]) -> list[Candidate]:
+    """Where the best hypothesis leaves more than noise: the same physics at the same place in its other forms."""
+    if not fitted:
+        return []
+    best = min(fitted.values(), key=lambda c: c.fit.deviance())
+    if nearly_noise(best.fit):
+        return []
+    own = best.attachment
+    forms = [
+        c for c in candidates
+        if c.attachment.effect.identifier == own.effect.identifier and c.attachment.location == own.location
+        and c.attachment.label not in fitted
+    ]  # fmt: skip
+    labels = [c.attachment.label for c in forms]
+    return [c for k, c in enumerate(forms) if labels[:k].count(labels[k]) < STARTS]
 
 
 def _best_starts(candidates: list[Candidate]) -> list[Candidate]:
