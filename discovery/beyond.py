@@ -15,7 +15,7 @@ from .comparison import MIN_GAIN, Ranked, score
 from .empirical_law import find
 from .evidence import LEFT, like_noise, nearly_noise, pays
 from .fit import Fit
-from .judge import Judgement, judge
+from .judge import Judgement, try_judge
 from .name import Naming
 from .screen import Candidate
 from .search import Finding, Search
@@ -59,7 +59,7 @@ def _beside(search: Search, progress: Progress) -> None:
         return
     ranked = _ranked(candidate, start)
     polished = search.polished(ranked, search.fit)
-    after = judge(polished.machine, polished.point) if polished is not None else None
+    after = try_judge(polished.machine, polished.point) if polished is not None else None
     if after is not None and pays(search.judgement.validate, after.validate, search.floor):
         ranked.fit = polished
         search.findings.append(Finding(ranked, Naming([ranked], []), search.judgement, after))
@@ -78,7 +78,7 @@ def _instead(search: Search, base: Fit, before: Judgement, law: Candidate) -> bo
         return False
     ranked = _ranked(law, start)
     polished = search.polished(ranked, base)
-    after = judge(polished.machine, polished.point) if polished is not None else None
+    after = try_judge(polished.machine, polished.point) if polished is not None else None
     if after is None or not pays(before.validate, after.validate, search.floor):
         return False
     ranked.fit = polished

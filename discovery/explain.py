@@ -10,7 +10,7 @@ from codegen.library import Library
 
 from .cases import Case
 from .comparison import Ranked
-from .evidence import is_noise, like_noise, outside_belief, settled, whiteness
+from .evidence import TOLERANCE, is_noise, like_noise, outside_belief, settled, whiteness
 from .experiments import separate
 from .explanation import Clock, Explanation
 from .judge import judge_file
@@ -54,7 +54,7 @@ def _conclude(result: Explanation) -> None:
             result.verdict = "missing_physics"
         return
     outside = outside_belief(result.base)
-    if left and not like_noise(result.final) and not settled(result.final, rough=not result.lead.direct):
+    if left and not _quiet(result):
         result.verdict = "undetermined"
         worst = max(left, key=lambda w: w.ratio / w.limit)
         result.reason = result.reason or (
@@ -63,6 +63,13 @@ def _conclude(result: Explanation) -> None:
         result.experiment = "record the same motion with the quantities that are not recorded now"
     else:
         result.verdict = "parameters" if outside else "consistent"
+
+
+def _quiet(result: Explanation) -> bool:
+    """Whether what is left, though some of it is not white, is no more than the noise: by its size or by its colour."""
+    final = result.final
+    within = max(final.level.values()) < 1.0 + TOLERANCE
+    return within or like_noise(final) or settled(final, rough=not result.lead.direct)
 
 
 def experiment_for(best: Ranked, rivals: list[Ranked]) -> str:

@@ -25,10 +25,18 @@ class Judgement:
 
 def judge(machine: Machine, values: Mapping[str, float]) -> Judgement:
     """Simulate all recordings of the machine's case at these values. Raises RuntimeError where a run fails."""
+    judged = try_judge(machine, values)
+    if judged is None:
+        raise RuntimeError(f"{machine.path}: a simulation failed on the recordings of {machine.case.label}")
+    return judged
+
+
+def try_judge(machine: Machine, values: Mapping[str, float]) -> Judgement | None:
+    """The same; None where a run fails, as a hypothesis may on recordings that it was not fitted to."""
     case = machine.case
     residuals = residuals_of(machine, [*case.fit, *case.validate], values)
     if residuals is None:
-        raise RuntimeError(f"{machine.path}: a simulation failed on the recordings of {case.label}")
+        return None
     return Judgement(nrmse(case, case.fit, residuals), nrmse(case, case.validate, residuals), residuals)
 
 

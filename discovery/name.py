@@ -91,7 +91,7 @@ def compete(
     screened = [(c.attachment.label, c.predicted) for c in _best_starts(candidates)]
     fitted: dict[str, Candidate] = {}
     _halve(case, base, _first_round(candidates), bandwidths, fitted, progress)
-    _halve(case, base, _other_forms(candidates, fitted), bandwidths, fitted, progress)
+    _halve(case, base, _relatives(candidates, fitted), bandwidths, fitted, progress)
     if not fitted:
         return Naming([], screened)
     _lead(case, base, list(fitted.values()), progress)
@@ -126,21 +126,25 @@ def _halve(
             progress(f"fitted {c.attachment.label}: {score(c, base, correlation):.1f}")
 
 
-def _other_forms(candidates: list[Candidate], fitted: dict[str, Candidate]) -> list[Candidate]:
-    """Where the best hypothesis leaves more than noise: the same physics at the same place in its other forms."""
+def _relatives(candidates: list[Candidate], fitted: dict[str, Candidate]) -> list[Candidate]:
+    """Not yet fitted: laws that the best hypothesis contains and, where it leaves more than noise, its other forms."""
     if not fitted:
         return []
     best = min(fitted.values(), key=lambda c: c.fit.deviance())
-    if nearly_noise(best.fit):
-        return []
+    other_forms = not nearly_noise(best.fit)
     own = best.attachment
-    forms = [
+    found = [
         c for c in candidates
-        if c.attachment.effect.identifier == own.effect.identifier and c.attachment.location == own.location
-        and c.attachment.label not in fitted
+        if c.attachment.location == own.location and c.attachment.label not in fitted
+        and (contains(own, c.attachment) or (other_forms and c.attachment.effect.identifier == own.effect.identifier))
     ]  # fmt: skip
-    labels = [c.attachment.label for c in forms]
-    return [c for k, c in enumerate(forms) if labels[:k].count(labels[k]) < STARTS]
+    labels = [c.attachment.label for c in found]
+    return [c for k, c in enumerate(found) if labels[:k].count(labels[k]) < STARTS]
+
+
+def contains(richer: Attachment, simpler: Attachment) -> bool:
+    """Whether the one's law holds the other's, at the same place, as a special case."""
+    return richer.effect.identifier in simpler.effect.nests_in and richer.location == simpler.location
 
 
 def _best_starts(candidates: list[Candidate]) -> list[Candidate]:
@@ -207,8 +211,7 @@ def _simplify(case: Case, base: Fit, candidates: list[Candidate]) -> None:
     best = min(candidates, key=lambda c: c.fit.deviance())
     own = best.attachment
     for candidate in candidates:
-        other = candidate.attachment
-        if own.effect.identifier not in other.effect.nests_in or other.location != own.location:
+        if not contains(own, candidate.attachment):
             continue
         point = best.fit.point
         shared = {f.name: point.get(own.full_name(f.name.rsplit(".", 1)[-1])) for f in candidate.free}

@@ -17,10 +17,10 @@ from .comparison import MIN_GAIN, TIE, Ranked, price
 from .evidence import pays, settled
 from .fit import Fit, fit
 from .hypotheses import enumerate_attachments
-from .judge import Judgement, judge
+from .judge import Judgement, try_judge
 from .lead import Lead
 from .machine import Machine, try_machine
-from .name import Naming, compete, rank
+from .name import Naming, compete, contains, rank, screen_all
 from .screen import Candidate
 
 MAX_FINDINGS = 3
@@ -81,8 +81,8 @@ class Search:
         polished = self.polished(best, self.fit)
         if polished is None:
             return False
-        after = judge(polished.machine, polished.point)
-        if not pays(self.judgement.validate, after.validate, self.floor):
+        after = try_judge(polished.machine, polished.point)
+        if after is None or not pays(self.judgement.validate, after.validate, self.floor):
             self.reason = f"{best.attachment.label} fits better but does not pay on the validation recordings"
             return False
         best.fit = polished
@@ -130,8 +130,8 @@ class Search:
         saved = price(own.candidate, base, naming.correlation) - price(best.candidate, base, naming.correlation)
         if polished.deviance(naming.correlation) - saved > self.fit.deviance(naming.correlation):
             return
-        after = judge(polished.machine, polished.point)
-        if pays(self.judgement.validate, after.validate, self.floor):
+        after = try_judge(polished.machine, polished.point)
+        if after is not None and pays(self.judgement.validate, after.validate, self.floor):
             progress(f"{best.attachment.label} instead of {finding.ranked.attachment.label}")
             best.fit = polished
             self.findings[k] = replace(finding, ranked=best, naming=naming)
@@ -147,7 +147,10 @@ class Search:
         return fit(machine, self.case.fit, self.fit.noise, free, fixed, start=self.fit.point, stages=1, iterations=0)
 
     def _rivals(self, finding: Finding, without: Amendment, held: Fit) -> list[Candidate]:
-        """The finding and the best of what was tried beside it, with the values they had, in the model without it."""
+        """The finding and the best of what was tried beside it, with the values they had, in the model without it.
+
+        Laws that the finding contains are rivals too: what it had beyond them may have stood for a later finding.
+        """
         own = finding.ranked.identity
         rivals = [r for r in finding.naming.ranked if r.identity != own][:RECONSIDERED]
         result = []
@@ -159,4 +162,9 @@ class Search:
             if machine is not None:
                 start = {f.name: point[f.name] for f in old.free}
                 result.append(Candidate(ranked.attachment, machine, old.free, old.fixed, start))
-        return result
+        tried = {c.attachment.label for c in result}
+        simpler = [
+            a for a in enumerate_attachments(self.case, without.structure, self.effects, without)
+            if contains(finding.ranked.attachment, a) and a.label not in tried
+        ]  # fmt: skip
+        return result + screen_all(held.machine.case, without, simpler, held, lambda text: None)[0]

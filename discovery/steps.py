@@ -12,9 +12,10 @@ from . import catalogue, places
 from .amend import Amendment
 from .beyond import explain_beyond
 from .cases import Case, CaseError
+from .comparison import MIN_GAIN
 from .evidence import is_noise
 from .explanation import Explanation
-from .fit import Fit, believed, fit, noise_of
+from .fit import Fit, believed, falling_bandwidths, fit, noise_of
 from .hypotheses import enumerate_attachments
 from .judge import judge, noise_floor
 from .lead import ROUGH, Lead, lead_for
@@ -25,6 +26,8 @@ from .recordings_check import check_case
 from .search import Search
 from .semantic_check import check_against_model
 from .tracking import trackable
+
+FAR = 10.0  # level of a signal, in units of its noise, from which the best hypothesis is taken to have lost its way
 
 Progress = Callable[[str], None]
 
@@ -93,9 +96,40 @@ def add_amendment(result: Explanation, library: Library, effect: str, progress: 
 
 def add_findings(result: Explanation, library: Library, progress: Progress) -> None:
     """Findings until what is left is noise or nothing pays: of the catalogue, then an empirical law."""
-    search = _search(result, catalogue.read(library))
+    effects = catalogue.read(library)
+    search = _search(result, effects)
+    search.run(progress, most=1)
+    if search.lead.direct and max(search.fit.level.values()) > FAR:
+        search = _held(result, search, progress) or search
     explain_beyond(search, result.base, result.before, progress)
     _take(result, search)
+
+
+def _held(result: Explanation, direct: Search, progress: Progress) -> Search | None:
+    """The search begun anew with recorded shafts held near their motion; None where it ends no better.
+
+    Where the best hypothesis leaves far more than noise, all of them may have ended in a dip of a rough sum of squares:
+    an output error grows with the recording, and what is missing near its beginning decides all that follows.
+    """
+    case, structure = result.case, result.amendment.structure
+    shafts = trackable(case, result.base.machine.model, structure)[:1]
+    if not shafts:
+        return None
+    progress("looking again, the recorded shaft held near its motion")
+    machine = Machine(case, Amendment(structure, trackers=shafts))
+    lead = Lead(falling_bandwidths(case, machine))
+    free, fixed = believed(case, machine)
+    base = lead.fit(machine, case, result.base.noise, free, fixed)
+    if base is None:
+        return None
+    before = judge(machine, base.point)
+    search = Search(case, direct.effects, lead, result.floor, machine.amendment, base, before)
+    search.run(progress, most=1)
+    correlation = search.fit.correlation()
+    if not search.findings or search.fit.deviance(correlation) > direct.fit.deviance(correlation) - MIN_GAIN:
+        return None
+    result.base, result.before, result.lead = base, before, lead
+    return search
 
 
 def _search(result: Explanation, effects: list[catalogue.Effect]) -> Search:
@@ -107,7 +141,7 @@ def _search(result: Explanation, effects: list[catalogue.Effect]) -> Search:
 
 def _take(result: Explanation, search: Search) -> None:
     result.amendment, result.final, result.after = search.amendment, search.fit, search.judgement
-    result.reason = search.reason
+    result.findings, result.namings, result.reason = search.findings, search.namings, search.reason
 
 
 def _believed_machine(case: Case, structure: places.Structure) -> Machine:
