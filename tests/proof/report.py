@@ -157,15 +157,16 @@ kind and bench its share, so that these figures estimate the whole.
 """
 
 
-def page(tool: Sequence[Score], usual: Sequence[Score], seed: int, all_cases: int) -> str:
-    """docs/proof.md as text."""
+def page(tool: Sequence[Score], usual: Sequence[Score], seed: int, all_cases: int, version: str) -> str:
+    """docs/proof.md as text; `version` is the hash of the tool's code and models that made the diagnoses."""
     effects = {e for s in tool if s.kind in ("effect", "two") for e in s.effects}
     counts = _table(("cases", "with"), [(str(sum(s.kind == k for s in tool)), text) for k, text in KINDS.items()])
     return f"""# The proof: cases that nobody tuned
 
-Written by `python -m tests.proof --seed {seed}`; `make prove` runs it. An independent simulator (`tests/proof/`, no
-code shared with the generator of models or the runtime) conceals physics in recordings; the tool is given the
-recordings and the believed model, and its diagnosis is compared with the truth, which it never sees.
+Written by `python -m tests.proof --seed {seed}` of the tool's version `{version}` (a hash of its code and models): what
+has changed since is not in these figures. An independent simulator (`tests/proof/`, no code shared with the generator
+of models or the runtime) conceals physics in recordings; the tool is given the recordings and the believed model, and
+its diagnosis is compared with the truth, which it never sees.
 {_part(len(tool), all_cases)}
 {len(tool)} cases with {len(effects)} different effects:
 

@@ -26,4 +26,4 @@ def test_a_small_proof(tmp_path):
     assert tool[0].first_right
     assert not tool[1].false_finding
     assert "100%" in summary_table(tool, usual)
-    assert "## What went wrong" in page(tool, usual, 21, len(CASES))
+    assert "## What went wrong" in page(tool, usual, 21, len(CASES), "")

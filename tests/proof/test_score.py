@@ -112,7 +112,7 @@ def test_runner_resumes_and_hides_the_rest(tmp_path):
 def test_page_reports_right_and_wrong():
     right = score("c001", _diagnosis(), _truth())
     wrong = score("c002", _diagnosis("backlash"), _truth())
-    text = page([right, wrong], [right, wrong], seed=2, all_cases=3)
+    text = page([right, wrong], [right, wrong], seed=2, all_cases=3, version="")
     assert "1 of 2 = 50%" in text
     assert "2 of 3 cases" in text
     assert "backlash 1" in text
