@@ -126,6 +126,15 @@ def diagnosed(case: Case, column: str) -> None:
     assert f"column `{column}`" in result.reason
 
 
+@pytest.mark.parametrize("count", range(700, 740, 4))
+def test_sound_recordings_of_any_length_are_not_suspected(consistent_case: Path, count: int) -> None:
+    case = load(consistent_case)
+    for recording in case.fit:
+        recording.time = recording.time[:count]
+        recording.columns = {n: v[:count] for n, v in recording.columns.items()}
+    assert [str(p) for p in problems_of(case)] == []
+
+
 @pytest.mark.parametrize(("spoil", "kind", "column", "time"), WITHOUT_A_MODEL)
 def test_broken_recordings_are_seen_without_a_model(
     consistent_case: Path, spoil: Spoil, kind: str, column: str, time: float | None
