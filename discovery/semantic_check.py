@@ -188,7 +188,7 @@ def _lag_of_changes(measured: np.ndarray, simulated: np.ndarray, span: int, reac
     measured, simulated = (v[span:] - v[:-span] for v in (filled(measured), simulated))
     outlying = np.abs(measured) > 8 * np.quantile(np.abs(measured), 0.99)
     measured = filled(np.where(outlying, np.nan, measured))
-    reach = min(reach, len(measured) // 4) 
+    reach = min(reach, len(measured) // 4) // 2 * 2  # so that no shift is among those tried
     inner = slice(reach, len(measured) - reach)
     base = float(np.sum((measured[inner] - simulated[inner]) ** 2))
     lags = np.arange(-reach, reach + 1, 2)
