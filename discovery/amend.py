@@ -39,6 +39,10 @@ class Attachment:
     def full_name(self, parameter: str) -> str:
         return f"{self.component}.{parameter}"
 
+    def contains(self, other: Attachment) -> bool:
+        """Whether its law holds the other's, at the same place, as a special case."""
+        return self.effect.identifier in other.effect.nests_in and self.location == other.location
+
 
 @dataclass
 class Amendment:

@@ -28,12 +28,11 @@ Progress = Callable[[str], None]
 
 
 def explain_beyond(search: Search, base: Fit, before: Judgement, progress: Progress) -> None:
-    """Run the search, with a law in place of its findings or beside them where the catalogue is not enough.
+    """Go on with a search after its first round: a law in place of its findings or beside them, if they are not enough.
 
     `base` and `before` are the believed model's fit and judgement. A law of one group that leaves noise where the best
     effect does not ends the search; a longer one has to beat all that the catalogue finds in the end.
     """
-    search.run(progress, most=1)
     if search.settled() or (like_noise(base) and max(base.level.values()) < COLOURED):
         return
     law = None

@@ -79,9 +79,7 @@ def _of_richer(contender: Ranked, close: list[Ranked], losses: list[float]) -> l
     richer = [
         loss
         for other, loss in zip(close, losses, strict=True)
-        if other.attachment.effect.identifier in own.effect.nests_in
-        and other.attachment.location == own.location
-        and other.score >= contender.score
+        if other.attachment.contains(own) and other.score >= contender.score
     ]
     return [*richer, float("inf")]
 

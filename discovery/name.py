@@ -136,15 +136,10 @@ def _relatives(candidates: list[Candidate], fitted: dict[str, Candidate]) -> lis
     found = [
         c for c in candidates
         if c.attachment.location == own.location and c.attachment.label not in fitted
-        and (contains(own, c.attachment) or (other_forms and c.attachment.effect.identifier == own.effect.identifier))
+        and (own.contains(c.attachment) or (other_forms and c.attachment.effect.identifier == own.effect.identifier))
     ]  # fmt: skip
     labels = [c.attachment.label for c in found]
     return [c for k, c in enumerate(found) if labels[:k].count(labels[k]) < STARTS]
-
-
-def contains(richer: Attachment, simpler: Attachment) -> bool:
-    """Whether the one's law holds the other's, at the same place, as a special case."""
-    return richer.effect.identifier in simpler.effect.nests_in and richer.location == simpler.location
 
 
 def _best_starts(candidates: list[Candidate]) -> list[Candidate]:
@@ -211,7 +206,7 @@ def _simplify(case: Case, base: Fit, candidates: list[Candidate]) -> None:
     best = min(candidates, key=lambda c: c.fit.deviance())
     own = best.attachment
     for candidate in candidates:
-        if not contains(own, candidate.attachment):
+        if not own.contains(candidate.attachment):
             continue
         point = best.fit.point
         shared = {f.name: point.get(own.full_name(f.name.rsplit(".", 1)[-1])) for f in candidate.free}

@@ -20,7 +20,7 @@ from .hypotheses import enumerate_attachments
 from .judge import Judgement, try_judge
 from .lead import Lead
 from .machine import Machine, try_machine
-from .name import Naming, compete, contains, rank, screen_all
+from .name import Naming, compete, rank, screen_all
 from .screen import Candidate
 
 MAX_FINDINGS = 3
@@ -165,6 +165,6 @@ class Search:
         tried = {c.attachment.label for c in result}
         simpler = [
             a for a in enumerate_attachments(self.case, without.structure, self.effects, without)
-            if contains(finding.ranked.attachment, a) and a.label not in tried
+            if finding.ranked.attachment.contains(a) and a.label not in tried
         ]  # fmt: skip
         return result + screen_all(held.machine.case, without, simpler, held, lambda text: None)[0]

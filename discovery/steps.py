@@ -96,8 +96,7 @@ def add_amendment(result: Explanation, library: Library, effect: str, progress: 
 
 def add_findings(result: Explanation, library: Library, progress: Progress) -> None:
     """Findings until what is left is noise or nothing pays: of the catalogue, then an empirical law."""
-    effects = catalogue.read(library)
-    search = _search(result, effects)
+    search = _search(result, catalogue.read(library))
     search.run(progress, most=1)
     if search.lead.direct and max(search.fit.level.values()) > FAR:
         search = _held(result, search, progress) or search
