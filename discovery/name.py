@@ -25,6 +25,9 @@ from .tracking import trackable
 FIRST_ROUND = 8
 STARTS = 3  # from which a hypothesis is fitted in the first round
 ROUNDS = ((2, 2, 100), (2, 3, 10), (3, 3, 4), (10, 4, 2))  # (stages, iterations, fits): successive halving
+NEAR = 0.1  # share of the best gain, within which a hypothesis stays in the race
+HALF = 0.5  # of the best gain, that a simpler law must have at a first look to be fitted further
+GAINING = 0.1  # share of what parts it from the best, that one further away must have won in a round to stay
 SEVERAL_STARTS = 1  # rounds after which only the best start of each hypothesis goes on
 LED = 2  # hypotheses that are fitted again, led by trackers, where none has left noise
 
@@ -109,6 +112,7 @@ def _halve(
     progress: Progress,
 ) -> None:  # fmt: skip
     """Fit a pool by successive halving; the best start of each hypothesis ends in `fitted`."""
+    before: dict[int, float] = {}
     for k, (stages, iterations, keep) in enumerate(ROUNDS):
         pool = (pool if k <= SEVERAL_STARTS else _best_starts(pool))[:keep]
         with ThreadPoolExecutor(WORKERS) as workers:
@@ -119,11 +123,20 @@ def _halve(
         pool = [c for c in pool if c.fit is not None]
         if not pool:
             return
-        correlation = best_correlation(pool)
-        pool.sort(key=lambda c: score(c, base, correlation))
-        fitted |= {c.attachment.label: c for c in _best_starts(pool)}
+        correlation = best_correlation([*fitted.values(), *pool])
+        scores = {id(c): score(c, base, correlation) for c in pool}
+        pool.sort(key=lambda c: scores[id(c)])
         for c in _best_starts(pool):
-            progress(f"fitted {c.attachment.label}: {score(c, base, correlation):.1f}")
+            progress(f"fitted {c.attachment.label}: {scores[id(c)]:.1f}")
+        fitted |= {c.attachment.label: c for c in _best_starts(pool)}
+        best = min(score(c, base, correlation) for c in fitted.values())
+        pool = [c for c in pool if _in_the_race(scores[id(c)], before.get(id(c)), best)]
+        before = scores
+
+
+def _in_the_race(now: float, before: float | None, best: float) -> bool:
+    """Whether a score may still become the best: near it, or still gaining on it."""
+    return before is None or now - best < NEAR * abs(best) or before - now > GAINING * (now - best)
 
 
 def _relatives(candidates: list[Candidate], fitted: dict[str, Candidate]) -> list[Candidate]:
@@ -204,18 +217,31 @@ def _lead(case: Case, base: Fit, candidates: list[Candidate], progress: Progress
 def _simplify(case: Case, base: Fit, candidates: list[Candidate]) -> None:
     """Start the laws that the best hypothesis contains from where it ended: a simpler one may do as well."""
     best = min(candidates, key=lambda c: c.fit.deviance())
-    own = best.attachment
     for candidate in candidates:
-        if not own.contains(candidate.attachment):
-            continue
-        point = best.fit.point
-        shared = {f.name: point.get(own.full_name(f.name.rsplit(".", 1)[-1])) for f in candidate.free}
-        start = candidate.fit.point | {f.name: point[f.name] for f in base.estimate.free}
-        start |= {name: value for name, value in shared.items() if value is not None}
-        free = [*base.estimate.free, *candidate.free]
-        found = fit(candidate.machine, case.fit, base.noise, free, base.fixed | candidate.fixed, start=start)
-        if found is not None and found.deviance() < candidate.fit.deviance():
-            candidate.fit = found
+        if best.attachment.contains(candidate.attachment):
+            found = _from_richer(case, base, candidate, best)
+            if found is not None and found.deviance() < candidate.fit.deviance():
+                candidate.fit = found
+
+
+def _from_richer(case: Case, base: Fit, candidate: Candidate, best: Candidate) -> Fit | None:
+    """The fit of a law from the values of one that contains it; given up where a first look shows it far behind."""
+    point = best.fit.point
+    shared = {f.name: point.get(best.attachment.full_name(f.name.rsplit(".", 1)[-1])) for f in candidate.free}
+    start = candidate.fit.point | {f.name: point[f.name] for f in base.estimate.free}
+    start |= {name: value for name, value in shared.items() if value is not None}
+    correlation = best_correlation([best])
+    goal = score(best, base, correlation)
+    simpler = replace(candidate, fit=None)
+    for stages, iterations, _ in (ROUNDS[0], ROUNDS[-1]):
+        free, fixed = [*base.estimate.free, *candidate.free], base.fixed | candidate.fixed
+        simpler.fit = fit(
+            candidate.machine, case.fit, base.noise, free, fixed, start=start, stages=stages, iterations=iterations
+        )
+        if simpler.fit is None or score(simpler, base, correlation) > HALF * goal:
+            break
+        start = simpler.fit.point
+    return simpler.fit
 
 
 def _fit_led(case: Case, base: Fit, candidate: Candidate, shafts: list[Shaft]) -> Fit | None:

@@ -223,19 +223,21 @@ def _linearised(
             columns.append(column)
             amounts.append(amount)
             moved.append(name)
-    bounds = [(-np.inf, np.inf) if polar else _reach(effect, n) for n in moved]
+    bounds = [(-np.inf, np.inf) if n in polar else _reach(effect, n) for n in moved]
     share, solution = screen.explained([c / a for c, a in zip(columns, amounts, strict=True)], base, bounds)
     if columns and not np.any(solution):
         return None
     start = dict(shape)
     scales = dict(zip(moved, amounts, strict=True))
+    start |= {
+        attachment.full_name(n): effect.neutral[n] + float(v)
+        for n, v in zip(moved, solution, strict=True) if n not in polar
+    }  # fmt: skip
     if polar:
-        start[attachment.full_name(polar[0])] = float(np.hypot(*solution[:2]))
-        start[attachment.full_name(polar[1])] = float(np.arctan2(solution[1], solution[0]))
-        scales |= {polar[0]: max(amounts), polar[1]: 1.0}
-    else:
-        for name, value in zip(moved, solution, strict=True):
-            start[attachment.full_name(name)] = effect.neutral[name] + float(value)
+        parts = [v for n, v in zip(moved, solution, strict=True) if n in polar]
+        start[attachment.full_name(polar[0])] = float(np.hypot(*parts))
+        start[attachment.full_name(polar[1])] = float(np.arctan2(parts[1], parts[0]))
+        scales |= {polar[0]: max(a for n, a in zip(moved, amounts, strict=True) if n in polar), polar[1]: 1.0}
     fixed = {n: v for n, v in shape.items() if n.rsplit(".", 1)[-1] in (*effect.whole, *effect.fixed)}
     free = [_free(attachment, effect, n, start, scales, limits) for n in names if attachment.full_name(n) not in fixed]
     start = {k: v for k, v in start.items() if k not in fixed}

@@ -4,7 +4,7 @@ model PositionFriction "Dry friction that varies along the stroke"
   parameter Types.Torque tau_c(final min=0) = 0 "Level at position zero";
   parameter Types.RotationalStiffness slope = 0 "Growth of the level with position";
   parameter Real curvature(unit="N.m/rad2") = 0 "Growth of the slope with position";
-  constant Types.Angle longest = 700 "Angle beyond which a shaft is no stroke: a hundred turns and some";
+  constant Types.Angle longest = 2000 "Angle beyond which a shaft is no stroke: some hundred turns";
 equation
   assert(noEvent(abs(angle) < longest), "PositionFriction: a shaft that turns on and on has no stroke");
   flange.tau = tau_fric;

@@ -5,7 +5,7 @@ model PositionWave "Dry friction that rises and falls along the stroke"
   parameter Types.Torque amplitude(final min=0) = 0 "Amplitude of the level";
   parameter Types.Angle period(final min=1e-6) = 1 "Angle of a period";
   parameter Types.Angle phase = 0 "Phase at angle zero";
-  constant Types.Angle longest = 700 "Angle beyond which a shaft is no stroke: a hundred turns and some";
+  constant Types.Angle longest = 2000 "Angle beyond which a shaft is no stroke: some hundred turns";
   constant Real pi = 3.141592653589793;
 equation
   assert(noEvent(abs(angle) < longest), "PositionWave: a shaft that turns on and on has no stroke");

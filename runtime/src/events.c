@@ -78,7 +78,7 @@ static void start_again(rt_session *s) {
 
 /* One pass: point, relations, discrete equations, by up to so many sweeps with the values before the event (pre) as
  * they are, until they agree. One sweep is enough where modes depend on pre-values; more are made where events get
- * nowhere. 1 something changed, 0 nothing did, -1 failed. */
+ * nowhere, and what does not settle one way is iterated the other way. 1 something changed, 0 nothing did, -1 failed. */
 static int pass(rt_session *s, int sweeps) {
   mdl_data *m = &s->data;
   bool changed = false, settled = false;
@@ -107,8 +107,8 @@ rt_status rt_iterate_event(rt_session *s) {
   s->reinitialised = false;
   memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
   for (int i = 0; i < MAX_PASSES; i++) {
-    bool nowhere = s->futile_events > PATIENCE || i > MAX_PASSES / 2;
-    int changed = pass(s, nowhere ? MAX_SWEEPS : 1);
+    bool nowhere = s->futile_events > PATIENCE, other_way = i > MAX_PASSES / 2;
+    int changed = pass(s, nowhere != other_way ? MAX_SWEEPS : 1);
     if (changed < 0) return rt_fail_model(s, s->t, "iterating an event");
     if (!changed && !clear_ticks(s)) return RT_OK;
     if (i >= MAX_PASSES - WATCHED_PASSES) append_changed(s, names, sizeof names);
