@@ -140,6 +140,21 @@ def test_weak_bus_holds_the_rotor_in_its_friction(run) -> None:
     assert abs(result["ib"][-1]) == pytest.approx(v_bus / (2 * 2.13), rel=1e-6)
 
 
+@pytest.mark.parametrize("v_bus", [6.0, 24.0])
+def test_unlike_phases_come_to_rest_on_a_bus_at_zero(run, v_bus: float) -> None:
+    """What is left of the currents of unlike phases hovers about a diode's threshold: its events settle either way."""
+    model = "model Test\n extends Lacuna.Benches.BldcDrive(winding(shorted={0, 0, 0.0278}));\nend Test;\n"
+    time = np.linspace(0, 1, 5001)
+    bus = np.where((time < 0.6) & (np.sin(40 * time) > 0), v_bus, 0.0)
+    inputs = {
+        "v_bus": runtime.RecordedInput(time, bus),
+        "dir": runtime.RecordedInput(time, np.where(time < 0.3, 1.0, -1.0), "hold"),
+    }
+    result = run(model, inputs=inputs, stop=1.0, output_times=time, events=False, solver="dopri5", rtol=1e-6)
+    assert result["w"][-1] == 0.0
+    assert np.abs(result["ia"][time > 0.95]).max() < 1e-6
+
+
 @pytest.mark.parametrize("t_restart", [0.0031, 0.0512, 0.0777, 0.0931])
 def test_bldc_drive_goes_on_from_any_state(run, t_restart: float) -> None:
     """A run started from the states of another continues it: modes, sectors and diodes follow from them."""
