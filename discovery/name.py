@@ -26,6 +26,7 @@ FIRST_ROUND = 8
 STARTS = 3  # from which a hypothesis is fitted in the first round
 ROUNDS = ((2, 2, 100), (2, 3, 10), (3, 3, 4), (10, 4, 2))  # (stages, iterations, fits): successive halving
 NEAR = 0.1  # share of the best gain, within which a hypothesis stays in the race
+FAINT = 0.03  # share of the best gain, that a hypothesis must have after the first round to stay
 HALF = 0.5  # of the best gain, that a simpler law must have at a first look to be fitted further
 GAINING = 0.1  # share of what parts it from the best, that one further away must have won in a round to stay
 SEVERAL_STARTS = 1  # rounds after which only the best start of each hypothesis goes on
@@ -135,8 +136,12 @@ def _halve(
 
 
 def _in_the_race(now: float, before: float | None, best: float) -> bool:
-    """Whether a score may still become the best: near it, or still gaining on it."""
-    return before is None or now - best < NEAR * abs(best) or before - now > GAINING * (now - best)
+    """Whether a score may still become the best: near it, or still gaining on it (`before` is that of a round ago)."""
+    if best >= 0:
+        return True
+    if before is None:
+        return now < FAINT * best
+    return now - best < NEAR * abs(best) or before - now > GAINING * (now - best)
 
 
 def _relatives(candidates: list[Candidate], fitted: dict[str, Candidate]) -> list[Candidate]:

@@ -123,7 +123,8 @@ def _bounded(columns: np.ndarray, target: np.ndarray, bounds: np.ndarray | None)
     right = basis.T @ target
     if bounds is None:
         return np.linalg.lstsq(triangle, right, rcond=1e-8)[0] / scale
-    return lsq_linear(triangle, right, (bounds[:, 0] * scale, bounds[:, 1] * scale)).x / scale
+    # its interior-point method may search for a step for ever where an interval is as good as empty
+    return lsq_linear(triangle, right, (bounds[:, 0] * scale, bounds[:, 1] * scale), method="bvls").x / scale
 
 
 def prepare(screen: Screen, attachment: Attachment, machine: Machine) -> list[Candidate]:

@@ -21,6 +21,7 @@ from .judge import Judgement, try_judge
 from .lead import Lead
 from .machine import Machine, try_machine
 from .name import Naming, compete, rank, screen_all
+from .objective import STAGES
 from .screen import Candidate
 
 MAX_FINDINGS = 3
@@ -64,6 +65,7 @@ class Search:
                 return
             for k in range(len(self.findings) - 1):
                 self._reconsider(k, progress)
+            self._drop_needless(progress)
 
     def settled(self) -> bool:
         """Whether nothing is left to look for."""
@@ -138,13 +140,33 @@ class Search:
             self.findings[-1] = replace(self.findings[-1], after=after)
             self.take([*others, best.attachment], polished, after)
 
-    def _without(self, ranked: Ranked, amendment: Amendment) -> Fit | None:
-        """The present model without one of its effects, all else left where it is: what is missing then is that."""
+    def _drop_needless(self, progress: Progress) -> None:
+        """Drop a finding that the others do without: it may only have helped one of them out of a dip."""
+        for finding in list(self.findings):
+            if len(self.findings) < 2:
+                return
+            attachments = [a for a in self.amendment.attachments if a is not finding.ranked.attachment]
+            found = self._without(finding.ranked, replace(self.amendment, attachments=attachments), STAGES)
+            correlation = self.fit.correlation()
+            paid = price(finding.ranked.candidate, self.fit, correlation)
+            if found is None or found.deviance(correlation) > self.fit.deviance(correlation) + paid:
+                continue
+            after = try_judge(found.machine, found.point)
+            if after is not None and not pays(after.validate, self.judgement.validate, self.floor):
+                progress(f"{finding.ranked.attachment.label} is not needed")
+                self.findings.remove(finding)
+                self.findings[-1] = replace(self.findings[-1], after=after)
+                self.take(attachments, found, after)
+
+    def _without(self, ranked: Ranked, amendment: Amendment, stages: int = 0) -> Fit | None:
+        """The present model without one of its effects: fitted anew in so many stages, or with all else left where it
+        is (what is missing then is that effect)."""
         prefix = ranked.attachment.component + "."
         free = [f for f in self.fit.estimate.free if not f.name.startswith(prefix)]
         fixed = {n: v for n, v in self.fit.fixed.items() if not n.startswith(prefix)}
         machine = Machine(self.case, amendment, self.fit.machine.solver)
-        return fit(machine, self.case.fit, self.fit.noise, free, fixed, start=self.fit.point, stages=1, iterations=0)
+        effort = {"stages": stages} if stages else {"stages": 1, "iterations": 0}
+        return fit(machine, self.case.fit, self.fit.noise, free, fixed, start=self.fit.point, **effort)
 
     def _rivals(self, finding: Finding, without: Amendment, held: Fit) -> list[Candidate]:
         """The finding and the best of what was tried beside it, with the values they had, in the model without it.

@@ -31,6 +31,7 @@ WITHIN, FAR = 0.25, 1.0  # relative distance from a listed scale; from one that 
 LATE, EARLY = 50, 8  # samples: a signal may be somewhat late by a sensor or a drive, but not early
 WINDOWS, STEADY = 40, 0.8  # of the recording, and the share of them in which a slipped unit shows
 ALIKE = 0.3  # gain from which the lag of another signal is one
+SURE = 0.9  # gain from which outputs that are early alike say that the drive is shifted: a faster machine is early too
 STANDS = 0.1  # share of the recording in which a signal stands, and of the simulated range that it leaves out
 OBEYED, BROKEN = 1e-6, 0.3  # residual of a relation between outputs over its largest term
 AS_GOOD = 0.1  # part of what moving the signal takes away that the least of several moves may leave
@@ -153,7 +154,7 @@ def _shifts(machine: Machine, recording: Recording, simulated: dict[str, np.ndar
     lags = {s.column: _lag(recording.columns[s.column], simulated[s.column]) for s in machine.case.outputs}
     found = []
     together = len(lags) > 1 and np.ptp([lag for lag, _ in lags.values()]) <= 4  # that is the drive, or a delay
-    if together and all(lag <= -EARLY and gain > 0.8 for lag, gain in lags.values()):
+    if together and all(lag <= -EARLY and gain > SURE for lag, gain in lags.values()):
         seconds = -max(lag for lag, _ in lags.values()) * recording.interval
         text = f"shifted in time by {seconds:+.4g} s: every output answers before it"
         return [Problem("shift", recording.name, machine.case.inputs[0].column, float(recording.time[0]), text, True)]
