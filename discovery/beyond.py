@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from .comparison import MIN_GAIN, Ranked, score
-from .empirical_law import find
+from .empirical_law import GROUPS, find
 from .evidence import LEFT, like_noise, nearly_noise, pays
 from .fit import Fit
 from .judge import Judgement, try_judge
@@ -21,31 +21,31 @@ from .screen import Candidate
 from .search import Finding, Search
 
 COLOURED = 5.0  # RMS, in units of the noise as estimated, that coloured noise may have
-SHORT = 3  # parameters of a law that is believed before further effects are tried
+SHORT = 3  # parameters of a law that needs no margin over several effects
 MARGIN = 40.0  # of the deviance, by which a law has to beat effects of the catalogue that leave as little
 
 Progress = Callable[[str], None]
 
 
 def explain_beyond(search: Search, base: Fit, before: Judgement, progress: Progress) -> None:
-    """Go on with a search after its first round: a law in place of its findings or beside them, if they are not enough.
+    """Go on with a search after its first round; then a law in place of its findings or beside them.
 
-    `base` and `before` are the believed model's fit and judgement. A law of one group that leaves noise where the best
-    effect does not ends the search; a longer one has to beat all that the catalogue finds in the end.
+    `base` and `before` are the believed model's fit and judgement. Where several effects together leave noise, one
+    group of terms is tried that could stand for them all; where they do not, longer laws too.
     """
     if search.settled() or (like_noise(base) and max(base.level.values()) < COLOURED):
         return
-    law = None
-    if not (search.findings and nearly_noise(search.fit)):
-        progress("looking for an empirical law")
-        held = search.lead.hold(base)
-        law = find(held.machine.case, replace(search.amendment, attachments=[]), held, progress)
-        if law is not None and len(law.free) <= SHORT and _instead(search, base, before, law):
-            return
     search.run(progress)
+    explained = bool(search.findings) and (search.settled() or nearly_noise(search.fit))
+    if explained and len(search.findings) == 1:
+        return
+    progress("looking for an empirical law")
+    held = search.lead.hold(base)
+    amendment = replace(search.amendment, attachments=[])
+    law = find(held.machine.case, amendment, held, progress, most=1 if explained else GROUPS)
     if law is not None and _instead(search, base, before, law):
         return
-    if search.findings and not search.settled() and not nearly_noise(search.fit):
+    if search.findings and not explained:
         _beside(search, progress)
 
 
@@ -73,7 +73,8 @@ def _instead(search: Search, base: Fit, before: Judgement, law: Candidate) -> bo
     start = search.lead.hold(base)
     correlation = law.fit.correlation()
     gain = score(law, start, correlation)
-    if gain > -MIN_GAIN or (search.findings and gain > _found(search, start, correlation) - MARGIN):
+    margin = 0.0 if len(law.free) <= SHORT and len(search.findings) > 1 else MARGIN
+    if gain > -MIN_GAIN or (search.findings and gain > _found(search, start, correlation) - margin):
         return False
     ranked = _ranked(law, start)
     polished = search.polished(ranked, base)

@@ -31,11 +31,16 @@ SIGNIFICANT = 3.0  # standard errors of a coefficient below which it is left out
 Progress = Callable[[str], None]
 
 
-def find(case: Case, amendment: Amendment, base: Fit, progress: Progress = lambda text: None) -> Candidate | None:
-    """The best law on top of `base`, the fit of `amendment`; None where no term pays. Its fit is in the candidate."""
+def find(
+    case: Case, amendment: Amendment, base: Fit, progress: Progress = lambda text: None, most: int = GROUPS
+) -> Candidate | None:
+    """The best law of up to `most` groups of terms on top of `base`, the fit of `amendment`; None where no term pays.
+
+    Its fit is in the candidate.
+    """
     best: Proposal | None = None
     efforts = [Effort(case, base, site) for site in sites(case, base)]
-    while best is None or (len(best.law.groups) < GROUPS and not is_noise(best.candidate.fit)):
+    while best is None or (len(best.law.groups) < most and not is_noise(best.candidate.fit)):
         here, law = (base, None) if best is None else (best.candidate.fit, best.law)
         proposals = screened(case, here, law, efforts, progress)
         for proposal in proposals[:FITTED]:

@@ -1,7 +1,7 @@
 within Lacuna.Interfaces;
 partial model PartialLeg "One leg of an inverter on an inductive load: driven, or left to its two ideal diodes"
   constant Types.Current i_off = 1e-9 "Current below which a conducting diode is taken to have gone out";
-  constant Types.Voltage v_on = 1e-9 "Voltage beyond a rail at which an open leg conducts again";
+  constant Types.Voltage v_on = 1e-6 "Voltage beyond a rail at which an open leg conducts again";
   PositivePin p "Positive rail";
   NegativePin n "Negative rail";
   NegativePin out "Terminal of the load";

@@ -127,7 +127,7 @@ def test_bus_at_zero_is_a_short_circuit_of_the_phases(run, v_bus: float) -> None
     """All terminals at zero potential; the spinning rotor brakes itself and then stays at exactly zero speed."""
     result = bldc(run, v_bus, 1.0, stop=0.2, interval=1e-4, initial={"w": 100.0})
     for leg in "abc":
-        assert np.abs(result[f"bridge.{leg}.v"]).max() < 1e-8
+        assert np.abs(result[f"bridge.{leg}.v"]).max() < 2e-6  # an open leg conducts from 1e-6 V on
     assert result["w"][-1] == 0.0
     assert np.all(np.diff(result["w"]) <= 1e-9)
 
