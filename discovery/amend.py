@@ -126,11 +126,14 @@ class _Writer:
             self.equations.append(f"{attachment.component}.{name} = {variable};")
 
     def _phases(self, attachment: Attachment) -> None:
-        for k, line in enumerate(attachment.lines):
-            name = attachment.component if k == 0 else f"{attachment.component}_{line.phase}"
+        first = attachment.component
+        names = [first, *(f"{first}_{line.phase}" for line in attachment.lines[1:])]
+        for k, (name, line) in enumerate(zip(names, attachment.lines, strict=True)):
             shared = {p.name: attachment.full_name(p.name) for p in attachment.effect.parameters} if k else {}
             self._declare(attachment, bound=shared, name=name)
             self._insert(name, line)
+            for total, part in attachment.effect.summed.items():
+                self.equations.append(f"{name}.{total} = {' + '.join(f'{n}.{part}' for n in names)};")
         self._signals(attachment)
 
     _line = _star = _phases

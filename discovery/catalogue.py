@@ -45,6 +45,7 @@ class Effect:
     relative: dict[str, str] = field(default_factory=dict)
     variants: dict[str, list[float]] = field(default_factory=dict)
     signals: dict[str, str] = field(default_factory=dict)
+    summed: dict[str, str] = field(default_factory=dict)  # inputs that take the sum of a variable over the phases
     whole: tuple[str, ...] = ()
     polar: tuple[str, ...] = ()
     fixed: tuple[str, ...] = ()
