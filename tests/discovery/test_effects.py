@@ -1,0 +1,113 @@
+"""Effects of the catalogue in a model, the values that their fits start from, and which of them stay in the end."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.optimize import nnls
+
+from codegen.compile import compile_model
+from codegen.library import Library
+from discovery import catalogue
+from discovery.amend import Amendment, Attachment
+from discovery.cases import Case, load
+from discovery.comparison import Ranked
+from discovery.fit import fit
+from discovery.hypotheses import enumerate_attachments
+from discovery.judge import judge, noise_floor
+from discovery.machine import Machine
+from discovery.places import read
+from discovery.screen import Screen, _bounded, prepare
+from discovery.search import Finding, Search
+from discovery.steps import fit_believed
+import runtime
+
+from .conftest import BELIEVED, write_case
+
+RIPPLE = """model RippleServo
+  extends Lacuna.Benches.DcServo;
+  Lacuna.Effects.PositionRipple friction(tau_c=2e-4, amplitude=1e-4, periods=3, phase=0.7);
+equation
+  connect(friction.flange, shaft.flange_b);
+end RippleServo;
+"""
+
+
+def attachment(case: Case, name: str) -> Attachment:
+    library = Library()
+    structure = read(library, case.model)
+    found = enumerate_attachments(case, structure, catalogue.read(library), Amendment(structure))
+    return next(a for a in found if a.effect.name == name)
+
+
+def test_phases_share_the_temperature_of_their_machine(tmp_path: Path) -> None:
+    """Rotor held by its friction, b high and c low: both windings warm with the square of one current, all by the same
+    rise. der(dR) = (k i^2 - dR)/tau for each of the two, so the rise is 2 k i^2 (1 - exp(-t/tau)) at constant i."""
+    library = Library()
+    structure = read(library, "Benches.BldcDrive")
+    heating = next(e for e in catalogue.read(library) if e.name == "Heating")
+    lines = tuple(structure.phases()[0])
+    added = Attachment(heating, "warm", "winding", lines=lines)
+    path = tmp_path / "WarmDrive.mo"
+    path.write_text(Amendment(structure, [added]).text("WarmDrive"), encoding="utf-8")
+    k, tau, v_bus = 1e-3, 0.2, 1.2
+    result = runtime.simulate(
+        runtime.Model(compile_model(str(path)).path), solver="dopri5", rtol=1e-9, stop=0.5, interval=1e-3,
+        parameters={"warm.k_R": k, "warm.tau_th": tau}, inputs={"v_bus": v_bus, "dir": 1.0},
+    )  # fmt: skip
+    assert np.all(result["w"] == 0.0)
+    assert np.array_equal(result["warm.rise"], result["warm_b.rise"])
+    assert np.array_equal(result["warm.rise"], result["warm_c.rise"])
+    current = v_bus / (2 * 2.13)
+    expected = 2 * k * current**2 * (1 - np.exp(-result.time / tau))
+    slack = 2 * k * current**2 * 0.01  # the current rises within L/R = 0.3 ms, and falls by 0.02 % as the windings warm
+    assert np.abs(result["warm.rise"] - expected).max() < slack
+
+
+def test_a_wave_starts_with_its_mean_level_and_its_amplitude(tmp_path: Path) -> None:
+    """Both are columns of one linear problem: friction of mean 2e-4 N.m that swings by half of it. It is linear for a
+    little friction only, so the start is of the right size and no more."""
+    (tmp_path / "RippleServo.mo").write_text(RIPPLE, encoding="utf-8")
+    case = load(write_case(tmp_path / "case", str(tmp_path / "RippleServo.mo"), BELIEVED))
+    machine = Machine(case, Amendment(read(Library(), case.model)))
+    base, _ = fit_believed(case, machine)
+    ripple = attachment(case, "PositionRipple")
+    amended = Machine(case, Amendment(machine.amendment.structure, [ripple]))
+    best = prepare(Screen(base), ripple, amended)[0]
+    assert best.fixed[ripple.full_name("periods")] == 3
+    assert 1e-4 < best.start[ripple.full_name("tau_c")] < 4e-4
+    assert 0.5e-4 < best.start[ripple.full_name("amplitude")] < 2e-4
+    assert best.start[ripple.full_name("phase")] == pytest.approx(0.7, abs=0.5)
+
+
+def test_bounded_least_squares_agrees_with_non_negative_ones() -> None:
+    random = np.random.default_rng(2)
+    for _ in range(20):
+        columns, target = random.normal(size=(60, 4)), random.normal(size=60)
+        bounds = np.array([(-1e-300, np.inf)] * 4)
+        assert _bounded(columns, target, bounds) == pytest.approx(nnls(columns, target)[0], abs=1e-9)
+
+
+def test_a_finding_that_the_others_do_without_is_dropped(friction_case: Path) -> None:
+    case = load(friction_case)
+    structure = read(Library(), case.model)
+    friction, drag = attachment(case, "CoulombFriction"), attachment(case, "QuadraticDrag")
+    believed, lead = fit_believed(case, Machine(case, Amendment(structure)))
+    candidates, base = [], believed
+    for number, added in enumerate((friction, drag), 1):
+        machine = Machine(case, Amendment(structure, [friction, drag][:number]))
+        candidate = next(iter(prepare(Screen(base), added, machine)))
+        base = fit(machine, case.fit, base.noise, [*base.estimate.free, *candidate.free], base.fixed)
+        candidates.append(replace(candidate, fit=base))
+    judged = judge(base.machine, base.point)
+    findings = [Finding(Ranked(c, c.fit, -100.0), None, judged, judged) for c in candidates]
+    floor = noise_floor(case, case.validate, base.noise)
+    amendment = Amendment(structure, [friction, drag])
+    search = Search(case, [], lead, floor, amendment, base, judged, findings)
+    search._drop_needless(lambda text: None)
+    assert [f.ranked.attachment.effect.name for f in search.findings] == ["CoulombFriction"]
+    assert [a.effect.name for a in search.amendment.attachments] == ["CoulombFriction"]
+    assert search.fit.machine.amendment.attachments == [friction]
