@@ -25,7 +25,6 @@ from .objective import STAGES
 from .screen import Candidate
 
 MAX_FINDINGS = 3
-TRIED = 3  # hypotheses that may be tried beside a finding: the best one may stand for the finding's own fault
 RECONSIDERED = 4  # rivals of an earlier finding that are tried again
 
 Progress = Callable[[str], None]
@@ -77,22 +76,20 @@ class Search:
         held = self.lead.hold(self.fit)
         naming = rank(held.machine.case, self.amendment, attachments, held, progress=progress)
         self.namings.append(naming)
-        promising = [r for r in naming.ranked if r.score < -MIN_GAIN]
-        return any(self._accept(r, naming, progress) for r in promising[: TRIED if self.findings else 1])
-
-    def _accept(self, ranked: Ranked, naming: Naming, progress: Progress) -> bool:
-        """Take a hypothesis as a finding if it pays on the validation recordings."""
-        progress(f"polishing {ranked.attachment.label}")
-        polished = self.polished(ranked, self.fit)
+        best = naming.best
+        if best is None or best.score > -MIN_GAIN:
+            return False
+        progress(f"polishing {best.attachment.label}")
+        polished = self.polished(best, self.fit)
         if polished is None:
             return False
         after = try_judge(polished.machine, polished.point)
         if after is None or not pays(self.judgement.validate, after.validate, self.floor):
-            self.reason = f"{ranked.attachment.label} fits better but does not pay on the validation recordings"
+            self.reason = f"{best.attachment.label} fits better but does not pay on the validation recordings"
             return False
-        ranked.fit, self.reason = polished, ""
-        self.findings.append(Finding(ranked, naming, self.judgement, after))
-        self.take([*self.amendment.attachments, ranked.attachment], polished, after)
+        best.fit = polished
+        self.findings.append(Finding(best, naming, self.judgement, after))
+        self.take([*self.amendment.attachments, best.attachment], polished, after)
         return True
 
     def take(self, attachments: list[Attachment], found: Fit, judgement: Judgement) -> None:
