@@ -48,7 +48,7 @@ def locate(case: Case, out: Out = None) -> None:
         table.add_row(place.location, f"{place.kind}, {place.unit}", f"{place.explained:.1%}")
     console().print(table)
     if found.organiser:
-        typer.echo(f"it follows {found.organiser} best ({found.organised:.0%} of its variance)")
+        typer.echo(found.organiser.sentence)
     _report(result, "locate", case, out)
 
 

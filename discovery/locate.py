@@ -13,16 +13,19 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.linalg import block_diag
 
+from .amend import tracker_name
 from .cases import Case
-from .fit import Fit
+from .fit import Fit, falling_bandwidths
 from .machine import Machine
+from .objective import Objective
+from .organise import Organiser, organiser
 from .places import Line, Shaft
 from .response import respond
 from .screen import Screen
+from .tracking import trackable
 
 NODES = 24  # of a probe in each recording
 SMOOTHING = 0.3  # weight of the probe's bends against the misfit
-BINS = 25
 
 
 @dataclass
@@ -38,15 +41,12 @@ class PlaceEffort:
 
 @dataclass
 class Located:
-    """Places, best first; and the variable that organises the best one's effort, binned."""
+    """Places, best first; and the variable that organises the best one's effort."""
 
     places: list[PlaceEffort]
-    organiser: str = ""
-    organised: float = 0.0
-    organiser_values: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    organiser_effort: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    bin_centres: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    bin_means: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    organiser: Organiser | None = None
+    values: np.ndarray = field(default_factory=lambda: np.zeros(0))  # of the organiser, on the recordings' samples
+    effort: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
     @property
     def best(self) -> PlaceEffort | None:
@@ -66,7 +66,7 @@ def locate(case: Case, base: Fit) -> Located:
     places.sort(key=lambda p: -p.explained)
     located = Located(places)
     if located.best is not None:
-        _organise(located, base, case)
+        located.organiser, located.values, located.effort = _organised(located.best, base, case)
     return located
 
 
@@ -107,40 +107,31 @@ def _sensor(case: Case, screen: Screen, k: int) -> PlaceEffort:
     return PlaceEffort(f"sensor:{column}", "sensor error", case.outputs[k].si_unit, share)
 
 
-def _organise(located: Located, base: Fit, case: Case) -> None:
-    """Find the variable whose value tells the best place's effort (correlation ratio over bins)."""
-    best = located.best
-    shafts = base.machine.amendment.structure.shafts
-    names = [f"{s.location}.{v}" for s in shafts for v in ("w", "phi")] + [s.variable for s in case.signals.values()]
-    names = [n for n in dict.fromkeys(names) if n in base.machine.model.variables]
-    values: dict[str, list[np.ndarray]] = {n: [] for n in [*names, "time"]}
-    effort = []
-    for recording in case.fit:
-        trajectory = base.machine.trajectory(base.point, recording, names)
-        nodes, e = best.effort[recording.name]
-        effort.append(np.interp(recording.time, nodes, e))
-        for n in names:
-            values[n].append(trajectory[n])
-        values["time"].append(recording.time)
-    pooled = np.concatenate(effort)
-    for name, series in values.items():
-        x = np.concatenate(series)
-        ratio, centres, means = _correlation_ratio(x, pooled)
-        if ratio > located.organised:
-            keep = slice(None, None, max(1, len(x) // 3000))
-            located.organiser, located.organised = name, ratio
-            located.organiser_values, located.organiser_effort = x[keep], pooled[keep]
-            located.bin_centres, located.bin_means = centres, means
+def _organised(best: PlaceEffort, base: Fit, case: Case) -> tuple[Organiser, np.ndarray, np.ndarray]:
+    """(organiser of the best place's effort, its values and the effort, both on the samples of the fit recordings)."""
+    structure = base.machine.amendment.structure
+    angles = [f"{s.location}.phi" for s in structure.shafts]
+    names = [f"{s.location}.w" for s in structure.shafts] + angles + [f"{line.load}.i" for line in structure.lines]
+    names += [s.variable for s in case.signals.values()]
+    known = base.machine.model.variables
+    names = [n for n in dict.fromkeys(names) if n in known]
+    runs = [base.machine.trajectory(base.point, r, names) for r in case.fit]
+    variables = {n: (known[n].unit or "1", np.concatenate([run[n] for run in runs])) for n in names}
+    variables["time"] = ("s", np.concatenate([r.time for r in case.fit]))
+    courses = _tracked_effort(best, base, case) or [np.interp(r.time, *best.effort[r.name]) for r in case.fit]
+    effort = np.concatenate(courses)
+    found = organiser(effort, variables, {n for n in angles if n in known})
+    return found, variables[found.variable][1], effort
 
 
-def _correlation_ratio(x: np.ndarray, y: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
-    """Share of the variance of y between bins of x (equal counts), with the bins' centres and means."""
-    edges = np.unique(np.quantile(x, np.linspace(0, 1, BINS + 1)))
-    if len(edges) < 3 or np.var(y) == 0:
-        return 0.0, np.zeros(0), np.zeros(0)
-    index = np.clip(np.searchsorted(edges, x, side="right") - 1, 0, len(edges) - 2)
-    counts = np.bincount(index, minlength=len(edges) - 1)
-    sums = np.bincount(index, y, minlength=len(edges) - 1)
-    means = sums / np.maximum(counts, 1)
-    between = float(np.sum(counts * (means - y.mean()) ** 2))
-    return between / float(np.sum((y - y.mean()) ** 2)), (edges[1:] + edges[:-1]) / 2, means
+def _tracked_effort(best: PlaceEffort, base: Fit, case: Case) -> list[np.ndarray] | None:
+    """The torque (n,) that holds a shaft to its recorded motion, on each recording; None where none is recorded."""
+    shafts = trackable(case, base.machine.model, base.machine.amendment.structure)
+    shaft = next((s for s in shafts if s.location == best.location), None)
+    if shaft is None:
+        return None
+    machine = Machine(case, replace(base.machine.amendment, trackers=[shaft]), base.machine.solver)
+    objective = Objective(machine, case.fit, base.noise)
+    objective.track(falling_bandwidths(case, machine)[0], base.point)
+    runs = [machine.simulate(base.point | objective.stiffness, r) for r in case.fit]
+    return None if any(run is None for run in runs) else [run[tracker_name(0)] for run in runs]
