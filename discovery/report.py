@@ -18,6 +18,7 @@ from .explanation import Explanation
 from .fit import Fit
 from .judge import Judgement
 from .locate import Located
+from .name import Naming
 
 _STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}
 h1{font-size:1.5rem}h2{font-size:1.15rem;margin-top:2rem;border-bottom:1px solid #ccc}table{border-collapse:collapse}
@@ -131,24 +132,40 @@ def write_judgement(case: Case, judged: Judgement, folder: Path, model: str) -> 
 
 def _located(located: Located) -> list[str]:
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3))
-    best = located.best
+    best, found = located.best, located.organiser
     for name, (time, effort) in best.effort.items():
         left.plot(time, effort, lw=1, label=name)
     left.set_xlabel("time / s")
     left.set_ylabel(f"missing {best.kind} at {best.location} / {best.unit}")
     left.legend(fontsize="x-small")
-    right.plot(located.organiser_values, located.organiser_effort, ".", ms=2, color="0.6")
-    right.plot(located.bin_centres, located.bin_means, "C0-", lw=2)
-    right.set_xlabel(located.organiser)
+    _regime(right, located)
+    right.set_ylabel(f"{best.kind} / {best.unit}")
     figure.tight_layout()
     rows = [[p.location, p.kind, f"{p.explained:.1%}"] for p in located.places]
-    note = f"<p>It follows <em>{escape(located.organiser)}</em> best ({located.organised:.0%} of its variance).</p>"
+    said = found.sentence
+    note = f"<p>{escape(said[0].upper() + said[1:])}.</p>"
     return [
         "<h2>Where effort is missing</h2>",
         _table(["place", "effort", "misfit explained"], rows),
         note,
         _svg(figure),
     ]
+
+
+def _regime(ax: plt.Axes, located: Located) -> None:
+    """The effort over what organises it: a curve or a loop over a variable, a spectrum over an angle's orders."""
+    found = located.organiser
+    if found.kind == "orders":
+        ax.bar(found.centres, found.means, color="C0")
+        ax.set_xlabel(f"order of {found.variable} (periods a turn)")
+        return
+    keep = slice(None, None, max(1, len(located.values) // 3000))
+    ax.plot(located.values[keep], located.effort[keep], ".", ms=2, color="0.6", label="samples")
+    over = found.centres if found.kind == "value" else np.sort(located.values)
+    mean = found.means if found.kind == "value" else np.interp(np.sign(over), found.centres, found.means)
+    ax.plot(over, mean, "C0-", lw=2, label="mean")
+    ax.legend(fontsize="x-small")
+    ax.set_xlabel(f"{found.variable} / {found.unit}")
 
 
 def _findings(result: Explanation) -> list[str]:
@@ -173,7 +190,16 @@ def _rivals(result: Explanation) -> list[str]:
             f"{label} ({share:.0%})" for label, share in naming.screened[len(naming.ranked) : len(naming.ranked) + 12]
         )
         parts.append(f"<p>Screened out (share of the misfit they could explain): {escape(rest)}.</p>")
+        parts += _failures(naming)
     return parts
+
+
+def _failures(naming: Naming) -> list[str]:
+    """Hypotheses that lost without having been tried, and why."""
+    if not naming.failures:
+        return []
+    rows = "".join(f"<li>{escape(label)}: {escape(why.splitlines()[0])}</li>" for label, why in naming.failures)
+    return [f"<details><summary>{len(naming.failures)} could not be tried</summary><ul>{rows}</ul></details>"]
 
 
 def _leaves(fit: Fit) -> str:

@@ -15,8 +15,6 @@ import math
 import numpy as np
 from scipy.optimize import lsq_linear
 
-from runtime import SimulationError
-
 from .amend import Attachment
 from .cases import Recording
 from .catalogue import Effect, EffectParameter
@@ -131,6 +129,7 @@ def prepare(screen: Screen, attachment: Attachment, machine: Machine) -> list[Ca
     """The candidate from each start that promises something, best first; none where a parameter could do the same.
 
     Starts differ in the parameters that have no neutral value: the place of a stop, a Stribeck speed, a time constant.
+    Raises SimulationError where the amended model does not run with these recordings.
     """
     asked, attachment = attachment, _in_place(screen, attachment)
     effect = attachment.effect
@@ -141,10 +140,7 @@ def prepare(screen: Screen, attachment: Attachment, machine: Machine) -> list[Ca
     ]
     if not names:
         return []
-    try:
-        shapes = _shape_starts(screen, attachment, machine, names, point)
-    except SimulationError:  # the amended model does not run with these recordings: no hypothesis here
-        return []
+    shapes = _shape_starts(screen, attachment, machine, names, point)
     amounts: dict[str, float] = {}
     limits = _limits(shapes)
     found = [_linearised(screen, attachment, machine, names, point, shape, limits, amounts) for shape in shapes]
