@@ -11,6 +11,7 @@ import numpy as np
 
 from .evidence import whiteness
 from .explanation import Explanation
+from .fit import Fit
 from .least_squares import Free
 from .search import Finding
 
@@ -117,26 +118,37 @@ def _alternatives(finding: Finding) -> list[dict[str, Any]]:
 
 
 def _where(result: Explanation, finding: Finding) -> dict[str, Any]:
-    """Where the model without the effect misses most: the moments of the largest residual."""
-    before = result.base
+    """Where the model without the effect misses most: the regime of most of its misfit, the moments of the largest."""
+    power = {r.name: _misfit(result.base, r.name) for r in result.case.fit}
     times = []
     for recording in result.case.fit:
-        weighted = sum(
-            (np.nan_to_num(before.residuals[recording.name][c]) / (before.noise[c].std * before.level[c])) ** 2
-            for c in before.noise
-        )
-        width = max(1, len(weighted) // 25)
-        power = np.convolve(weighted, np.ones(width) / width, mode="same")
-        k = int(np.argmax(power))
-        times.append(
-            (
-                float(power[k]),
-                [float(recording.time[max(k - width, 0)]), float(recording.time[min(k + width, len(power) - 1)])],
-            )
-        )
+        width = max(1, len(recording.time) // 25)
+        mean = np.convolve(power[recording.name], np.ones(width) / width, mode="same")
+        k = int(np.argmax(mean))
+        span = recording.time[[max(k - width, 0), min(k + width, len(mean) - 1)]]
+        times.append((float(mean[k]), [float(t) for t in span]))
     times.sort(reverse=True)
-    effect = finding.ranked.attachment.effect
-    return {"variable": _variable(finding), "time": [t for _, t in times[:3]], "text": effect.signature}
+    variable = _variable(finding)
+    place = {"variable": variable} | _regime(result, variable, power)
+    return place | {"time": [t for _, t in times[:3]], "text": finding.ranked.attachment.effect.signature}
+
+
+def _misfit(base: Fit, recording: str) -> np.ndarray:
+    """Squared residual (n,) of all signals of a recording, each in units of its level."""
+    residuals = base.residuals[recording]
+    return sum((np.nan_to_num(residuals[c]) / (base.noise[c].std * base.level[c])) ** 2 for c in base.noise)
+
+
+def _regime(result: Explanation, variable: str, power: dict[str, np.ndarray]) -> dict[str, list[float]]:
+    """The range of a variable in which four fifths of the misfit lie; empty where the model has no such variable."""
+    machine = result.final.machine
+    if variable not in machine.model.variables:
+        return {}
+    courses = [machine.trajectory(result.final.point, r, [variable])[variable] for r in result.case.fit]
+    values, weight = np.concatenate(courses), np.concatenate([power[r.name] for r in result.case.fit])
+    order = np.argsort(values)
+    share = np.cumsum(weight[order]) / weight.sum()
+    return {"interval": [float(values[order][np.searchsorted(share, s)]) for s in (0.1, 0.9)]}
 
 
 def _variable(finding: Finding) -> str:
