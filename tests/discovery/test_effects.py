@@ -45,7 +45,8 @@ def attachment(case: Case, name: str) -> Attachment:
 
 def test_phases_share_the_temperature_of_their_machine(tmp_path: Path) -> None:
     """Rotor held by its friction, b high and c low: both windings warm with the square of one current, all by the same
-    rise. der(dR) = (k i^2 - dR)/tau for each of the two, so the rise is 2 k i^2 (1 - exp(-t/tau)) at constant i."""
+    rise. der(r) = (h (1 + r/R_0) - r)/tau with the heat h = 2 k i^2 of the cold windings, so at constant i the rise is
+    r = h/(1 - g) (1 - exp(-(1 - g) t/tau)) with g = h/R_0."""
     library = Library()
     structure = read(library, "Benches.BldcDrive")
     heating = next(e for e in catalogue.read(library) if e.name == "Heating")
@@ -53,17 +54,19 @@ def test_phases_share_the_temperature_of_their_machine(tmp_path: Path) -> None:
     added = Attachment(heating, "warm", "winding", lines=lines)
     path = tmp_path / "WarmDrive.mo"
     path.write_text(Amendment(structure, [added]).text("WarmDrive"), encoding="utf-8")
-    k, tau, v_bus = 1e-3, 0.2, 1.2
+    k, tau, cold, v_bus = 1e-3, 0.2, 1e-3, 1.2
     result = runtime.simulate(
         runtime.Model(compile_model(str(path)).path), solver="dopri5", rtol=1e-9, stop=0.5, interval=1e-3,
-        parameters={"warm.k_R": k, "warm.tau_th": tau}, inputs={"v_bus": v_bus, "dir": 1.0},
+        parameters={"warm.k_R": k, "warm.tau_th": tau, "warm.R_0": cold}, inputs={"v_bus": v_bus, "dir": 1.0},
     )  # fmt: skip
     assert np.all(result["w"] == 0.0)
     assert np.array_equal(result["warm.rise"], result["warm_b.rise"])
     assert np.array_equal(result["warm.rise"], result["warm_c.rise"])
     current = v_bus / (2 * 2.13)
-    expected = 2 * k * current**2 * (1 - np.exp(-result.time / tau))
-    slack = 2 * k * current**2 * 0.01  # the current rises within L/R = 0.3 ms, and falls by 0.02 % as the windings warm
+    heat = 2 * k * current**2
+    left = 1 - heat / cold
+    expected = heat / left * (1 - np.exp(-left * result.time / tau))
+    slack = heat * 0.01  # the current rises within L/R = 0.3 ms, and falls by 0.02 % as the windings warm
     assert np.abs(result["warm.rise"] - expected).max() < slack
 
 
