@@ -13,14 +13,13 @@ import numpy as np
 
 from .comparison import MIN_GAIN, Ranked, score
 from .empirical_law import GROUPS, find
-from .evidence import LEFT, like_noise, nearly_noise, pays
+from .evidence import like_noise, nearly_noise, pays
 from .fit import Fit
 from .judge import Judgement, try_judge
 from .name import Naming
 from .screen import Candidate
 from .search import Finding, Search
 
-COLOURED = 5.0  # RMS, in units of the noise as estimated, that coloured noise may have
 SHORT = 3  # parameters of a law that needs no margin over several effects
 MARGIN = 40.0  # of the deviance, by which a law has to beat effects of the catalogue that leave as little
 
@@ -33,7 +32,7 @@ def explain_beyond(search: Search, base: Fit, before: Judgement, progress: Progr
     `base` and `before` are the believed model's fit and judgement. Where several effects together leave noise, one
     group of terms is tried that could stand for them all; where they do not, longer laws too.
     """
-    if search.settled() or (like_noise(base) and max(base.level.values()) < COLOURED):
+    if search.settled() or like_noise(base):
         return
     search.run(progress)
     explained = bool(search.findings) and (search.settled() or nearly_noise(search.fit))
@@ -67,8 +66,7 @@ def _beside(search: Search, progress: Progress) -> None:
 
 def _instead(search: Search, base: Fit, before: Judgement, law: Candidate) -> bool:
     """One law for all of the misfit of the believed model, in place of every finding."""
-    left = max(law.fit.level.values())
-    if left > (COLOURED if like_noise(law.fit) else LEFT):
+    if not (nearly_noise(law.fit) or like_noise(law.fit)):
         return False
     start = search.lead.hold(base)
     correlation = law.fit.correlation()

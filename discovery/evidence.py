@@ -17,6 +17,8 @@ LEFT = 1.2  # RMS in units of the noise, up to which a model stands for all of t
 ROUGH_SLACK = 0.3  # RMS misfit, in units of the noise, that the end of a fit on rough ground may leave
 SPREAD = 0.005  # relative spread of an RMS over 20 000 samples of noise: a smaller gain is none
 TOLERANCE = 0.04  # of the noise level, within which it counts as known
+COLOURED = 5.0  # RMS, in units of the noise as estimated, that coloured noise may have
+TAILS = 2.0  # RMS over what the median says it is, from which a residual is no noise: a misfit at some moments
 
 
 @dataclass(frozen=True)
@@ -66,13 +68,13 @@ def is_noise(fit: Fit) -> bool:
 
 
 def like_noise(fit: Fit) -> bool:
-    """Whether what is left may be coloured noise: of the given level, its memory short.
+    """Whether what is left may be coloured noise: of the given level, its memory short, without outbursts.
 
     The power of block means of coloured noise grows with the block and then stays; that of a misfit goes on growing.
     """
     for column, noise in fit.noise.items():
         sizes = {b: _blocks(fit, column, b) for b in BLOCKS}
-        if noise.given and sizes[1].ratio > sizes[1].limit:
+        if sizes[1].ratio > (sizes[1].limit if noise.given else COLOURED**2) or _bursts(fit, column):
             return False
         chance = {b: sizes[b].limit / sizes[1].limit for b in BLOCKS}
         if sizes[200].ratio > GROWTH * chance[200] * max(sizes[40].ratio, 1.0):
@@ -80,6 +82,14 @@ def like_noise(fit: Fit) -> bool:
         if sizes[40].ratio > 2 * GROWTH * chance[40] * max(sizes[8].ratio, 1.0):
             return False
     return True
+
+
+def _bursts(fit: Fit, column: str) -> bool:
+    """Whether the RMS of a residual is that of a few moments: at edges of a current, say, that come too late."""
+    rows = [np.abs(r[column]) for r in fit.residuals.values()]
+    sizes = np.concatenate(rows)
+    sizes = sizes[np.isfinite(sizes)]
+    return float(np.sqrt(np.mean(sizes**2))) > TAILS * 1.4826 * max(float(np.median(sizes)), fit.noise[column].std / 2)
 
 
 def settled(fit: Fit, rough: bool = False) -> bool:
