@@ -13,7 +13,7 @@ from .amend import Amendment
 from .beyond import explain_beyond
 from .cases import Case, CaseError
 from .comparison import MIN_GAIN
-from .evidence import is_noise
+from .evidence import is_noise, outside_belief
 from .explanation import Explanation
 from .fit import Fit, believed, falling_bandwidths, fit, noise_of
 from .hypotheses import enumerate_attachments
@@ -160,13 +160,28 @@ def fit_believed(case: Case, machine: Machine) -> tuple[Fit, Lead]:
     free, fixed = believed(case, machine)
     lead = lead_for(case, machine, fixed | {f.name: f.centre for f in free})
     best = lead.fit(machine, case, noise, free, fixed)
-    if best is not None and is_noise(best):
-        return best, lead
-    random = np.random.default_rng(1)
-    start = {f.name: f.clip(f.centre + f.scale * float(random.normal())) for f in free}
-    other = fit(machine, case.fit, noise, free, fixed, start=start) if lead.direct else None
-    if other is not None and (best is None or other.deviance() < best.deviance()):
-        best = other
+    if lead.direct and (best is None or not is_noise(best)):
+        random = np.random.default_rng(1)
+        start = {f.name: f.clip(f.centre + f.scale * float(random.normal())) for f in free}
+        other = fit(machine, case.fit, noise, free, fixed, start=start)
+        best = _better(best, other)
     if best is None:
         raise RuntimeError(f"{case.model} cannot be simulated with the recorded inputs of {case.label}")
-    return best, lead
+    return _nearer_belief(best), lead
+
+
+def _better(one: Fit | None, other: Fit | None) -> Fit | None:
+    if one is None or (other is not None and other.deviance() < one.deviance()):
+        return other
+    return one
+
+
+def _nearer_belief(found: Fit) -> Fit:
+    """The fit begun anew with the parameters that left belief put back there: a dip must not pass for a finding."""
+    free, recordings = found.estimate.free, found.machine.case.fit
+    outside = outside_belief(found)
+    if not outside:
+        return found
+    start = found.point | {f.name: f.centre for f in free if f.name in outside}
+    other = fit(found.machine, recordings, found.noise, free, found.fixed, start=start)
+    return _better(found, other)
