@@ -14,7 +14,7 @@ from .amend import Amendment, Attachment
 from .cases import Case
 from .catalogue import Effect
 from .comparison import MIN_GAIN, TIE, Ranked, price
-from .evidence import pays, settled
+from .evidence import nearly_noise, pays, settled
 from .fit import Fit, fit
 from .hypotheses import enumerate_attachments
 from .judge import Judgement, try_judge
@@ -84,12 +84,26 @@ class Search:
         if polished is None:
             return False
         after = try_judge(polished.machine, polished.point)
-        if after is None or not pays(self.judgement.validate, after.validate, self.floor):
+        if after is None:
+            return False
+        trial = replace(self, findings=[*self.findings, Finding(best, naming, self.judgement, after)])
+        best.fit = polished
+        trial.take([*self.amendment.attachments, best.attachment], polished, after)
+        if not self._better(trial) and not (trial.add_another(progress) and self._better(trial)):
             self.reason = f"{best.attachment.label} fits better but does not pay on the validation recordings"
             return False
-        best.fit = polished
-        self.findings.append(Finding(best, naming, self.judgement, after))
-        self.take([*self.amendment.attachments, best.attachment], polished, after)
+        self.findings[:] = trial.findings
+        self.take(trial.amendment.attachments, trial.fit, trial.judgement)
+        return True
+
+    def _better(self, other: Search) -> bool:
+        return pays(self.judgement.validate, other.judgement.validate, self.floor)
+
+    def add_another(self, progress: Progress) -> bool:
+        """A second effect beside a first one that does not pay alone: hidden together, each may need the other."""
+        if len(self.findings) > 1 or nearly_noise(self.fit) or not self.add(progress):
+            return False
+        self._reconsider(0, progress)
         return True
 
     def take(self, attachments: list[Attachment], found: Fit, judgement: Judgement) -> None:
@@ -108,7 +122,8 @@ class Search:
         return found
 
     def _reconsider(self, k: int, progress: Progress) -> None:
-        """Name finding k anew, given the others: exchange it where a rival is better by more than a tie."""
+        """Name finding k anew, given the others: exchange it where a rival is better by more than a tie, or a simpler
+        law of the same kind is no worse."""
         finding = self.findings[k]
         progress(f"reconsidering {finding.ranked.attachment.label}")
         others = [a for a in self.amendment.attachments if a is not finding.ranked.attachment]
@@ -122,7 +137,7 @@ class Search:
         best, own = naming.best, naming.of(finding.ranked.identity)
         if best is None or own is None:
             return
-        if best.score > own.score - TIE:
+        if best.score > own.score - (0.0 if finding.ranked.attachment.contains(best.attachment) else TIE):
             ranked = replace(finding.ranked, score=own.score, confidence=own.confidence)
             self.findings[k] = replace(finding, ranked=ranked, naming=naming)
             return
