@@ -10,12 +10,14 @@ import numpy as np
 
 from .amend import Attachment
 from .cases import Case
+from .evidence import nearly_noise
 from .fit import Fit, fit, residuals_of
 from .least_squares import WORKERS
 from .screen import Candidate
 
 MIN_GAIN = 20.0  # drop of the deviance, prices paid, below which nothing is believed missing
 CLOSE = 0.3  # share of the best gain within which hypotheses are cross-validated against each other
+DECIDED = 20.0  # difference of two scores that decides, where the better one leaves noise
 CONTENDERS = 4
 TIE = 8.0  # difference of two scores below which the data does not tell them apart
 COLOUR = 30.0  # samples at most that count as one
@@ -53,10 +55,12 @@ def cross_validated(
 ) -> list[Ranked]:
     """Contenders that are close to the best are ranked by recordings of the fit set that each is not fitted to.
 
-    What a contender loses there against the best one is its score; those that tie there keep their order.
+    What a contender loses there against the best one is its score; those that tie there keep their order. Where the
+    best one leaves noise nothing is left to fit too well, and the evidence itself decides.
     """
     best = ranked[0].score
-    close = [r for r in ranked if r.score - best < CLOSE * abs(best)][:CONTENDERS]
+    reach = DECIDED if nearly_noise(ranked[0].fit) else CLOSE * abs(best)
+    close = [r for r in ranked if r.score - best < reach][:CONTENDERS]
     if len(case.fit) < 2 or len({r.identity for r in close}) < 2 or ranked[0].score > -MIN_GAIN:
         return ranked
     with ThreadPoolExecutor(WORKERS) as workers:

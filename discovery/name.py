@@ -11,6 +11,8 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from functools import partial
 
+from runtime import SimulationError
+
 from .amend import Amendment, Attachment
 from .cases import Case
 from .comparison import TIE, Progress, Ranked, best_correlation, confidences, cross_validated, score
@@ -23,11 +25,13 @@ from .screen import Candidate, Screen, prepare, telling_recordings
 from .tracking import trackable
 
 FIRST_ROUND = 8
+ENOUGH = 0.9  # of the promise of a law, that one which it contains must have to be tried in its stead
 STARTS = 3  # from which a hypothesis is fitted in the first round
 ROUNDS = ((2, 2, 100), (2, 3, 10), (3, 3, 4), (10, 4, 2))  # (stages, iterations, fits): successive halving
 NEAR = 0.1  # share of the best gain, within which a hypothesis stays in the race
+NEAR_NOISE = 0.01  # the same, where the best one leaves noise
 FAINT = 0.03  # share of the best gain, that a hypothesis must have after the first round to stay
-HALF = 0.5  # of the best gain, that a simpler law must have at a first look to be fitted further
+HALF = 0.5  # of the best gain, that a simpler law, or a rival of one that leaves noise, must have at a first look
 GAINING = 0.1  # share of what parts it from the best, that one further away must have won in a round to stay
 SEVERAL_STARTS = 1  # rounds after which only the best start of each hypothesis goes on
 LED = 2  # hypotheses that are fitted again, led by trackers, where none has left noise
@@ -35,7 +39,8 @@ LED = 2  # hypotheses that are fitted again, led by trackers, where none has lef
 
 @dataclass
 class Naming:
-    """What one round of naming found, best first, and what was screened out with the share it could have explained."""
+    """What one round of naming found, best first; what was screened out with the share it could have explained; and
+    what could not be tried, with the reason."""
 
     ranked: list[Ranked]
     screened: list[tuple[str, float]]
@@ -68,7 +73,11 @@ def screen_all(
         if machine is None:
             failures.append((attachment.label, why))
             return []
-        found = prepare(screen, attachment, machine)
+        try:
+            found = prepare(screen, attachment, machine)
+        except SimulationError as error:
+            failures.append((attachment.label, str(error)))
+            return []
         progress(f"screened {attachment.label}: " + (f"{found[0].predicted:.1%}" if found else "no use"))
         return found
 
@@ -84,7 +93,7 @@ def rank(
     """Screen, fit and rank hypotheses on top of `base`, the fit of the amendment so far."""
     candidates, failures = screen_all(case, amendment, attachments, base, progress)
     naming = compete(case, candidates, base, bandwidths=bandwidths, progress=progress)
-    return replace(naming, failures=failures)
+    return replace(naming, failures=[*failures, *naming.failures])
 
 
 def compete(
@@ -94,10 +103,14 @@ def compete(
     """Fit and rank candidates (most promising first) on top of `base`."""
     screened = [(c.attachment.label, c.predicted) for c in _best_starts(candidates)]
     fitted: dict[str, Candidate] = {}
-    _halve(case, base, _first_round(candidates), bandwidths, fitted, progress)
-    _halve(case, base, _relatives(candidates, fitted), bandwidths, fitted, progress)
+    first = _first_round(candidates)
+    _halve(case, base, first, bandwidths, fitted, progress)
+    relatives = _relatives(candidates, fitted)
+    _halve(case, base, relatives, bandwidths, fitted, progress)
+    failed = dict.fromkeys(c.attachment.label for c in [*first, *relatives] if c.attachment.label not in fitted)
+    failures = [(label, "no simulation succeeded from its start values") for label in failed]
     if not fitted:
-        return Naming([], screened)
+        return Naming([], screened, failures)
     _lead(case, base, list(fitted.values()), progress)
     _simplify(case, base, list(fitted.values()))
     correlation = best_correlation(list(fitted.values()))
@@ -105,7 +118,7 @@ def compete(
     ranked.sort(key=lambda r: r.score)
     ranked = cross_validated(case, base, ranked, correlation, progress)
     confidences(ranked)
-    return Naming(ranked, screened, correlation=correlation)
+    return Naming(ranked, screened, failures, correlation)
 
 
 def _halve(
@@ -130,34 +143,55 @@ def _halve(
         for c in _best_starts(pool):
             progress(f"fitted {c.attachment.label}: {scores[id(c)]:.1f}")
         fitted |= {c.attachment.label: c for c in _best_starts(pool)}
-        best = min(score(c, base, correlation) for c in fitted.values())
-        pool = [c for c in pool if _in_the_race(scores[id(c)], before.get(id(c)), best)]
+        leader = min(fitted.values(), key=lambda c: score(c, base, correlation))
+        best, won = score(leader, base, correlation), nearly_noise(leader.fit)
+        pool = [c for c in pool if _in_the_race(scores[id(c)], before.get(id(c)), best, won)]
         before = scores
 
 
-def _in_the_race(now: float, before: float | None, best: float) -> bool:
-    """Whether a score may still become the best: near it, or still gaining on it (`before` is that of a round ago)."""
+def _in_the_race(now: float, before: float | None, best: float, won: bool) -> bool:
+    """Whether a score may still become the best: near it, or still gaining on it (`before` is that of a round ago).
+
+    Where the best one leaves noise (`won`), others can but tie with it.
+    """
     if best >= 0:
         return True
     if before is None:
-        return now < FAINT * best
-    return now - best < NEAR * abs(best) or before - now > GAINING * (now - best)
+        return now < (HALF if won else FAINT) * best
+    near = NEAR_NOISE if won else NEAR
+    return now - best < near * abs(best) or before - now > GAINING * (now - best)
 
 
 def _relatives(candidates: list[Candidate], fitted: dict[str, Candidate]) -> list[Candidate]:
-    """Not yet fitted: laws that the best hypothesis contains and, where it leaves more than noise, its other forms."""
+    """Not yet fitted: laws that the best hypothesis contains, laws that contain it (from where it ended, too) and,
+    where it leaves more than noise, its other forms."""
     if not fitted:
         return []
     best = min(fitted.values(), key=lambda c: c.fit.deviance())
     other_forms = not nearly_noise(best.fit)
     own = best.attachment
-    found = [
-        c for c in candidates
-        if c.attachment.location == own.location and c.attachment.label not in fitted
-        and (own.contains(c.attachment) or (other_forms and c.attachment.effect.identifier == own.effect.identifier))
+    new = [c for c in candidates if c.attachment.location == own.location and c.attachment.label not in fitted]
+    richer = [c for c in new if c.attachment.contains(own)]
+    alike = [
+        c for c in new
+        if own.contains(c.attachment) or (other_forms and c.attachment.effect.identifier == own.effect.identifier)
     ]  # fmt: skip
+    found = [*(_enriched(c, best) for c in _best_starts(richer)), *richer, *alike]
     labels = [c.attachment.label for c in found]
     return [c for k, c in enumerate(found) if labels[:k].count(labels[k]) < STARTS]
+
+
+def _enriched(candidate: Candidate, best: Candidate) -> Candidate:
+    """A law that contains the best one, begun where that one ended: its levels equal, what it adds at nothing."""
+    own, effect, full = best.attachment, candidate.attachment.effect, candidate.attachment.full_name
+    point = best.fit.point
+    start = candidate.start | {n: v for n, v in point.items() if not n.startswith(f"{own.component}.")}
+    shared = {p.name: point[own.full_name(p.name)] for p in own.effect.parameters if own.full_name(p.name) in point}
+    if len(shared) == 1:
+        shared |= dict.fromkeys(effect.levels, next(iter(shared.values())))
+    added = {n: v for n, v in effect.neutral.items() if n not in effect.polar}
+    start |= {full(n): v for n, v in (added | shared).items() if full(n) in start}
+    return replace(candidate, start=start)
 
 
 def _best_starts(candidates: list[Candidate]) -> list[Candidate]:
@@ -168,11 +202,16 @@ def _best_starts(candidates: list[Candidate]) -> list[Candidate]:
 def _first_round(candidates: list[Candidate]) -> list[Candidate]:
     """The most promising hypotheses, and the best of each physics that explains at least a quarter of the best.
 
-    Each is tried from several starts: where events make the response rough, promise to first order can mislead.
+    Each is tried from several starts: where events make the response rough, promise to first order can mislead. A law
+    that promises hardly more than one that it contains waits for that one to win.
     """
     chosen: dict[str, int] = {}
     seen: set[str] = set()
-    for candidate in _best_starts(candidates):
+    every = _best_starts(candidates)
+    for candidate in every:
+        simpler = [c for c in every if candidate.attachment.contains(c.attachment)]
+        if any(c.predicted > ENOUGH * candidate.predicted for c in simpler):
+            continue
         identifier = candidate.attachment.effect.identifier
         late = identifier not in seen and candidate.predicted > 0.25 * candidates[0].predicted
         if len(chosen) < FIRST_ROUND or late:
