@@ -8,6 +8,12 @@ import numpy as np
 import pytest
 
 from codegen.compile import compile_model
+from codegen.library import Library
+from discovery import catalogue
+from discovery.amend import Amendment, Attachment
+from discovery.cases import Case
+from discovery.hypotheses import enumerate_attachments
+from discovery.places import read
 from runtime import Model, RecordedInput, simulate
 
 BELIEVED = {"R": 3.5, "L": 3.3e-3, "Ke": 0.03, "J": 7e-6, "b": 2e-5}
@@ -49,6 +55,14 @@ def _toml() -> str:
         ]
     lines += ["[recordings]", 'fit = ["r1.csv", "r2.csv"]', 'validate = ["r3.csv"]']
     return "\n".join(lines) + "\n"
+
+
+def attachment(case: Case, name: str) -> Attachment:
+    """The first place of the case's model that suits an effect of the catalogue."""
+    library = Library()
+    structure = read(library, case.model)
+    found = enumerate_attachments(case, structure, catalogue.read(library), Amendment(structure))
+    return next(a for a in found if a.effect.name == name)
 
 
 FRICTION = """model FrictionServo

@@ -1,8 +1,7 @@
-"""Effects of the catalogue in a model, the values that their fits start from, and which of them stay in the end."""
+"""Effects of the catalogue in a model, and the values that their fits start from."""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,19 +12,14 @@ from codegen.compile import compile_model
 from codegen.library import Library
 from discovery import catalogue
 from discovery.amend import Amendment, Attachment
-from discovery.cases import Case, load
-from discovery.comparison import Ranked
-from discovery.fit import fit
-from discovery.hypotheses import enumerate_attachments
-from discovery.judge import judge, noise_floor
+from discovery.cases import load
 from discovery.machine import Machine
 from discovery.places import read
 from discovery.screen import Screen, _bounded, prepare
-from discovery.search import Finding, Search
 from discovery.steps import fit_believed
 import runtime
 
-from .conftest import BELIEVED, write_case
+from .conftest import BELIEVED, attachment, write_case
 
 RIPPLE = """model RippleServo
   extends Lacuna.Benches.DcServo;
@@ -34,13 +28,6 @@ equation
   connect(friction.flange, shaft.flange_b);
 end RippleServo;
 """
-
-
-def attachment(case: Case, name: str) -> Attachment:
-    library = Library()
-    structure = read(library, case.model)
-    found = enumerate_attachments(case, structure, catalogue.read(library), Amendment(structure))
-    return next(a for a in found if a.effect.name == name)
 
 
 def test_phases_share_the_temperature_of_their_machine(tmp_path: Path) -> None:
@@ -92,25 +79,3 @@ def test_bounded_least_squares_agrees_with_non_negative_ones() -> None:
         columns, target = random.normal(size=(60, 4)), random.normal(size=60)
         bounds = np.array([(-1e-300, np.inf)] * 4)
         assert _bounded(columns, target, bounds) == pytest.approx(nnls(columns, target)[0], abs=1e-9)
-
-
-def test_a_finding_that_the_others_do_without_is_dropped(friction_case: Path) -> None:
-    case = load(friction_case)
-    structure = read(Library(), case.model)
-    friction, drag = attachment(case, "CoulombFriction"), attachment(case, "QuadraticDrag")
-    believed, lead = fit_believed(case, Machine(case, Amendment(structure)))
-    candidates, base = [], believed
-    for number, added in enumerate((friction, drag), 1):
-        machine = Machine(case, Amendment(structure, [friction, drag][:number]))
-        candidate = next(iter(prepare(Screen(base), added, machine)))
-        base = fit(machine, case.fit, base.noise, [*base.estimate.free, *candidate.free], base.fixed)
-        candidates.append(replace(candidate, fit=base))
-    judged = judge(base.machine, base.point)
-    findings = [Finding(Ranked(c, c.fit, -100.0), None, judged, judged) for c in candidates]
-    floor = noise_floor(case, case.validate, base.noise)
-    amendment = Amendment(structure, [friction, drag])
-    search = Search(case, [], lead, floor, amendment, base, judged, findings)
-    search._drop_needless(lambda text: None)
-    assert [f.ranked.attachment.effect.name for f in search.findings] == ["CoulombFriction"]
-    assert [a.effect.name for a in search.amendment.attachments] == ["CoulombFriction"]
-    assert search.fit.machine.amendment.attachments == [friction]

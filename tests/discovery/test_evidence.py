@@ -1,0 +1,39 @@
+"""What passes for noise: white, or of a colour of its own; and what does not."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from discovery.evidence import like_noise
+from discovery.noise import Noise
+
+N = 8000
+white = np.random.default_rng(3).standard_normal(N)
+coloured = lfilter([0.5], [1.0, -0.85], white)  # its third differences show about a third of its level
+bursts = np.where(np.arange(N) % 40 == 0, 6.0 * white, 0.0)  # at the edges of a current, say
+
+
+def fit(residual: np.ndarray, std: float, given: bool) -> SimpleNamespace:
+    noise = {"i": Noise(std, 0.0, given)}
+    return SimpleNamespace(noise=noise, residuals={"r": {"i": residual}}, weights={"r": {"i": np.ones(N)}})
+
+
+@pytest.mark.parametrize(
+    ("residual", "std", "given", "passes"),
+    [
+        (white, 1.0, True, True),
+        (white, 0.3, False, True),
+        (coloured, 0.3, False, True),
+        (coloured, np.std(coloured), True, True),
+        (0.3 * white + bursts, 0.3, False, False),
+        (white, 0.1, False, False),
+        (white, 0.5, True, False),
+        (np.cumsum(white) / 50, 0.3, False, False),
+    ],
+)
+def test_noise_may_have_a_colour_but_no_bursts_and_no_drift(
+    residual: np.ndarray, std: float, given: bool, passes: bool
+) -> None:
+    assert like_noise(fit(residual, std, given)) == passes

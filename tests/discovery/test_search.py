@@ -1,0 +1,116 @@
+"""The search's moves: which laws go first, what joins, what two effects have to show, what is dropped."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from codegen.library import Library
+from discovery import search as searching
+from discovery.amend import Amendment
+from discovery.cases import Case, load
+from discovery.catalogue import read as read_catalogue
+from discovery.comparison import Ranked
+from discovery.fit import Fit, fit
+from discovery.judge import judge, noise_floor
+from discovery.lead import Lead
+from discovery.machine import Machine
+from discovery.name import _enriched, _first_round, _in_the_race
+from discovery.places import read
+from discovery.screen import Candidate, Screen, prepare
+from discovery.search import Finding, Search
+from discovery.steps import fit_believed
+
+from .conftest import BELIEVED, attachment, write_case
+
+TWO = """model TwoServo
+  extends Lacuna.Benches.DcServo;
+  Lacuna.Effects.CoulombFriction friction(tau_c=0.0015);
+  Lacuna.Effects.GravityLoad gravity(mgl=0.004);
+equation
+  connect(friction.flange, shaft.flange_b);
+  connect(gravity.flange, shaft.flange_b);
+end TwoServo;
+"""
+
+
+def fitted(case: Case, *names: str) -> tuple[Fit, list[Candidate], Candidate]:
+    """(the believed model's fit, a candidate for each effect added to those before it, the last one)."""
+    structure = read(Library(), case.model)
+    believed, _ = fit_believed(case, Machine(case, Amendment(structure)))
+    added = [attachment(case, name) for name in names]
+    candidates, base = [], believed
+    for number, one in enumerate(added, 1):
+        machine = Machine(case, Amendment(structure, added[:number]))
+        found = prepare(Screen(base), one, machine)[0]
+        base = fit(machine, case.fit, base.noise, [*base.estimate.free, *found.free], base.fixed)
+        candidates.append(replace(found, fit=base))
+    return believed, candidates, candidates[-1]
+
+
+def candidate(case: Case, name: str, promise: float) -> Candidate:
+    return Candidate(attachment(case, name), None, [], predicted=promise)
+
+
+@pytest.mark.parametrize(
+    ("simpler", "chosen"), [(0.95, ["friction.coulomb"]), (0.5, ["friction.stribeck", "friction.coulomb"])]
+)
+def test_a_law_waits_for_a_simpler_one_that_promises_as_much(
+    friction_case: Path, simpler: float, chosen: list[str]
+) -> None:
+    case = load(friction_case)
+    pool = [candidate(case, "StribeckFriction", 0.96), candidate(case, "CoulombFriction", simpler)]
+    assert [c.attachment.effect.identifier for c in _first_round(pool)] == chosen
+
+
+def test_a_richer_law_begins_where_the_one_it_contains_has_ended(friction_case: Path) -> None:
+    case = load(friction_case)
+    base, _, best = fitted(case, "CoulombFriction")
+    richer = attachment(case, "StribeckFriction")
+    machine = Machine(case, Amendment(base.machine.amendment.structure, [richer]))
+    begun = _enriched(prepare(Screen(base), richer, machine)[0], best)
+    level = best.fit.point[best.attachment.full_name("tau_c")]
+    assert begun.start[richer.full_name("tau_c")] == begun.start[richer.full_name("tau_s")] == level
+    assert begun.start["R"] == best.fit.point["R"]
+
+
+def test_the_race_is_shorter_once_a_hypothesis_leaves_noise() -> None:
+    assert _in_the_race(-100.0, None, -1000.0, won=False)
+    assert not _in_the_race(-100.0, None, -1000.0, won=True)
+    assert _in_the_race(-950.0, -950.0, -1000.0, won=False)
+    assert not _in_the_race(-950.0, -950.0, -1000.0, won=True)
+    assert _in_the_race(-800.0, -700.0, -1000.0, won=True)
+
+
+def test_two_effects_that_pay_only_together_are_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What pays is set so high that neither of the two reaches it alone: within a fifth of the noise."""
+    (tmp_path / "TwoServo.mo").write_text(TWO, encoding="utf-8")
+    case = load(write_case(tmp_path / "case", str(tmp_path / "TwoServo.mo"), BELIEVED))
+    structure = read(Library(), case.model)
+    base, lead = fit_believed(case, Machine(case, Amendment(structure)))
+    floor = noise_floor(case, case.validate, base.noise)
+    monkeypatch.setattr(searching, "pays", lambda before, after, _: all(after[c] < 1.2 * floor[c] for c in floor))
+    effects = [e for e in read_catalogue(Library()) if e.name in ("CoulombFriction", "GravityLoad", "QuadraticDrag")]
+    before = judge(base.machine, base.point)
+    search = Search(case, effects, lead, floor, Amendment(structure), base, before)
+    assert search.add(lambda text: None)
+    assert sorted(f.ranked.attachment.effect.identifier for f in search.findings) == [
+        "friction.coulomb",
+        "load.gravity",
+    ]
+    assert search.findings[0].after.validate[""] > 2 * max(floor.values())
+
+
+def test_a_finding_that_the_others_do_without_is_dropped(friction_case: Path) -> None:
+    case = load(friction_case)
+    believed, candidates, last = fitted(case, "CoulombFriction", "QuadraticDrag")
+    judged = judge(last.machine, last.fit.point)
+    findings = [Finding(Ranked(c, c.fit, -100.0), None, judged, judged) for c in candidates]
+    floor = noise_floor(case, case.validate, believed.noise)
+    search = Search(case, [], Lead(), floor, last.machine.amendment, last.fit, judged, findings)
+    search._drop_needless(lambda text: None)
+    assert [f.ranked.attachment.effect.name for f in search.findings] == ["CoulombFriction"]
+    assert [a.effect.name for a in search.amendment.attachments] == ["CoulombFriction"]
+    assert search.fit.machine.amendment.attachments == [candidates[0].attachment]
