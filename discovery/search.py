@@ -145,7 +145,7 @@ class Search:
         if polished is None:
             return
         saved = price(own.candidate, base, naming.correlation) - price(best.candidate, base, naming.correlation)
-        if polished.deviance(naming.correlation) - saved > self.fit.deviance(naming.correlation):
+        if polished.deviance(naming.correlation) - saved > self.fit.deviance(naming.correlation) + TIE:
             return
         after = try_judge(polished.machine, polished.point)
         if after is not None and pays(self.judgement.validate, after.validate, self.floor):
