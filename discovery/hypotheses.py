@@ -9,6 +9,8 @@ from .cases import Case
 from .catalogue import Effect
 from .places import Line, Shaft, Structure
 
+FINER = 4  # times, that an effect which samples may do so between the recordings' samples
+
 
 def enumerate_attachments(
     case: Case, structure: Structure, effects: list[Effect], amendment: Amendment
@@ -111,10 +113,16 @@ def _instead_of_part(case: Case, structure: Structure, effect: Effect) -> list[A
             location = _stage_of(structure, part.name) if effect.identifier.startswith("drive.") else part.name
             if effect.location:
                 location = part.name + effect.location[k % len(effect.location)]
-            if effect.interval:
-                values = (*values, (effect.interval, round(case.fit[0].interval, 9)))
-            result.append(Attachment(effect, part.name, location, part=part, values=values))
+            for interval in _intervals(case, effect):
+                result.append(Attachment(effect, part.name, location, part=part, values=(*values, *interval)))
     return result
+
+
+def _intervals(case: Case, effect: Effect) -> list[tuple[tuple[str, float], ...]]:
+    """For an effect that samples: that of the recordings, and a shorter one, since a loop closes between samples too."""
+    if not effect.interval:
+        return [()]
+    return [((effect.interval, round(case.fit[0].interval / n, 9)),) for n in (1, FINER)]
 
 
 def _stage_of(structure: Structure, source: str) -> str:
