@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from .cases import Case, Recording
-from .fit import Fit, falling_bandwidths, fit, nrmse
+from .fit import Fit, falling_bandwidths, fit
 from .least_squares import Free
 from .machine import Machine
 from .noise import Noise
@@ -20,8 +20,8 @@ from .objective import Objective
 ROUGH = 20  # events a second, from which fits are led
 HELD = 1  # which of the bandwidths holds the shafts while hypotheses are compared
 SHARES = (0.02, 0.04, 0.08, 0.16, 0.3, 0.55, 1.0)  # of the recordings' lengths, fitted one after the other
-LOST = 2.5  # level of every signal, from which the simulated motion may have run away
-ASTRAY = 0.2  # of every signal's spread, from which it has: edges are no longer where they were recorded
+LOST = 2.5  # level of a signal, from which the simulated motion is taken to have run away,
+FOLLOWED = 1.5  # unless another signal is below this level: that one's edges are where they were recorded
 EARLY = 0.16  # share on which the motion is still held fast by its beginning
 
 
@@ -80,15 +80,14 @@ class Lead:
             short = cut(case, share)
             here = machine if share == 1.0 else Machine(short, machine.amendment, machine.solver)
             found = fit(here, short.fit, base.noise, base.estimate.free, base.fixed, start=start)
-            if found is None or (kept is not base and min(found.level.values()) > lost and _astray(found)):
+            if found is None or (kept is not base and _astray(found, lost)):
                 break
             kept, start = found, found.point
         return kept
 
 
-def _astray(found: Fit) -> bool:
-    case = found.machine.case
-    return min(nrmse(case, case.fit, found.residuals).values()) > ASTRAY
+def _astray(found: Fit, lost: float) -> bool:
+    return max(found.level.values()) > lost and min(found.level.values()) > FOLLOWED
 
 
 def lead_for(case: Case, machine: Machine, values: Mapping[str, float]) -> Lead:
