@@ -31,7 +31,7 @@ ROUNDS = ((2, 2, 100), (2, 3, 10), (3, 3, 4), (10, 4, 2))  # (stages, iterations
 NEAR = 0.1  # share of the best gain, within which a hypothesis stays in the race
 NEAR_NOISE = 0.01  # the same, where the best one leaves noise
 FAINT = 0.03  # share of the best gain, that a hypothesis must have after the first round to stay
-HALF = 0.5  # of the best gain, that a simpler law, or a rival of one that leaves noise, must have at a first look
+HALF = 0.5  # of the best gain, that a simpler law must have at a first look to be fitted further
 GAINING = 0.1  # share of what parts it from the best, that one further away must have won in a round to stay
 SEVERAL_STARTS = 1  # rounds after which only the best start of each hypothesis goes on
 LED = 2  # hypotheses that are fitted again, led by trackers, where none has left noise
@@ -157,7 +157,7 @@ def _in_the_race(now: float, before: float | None, best: float, won: bool) -> bo
     if best >= 0:
         return True
     if before is None:
-        return now < (HALF if won else FAINT) * best
+        return now < FAINT * best
     near = NEAR_NOISE if won else NEAR
     return now - best < near * abs(best) or before - now > GAINING * (now - best)
 
