@@ -119,7 +119,7 @@ def _instead_of_part(case: Case, structure: Structure, effect: Effect) -> list[A
 
 
 def _intervals(case: Case, effect: Effect) -> list[tuple[tuple[str, float], ...]]:
-    """For an effect that samples: that of the recordings, and a shorter one, since a loop closes between samples too."""
+    """For an effect that samples: as the recordings do, and more often, since a loop closes between samples too."""
     if not effect.interval:
         return [()]
     return [((effect.interval, round(case.fit[0].interval / n, 9)),) for n in (1, FINER)]

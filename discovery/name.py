@@ -28,6 +28,7 @@ FIRST_ROUND = 8
 ENOUGH = 0.9  # of the promise of a law, that one which it contains must have to be tried in its stead
 STARTS = 3  # from which a hypothesis is fitted in the first round
 ROUNDS = ((2, 2, 100), (2, 3, 10), (3, 3, 4), (10, 4, 2))  # (stages, iterations, fits): successive halving
+LITTLE = 0.1  # share of the misfit, that a hypothesis has to explain before others are dropped for it
 NEAR = 0.1  # share of the best gain, within which a hypothesis stays in the race
 NEAR_NOISE = 0.01  # the same, where the best one leaves noise
 FAINT = 0.03  # share of the best gain, that a hypothesis must have after the first round to stay
@@ -145,8 +146,14 @@ def _halve(
         fitted |= {c.attachment.label: c for c in _best_starts(pool)}
         leader = min(fitted.values(), key=lambda c: score(c, base, correlation))
         best, won = score(leader, base, correlation), nearly_noise(leader.fit)
-        pool = [c for c in pool if _in_the_race(scores[id(c)], before.get(id(c)), best, won)]
+        if best < -LITTLE * _misfit(base, correlation):
+            pool = [c for c in pool if _in_the_race(scores[id(c)], before.get(id(c)), best, won)]
         before = scores
+
+
+def _misfit(base: Fit, correlation: dict[str, float]) -> float:
+    """How far a fit's deviance is above that of noise."""
+    return base.deviance(correlation) - sum(count / correlation[c] for c, count in base.counts().items())
 
 
 def _in_the_race(now: float, before: float | None, best: float, won: bool) -> bool:
@@ -154,8 +161,6 @@ def _in_the_race(now: float, before: float | None, best: float, won: bool) -> bo
 
     Where the best one leaves noise (`won`), others can but tie with it.
     """
-    if best >= 0:
-        return True
     if before is None:
         return now < FAINT * best
     near = NEAR_NOISE if won else NEAR

@@ -13,7 +13,7 @@ from .amend import Amendment
 from .beyond import explain_beyond
 from .cases import Case, CaseError
 from .comparison import MIN_GAIN
-from .evidence import is_noise, like_noise, outside_belief
+from .evidence import is_noise, like_noise, nearly_noise, outside_belief
 from .explanation import Explanation
 from .fit import Fit, believed, falling_bandwidths, fit, noise_of
 from .hypotheses import enumerate_attachments
@@ -177,10 +177,10 @@ def _better(one: Fit | None, other: Fit | None) -> Fit | None:
 
 
 def _nearer_belief(found: Fit) -> Fit:
-    """The fit begun anew with the parameters that left belief put back there: a dip must not pass for a finding."""
+    """A fit that leaves noise, begun anew with the parameters that left belief put back there: a dip is no finding."""
     free, recordings = found.estimate.free, found.machine.case.fit
     outside = outside_belief(found)
-    if not outside:
+    if not outside or not nearly_noise(found):
         return found
     start = found.point | {f.name: f.centre for f in free if f.name in outside}
     other = fit(found.machine, recordings, found.noise, free, found.fixed, start=start)
