@@ -21,19 +21,12 @@ from .fit import Fit, falling_bandwidths, fit
 from .least_squares import WORKERS, Free
 from .machine import try_machine
 from .places import Shaft
+from .race import best_starts, first_round, relatives, still_in
 from .screen import Candidate, Screen, prepare, telling_recordings
 from .tracking import trackable
 
-FIRST_ROUND = 8
-ENOUGH = 0.9  # of the promise of a law, that one which it contains must have to be tried in its stead
-STARTS = 3  # from which a hypothesis is fitted in the first round
 ROUNDS = ((2, 2, 100), (2, 3, 10), (3, 3, 4), (10, 4, 2))  # (stages, iterations, fits): successive halving
-LITTLE = 0.1  # share of the misfit, that a hypothesis has to explain before others are dropped for it
-NEAR = 0.1  # share of the best gain, within which a hypothesis stays in the race
-NEAR_NOISE = 0.01  # the same, where the best one leaves noise
-FAINT = 0.03  # share of the best gain, that a hypothesis must have after the first round to stay
 HALF = 0.5  # of the best gain, that a simpler law must have at a first look to be fitted further
-GAINING = 0.1  # share of what parts it from the best, that one further away must have won in a round to stay
 SEVERAL_STARTS = 1  # rounds after which only the best start of each hypothesis goes on
 LED = 2  # hypotheses that are fitted again, led by trackers, where none has left noise
 
@@ -102,13 +95,13 @@ def compete(
     progress: Progress = lambda text: None,
 ) -> Naming:  # fmt: skip
     """Fit and rank candidates (most promising first) on top of `base`."""
-    screened = [(c.attachment.label, c.predicted) for c in _best_starts(candidates)]
+    screened = [(c.attachment.label, c.predicted) for c in best_starts(candidates)]
     fitted: dict[str, Candidate] = {}
-    first = _first_round(candidates)
+    first = first_round(candidates)
     _halve(case, base, first, bandwidths, fitted, progress)
-    relatives = _relatives(candidates, fitted)
-    _halve(case, base, relatives, bandwidths, fitted, progress)
-    failed = dict.fromkeys(c.attachment.label for c in [*first, *relatives] if c.attachment.label not in fitted)
+    related = relatives(candidates, fitted)
+    _halve(case, base, related, bandwidths, fitted, progress)
+    failed = dict.fromkeys(c.attachment.label for c in [*first, *related] if c.attachment.label not in fitted)
     failures = [(label, "no simulation succeeded from its start values") for label in failed]
     if not fitted:
         return Naming([], screened, failures)
@@ -129,7 +122,7 @@ def _halve(
     """Fit a pool by successive halving; the best start of each hypothesis ends in `fitted`."""
     before: dict[int, float] = {}
     for k, (stages, iterations, keep) in enumerate(ROUNDS):
-        pool = (pool if k <= SEVERAL_STARTS else _best_starts(pool))[:keep]
+        pool = (pool if k <= SEVERAL_STARTS else best_starts(pool))[:keep]
         with ThreadPoolExecutor(WORKERS) as workers:
             fits = workers.map(partial(fit_candidate, case, base, bandwidths, stages, iterations), pool)
             for candidate, found in zip(pool, fits, strict=True):
@@ -141,93 +134,12 @@ def _halve(
         correlation = best_correlation([*fitted.values(), *pool])
         scores = {id(c): score(c, base, correlation) for c in pool}
         pool.sort(key=lambda c: scores[id(c)])
-        for c in _best_starts(pool):
+        for c in best_starts(pool):
             progress(f"fitted {c.attachment.label}: {scores[id(c)]:.1f}")
-        fitted |= {c.attachment.label: c for c in _best_starts(pool)}
+        fitted |= {c.attachment.label: c for c in best_starts(pool)}
         leader = min(fitted.values(), key=lambda c: score(c, base, correlation))
-        best, won = score(leader, base, correlation), nearly_noise(leader.fit)
-        if best < -LITTLE * _misfit(base, correlation):
-            pool = [c for c in pool if _in_the_race(scores[id(c)], before.get(id(c)), best, won)]
+        pool = still_in(pool, scores, before, leader.fit, score(leader, base, correlation), base, correlation)
         before = scores
-
-
-def _misfit(base: Fit, correlation: dict[str, float]) -> float:
-    """How far a fit's deviance is above that of noise."""
-    return base.deviance(correlation) - sum(count / correlation[c] for c, count in base.counts().items())
-
-
-def _in_the_race(now: float, before: float | None, best: float, won: bool) -> bool:
-    """Whether a score may still become the best: near it, or still gaining on it (`before` is that of a round ago).
-
-    Where the best one leaves noise (`won`), others can but tie with it.
-    """
-    if before is None:
-        return now < FAINT * best
-    near = NEAR_NOISE if won else NEAR
-    return now - best < near * abs(best) or before - now > GAINING * (now - best)
-
-
-def _relatives(candidates: list[Candidate], fitted: dict[str, Candidate]) -> list[Candidate]:
-    """Not yet fitted: laws that the best hypothesis contains, laws that contain it (from where it ended, too) and,
-    where it leaves more than noise, its other forms."""
-    if not fitted:
-        return []
-    best = min(fitted.values(), key=lambda c: c.fit.deviance())
-    other_forms = not nearly_noise(best.fit)
-    own = best.attachment
-    new = [c for c in candidates if c.attachment.location == own.location and c.attachment.label not in fitted]
-    richer = [c for c in new if c.attachment.contains(own)]
-    alike = [
-        c for c in new
-        if own.contains(c.attachment) or (other_forms and c.attachment.effect.identifier == own.effect.identifier)
-    ]  # fmt: skip
-    found = [*(_enriched(c, best) for c in _best_starts(richer)), *richer, *alike]
-    labels = [c.attachment.label for c in found]
-    return [c for k, c in enumerate(found) if labels[:k].count(labels[k]) < STARTS]
-
-
-def _enriched(candidate: Candidate, best: Candidate) -> Candidate:
-    """A law that contains the best one, begun where that one ended: its levels equal, what it adds at nothing."""
-    own, effect, full = best.attachment, candidate.attachment.effect, candidate.attachment.full_name
-    point = best.fit.point
-    start = candidate.start | {n: v for n, v in point.items() if not n.startswith(f"{own.component}.")}
-    shared = {p.name: point[own.full_name(p.name)] for p in own.effect.parameters if own.full_name(p.name) in point}
-    if len(shared) == 1:
-        shared |= dict.fromkeys(effect.levels, next(iter(shared.values())))
-    added = {n: v for n, v in effect.neutral.items() if n not in effect.polar}
-    start |= {full(n): v for n, v in (added | shared).items() if full(n) in start}
-    return replace(candidate, start=start)
-
-
-def _best_starts(candidates: list[Candidate]) -> list[Candidate]:
-    """Of candidates in order, the first of each attachment."""
-    return list({c.attachment.label: c for c in reversed(candidates)}.values())[::-1]
-
-
-def _first_round(candidates: list[Candidate]) -> list[Candidate]:
-    """The most promising hypotheses, and the best of each physics that explains at least a quarter of the best.
-
-    Each is tried from several starts: where events make the response rough, promise to first order can mislead. A law
-    that promises hardly more than one that it contains waits for that one to win.
-    """
-    chosen: dict[str, int] = {}
-    seen: set[str] = set()
-    every = _best_starts(candidates)
-    for candidate in every:
-        simpler = [c for c in every if candidate.attachment.contains(c.attachment)]
-        if any(c.predicted > ENOUGH * candidate.predicted for c in simpler):
-            continue
-        identifier = candidate.attachment.effect.identifier
-        late = identifier not in seen and candidate.predicted > 0.25 * candidates[0].predicted
-        if len(chosen) < FIRST_ROUND or late:
-            chosen[candidate.attachment.label] = STARTS
-            seen.add(identifier)
-    pool = []
-    for candidate in candidates:
-        if chosen.get(candidate.attachment.label, 0) > 0:
-            chosen[candidate.attachment.label] -= 1
-            pool.append(candidate)
-    return pool
 
 
 def fit_candidate(

@@ -17,8 +17,8 @@ from discovery.fit import Fit, fit
 from discovery.judge import judge, noise_floor
 from discovery.lead import Lead
 from discovery.machine import Machine
-from discovery.name import _enriched, _first_round, _in_the_race
 from discovery.places import read
+from discovery.race import _enriched, first_round, in_the_race
 from discovery.screen import Candidate, Screen, prepare
 from discovery.search import Finding, Search
 from discovery.steps import fit_believed
@@ -62,7 +62,7 @@ def test_a_law_waits_for_a_simpler_one_that_promises_as_much(
 ) -> None:
     case = load(friction_case)
     pool = [candidate(case, "StribeckFriction", 0.96), candidate(case, "CoulombFriction", simpler)]
-    assert [c.attachment.effect.identifier for c in _first_round(pool)] == chosen
+    assert [c.attachment.effect.identifier for c in first_round(pool)] == chosen
 
 
 def test_a_richer_law_begins_where_the_one_it_contains_has_ended(friction_case: Path) -> None:
@@ -77,11 +77,11 @@ def test_a_richer_law_begins_where_the_one_it_contains_has_ended(friction_case: 
 
 
 def test_the_race_is_shorter_once_a_hypothesis_leaves_noise() -> None:
-    assert _in_the_race(-100.0, None, -1000.0, won=False)
-    assert _in_the_race(-100.0, None, -1000.0, won=True)
-    assert _in_the_race(-950.0, -950.0, -1000.0, won=False)
-    assert not _in_the_race(-950.0, -950.0, -1000.0, won=True)
-    assert _in_the_race(-800.0, -700.0, -1000.0, won=True)
+    assert in_the_race(-100.0, None, -1000.0, won=False)
+    assert in_the_race(-100.0, None, -1000.0, won=True)
+    assert in_the_race(-950.0, -950.0, -1000.0, won=False)
+    assert not in_the_race(-950.0, -950.0, -1000.0, won=True)
+    assert in_the_race(-800.0, -700.0, -1000.0, won=True)
 
 
 def test_two_effects_that_pay_only_together_are_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
