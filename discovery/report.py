@@ -143,7 +143,7 @@ def _located(located: Located) -> list[str]:
     figure.tight_layout()
     rows = [[p.location, p.kind, f"{p.explained:.1%}"] for p in located.places]
     said = found.sentence
-    note = f"<p>{escape(said[0].upper() + said[1:])}.</p>"
+    note = f"<p>{escape(said[0].upper() + said[1:])}. Fast changes show smaller than they are.</p>"
     return [
         "<h2>Where effort is missing</h2>",
         _table(["place", "effort", "misfit explained"], rows),
@@ -186,9 +186,9 @@ def _rivals(result: Explanation) -> list[str]:
                  _leaves(r.candidate.fit)] for r in naming.ranked[:10]]  # fmt: skip
         header = ["hypothesis", "evidence behind the best", "confidence", "parameters", "leaves"]
         parts += [f"<h2>Hypotheses fitted, round {k + 1}</h2>", _table(header, rows)]
-        rest = ", ".join(
-            f"{label} ({share:.0%})" for label, share in naming.screened[len(naming.ranked) : len(naming.ranked) + 12]
-        )
+        tried = {r.attachment.label for r in naming.ranked}
+        others = [(label, share) for label, share in naming.screened if label not in tried][:12]
+        rest = ", ".join(f"{label} ({share:.0%})" for label, share in others)
         parts.append(f"<p>Screened out (share of the misfit they could explain): {escape(rest)}.</p>")
         parts += _failures(naming)
     return parts
