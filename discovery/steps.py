@@ -23,7 +23,7 @@ from .locate import locate
 from .machine import Machine
 from .name import rank
 from .recordings_check import check_case
-from .search import MAX_FINDINGS, Search
+from .search import Search
 from .semantic_check import check_against_model
 from .tracking import trackable
 
@@ -97,9 +97,11 @@ def add_amendment(result: Explanation, library: Library, effect: str, progress: 
 def add_findings(result: Explanation, library: Library, progress: Progress) -> None:
     """Findings until what is left is noise or nothing pays: of the catalogue, then an empirical law."""
     search = _search(result, catalogue.read(library))
-    search.run(progress, most=1 if like_noise(result.base) else MAX_FINDINGS)
+    search.run(progress, most=1)
     if search.lead.direct and max(search.fit.level.values()) > FAR:
         search = _held(result, search, progress) or search
+    if not like_noise(result.base):
+        search.run(progress)
     explain_beyond(search, result.base, result.before, progress)
     _take(result, search)
 
@@ -107,7 +109,7 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
 def _held(result: Explanation, direct: Search, progress: Progress) -> Search | None:
     """The search begun anew with recorded shafts held near their motion; None where it ends no better.
 
-    Where the findings leave far more than noise, all hypotheses may have ended in a dip of a rough sum of squares:
+    Where the first finding leaves far more than noise, every hypothesis may have ended in a dip of rough ground:
     an output error grows with the recording, and what is missing near its beginning decides all that follows.
     """
     case, structure = result.case, result.amendment.structure
@@ -123,7 +125,7 @@ def _held(result: Explanation, direct: Search, progress: Progress) -> Search | N
         return None
     before = judge(machine, base.point)
     search = Search(case, direct.effects, lead, result.floor, machine.amendment, base, before)
-    search.run(progress)
+    search.run(progress, most=1)
     correlation = search.fit.correlation()
     if not search.findings or search.fit.deviance(correlation) > direct.fit.deviance(correlation) - MIN_GAIN:
         return None
