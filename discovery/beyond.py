@@ -27,13 +27,14 @@ Progress = Callable[[str], None]
 
 
 def explain_beyond(search: Search, base: Fit, before: Judgement, progress: Progress) -> None:
-    """Where a search has not found all: a law in place of its findings or beside them.
+    """Go on with a search after its first round; then a law in place of its findings or beside them.
 
     `base` and `before` are the believed model's fit and judgement. Where several effects together leave noise, one
     group of terms is tried that could stand for them all; where they do not, longer laws too.
     """
     if search.settled() or like_noise(base):
         return
+    search.run(progress)
     explained = bool(search.findings) and (search.settled() or nearly_noise(search.fit))
     if explained and len(search.findings) == 1:
         return

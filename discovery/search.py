@@ -85,12 +85,13 @@ class Search:
             return False
         after = try_judge(polished.machine, polished.point)
         if after is None:
+            self.reason = _does_not_pay(best)
             return False
         trial = replace(self, findings=[*self.findings, Finding(best, naming, self.judgement, after)])
         best.fit = polished
         trial.take([*self.amendment.attachments, best.attachment], polished, after)
-        if not self._better(trial) and not (trial.add_another(progress) and self._better(trial)):
-            self.reason = f"{best.attachment.label} fits better but does not pay on the validation recordings"
+        if not self._better(trial) and not (trial._add_another(progress) and self._better(trial)):
+            self.reason = _does_not_pay(best)
             return False
         self.findings[:] = trial.findings
         self.take(trial.amendment.attachments, trial.fit, trial.judgement)
@@ -99,7 +100,7 @@ class Search:
     def _better(self, other: Search) -> bool:
         return pays(self.judgement.validate, other.judgement.validate, self.floor)
 
-    def add_another(self, progress: Progress) -> bool:
+    def _add_another(self, progress: Progress) -> bool:
         """A second effect beside a first one that does not pay alone: hidden together, each may need the other."""
         if len(self.findings) > 1 or nearly_noise(self.fit) or not self.add(progress):
             return False
@@ -205,3 +206,7 @@ class Search:
             if finding.ranked.attachment.contains(a) and a.label not in tried
         ]  # fmt: skip
         return result + screen_all(held.machine.case, without, simpler, held, lambda text: None)[0]
+
+
+def _does_not_pay(ranked: Ranked) -> str:
+    return f"{ranked.attachment.label} fits better but does not pay on the validation recordings"

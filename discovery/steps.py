@@ -13,7 +13,7 @@ from .amend import Amendment
 from .beyond import explain_beyond
 from .cases import Case, CaseError
 from .comparison import MIN_GAIN
-from .evidence import is_noise, like_noise, nearly_noise, outside_belief
+from .evidence import is_noise, nearly_noise, outside_belief
 from .explanation import Explanation
 from .fit import Fit, believed, falling_bandwidths, fit, noise_of
 from .hypotheses import enumerate_attachments
@@ -100,8 +100,6 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
     search.run(progress, most=1)
     if search.lead.direct and max(search.fit.level.values()) > FAR:
         search = _held(result, search, progress) or search
-    if not like_noise(result.base):
-        search.run(progress)
     explain_beyond(search, result.base, result.before, progress)
     _take(result, search)
 
