@@ -9,7 +9,7 @@ from .cases import Case
 from .catalogue import Effect
 from .places import Line, Shaft, Structure
 
-FINER = 4  # times, that an effect which samples may do so between the recordings' samples
+FINER = 4  # times, that an effect which samples inside a loop may do so between the recordings' samples
 
 
 def enumerate_attachments(
@@ -107,26 +107,31 @@ def _instead_of_part(case: Case, structure: Structure, effect: Effect) -> list[A
     for part in structure.parts.values():
         if part.ancestors[0] != effect.replaces:
             continue
-        if effect.identifier.startswith("drive.") and structure.lines and "TwoPin" not in part.ancestors:
+        if effect.identifier.startswith("drive.") and structure.lines and "TorqueSource" in part.ancestors:
             continue  # where an electric machine drives, a source of torque is a load
         for k, values in enumerate(_values(effect)):
             location = _stage_of(structure, part.name) if effect.identifier.startswith("drive.") else part.name
             if effect.location:
                 location = part.name + effect.location[k % len(effect.location)]
-            for interval in _intervals(case, effect):
+            for interval in _intervals(case, effect, part.name in structure.driven):
                 result.append(Attachment(effect, part.name, location, part=part, values=(*values, *interval)))
     return result
 
 
-def _intervals(case: Case, effect: Effect) -> list[tuple[tuple[str, float], ...]]:
-    """For an effect that samples: as the recordings do, and more often, since a loop closes between samples too."""
+def _intervals(case: Case, effect: Effect, driven: bool) -> list[tuple[tuple[str, float], ...]]:
+    """For an effect that samples: as the recordings do and, inside a loop, which closes between samples, finer too."""
     if not effect.interval:
         return [()]
-    return [((effect.interval, round(case.fit[0].interval / n, 9)),) for n in (1, FINER)]
+    return [((effect.interval, round(case.fit[0].interval / n, 9)),) for n in ((1,) if driven else (1, FINER))]
 
 
 def _stage_of(structure: Structure, source: str) -> str:
-    """The power stage that a source feeds: an inverter between it and the machine, else the source itself."""
+    """The power stage that a source feeds: an inverter between it and the machine, else the source itself.
+
+    A controller belongs to the stage of the machine that it controls.
+    """
+    if structure.lines and "TwoPin" not in structure.parts[source].ancestors:
+        return structure.lines[0].source
     neighbours = [
         other.split(".")[0]
         for left, right in structure.connections

@@ -73,6 +73,7 @@ class Structure:
     shafts: list[Shaft] = field(default_factory=list)
     lines: list[Line] = field(default_factory=list)
     devices: list[Device] = field(default_factory=list)
+    driven: set[str] = field(default_factory=set)  # parts that an input of the model drives: what they do changes none
 
     def shaft_of(self, flange: str) -> Shaft | None:
         return next((s for s in self.shafts if flange in s.members), None)
@@ -110,9 +111,19 @@ def read(library: Library, model: str) -> Structure:
         for item in section.items:
             if isinstance(item, ast.Connect):
                 structure.connections.append((written(item.left), written(item.right)))
+            elif isinstance(item, ast.Equality) and isinstance(item.left, ast.Ref) and _of_inputs(item, top):
+                structure.driven.add(str(item.left).split(".")[0])
     structure.shafts = _shafts(structure, instances)
     structure.lines = _lines(structure, instances)
     return structure
+
+
+def _of_inputs(equation: ast.Equality, top: Instance) -> bool:
+    """Whether the right side is made of inputs of the model and parameters alone."""
+    names = {n.split(".")[0] for n in re.findall(r"[A-Za-z_][\w.]*", equation.text.partition("=")[2])}
+    declared = [e.declaration for name, e in top.elements.items() if name in names]
+    inputs = [d for d in declared if d.causality == "input"]
+    return bool(inputs) and all(d.causality == "input" or d.variability for d in declared)
 
 
 def _modification_text(declaration: ast.Component) -> str:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from .amend import Amendment, Attachment
 from .cases import Case
 from .catalogue import Effect
-from .comparison import MIN_GAIN, TIE, Ranked, price
+from .comparison import CLOSE, MIN_GAIN, TIE, Ranked, price
 from .evidence import nearly_noise, pays, settled
 from .fit import Fit, fit
 from .hypotheses import enumerate_attachments
@@ -79,8 +79,7 @@ class Search:
         best = naming.best
         if best is None or best.score > -MIN_GAIN:
             return False
-        progress(f"polishing {best.attachment.label}")
-        polished = self.polished(best, self.fit)
+        best, polished = self._simplest_released(best, naming, progress)
         if polished is None:
             return False
         after = try_judge(polished.machine, polished.point)
@@ -96,6 +95,23 @@ class Search:
         self.findings[:] = trial.findings
         self.take(trial.amendment.attachments, trial.fit, trial.judgement)
         return True
+
+    def _simplest_released(self, best: Ranked, naming: Naming, progress: Progress) -> tuple[Ranked, Fit | None]:
+        """Of the best law and those that it contains, all released, the one with the least deviance and price.
+
+        While shafts are held, what a law has beyond a simpler one may only have stood for the hold.
+        """
+        within = best.score + CLOSE * abs(best.score)
+        simpler = [r for r in naming.ranked if best.attachment.contains(r.attachment) and r.score < within]
+        released = []
+        for ranked in [best] if self.lead.direct else [best, *simpler]:
+            progress(f"polishing {ranked.attachment.label}")
+            polished = self.polished(ranked, self.fit)
+            released += [(ranked, polished)] if polished is not None else []
+        if not released:
+            return best, None
+        correlation = released[0][1].correlation()
+        return min(released, key=lambda rf: rf[1].deviance(correlation) + price(rf[0].candidate, self.fit, correlation))
 
     def _better(self, other: Search) -> bool:
         return pays(self.judgement.validate, other.judgement.validate, self.floor)

@@ -103,8 +103,8 @@ def test_every_effect_attaches_wherever_it_may_sit(
 SMALL = {  # parameters with which an effect leaves hardly anything
     "Compliance": {"c": 1e3, "d": 1e-4, "share": 0.1},
     "ShaftBacklash": {"play": 0.0, "c": 1e3, "d": 1e-4, "share": 0.1},
-    "DriveDelay": {"T_d": 1e-3},
-    "TorqueDelay": {"T_d": 1e-3},
+    "DriveDelay": {"T_d": 0.0},
+    "TorqueDelay": {"T_d": 0.0},
 }
 
 
@@ -123,6 +123,33 @@ def test_a_small_effect_leaves_the_bench_as_it_was(
     before = _response(f"Benches.{bench}", bench, {})
     after = _response(str(_write(plain, attachment, tmp_path, 0)), bench, parameters)
     assert after == pytest.approx(before, abs=0.02 * float(np.ptp(before)))
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.4e-3, 1e-3, 3.3e-3])
+def test_a_delayed_command_is_the_command_recorded_later(
+    library: Library, effects: list[catalogue.Effect], delay: float, tmp_path: Path
+) -> None:
+    """Against the believed model, whose command is written that much later: exact between samples, and within one."""
+    plain, attachments = _attachments(library, effects, "ScrewEma")
+    attachment = next(a for a in attachments if a.effect.name == "CommandDelay")
+    assert (attachment.effect.identifier, attachment.location) == ("drive.delay", "drive")
+    time = np.arange(301) * 1e-3
+    command = RecordedInput(time, 0.02 + 0.01 * np.sin(40 * time))
+    later = RecordedInput(np.append(0.0, time + delay + 1e-12), np.append(0.02, command.values))
+    values = {attachment.full_name("T_d"): delay, attachment.full_name("interval"): 1e-3}
+    delayed = _surface(str(_write(plain, attachment, tmp_path, 0)), command, values)
+    assert delayed == pytest.approx(_surface("Benches.ScrewEma", later, {}), abs=1e-6 * float(np.ptp(delayed)))
+
+
+def _surface(model: str, command: RecordedInput, parameters: dict[str, float]) -> np.ndarray:
+    """The surface of the servo (n,) as it follows a command, without load."""
+    time = np.arange(301) * 1e-3
+    result = simulate(
+        Model(compile_model(model).path), solver="dopri5", parameters=parameters, stop=0.3, output_times=time,
+        inputs={"theta_cmd": command, "T_aero": RecordedInput(time, np.zeros(301))}, outputs=["ths"], events=False,
+        rtol=1e-9,
+    )  # fmt: skip
+    return np.array(result["ths"])
 
 
 def _response(model: str, bench: str, parameters: dict[str, float]) -> np.ndarray:
