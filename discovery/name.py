@@ -26,7 +26,7 @@ from .screen import Candidate, Screen, prepare, telling_recordings
 from .tracking import trackable
 
 ROUNDS = ((2, 2, 100), (2, 3, 10), (3, 3, 4), (10, 4, 2))  # (stages, iterations, fits): successive halving
-HALF = 0.5  # of the best gain, that a simpler law must have at a first look to be fitted further
+HALF = 0.5  # of the best gain, that a hypothesis must have to be fitted further: a simpler law, or one to be led
 SEVERAL_STARTS = 1  # rounds after which only the best start of each hypothesis goes on
 LED = 2  # hypotheses that are fitted again, led by trackers, where none has left noise
 
@@ -165,10 +165,11 @@ def _lead(case: Case, base: Fit, candidates: list[Candidate], progress: Progress
     Stick and slip make the sum of squares rough: a fit that starts far away can end in one of its many dips.
     """
     ordered = sorted(candidates, key=lambda c: c.fit.deviance())
+    far = base.deviance() - HALF * (base.deviance() - ordered[0].fit.deviance())
     shafts = trackable(case, base.machine.model, base.machine.amendment.structure)
     if not shafts or base.machine.amendment.trackers or nearly_noise(ordered[0].fit):
         return
-    for candidate in ordered[:LED]:
+    for candidate in [c for c in ordered[:LED] if c.fit.deviance() <= far]:
         progress(f"leading {candidate.attachment.label}")
         found = _fit_led(case, base, candidate, shafts)
         if found is not None and found.deviance() < candidate.fit.deviance():

@@ -13,6 +13,7 @@ from .screen import Candidate
 
 FIRST_ROUND = 8
 ENOUGH = 0.9  # of the promise of a law, that one which it contains must have to be tried in its stead
+HALF = 0.5  # of the promise of the best hypothesis, that another form of it must have to be tried
 STARTS = 3  # from which a hypothesis is fitted in the first round
 LITTLE = 0.1  # share of the misfit, that a hypothesis has to explain before others are dropped for it
 NEAR = 0.1  # share of the best gain, within which a hypothesis stays in the race
@@ -53,13 +54,15 @@ def relatives(candidates: list[Candidate], fitted: dict[str, Candidate]) -> list
     if not fitted:
         return []
     best = min(fitted.values(), key=lambda c: c.fit.deviance())
-    other_forms = not nearly_noise(best.fit)
     own = best.attachment
+    promise = max(c.predicted for c in candidates if c.attachment.label == own.label)
+    least = float("inf") if nearly_noise(best.fit) else HALF * promise
     new = [c for c in candidates if c.attachment.location == own.location and c.attachment.label not in fitted]
     richer = [c for c in new if c.attachment.contains(own)]
     alike = [
         c for c in new
-        if own.contains(c.attachment) or (other_forms and c.attachment.effect.identifier == own.effect.identifier)
+        if own.contains(c.attachment)
+        or (c.attachment.effect.identifier == own.effect.identifier and c.predicted > least)
     ]  # fmt: skip
     found = [*(_enriched(c, best) for c in best_starts(richer)), *richer, *alike]
     labels = [c.attachment.label for c in found]
