@@ -15,6 +15,9 @@ from cli.errors import reported
 def explain(
     case: Annotated[Path, typer.Argument(metavar="CASE", help="Folder with case.toml and its recordings")],
     out: Annotated[Path | None, typer.Option(help="Folder of the results; default: out/explain/CASE")] = None,
+    limit: Annotated[
+        float, typer.Option(min=0, metavar="SECONDS", help="Stop searching after this time; what was found stands")
+    ] = 600.0,
 ) -> None:
     """Say which physics the believed model of CASE lacks, or that it lacks none, or that the data cannot tell.
 
@@ -30,7 +33,7 @@ def explain(
     loaded = cases.load(case)
     folder = out or Path("out/explain") / case.resolve().name
     with Console(stderr=True).status("reading the recordings") as status, kept(folder / ".unfinished"):
-        result = explained(loaded, progress=status.update)
+        result = explained(loaded, progress=status.update, limit=limit)
     amended = write_amended(result, folder)
     if amended is not None:
         judge_written(result, amended)

@@ -15,23 +15,29 @@ from .experiments import separate
 from .explanation import Clock, Explanation
 from .judge import judge_file
 from .steps import add_findings, add_fit, add_location, opened
+from .time_limit import limited
 
 Progress = Callable[[str], None]
 
 
-def explain(case: Case, progress: Progress = lambda text: None, library: Library | None = None) -> Explanation:
-    """Explain a case. Raises CaseError where model and case do not fit, Diagnostic where the model is wrong."""
+def explain(
+    case: Case, progress: Progress = lambda text: None, library: Library | None = None, limit: float | None = None
+) -> Explanation:
+    """Explain a case; after `limit` seconds no search goes on, and what was found stands.
+
+    Raises CaseError where model and case do not fit, Diagnostic where the model is wrong.
+    """
     library = library or Library()
     result, machine = opened(case, library)
     if machine is None:
         return result
-    clock = Clock(result.seconds)
+    clock, search_progress = Clock(result.seconds), limited(progress, limit)
     add_fit(result, machine, progress)
     clock.done("fit")
     if not is_noise(result.base):
         add_location(result, progress)
         clock.done("locate")
-    add_findings(result, library, progress)
+    add_findings(result, library, search_progress)
     clock.done("name")
     _conclude(result)
     return result

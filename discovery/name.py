@@ -124,7 +124,7 @@ def _halve(
     for k, (stages, iterations, keep) in enumerate(ROUNDS):
         pool = (pool if k <= SEVERAL_STARTS else best_starts(pool))[:keep]
         with ThreadPoolExecutor(WORKERS) as workers:
-            fits = workers.map(partial(fit_candidate, case, base, bandwidths, stages, iterations), pool)
+            fits = workers.map(partial(_fitted, case, base, bandwidths, stages, iterations, progress), pool)
             for candidate, found in zip(pool, fits, strict=True):
                 better = candidate.fit is None or (found is not None and found.deviance() < candidate.fit.deviance())
                 candidate.fit = found if better else candidate.fit
@@ -140,6 +140,14 @@ def _halve(
         leader = min(fitted.values(), key=lambda c: score(c, base, correlation))
         pool = still_in(pool, scores, before, leader.fit, score(leader, base, correlation), base, correlation)
         before = scores
+
+
+def _fitted(
+    case: Case, base: Fit, bandwidths: tuple[float, ...], stages: int, iterations: int, progress: Progress,
+    candidate: Candidate,
+) -> Fit | None:  # fmt: skip
+    progress(f"fitting {candidate.attachment.label}")
+    return fit_candidate(case, base, bandwidths, stages, iterations, candidate)
 
 
 def fit_candidate(

@@ -227,6 +227,8 @@ def _left(result: Explanation) -> list[str]:
         if not left
         else "<ul>" + "".join(f"<li>{escape(t)}</li>" for t in left) + "</ul>"
     )
+    if result.findings and result.reason:
+        text += f"<p>Why the search went no further: {escape(result.reason)}.</p>"
     extra = f"<p>To decide: {escape(result.experiment)}.</p>" if result.experiment else ""
     return ["<h2>What remains unexplained</h2>", text + extra, *_trial(result)]
 

@@ -25,6 +25,7 @@ from .objective import STAGES
 from .screen import Candidate
 
 MAX_FINDINGS = 3
+FAR = 10.0  # level of a signal, in units of its noise, from which the best hypothesis is taken to have lost its way
 RECONSIDERED = 4  # rivals of an earlier finding that are tried again
 
 Progress = Callable[[str], None]
@@ -55,6 +56,7 @@ class Search:
     namings: list[Naming] = field(default_factory=list)
     reason: str = ""
     exhausted: bool = False
+    restarts: bool = False  # whether a search that has lost its way is begun anew
 
     def run(self, progress: Progress, most: int = MAX_FINDINGS) -> None:
         """Add findings, `most` of them, until what is left is noise, or nothing more pays."""
@@ -70,6 +72,10 @@ class Search:
     def settled(self) -> bool:
         """Whether nothing is left to look for."""
         return settled(self.fit, rough=not self.lead.direct)
+
+    def lost(self) -> bool:
+        """Whether fits that nothing has led leave so much that the search has to begin anew."""
+        return self.restarts and self.lead.direct and max(self.fit.level.values()) > FAR
 
     def add(self, progress: Progress) -> bool:
         attachments = enumerate_attachments(self.case, self.amendment.structure, self.effects, self.amendment)
@@ -118,7 +124,7 @@ class Search:
 
     def _add_another(self, progress: Progress) -> bool:
         """A second effect beside a first one that does not pay alone: hidden together, each may need the other."""
-        if len(self.findings) > 1 or nearly_noise(self.fit) or not self.add(progress):
+        if len(self.findings) > 1 or self.lost() or nearly_noise(self.fit) or not self.add(progress):
             return False
         self._reconsider(0, progress)
         return True

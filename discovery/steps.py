@@ -25,9 +25,8 @@ from .name import rank
 from .recordings_check import check_case
 from .search import Search
 from .semantic_check import check_against_model
+from .time_limit import TimeUp
 from .tracking import trackable
-
-FAR = 10.0  # level of a signal, in units of its noise, from which the best hypothesis is taken to have lost its way
 
 Progress = Callable[[str], None]
 
@@ -95,12 +94,19 @@ def add_amendment(result: Explanation, library: Library, effect: str, progress: 
 
 
 def add_findings(result: Explanation, library: Library, progress: Progress) -> None:
-    """Findings until what is left is noise or nothing pays: of the catalogue, then an empirical law."""
+    """Findings until what is left is noise or nothing pays: of the catalogue, then an empirical law.
+
+    Where `progress` raises TimeUp, what was found until then stands.
+    """
     search = _search(result, catalogue.read(library))
-    search.run(progress, most=1)
-    if search.lead.direct and max(search.fit.level.values()) > FAR:
-        search = _held(result, search, progress) or search
-    explain_beyond(search, result.base, result.before, progress)
+    search.restarts = bool(trackable(result.case, result.base.machine.model, result.amendment.structure))
+    try:
+        search.run(progress, most=1)
+        if search.lost():
+            search = _held(result, search, progress) or search
+        explain_beyond(search, result.base, result.before, progress)
+    except TimeUp as stopped:
+        search.reason = str(stopped)
     _take(result, search)
 
 

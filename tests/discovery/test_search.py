@@ -13,6 +13,7 @@ from discovery.amend import Amendment
 from discovery.cases import Case, load
 from discovery.catalogue import read as read_catalogue
 from discovery.comparison import Ranked
+from discovery.explain import explain
 from discovery.fit import Fit, fit
 from discovery.judge import judge, noise_floor
 from discovery.lead import Lead
@@ -22,6 +23,7 @@ from discovery.race import _enriched, first_round, in_the_race
 from discovery.screen import Candidate, Screen, prepare
 from discovery.search import Finding, Search
 from discovery.steps import fit_believed
+from discovery.time_limit import TimeUp
 
 from .conftest import BELIEVED, attachment, write_case
 
@@ -114,3 +116,18 @@ def test_a_finding_that_the_others_do_without_is_dropped(friction_case: Path) ->
     assert [f.ranked.attachment.effect.name for f in search.findings] == ["CoulombFriction"]
     assert [a.effect.name for a in search.amendment.attachments] == ["CoulombFriction"]
     assert search.fit.machine.amendment.attachments == [candidates[0].attachment]
+
+
+def test_a_search_that_runs_out_of_time_leaves_what_it_has_found(friction_case: Path) -> None:
+    case = load(friction_case)
+    stopped = explain(case, limit=0.0)
+    assert (stopped.verdict, stopped.findings) == ("undetermined", [])
+    assert "stopped after 0 s" in stopped.reason
+    rounds: list[str] = []
+
+    def until_second_round(text: str) -> None:
+        rounds.extend([text] if text.startswith("polishing") else [])
+        if rounds and not text.startswith("polishing"):
+            raise TimeUp("the search was stopped")
+
+    assert [f.ranked.identity for f in explain(case, until_second_round).findings] == [("friction.coulomb", "shaft")]
