@@ -44,6 +44,7 @@ def find(
         here, law = (base, None) if best is None else (best.candidate.fit, best.law)
         proposals = screened(case, here, law, efforts, progress)
         for proposal in proposals[:FITTED]:
+            progress(f"fitting a law at {proposal.law.site.location}")
             proposal.candidate = _fitted(case, amendment, base, proposal.law, proposal.start)
         fitted = [p for p in proposals[:FITTED] if p.candidate is not None]
         if not fitted:

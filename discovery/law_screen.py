@@ -75,6 +75,7 @@ def screened(case: Case, here: Fit, law: Law | None, efforts: list[Effort], prog
             continue
         known = law.groups if law else ()
         for group in groups(list(effort.site.variables), duration):
+            progress(f"screening terms at {effort.site.location}")
             columns = effort.columns(group, screen.weights)
             share, coefficients = screen.explained(columns)
             found.append((share, _proposal(Law(effort.site, (*known, group)), here, coefficients), columns))
