@@ -10,10 +10,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+
 from .amend import Amendment, Attachment
 from .cases import Case
 from .catalogue import Effect
-from .comparison import CLOSE, MIN_GAIN, TIE, Ranked, price
+from .comparison import CLOSE, MIN_GAIN, TIE, Ranked, confidences, price
 from .evidence import nearly_noise, pays, settled
 from .fit import Fit, fit
 from .hypotheses import enumerate_attachments
@@ -117,7 +119,13 @@ class Search:
         if not released:
             return best, None
         correlation = released[0][1].correlation()
-        return min(released, key=lambda rf: rf[1].deviance(correlation) + price(rf[0].candidate, self.fit, correlation))
+        paid = [f.deviance(correlation) + price(r.candidate, self.fit, correlation) for r, f in released]
+        chosen, polished = released[int(np.argmin(paid))]
+        if chosen is not best:
+            chosen.score = best.score - (paid[0] - min(paid))
+            naming.ranked.sort(key=lambda r: r.score)
+            confidences(naming.ranked)
+        return chosen, polished
 
     def _better(self, other: Search) -> bool:
         return pays(self.judgement.validate, other.judgement.validate, self.floor)

@@ -18,6 +18,7 @@ from discovery.fit import Fit, fit
 from discovery.judge import judge, noise_floor
 from discovery.lead import Lead
 from discovery.machine import Machine
+from discovery.name import Naming
 from discovery.places import read
 from discovery.race import _enriched, first_round, in_the_race
 from discovery.screen import Candidate, Screen, prepare
@@ -131,3 +132,23 @@ def test_a_search_that_runs_out_of_time_leaves_what_it_has_found(friction_case: 
             raise TimeUp("the search was stopped")
 
     assert [f.ranked.identity for f in explain(case, until_second_round).findings] == [("friction.coulomb", "shaft")]
+
+
+def test_once_released_a_law_has_to_beat_the_simpler_one_it_contains(
+    friction_case: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Held, the richer law leads by 100; released, both leave the same, and the price of its parameters decides."""
+    case = load(friction_case)
+    base, _, coulomb = fitted(case, "CoulombFriction")
+    _, _, stribeck = fitted(case, "StribeckFriction")
+    held = [Ranked(stribeck, stribeck.fit, -3000.0, 1.0), Ranked(coulomb, coulomb.fit, -2900.0, 0.0)]
+    monkeypatch.setattr(Search, "polished", lambda self, ranked, base: ranked.fit)
+    floor = noise_floor(case, case.validate, base.noise)
+    before = judge(base.machine, base.point)
+    search = Search(case, [], Lead((10.0, 0.0)), floor, base.machine.amendment, base, before)
+    naming = Naming(held, [])
+    best, found = search._simplest_released(held[0], naming, lambda text: None)
+    assert best.identity == ("friction.coulomb", "shaft")
+    assert found is coulomb.fit
+    assert naming.best is best
+    assert best.confidence > 0.5
