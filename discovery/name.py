@@ -124,7 +124,7 @@ def _halve(
     for k, (stages, iterations, keep) in enumerate(ROUNDS):
         pool = (pool if k <= SEVERAL_STARTS else best_starts(pool))[:keep]
         with ThreadPoolExecutor(WORKERS) as workers:
-            fits = workers.map(partial(_fitted, case, base, bandwidths, stages, iterations, progress), pool)
+            fits = workers.map(partial(fit_candidate, case, base, bandwidths, stages, iterations, progress), pool)
             for candidate, found in zip(pool, fits, strict=True):
                 better = candidate.fit is None or (found is not None and found.deviance() < candidate.fit.deviance())
                 candidate.fit = found if better else candidate.fit
@@ -142,18 +142,12 @@ def _halve(
         before = scores
 
 
-def _fitted(
+def fit_candidate(
     case: Case, base: Fit, bandwidths: tuple[float, ...], stages: int, iterations: int, progress: Progress,
     candidate: Candidate,
 ) -> Fit | None:  # fmt: skip
-    progress(f"fitting {candidate.attachment.label}")
-    return fit_candidate(case, base, bandwidths, stages, iterations, candidate)
-
-
-def fit_candidate(
-    case: Case, base: Fit, bandwidths: tuple[float, ...], stages: int, iterations: int, candidate: Candidate
-) -> Fit | None:
     """Fit the base's parameters and the effect's together, from the base's values and the screened start."""
+    progress(f"fitting {candidate.attachment.label}")
     free: list[Free] = [*base.estimate.free, *candidate.free]
     if candidate.fit is not None:
         start = candidate.fit.point

@@ -99,27 +99,25 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
     Where `progress` raises TimeUp, what was found until then stands.
     """
     search = _search(result, catalogue.read(library))
-    search.restarts = bool(trackable(result.case, result.base.machine.model, result.amendment.structure))
+    shafts = trackable(result.case, result.base.machine.model, result.amendment.structure)[:1]
+    search.restarts = bool(shafts)
     try:
         search.run(progress, most=1)
         if search.lost():
-            search = _held(result, search, progress) or search
+            search = _held(result, search, shafts, progress) or search
         explain_beyond(search, result.base, result.before, progress)
     except TimeUp as stopped:
         search.reason = str(stopped)
     _take(result, search)
 
 
-def _held(result: Explanation, direct: Search, progress: Progress) -> Search | None:
-    """The search begun anew with recorded shafts held near their motion; None where it ends no better.
+def _held(result: Explanation, direct: Search, shafts: list[places.Shaft], progress: Progress) -> Search | None:
+    """The search begun anew with these recorded shafts held near their motion; None where it ends no better.
 
     Where the first finding leaves far more than noise, every hypothesis may have ended in a dip of rough ground:
     an output error grows with the recording, and what is missing near its beginning decides all that follows.
     """
     case, structure = result.case, result.amendment.structure
-    shafts = trackable(case, result.base.machine.model, structure)[:1]
-    if not shafts:
-        return None
     progress("looking again, the recorded shaft held near its motion")
     machine = Machine(case, Amendment(structure, trackers=shafts))
     lead = Lead(falling_bandwidths(case, machine))
