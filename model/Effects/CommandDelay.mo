@@ -1,17 +1,8 @@
 within Lacuna.Effects;
 model CommandDelay "Servo controller that learns of its command after a fixed time"
-  parameter Types.PerUnit N = 1 "Turns of the motor for one turn of the output";
-  parameter Real Kp(final unit="1/s", start=10) "Gain of the position loop";
-  parameter Types.AngularVelocity wmax(final min=0, start=500) "Largest reference speed";
-  parameter Types.BackEmfConstant Kw(start=0.1) "Proportional gain of the speed loop";
-  parameter Real Ki(final unit="V/rad", start=1) "Integral gain of the speed loop";
-  parameter Types.Voltage Vdc(final min=0, start=28) "Largest voltage";
+  extends Lacuna.Interfaces.PartialServoController;
   parameter Types.Time T_d(final min=0, final max=0.06) = 1e-3 "Delay";
   parameter Types.Time interval(final min=1e-6) = 1e-3 "Time between the samples of the command";
-  Lacuna.Interfaces.RealInput command(unit="rad") "Commanded position";
-  Lacuna.Interfaces.RealInput position(unit="rad") "Measured position";
-  Lacuna.Interfaces.RealInput speed(unit="rad/s") "Measured speed of the motor";
-  Lacuna.Interfaces.RealOutput u(unit="V") "Voltage command";
   Types.AngularVelocity wref = servo.wref "Reference speed";
   Types.Angle xi = servo.xi "Integral of the speed error";
   Interfaces.SampledDelay bus(u(unit="rad"), T_d=T_d, interval=interval) "Bus that brings the command";

@@ -1,15 +1,6 @@
 within Lacuna.Components.Control;
 block ServoController "Cascade of a position loop and a speed loop that commands a voltage"
-  parameter Types.PerUnit N = 1 "Turns of the motor for one turn of the output";
-  parameter Real Kp(final unit="1/s", start=10) "Gain of the position loop";
-  parameter Types.AngularVelocity wmax(final min=0, start=500) "Largest reference speed";
-  parameter Types.BackEmfConstant Kw(start=0.1) "Proportional gain of the speed loop";
-  parameter Real Ki(final unit="V/rad", start=1) "Integral gain of the speed loop";
-  parameter Types.Voltage Vdc(final min=0, start=28) "Largest voltage";
-  Interfaces.RealInput command(unit="rad") "Commanded position";
-  Interfaces.RealInput position(unit="rad") "Measured position";
-  Interfaces.RealInput speed(unit="rad/s") "Measured speed of the motor";
-  Interfaces.RealOutput u(unit="V") "Voltage command";
+  extends Interfaces.PartialServoController;
   Types.AngularVelocity wref "Reference speed";
   Types.Angle xi(start=0, fixed=true) "Integral of the speed error";
   Types.Voltage u_free "Voltage command before the limit";
