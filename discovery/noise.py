@@ -14,6 +14,7 @@ import numpy as np
 
 _THIRD = np.array([1.0, -3.0, 3.0, -1.0])
 _MAD_TO_SIGMA = 1.4826
+PARTS = 8  # steps that the least difference may have: of a shaft that turns on, no two angles need be neighbours
 
 
 @dataclass(frozen=True)
@@ -35,8 +36,14 @@ def quantum(values: np.ndarray) -> float:
         return float(np.min(np.diff(levels))) if len(levels) > 1 else 0.0
     gaps = np.sort(np.diff(levels))
     gaps = gaps[gaps > 1e-9 * (levels[-1] - levels[0])]
-    step = float(np.median(gaps[gaps < 1.5 * gaps[0]]))
-    for gap in gaps[:: max(1, len(gaps) // 200)]:
+    least = float(np.median(gaps[gaps < 1.5 * gaps[0]]))
+    steps = (_refined(gaps[:: max(1, len(gaps) // 200)], least / parts) for parts in range(1, PARTS + 1))
+    return next((s for s in steps if s), 0.0)
+
+
+def _refined(gaps: np.ndarray, step: float) -> float:
+    """The step near this one that all gaps, in rising order, are whole multiples of; 0 where it is not."""
+    for gap in gaps:
         count = round(gap / step)
         if abs(gap / step - count) > 0.2:
             return 0.0
