@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .fit import Fit
+from .noise import Noise
 
 BLOCKS = (1, 8, 40, 200)  # samples over which a residual is averaged
 SIGMAS = 5.0
@@ -100,6 +101,12 @@ def settled(fit: Fit, rough: bool = False) -> bool:
     if all(w.passed for w in whiteness(fit, ROUGH_SLACK if rough else 0.0).values()):
         return True
     return all(n.given for n in fit.noise.values()) and like_noise(fit)
+
+
+def holds(unseen: Mapping[str, float], floor: Mapping[str, float], noise: Mapping[str, Noise]) -> bool:
+    """Whether NRMSE on recordings that nothing was fitted to are those of noise: parameters can stand for other physics
+    in the recordings that they are fitted to, but not in others."""
+    return all(unseen[c] < (LEFT if n.given else COLOURED) * floor[c] for c, n in noise.items())
 
 
 def nearly_noise(fit: Fit) -> bool:

@@ -10,7 +10,7 @@ from codegen.library import Library
 
 from .cases import Case
 from .comparison import Ranked
-from .evidence import TOLERANCE, is_noise, like_noise, outside_belief, settled, whiteness
+from .evidence import TOLERANCE, holds, is_noise, like_noise, outside_belief, settled, whiteness
 from .experiments import separate
 from .explanation import Clock, Explanation
 from .judge import judge_file
@@ -59,16 +59,14 @@ def _conclude(result: Explanation) -> None:
         else:
             result.verdict = "missing_physics"
         return
-    outside = outside_belief(result.base)
-    if left and not _quiet(result):
+    worst = max(left, key=lambda w: w.ratio / w.limit).column if left and not _quiet(result) else ""
+    if worst or not holds(result.after.validate, result.floor, result.final.noise):
         result.verdict = "undetermined"
-        worst = max(left, key=lambda w: w.ratio / w.limit)
-        result.reason = result.reason or (
-            f"the residual of {worst.column} is not noise, and no effect of the catalogue explains it"
-        )
+        where = f"the residual of {worst}" if worst else "what is left of the recordings that were not fitted to"
+        result.reason = result.reason or f"{where} is not noise, and no effect of the catalogue explains it"
         result.experiment = "record the same motion with the quantities that are not recorded now"
     else:
-        result.verdict = "parameters" if outside else "consistent"
+        result.verdict = "parameters" if outside_belief(result.base) else "consistent"
 
 
 def _quiet(result: Explanation) -> bool:

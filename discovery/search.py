@@ -16,7 +16,7 @@ from .amend import Amendment, Attachment
 from .cases import Case
 from .catalogue import Effect
 from .comparison import CLOSE, MIN_GAIN, TIE, Ranked, confidences, price
-from .evidence import nearly_noise, pays, settled
+from .evidence import holds, nearly_noise, pays, settled
 from .fit import Fit, fit
 from .hypotheses import enumerate_attachments
 from .judge import Judgement, try_judge
@@ -73,7 +73,8 @@ class Search:
 
     def settled(self) -> bool:
         """Whether nothing is left to look for."""
-        return settled(self.fit, rough=not self.lead.direct)
+        unseen = holds(self.judgement.validate, self.floor, self.fit.noise)
+        return unseen and settled(self.fit, rough=not self.lead.direct)
 
     def lost(self) -> bool:
         """Whether fits that nothing has led leave so much that the search has to begin anew."""
