@@ -167,14 +167,17 @@ def _led(
     free, fixed = problem.free, problem.fixed
     found, level, path = None, {}, []
     for bandwidth in bandwidths:
+        starts = [values]
         if not bandwidth and len(path) > 1:
-            values = _extrapolated(problem, *path[-2:])
-        objective.track(bandwidth, fixed | {f.name: v for f, v in zip(free, values, strict=True)})
-        columns = {} if objective.stiffness else {k: known[f.name] for k, f in enumerate(free) if f.name in known}
-        result, level_here = anneal(objective, problem, values, stages=stages, iterations=iterations, known=columns)
-        if result is not None:
-            found, level, values = result, level_here, result.values
-            path.append((bandwidth, values))
+            starts.insert(0, _extrapolated(problem, *path[-2:]))
+        for start in starts:
+            objective.track(bandwidth, fixed | {f.name: v for f, v in zip(free, start, strict=True)})
+            columns = {} if objective.stiffness else {k: known[f.name] for k, f in enumerate(free) if f.name in known}
+            result, level_here = anneal(objective, problem, start, stages=stages, iterations=iterations, known=columns)
+            if result is not None:
+                found, level, values = result, level_here, result.values
+                path.append((bandwidth, values))
+                break
     return (None, {}) if objective.stiffness else (found, level)
 
 

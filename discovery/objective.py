@@ -90,7 +90,7 @@ def anneal(
         if here is None:
             return best, level
         new = {n: max(1.0 if n in objective.noise else 1e-6, v) for n, v in objective.measure(here[2]).items()}
-        if best is not None and best.converged and all(abs(np.log(new[n] / level[n])) < SETTLED for n in new):
+        if best is not None and _settled(level, new, best.converged or bool(objective.stiffness)):
             break
         level = new
         problem.weights = objective.weights(level)
@@ -100,3 +100,8 @@ def anneal(
             return best, level
         best, values = found, found.values
     return best, level
+
+
+def _settled(before: Mapping[str, float], after: Mapping[str, float], converged: bool) -> bool:
+    """Whether another stage would lead on: not from where none could, nor where `converged` ends in the same levels."""
+    return before == after or (converged and all(abs(np.log(after[n] / before[n])) < SETTLED for n in after))
