@@ -8,7 +8,7 @@ model Compliance "Elasticity between two parts of a shaft that is believed rigid
   Types.RotationalDamping d_unit = J*unit_w "Damping that stops the whole inertia within 1 s";
 equation
   tau_b = c*phi_rel + d*w_rel;
-  annotation(__Lacuna(effect="compliance", attaches="flange", signals(J="inertia"),
+  annotation(__Lacuna(effect="compliance", attaches="flange", signals(J="inertia"), nests_in={"backlash"},
     starts(c={900, 1e4, 1e5}, d={10}, share={0.5}), relative(c="c_unit", d="d_unit"),
     signature="swinging after fast changes of the torque", excitation="steps or fast changes of the torque",
     reference="Vukosavic, Stojic 1998"));
