@@ -15,6 +15,7 @@ from dataclasses import dataclass, field
 import os
 
 import numpy as np
+from scipy.optimize import lsq_linear
 
 WORKERS = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 _pool = ThreadPoolExecutor(max_workers=WORKERS)
@@ -257,3 +258,14 @@ def _bounded_step(
         step[outside] = np.clip(step[outside], lower[outside], upper[outside])
         active[outside] = False
     return step
+
+
+def bounded_linear(columns: np.ndarray, target: np.ndarray, bounds: np.ndarray | None) -> np.ndarray:
+    """Coefficients (p,) of columns (rows, p) that come nearest to the target (rows,), within bounds (p, 2) if given."""
+    scale = np.linalg.norm(columns, axis=0)
+    basis, triangle = np.linalg.qr(columns / scale)
+    right = basis.T @ target
+    if bounds is None:
+        return np.linalg.lstsq(triangle, right, rcond=1e-8)[0] / scale
+    # its interior-point method may search for a step for ever where an interval is as good as empty
+    return lsq_linear(triangle, right, (bounds[:, 0] * scale, bounds[:, 1] * scale), method="bvls").x / scale

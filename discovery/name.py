@@ -11,6 +11,8 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from functools import partial
 
+import numpy as np
+
 from runtime import SimulationError
 
 from .amend import Amendment, Attachment
@@ -20,12 +22,14 @@ from .evidence import nearly_noise
 from .fit import Fit, falling_bandwidths, fit
 from .least_squares import WORKERS, Free
 from .machine import try_machine
+from .objective import Objective
 from .places import Shaft
 from .race import best_starts, first_round, relatives, still_in
 from .screen import Candidate, Screen, prepare, telling_recordings
 from .tracking import trackable
 
 ROUNDS = ((2, 2, 100), (2, 3, 10), (3, 3, 4), (10, 4, 2))  # (stages, iterations, fits): successive halving
+FAINT = 0.1  # of a start that is predicted to first order, which may still hold where the whole of it does not
 HALF = 0.5  # of the best gain, that a hypothesis must have to be fitted further: a simpler law, or one to be led
 SEVERAL_STARTS = 1  # rounds after which only the best start of each hypothesis goes on
 LED = 2  # hypotheses that are fitted again, led by trackers, where none has left noise
@@ -146,19 +150,43 @@ def fit_candidate(
     case: Case, base: Fit, bandwidths: tuple[float, ...], stages: int, iterations: int, progress: Progress,
     candidate: Candidate,
 ) -> Fit | None:  # fmt: skip
-    """Fit the base's parameters and the effect's together, from the base's values and the screened start."""
+    """Fit the base's parameters and the effect's together, from the screened start."""
     progress(f"fitting {candidate.attachment.label}")
     free: list[Free] = [*base.estimate.free, *candidate.free]
     if candidate.fit is not None:
         start = candidate.fit.point
         bandwidths = bandwidths[-1:]
     else:
-        start = base.point | candidate.start
+        start = _start(case, base, candidate)
     fixed = base.fixed | candidate.fixed
     return fit(
         candidate.machine, case.fit, base.noise, free, fixed, start=start, bandwidths=bandwidths, stages=stages,
         iterations=iterations, known=base.sensitivities() if candidate.fit is None else None,
     )  # fmt: skip
+
+
+def _start(case: Case, base: Fit, candidate: Candidate) -> dict[str, float]:
+    """The screened start that misses by least: the base's parameters as they are, or as they would go with the effect,
+    or only a little of both."""
+    objective = Objective(candidate.machine, case.fit, base.noise)
+    weights = objective.weights(base.level)
+
+    def missed(start: dict[str, float]) -> float:
+        parts = [objective(start | candidate.fixed, k) for k in range(len(case.fit))]
+        if any(p is None for p in parts):
+            return float("inf")
+        return sum(float(np.sum((p * w) ** 2)) for p, w in zip(parts, weights, strict=True))
+
+    full = base.point | candidate.shift | candidate.start
+    return min((base.point | candidate.start, full, _faint(base, candidate, full)), key=missed)
+
+
+def _faint(base: Fit, candidate: Candidate, full: dict[str, float]) -> dict[str, float]:
+    """A little of the way from the base without the effect to a start; what has no neutral value stays."""
+    attachment = candidate.attachment
+    neutral = {attachment.full_name(n): v for n, v in attachment.effect.neutral.items()}
+    without = full | {n: v for n, v in neutral.items() if n in full} | base.point
+    return {n: without[n] + FAINT * (v - without[n]) for n, v in full.items()}
 
 
 def _lead(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:

@@ -13,13 +13,12 @@ from itertools import product
 import math
 
 import numpy as np
-from scipy.optimize import lsq_linear
 
 from .amend import Attachment
 from .cases import Recording
 from .catalogue import Effect, EffectParameter
 from .fit import Fit, Objective
-from .least_squares import Free
+from .least_squares import Free, bounded_linear
 from .machine import Machine
 
 RESPONSE = 0.1  # of the residual: size of the response from which a column is taken
@@ -37,6 +36,7 @@ class Candidate:
     free: list[Free]
     fixed: dict[str, float] = field(default_factory=dict)
     start: dict[str, float] = field(default_factory=dict)
+    shift: dict[str, float] = field(default_factory=dict)  # of the base's parameters: where they would go with it
     predicted: float = 0.0  # share of the cost that it is expected to explain
     fit: Fit | None = None
 
@@ -61,7 +61,7 @@ class Screen:
         blocks = [b for name, b in zip(base.residuals, estimate.jacobian, strict=False) if name in names]
         self.jacobian = np.vstack([*blocks, rows]) if blocks else np.zeros((len(self.residual), 0))
         self.load = np.concatenate([self.residual, pulls]) if blocks else self.residual
-        self.orthogonal, _ = np.linalg.qr(self.jacobian)
+        self.orthogonal, self.triangle = np.linalg.qr(self.jacobian)
         self.cost = float(np.sum(self._project(self.load) ** 2))
 
     def _project(self, vector: np.ndarray) -> np.ndarray:
@@ -78,8 +78,8 @@ class Screen:
     def explained(
         self, columns: list[np.ndarray], offset: np.ndarray | None = None,
         bounds: list[tuple[float, float]] | None = None,
-    ) -> tuple[float, np.ndarray]:  # fmt: skip
-        """(share of the cost explained, coefficients of the columns).
+    ) -> tuple[float, np.ndarray, dict[str, float]]:  # fmt: skip
+        """(share of the cost explained, coefficients of the columns, values of the base's parameters beside them).
 
         `offset` is the residual where the columns start, instead of the base's own.
 
@@ -93,9 +93,17 @@ class Screen:
         alive = np.linalg.norm(stack, axis=0) > 1e-3 * np.maximum(np.linalg.norm(full, axis=0), 1e-300)
         solution = np.zeros(len(columns))
         if alive.any():
-            solution[alive] = _bounded(stack[:, alive], -target, np.array(bounds)[alive] if bounds else None)
+            solution[alive] = bounded_linear(stack[:, alive], -target, np.array(bounds)[alive] if bounds else None)
         left = target + stack @ solution
-        return 1.0 - float(left @ left) / self.cost, solution
+        return 1.0 - float(left @ left) / self.cost, solution, self._shifted(load + full @ solution)
+
+    def _shifted(self, load: np.ndarray) -> dict[str, float]:
+        """Where the base's parameters do best, to first order, given this residual (their beliefs included)."""
+        free = self.base.estimate.free
+        if not self.orthogonal.shape[1]:
+            return {}
+        steps = -np.linalg.lstsq(self.triangle, self.orthogonal.T @ load, rcond=1e-8)[0]
+        return {f.name: f.clip(self.base.point[f.name] + f.scale * v) for f, v in zip(free, steps, strict=True)}
 
 
 def telling_recordings(base: Fit) -> list[Recording]:
@@ -112,17 +120,6 @@ def telling_recordings(base: Fit) -> list[Recording]:
             chosen.add(name)
             held += misfit[name]
     return [r for r in base.machine.case.fit if r.name in chosen]
-
-
-def _bounded(columns: np.ndarray, target: np.ndarray, bounds: np.ndarray | None) -> np.ndarray:
-    """Least squares (rows, p) by (rows,) with bounds (p, 2) on the coefficients."""
-    scale = np.linalg.norm(columns, axis=0)
-    basis, triangle = np.linalg.qr(columns / scale)
-    right = basis.T @ target
-    if bounds is None:
-        return np.linalg.lstsq(triangle, right, rcond=1e-8)[0] / scale
-    # its interior-point method may search for a step for ever where an interval is as good as empty
-    return lsq_linear(triangle, right, (bounds[:, 0] * scale, bounds[:, 1] * scale), method="bvls").x / scale
 
 
 def prepare(screen: Screen, attachment: Attachment, machine: Machine) -> list[Candidate]:
@@ -221,7 +218,7 @@ def _linearised(
             amounts.append(amount)
             moved.append(name)
     bounds = [(-np.inf, np.inf) if n in polar else _reach(effect, n) for n in moved]
-    share, solution = screen.explained([c / a for c, a in zip(columns, amounts, strict=True)], base, bounds)
+    share, solution, shift = screen.explained([c / a for c, a in zip(columns, amounts, strict=True)], base, bounds)
     if columns and not np.any(solution):
         return None
     start = dict(shape)
@@ -238,7 +235,7 @@ def _linearised(
     fixed = {n: v for n, v in shape.items() if n.rsplit(".", 1)[-1] in (*effect.whole, *effect.fixed)}
     free = [_free(attachment, effect, n, start, scales, limits) for n in names if attachment.full_name(n) not in fixed]
     start = {k: v for k, v in start.items() if k not in fixed}
-    return Candidate(attachment, machine, free, fixed, start, share)
+    return Candidate(attachment, machine, free, fixed, start, shift, share)
 
 
 def _reach(effect: Effect, name: str) -> tuple[float, float]:

@@ -13,9 +13,10 @@ from codegen.library import Library
 from discovery import catalogue
 from discovery.amend import Amendment, Attachment
 from discovery.cases import load
+from discovery.least_squares import bounded_linear
 from discovery.machine import Machine
 from discovery.places import read
-from discovery.screen import Screen, _bounded, prepare
+from discovery.screen import Screen, prepare
 from discovery.steps import fit_believed
 import runtime
 
@@ -78,4 +79,4 @@ def test_bounded_least_squares_agrees_with_non_negative_ones() -> None:
     for _ in range(20):
         columns, target = random.normal(size=(60, 4)), random.normal(size=60)
         bounds = np.array([(-1e-300, np.inf)] * 4)
-        assert _bounded(columns, target, bounds) == pytest.approx(nnls(columns, target)[0], abs=1e-9)
+        assert bounded_linear(columns, target, bounds) == pytest.approx(nnls(columns, target)[0], abs=1e-9)
