@@ -10,9 +10,10 @@ from scipy.optimize import nnls
 
 from codegen.compile import compile_model
 from codegen.library import Library
-from discovery import catalogue
+from discovery import catalogue, name
 from discovery.amend import Amendment, Attachment
 from discovery.cases import load
+from discovery.fit import fit
 from discovery.least_squares import bounded_linear
 from discovery.machine import Machine
 from discovery.places import read
@@ -72,6 +73,34 @@ def test_a_wave_starts_with_its_mean_level_and_its_amplitude(tmp_path: Path) -> 
     assert 1e-4 < best.start[ripple.full_name("tau_c")] < 4e-4
     assert 0.5e-4 < best.start[ripple.full_name("amplitude")] < 2e-4
     assert best.start[ripple.full_name("phase")] == pytest.approx(0.7, abs=0.5)
+
+
+def test_the_start_of_a_hypothesis_takes_the_believed_parameters_along(tmp_path: Path) -> None:
+    """To first order: what is left after both have moved is the share that the screen says, and the start that is
+    taken misses by less than that of the effect alone."""
+    (tmp_path / "RippleServo.mo").write_text(RIPPLE, encoding="utf-8")
+    case = load(write_case(tmp_path / "case", str(tmp_path / "RippleServo.mo"), BELIEVED))
+    base, _ = fit_believed(case, Machine(case, Amendment(read(Library(), case.model))))
+    screen = Screen(base)
+    column = np.sin(np.arange(len(screen.residual)) / 300.0) + screen.jacobian[: len(screen.residual), 0]
+    share, amount, shift = screen.explained([column])
+    free = base.estimate.free
+    steps = np.array([(shift[f.name] - base.point[f.name]) / f.scale for f in free])
+    pad = np.zeros(len(screen.load) - len(column))
+    left = screen.load + screen.jacobian @ steps + amount[0] * np.concatenate([column, pad])
+    assert left @ left == pytest.approx((1 - share) * screen.cost, rel=1e-6)
+    assert np.abs(screen.jacobian.T @ left).max() < 1e-6 * np.abs(screen.jacobian.T @ screen.load).max() + 1e-6
+
+    ripple = attachment(case, "PositionRipple")
+    candidate = prepare(screen, ripple, Machine(case, Amendment(base.machine.amendment.structure, [ripple])))[0]
+    fixed = base.fixed | candidate.fixed
+
+    def missed(start: dict[str, float]) -> float:
+        found = fit(candidate.machine, case.fit, base.noise, [*free, *candidate.free], fixed, start=start, iterations=0)
+        return found.estimate.cost
+
+    taken = name._start(case, base, candidate)
+    assert missed(taken) < missed(base.point | candidate.start)
 
 
 def test_bounded_least_squares_agrees_with_non_negative_ones() -> None:

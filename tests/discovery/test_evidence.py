@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from discovery.evidence import like_noise
+from discovery.evidence import holds, like_noise
 from discovery.noise import Noise
 
 N = 8000
@@ -37,3 +37,11 @@ def test_noise_may_have_a_colour_but_no_bursts_and_no_drift(
     residual: np.ndarray, std: float, given: bool, passes: bool
 ) -> None:
     assert like_noise(fit(residual, std, given)) == passes
+
+
+@pytest.mark.parametrize(("unseen", "given", "passes"), [(1.05, True, True), (3.0, True, False), (3.0, False, True)])
+def test_what_fits_holds_only_if_unseen_recordings_are_noise_too(unseen: float, given: bool, passes: bool) -> None:
+    floor = {"i": 0.02, "w": 0.01}
+    noise = {"i": Noise(1.0, 0.0, True), "w": Noise(1.0, 0.0, given)}
+    judged = {"": 0.02, "i": 0.02, "w": 0.01 * unseen}
+    assert holds(judged, floor, noise) == passes

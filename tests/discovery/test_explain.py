@@ -47,6 +47,16 @@ def test_noise_and_resolution_are_estimated() -> None:
     assert quantum(smooth + 0.02 * random.normal(size=t.size)) == 0.0
 
 
+def test_the_resolution_of_a_shaft_that_only_turns_on_is_found() -> None:
+    """No two samples need be neighbours: the least difference of the angles is several steps of the encoder."""
+    step = 2 * np.pi / 4096
+    angle = np.concatenate([np.zeros(100), np.cumsum(np.linspace(0.006, 0.2, 3900))])
+    recorded = np.round(np.floor(angle / step) * step, 6)
+    least = np.diff(np.unique(recorded)).min()
+    assert least > 2 * step
+    assert quantum(recorded) == pytest.approx(step, rel=1e-3)
+
+
 def test_places_are_read_from_the_model() -> None:
     screw = read(Library(), "Benches.ScrewEma")
     assert [s.location for s in screw.shafts] == ["shaft", "surface"]

@@ -7,6 +7,7 @@ loop) on practice cases, where they are.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -177,6 +178,16 @@ def test_a_signal_at_rest_is_not_frozen(consistent_case: Path) -> None:
         theta[:100], theta[1300:] = theta[100], theta[1300]
         recording.columns["theta"] = theta
     assert check_case(case) == []
+
+
+def test_a_shaft_that_rests_before_it_turns_on_is_not_suspected(consistent_case: Path) -> None:
+    """Its angle lies at its lowest end for 0.1 s, and passes many steps of the encoder a sample after it."""
+    case, step = load(consistent_case), 2 * np.pi / 4096
+    signal = replace(case.signals["theta"], noise_std=step / np.sqrt(12))
+    for recording in case.fit + case.validate:
+        angle = np.concatenate([np.zeros(100), np.cumsum(np.linspace(0.01, 0.4, len(recording.time) - 100))])
+        recording.columns["theta"] = np.round(np.floor(angle / step) * step, 6)
+    assert check_case(replace(case, signals=case.signals | {"theta": signal})) == []
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,54 @@
+"""How a fit is led: where it stops, and where it begins once trackers let go."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import pytest
+
+from discovery import fit as fitting
+from discovery.least_squares import Free, Problem
+from discovery.objective import anneal
+
+
+class OneSignal:
+    """An objective of one signal whose residual is `function` of the parameter x; tracked, it draws x to `held`."""
+
+    def __init__(self, function: Callable[[float], np.ndarray | None], held: float = 0.0):
+        self.function, self.held, self.noise = function, held, {"y": 1.0}
+        self.stiffness: dict[str, float] = {}
+
+    def __call__(self, values: dict[str, float], piece: int) -> np.ndarray | None:
+        x = values["x"]
+        return np.full(4, x - self.held) if self.stiffness else self.function(x)
+
+    def measure(self, parts: list[np.ndarray]) -> dict[str, float]:
+        return {"y": float(np.sqrt(np.mean(parts[0] ** 2)))}
+
+    def weights(self, level: Mapping[str, float]) -> list[np.ndarray]:
+        return [np.full(4, 1 / level["y"])]
+
+    def track(self, bandwidth: float, parameters: Mapping[str, float]) -> None:
+        self.stiffness = {"c": bandwidth} if bandwidth else {}
+
+
+def problem(objective: OneSignal) -> Problem:
+    return Problem([Free("x", 1.0, 1.0, step=1e-3)], objective, 1)
+
+
+def test_a_stage_that_led_nowhere_is_not_repeated() -> None:
+    """At a corner every step is uphill, though the derivative promises much: neither converged nor ever to be."""
+    rough = OneSignal(lambda x: 5.0 + 100.0 * np.abs(x) * np.ones(4))
+    trial = problem(rough)
+    found, level = anneal(rough, trial, np.array([0.0]))
+    assert found.values[0] == 0.0 and not found.converged and level == {"y": 5.0}
+    one_stage = 1 + 1 + 1 + 8  # where it is, for its level and to begin with; a derivative; steps that are tried
+    assert trial.simulations == one_stage + 1
+
+
+def test_a_start_that_cannot_run_gives_way_to_the_last_one_that_was_tracked(monkeypatch: pytest.MonkeyPatch) -> None:
+    objective = OneSignal(lambda x: None if x > 5.0 else np.full(4, 3.0 * (x - 2.0)), held=1.9)
+    monkeypatch.setattr(fitting, "_extrapolated", lambda *_: np.array([6.0]))
+    found, _ = fitting._led(objective, problem(objective), np.array([1.0]), (8.0, 4.0, 0.0), {}, 10, 4)
+    assert found.values[0] == pytest.approx(2.0, abs=1e-3)
