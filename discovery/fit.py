@@ -166,18 +166,20 @@ def _led(
     """The fit led by trackers of falling bandwidth; None where it fails or where the last one still tracks."""
     free, fixed = problem.free, problem.fixed
     found, level, path = None, {}, []
+
+    def annealed(bandwidth: float, start: np.ndarray) -> tuple[Estimate | None, dict[str, float]]:
+        objective.track(bandwidth, fixed | {f.name: v for f, v in zip(free, start, strict=True)})
+        columns = {} if objective.stiffness else {k: known[f.name] for k, f in enumerate(free) if f.name in known}
+        return anneal(objective, problem, start, stages=stages, iterations=iterations, known=columns)
+
     for bandwidth in bandwidths:
-        starts = [values]
-        if not bandwidth and len(path) > 1:
-            starts.insert(0, _extrapolated(problem, *path[-2:]))
-        for start in starts:
-            objective.track(bandwidth, fixed | {f.name: v for f, v in zip(free, start, strict=True)})
-            columns = {} if objective.stiffness else {k: known[f.name] for k, f in enumerate(free) if f.name in known}
-            result, level_here = anneal(objective, problem, start, stages=stages, iterations=iterations, known=columns)
-            if result is not None:
-                found, level, values = result, level_here, result.values
-                path.append((bandwidth, values))
-                break
+        ahead = not bandwidth and len(path) > 1
+        result, level_here = annealed(bandwidth, _extrapolated(problem, *path[-2:]) if ahead else values)
+        if result is None and ahead:
+            result, level_here = annealed(bandwidth, values)
+        if result is not None:
+            found, level, values = result, level_here, result.values
+            path.append((bandwidth, values))
     return (None, {}) if objective.stiffness else (found, level)
 
 

@@ -77,7 +77,7 @@ def screened(case: Case, here: Fit, law: Law | None, efforts: list[Effort], prog
         for group in groups(list(effort.site.variables), duration):
             progress(f"screening terms at {effort.site.location}")
             columns = effort.columns(group, screen.weights)
-            share, coefficients, _ = screen.explained(columns)
+            share, coefficients = screen.explained(columns)
             found.append((share, _proposal(Law(effort.site, (*known, group)), here, coefficients), columns))
     found.sort(key=lambda f: -f[0])
     split = _parts(screen)

@@ -11,8 +11,6 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from functools import partial
 
-import numpy as np
-
 from runtime import SimulationError
 
 from .amend import Amendment, Attachment
@@ -29,7 +27,7 @@ from .screen import Candidate, Screen, prepare, telling_recordings
 from .tracking import trackable
 
 ROUNDS = ((2, 2, 100), (2, 3, 10), (3, 3, 4), (10, 4, 2))  # (stages, iterations, fits): successive halving
-FAINT = 0.1  # of a start that is predicted to first order, which may still hold where the whole of it does not
+SMALL_STEP = 0.1  # of a start that is predicted to first order, which may still hold where the whole of it does not
 HALF = 0.5  # of the best gain, that a hypothesis must have to be fitted further: a simpler law, or one to be led
 SEVERAL_STARTS = 1  # rounds after which only the best start of each hypothesis goes on
 LED = 2  # hypotheses that are fitted again, led by trackers, where none has left noise
@@ -172,21 +170,19 @@ def _start(case: Case, base: Fit, candidate: Candidate) -> dict[str, float]:
     weights = objective.weights(base.level)
 
     def missed(start: dict[str, float]) -> float:
-        parts = [objective(start | candidate.fixed, k) for k in range(len(case.fit))]
-        if any(p is None for p in parts):
-            return float("inf")
-        return sum(float(np.sum((p * w) ** 2)) for p, w in zip(parts, weights, strict=True))
+        residual = objective.weighted(start | candidate.fixed, weights)
+        return float("inf") if residual is None else float(residual @ residual)
 
     full = base.point | candidate.shift | candidate.start
-    return min((base.point | candidate.start, full, _faint(base, candidate, full)), key=missed)
+    return min((base.point | candidate.start, full, _small_step(base, candidate, full)), key=missed)
 
 
-def _faint(base: Fit, candidate: Candidate, full: dict[str, float]) -> dict[str, float]:
+def _small_step(base: Fit, candidate: Candidate, full: dict[str, float]) -> dict[str, float]:
     """A little of the way from the base without the effect to a start; what has no neutral value stays."""
     attachment = candidate.attachment
     neutral = {attachment.full_name(n): v for n, v in attachment.effect.neutral.items()}
     without = full | {n: v for n, v in neutral.items() if n in full} | base.point
-    return {n: without[n] + FAINT * (v - without[n]) for n, v in full.items()}
+    return {n: without[n] + SMALL_STEP * (v - without[n]) for n, v in full.items()}
 
 
 def _lead(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:

@@ -62,6 +62,13 @@ class Objective:
         names = self.sections()
         return [np.concatenate([np.full(len(r.time), 1.0 / level[n]) for n in names]) for r in self.recordings]
 
+    def weighted(self, values: Mapping[str, float], weights: Sequence[np.ndarray]) -> np.ndarray | None:
+        """The residual of all recordings together, weighted; None where one cannot be simulated."""
+        parts = [self(dict(values), k) for k in range(len(self.recordings))]
+        if any(p is None for p in parts):
+            return None
+        return np.concatenate([p * w for p, w in zip(parts, weights, strict=True)])
+
     def track(self, bandwidth: float, parameters: Mapping[str, float]) -> None:
         """Set the trackers to a bandwidth (rad/s); zero takes them away."""
         self.stiffness = {}

@@ -138,21 +138,12 @@ def _clipped(recording: Recording, signal: Signal, values: np.ndarray) -> list[P
         return []
     problems = []
     for side, extreme in (("upper", np.nanmax(values)), ("lower", np.nanmin(values))):
-        at = _reached(values == extreme)
+        at = values == extreme
         start, length = longest_run(at)
         if at.mean() > CLIPPED_SHARE and length >= CLIPPED_RUN:
             text = f"clipped at its {side} end {extreme:.6g} in {at.mean():.1%} of the samples"
             problems.append(Problem("clipped", recording.name, signal.column, float(recording.time[start]), text, True))
     return problems
-
-
-def _reached(at: np.ndarray) -> np.ndarray:
-    """The samples but for those of a run that begins or ends the recording: a shaft may rest there."""
-    inside = at.copy()
-    elsewhere = np.flatnonzero(~at)
-    if len(elsewhere):
-        inside[: elsewhere[0]] = inside[elsewhere[-1] :] = False
-    return inside
 
 
 def _outliers(recording: Recording, signal: Signal, values: np.ndarray) -> list[Problem]:

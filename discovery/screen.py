@@ -50,8 +50,7 @@ class Screen:
         self.recordings = list(base.machine.case.fit if recordings is None else recordings)
         objective = Objective(base.machine, self.recordings, base.noise)
         self.weights = objective.weights(base.level)
-        parts = [objective(base.point, k) * w for k, w in enumerate(self.weights)]
-        self.residual = np.concatenate(parts)
+        self.residual = objective.weighted(base.point, self.weights)
         self.norm = float(np.linalg.norm(self.residual))
         estimate = base.estimate
         beliefs = [(f, v) for f, v in zip(estimate.free, estimate.values, strict=True)]
@@ -69,41 +68,48 @@ class Screen:
 
     def outputs(self, machine: Machine, values: Mapping[str, float]) -> np.ndarray | None:
         """Weighted residual of a machine at a point, in the units of the base's."""
-        objective = Objective(machine, self.recordings, self.noise)
-        parts = [objective(dict(values), k) for k in range(len(self.recordings))]
-        if any(p is None for p in parts):
-            return None
-        return np.concatenate([p * w for p, w in zip(parts, self.weights, strict=True)])
+        return Objective(machine, self.recordings, self.noise).weighted(values, self.weights)
 
     def explained(
         self, columns: list[np.ndarray], offset: np.ndarray | None = None,
         bounds: list[tuple[float, float]] | None = None,
-    ) -> tuple[float, np.ndarray, dict[str, float]]:  # fmt: skip
-        """(share of the cost explained, coefficients of the columns, values of the base's parameters beside them).
+    ) -> tuple[float, np.ndarray]:  # fmt: skip
+        """(share of the cost explained, coefficients of the columns).
 
         `offset` is the residual where the columns start, instead of the base's own.
 
         `bounds` are the least and the largest value of each coefficient: an amount of friction is not negative.
         """
-        pad = np.zeros(len(self.load) - len(self.residual))
-        load = self.load if offset is None else np.concatenate([offset, self.load[len(self.residual) :]])
-        target = self._project(load)
-        full = np.column_stack([np.concatenate([c, pad]) for c in columns]) if columns else np.zeros((len(load), 0))
+        target = self._project(self._load(offset))
+        full = self._padded(columns)
         stack = np.column_stack([self._project(c) for c in full.T]) if columns else full
         alive = np.linalg.norm(stack, axis=0) > 1e-3 * np.maximum(np.linalg.norm(full, axis=0), 1e-300)
         solution = np.zeros(len(columns))
         if alive.any():
             solution[alive] = bounded_linear(stack[:, alive], -target, np.array(bounds)[alive] if bounds else None)
         left = target + stack @ solution
-        return 1.0 - float(left @ left) / self.cost, solution, self._shifted(load + full @ solution)
+        return 1.0 - float(left @ left) / self.cost, solution
 
-    def _shifted(self, load: np.ndarray) -> dict[str, float]:
-        """Where the base's parameters do best, to first order, given this residual (their beliefs included)."""
-        free = self.base.estimate.free
+    def shifted(
+        self, columns: list[np.ndarray], coefficients: np.ndarray, offset: np.ndarray | None = None
+    ) -> dict[str, float]:
+        """Where the base's parameters do best, to first order, with these amounts of the columns (beliefs included)."""
         if not self.orthogonal.shape[1]:
             return {}
+        load = self._load(offset) + self._padded(columns) @ coefficients
         steps = -np.linalg.lstsq(self.triangle, self.orthogonal.T @ load, rcond=1e-8)[0]
+        free = self.base.estimate.free
         return {f.name: f.clip(self.base.point[f.name] + f.scale * v) for f, v in zip(free, steps, strict=True)}
+
+    def _load(self, offset: np.ndarray | None) -> np.ndarray:
+        return self.load if offset is None else np.concatenate([offset, self.load[len(self.residual) :]])
+
+    def _padded(self, columns: list[np.ndarray]) -> np.ndarray:
+        """Columns (rows, n) of the residual, with nothing in the rows of the beliefs."""
+        full = np.zeros((len(self.load), len(columns)))
+        for k, column in enumerate(columns):
+            full[: len(column), k] = column
+        return full
 
 
 def telling_recordings(base: Fit) -> list[Recording]:
@@ -218,7 +224,9 @@ def _linearised(
             amounts.append(amount)
             moved.append(name)
     bounds = [(-np.inf, np.inf) if n in polar else _reach(effect, n) for n in moved]
-    share, solution, shift = screen.explained([c / a for c, a in zip(columns, amounts, strict=True)], base, bounds)
+    columns = [c / a for c, a in zip(columns, amounts, strict=True)]
+    share, solution = screen.explained(columns, base, bounds)
+    shift = screen.shifted(columns, solution, base)
     if columns and not np.any(solution):
         return None
     start = dict(shape)

@@ -83,7 +83,8 @@ def test_the_start_of_a_hypothesis_takes_the_believed_parameters_along(tmp_path:
     base, _ = fit_believed(case, Machine(case, Amendment(read(Library(), case.model))))
     screen = Screen(base)
     column = np.sin(np.arange(len(screen.residual)) / 300.0) + screen.jacobian[: len(screen.residual), 0]
-    share, amount, shift = screen.explained([column])
+    share, amount = screen.explained([column])
+    shift = screen.shifted([column], amount)
     free = base.estimate.free
     steps = np.array([(shift[f.name] - base.point[f.name]) / f.scale for f in free])
     pad = np.zeros(len(screen.load) - len(column))
