@@ -14,7 +14,8 @@ from .screen import Candidate
 FIRST_ROUND = 8
 ENOUGH = 0.9  # of the promise of a law, that one which it contains must have to be tried in its stead
 HALF = 0.5  # of the promise of the best hypothesis, that another form of it must have to be tried
-STARTS = 3  # from which a hypothesis is fitted in the first round
+STARTS = 3  # from which a hypothesis is fitted in the first round,
+WHOLE_STARTS = 8  # where they are whole numbers: none leads to another; those with HALF of the promise of the best
 LITTLE = 0.1  # share of the misfit, that a hypothesis has to explain before others are dropped for it
 NEAR = 0.1  # share of the best gain, within which a hypothesis stays in the race
 NEAR_NOISE = 0.01  # the same, where the best one leaves noise
@@ -38,7 +39,7 @@ def first_round(candidates: list[Candidate]) -> list[Candidate]:
         identifier = candidate.attachment.effect.identifier
         late = identifier not in seen and candidate.predicted > 0.25 * candidates[0].predicted
         if len(chosen) < FIRST_ROUND or late:
-            chosen[candidate.attachment.label] = STARTS
+            chosen[candidate.attachment.label] = _starts(candidate, candidates)
             seen.add(identifier)
     pool = []
     for candidate in candidates:
@@ -46,6 +47,15 @@ def first_round(candidates: list[Candidate]) -> list[Candidate]:
             chosen[candidate.attachment.label] -= 1
             pool.append(candidate)
     return pool
+
+
+def _starts(best: Candidate, candidates: list[Candidate]) -> int:
+    """How many starts of the best one's hypothesis are tried."""
+    if not best.attachment.effect.whole:
+        return STARTS
+    same = [c for c in candidates if c.attachment.label == best.attachment.label]
+    promising = sum(c.predicted > HALF * best.predicted for c in same)
+    return min(max(promising, STARTS), WHOLE_STARTS)
 
 
 def relatives(candidates: list[Candidate], fitted: dict[str, Candidate]) -> list[Candidate]:
