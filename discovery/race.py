@@ -12,7 +12,8 @@ from .fit import Fit
 from .screen import Candidate
 
 FIRST_ROUND = 8
-ENOUGH = 0.9  # of the promise of a law, that one which it contains must have to be tried in its stead
+ENOUGH = 0.9  # of the promise of a law, that one which it contains must have to be tried in its stead,
+LEAVES = 1.5  # while it leaves at most so many times the misfit
 HALF = 0.5  # of the promise of the best hypothesis, that another form of it must have to be tried
 STARTS = 3  # from which a hypothesis is fitted in the first round,
 WHOLE_STARTS = 8  # where they are whole numbers: none leads to another; those with HALF of the promise of the best
@@ -34,7 +35,7 @@ def first_round(candidates: list[Candidate]) -> list[Candidate]:
     every = best_starts(candidates)
     for candidate in every:
         simpler = [c for c in every if candidate.attachment.contains(c.attachment)]
-        if any(c.predicted > ENOUGH * candidate.predicted for c in simpler):
+        if any(_promises_enough(c.predicted, candidate.predicted) for c in simpler):
             continue
         identifier = candidate.attachment.effect.identifier
         late = identifier not in seen and candidate.predicted > 0.25 * candidates[0].predicted
@@ -47,6 +48,11 @@ def first_round(candidates: list[Candidate]) -> list[Candidate]:
             chosen[candidate.attachment.label] -= 1
             pool.append(candidate)
     return pool
+
+
+def _promises_enough(simpler: float, richer: float) -> bool:
+    """Whether a law need not be tried before one that it contains; shares of the misfit that they promise to explain."""
+    return simpler > ENOUGH * richer and 1.0 - simpler < LEAVES * (1.0 - richer)
 
 
 def _starts(best: Candidate, candidates: list[Candidate]) -> int:

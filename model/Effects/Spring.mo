@@ -3,7 +3,7 @@ model Spring "Spring to ground, such as an aerodynamic hinge moment"
   extends Interfaces.FlangeEffect;
   parameter Types.RotationalStiffness c = 0 "Stiffness";
   parameter Types.Torque tau_0 = 0 "Torque at position zero";
-  constant Types.Angle longest = 700 "Angle beyond which a shaft is no stroke: a hundred turns and some";
+  constant Types.Angle longest = 2000 "Angle beyond which a shaft has no stroke: a screw has some hundred turns";
 equation
   assert(noEvent(abs(angle) < longest), "Spring: a shaft that turns on and on has no spring");
   tau = c*angle + tau_0;
