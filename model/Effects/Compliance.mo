@@ -9,7 +9,7 @@ model Compliance "Elasticity between two parts of a shaft that is believed rigid
 equation
   tau_b = c*phi_rel + d*w_rel;
   annotation(__Lacuna(effect="compliance", attaches="flange", signals(J="inertia"), nests_in={"backlash"},
-    starts(c={900, 1e4, 1e5}, d={10}, share={0.5}), relative(c="c_unit", d="d_unit"),
+    starts(c={300, 900, 2500, 7000, 2e4, 6e4, 2e5}, d={10}, share={0.35}), relative(c="c_unit", d="d_unit"),
     signature="swinging after fast changes of the torque", excitation="steps or fast changes of the torque",
     reference="Vukosavic, Stojic 1998"));
 end Compliance;

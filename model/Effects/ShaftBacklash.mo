@@ -14,7 +14,7 @@ equation
   push = noEvent(min(max(c*abs(deflection) + d*(if deflection > 0 then w_rel else -w_rel), 0), 2*c*abs(deflection)));
   tau_b = noEvent(if deflection > 0 then push else -push);
   annotation(__Lacuna(effect="backlash", attaches="flange", signals(J="inertia"),
-    starts(play={0.02, 0.06, 0.2, 0.6}, c={4e4}, d={15}, share={0.5}), relative(c="c_unit", d="d_unit"),
+    starts(play={0.02, 0.06, 0.15, 0.3, 0.6, 1.2, 3}, c={4e4}, d={15}, share={0.4}), relative(c="c_unit", d="d_unit"),
     signature="part of the inertia missing for a moment at every reversal of the torque, then a shock",
     excitation="reversals of the torque", reference="Nordin, Gutman 2002"),
     Documentation(info="<html>
