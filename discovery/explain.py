@@ -14,7 +14,7 @@ from .evidence import TOLERANCE, holds, is_noise, like_noise, outside_belief, se
 from .experiments import separate
 from .explanation import Clock, Explanation
 from .judge import judge_file
-from .steps import add_findings, add_fit, add_location, opened
+from .steps import add_findings, add_fit, add_location, add_scatter, opened
 from .time_limit import limited
 
 Progress = Callable[[str], None]
@@ -38,6 +38,7 @@ def explain(
         add_location(result, progress)
         clock.done("locate")
     add_findings(result, library, search_progress)
+    add_scatter(result, search_progress)
     clock.done("name")
     _conclude(result)
     return result

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 import time
 
+import numpy as np
+
 from .amend import Amendment
 from .cases import Case
 from .experiments import Experiment
@@ -39,12 +41,14 @@ class Explanation:
     floor: dict[str, float] = field(default_factory=dict)
     seconds: dict[str, float] = field(default_factory=dict)
     lead: Lead = field(default_factory=Lead)  # of fits of this model
+    scatter: dict[str, float] = field(default_factory=dict)  # of each parameter, from dip to dip on rough ground
     _errors: dict[str, float] | None = None
 
     def errors(self) -> dict[str, float]:
         """1-sigma of each parameter of the final fit."""
         if self._errors is None:
-            self._errors = standard_errors(self.final, self.lead) if self.final else {}
+            errors = standard_errors(self.final, self.lead) if self.final else {}
+            self._errors = {n: float(np.hypot(e, self.scatter.get(n, 0.0))) for n, e in errors.items()}
         return self._errors
 
 

@@ -51,7 +51,7 @@ def first_round(candidates: list[Candidate]) -> list[Candidate]:
 
 
 def _promises_enough(simpler: float, richer: float) -> bool:
-    """Whether a law need not be tried before one that it contains; shares of the misfit that they promise to explain."""
+    """Whether a law may wait for one that it contains, by the shares of the misfit that both promise to explain."""
     return simpler > ENOUGH * richer and 1.0 - simpler < LEAVES * (1.0 - richer)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -13,11 +14,12 @@ from .amend import Amendment
 from .beyond import explain_beyond
 from .cases import Case, CaseError
 from .comparison import MIN_GAIN
+from .dips import explored, is_smooth
 from .evidence import is_noise, nearly_noise, outside_belief
 from .explanation import Explanation
 from .fit import Fit, believed, falling_bandwidths, fit, noise_of
 from .hypotheses import enumerate_attachments
-from .judge import judge, noise_floor
+from .judge import judge, noise_floor, try_judge
 from .lead import ROUGH, Lead, lead_for
 from .locate import locate
 from .machine import Machine
@@ -109,6 +111,17 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
     except TimeUp as stopped:
         search.reason = str(stopped)
     _take(result, search)
+
+
+def add_scatter(result: Explanation, progress: Progress) -> None:
+    """Where the ground around the final fit is rough: the best dip nearby, and how far apart the dips are."""
+    if not result.findings or not result.lead.direct or is_smooth(result.final):
+        return
+    best, result.scatter = explored(result.final, progress)
+    after = try_judge(best.machine, best.point) if best is not result.final else None
+    if after is not None:
+        result.final, result.after = best, after
+        result.findings[-1] = replace(result.findings[-1], after=after)
 
 
 def _held(result: Explanation, direct: Search, shafts: list[places.Shaft], progress: Progress) -> Search | None:
