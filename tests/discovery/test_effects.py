@@ -31,6 +31,26 @@ equation
 end RippleServo;
 """
 
+THRESHOLD = """model SpeedLoop "A speed loop whose drive passes no small command, against a load"
+  import Lacuna.Components.*;
+  input Real w_ref(unit="rad/s") "Reference speed";
+  parameter Real K(unit="V.s/rad") = 0.35 "Gain of the loop";
+  Lacuna.Effects.DriveDeadzone drive(width=2);
+  Electrical.Ground ground;
+  Drives.DcWinding winding(R=2, L=0.7e-3, Ke=0.075, i(start=0, fixed=true));
+  Mechanics.Inertia shaft(J=2.5e-5, phi(start=0, fixed=true), w(start=0, fixed=true));
+  Mechanics.ViscousFriction bearing(b=3e-4);
+  Real u(unit="V") = K*(w_ref - shaft.w) "Command";
+equation
+  drive.u = u;
+  connect(drive.n, ground.p);
+  connect(drive.p, winding.p);
+  connect(drive.n, winding.n);
+  connect(winding.flange, shaft.flange_a);
+  connect(shaft.flange_b, bearing.flange_a);
+end SpeedLoop;
+"""
+
 
 def test_phases_share_the_temperature_of_their_machine(tmp_path: Path) -> None:
     """Rotor held by its friction, b high and c low: both windings warm with the square of one current, all by the same
@@ -102,6 +122,23 @@ def test_the_start_of_a_hypothesis_takes_the_believed_parameters_along(tmp_path:
 
     taken = name._start(case, base, candidate)
     assert missed(taken) < missed(base.point | candidate.start)
+
+
+def test_a_threshold_in_a_loop_lets_the_loop_settle_on_it(tmp_path: Path) -> None:
+    """The drive is on a share of the time: the command settles at its threshold, the speed below the reference by
+    width/K. A step there would switch without end."""
+    (tmp_path / "SpeedLoop.mo").write_text(THRESHOLD, encoding="utf-8")
+    model = runtime.Model(compile_model(str(tmp_path / "SpeedLoop.mo")).path)
+    time = np.linspace(0.0, 1.0, 2001)
+    w_ref = runtime.RecordedInput(time, 20.0 * np.minimum(1.0, time / 1e-3))
+    result = runtime.simulate(model, inputs={"w_ref": w_ref}, stop=1.0, rtol=1e-6, output_times=time)
+    u, v = np.array(result["u"]), np.array(result["drive.v"])
+    assert np.all(v[np.abs(u) < 2 * 0.999] == 0.0)
+    beyond = np.abs(u) > 2 * 1.001
+    assert beyond.any()
+    assert np.array_equal(v[beyond], u[beyond])
+    late = time > 0.5
+    assert np.mean(result["shaft.w"][late]) == pytest.approx(20.0 - 2 / 0.35, rel=2e-3)
 
 
 def test_bounded_least_squares_agrees_with_non_negative_ones() -> None:

@@ -57,15 +57,59 @@ def candidate(case: Case, name: str, promise: float) -> Candidate:
     return Candidate(attachment(case, name), None, [], predicted=promise)
 
 
+BOTH = ["friction.stribeck", "friction.coulomb"]
+
+
 @pytest.mark.parametrize(
-    ("simpler", "chosen"), [(0.95, ["friction.coulomb"]), (0.5, ["friction.stribeck", "friction.coulomb"])]
+    ("richer", "simpler", "chosen"),
+    [(0.96, 0.95, ["friction.coulomb"]), (0.96, 0.5, BOTH), (0.99, 0.92, BOTH)],  # the last leaves eight times as much
 )
 def test_a_law_waits_for_a_simpler_one_that_promises_as_much(
-    friction_case: Path, simpler: float, chosen: list[str]
+    friction_case: Path, richer: float, simpler: float, chosen: list[str]
 ) -> None:
     case = load(friction_case)
-    pool = [candidate(case, "StribeckFriction", 0.96), candidate(case, "CoulombFriction", simpler)]
+    pool = [candidate(case, "StribeckFriction", richer), candidate(case, "CoulombFriction", simpler)]
     assert [c.attachment.effect.identifier for c in first_round(pool)] == chosen
+
+
+@pytest.mark.parametrize(
+    ("name", "others", "tried"),
+    [
+        ("TorqueRipple", 0.6, 8),  # any of these numbers of periods may be the one
+        ("TorqueRipple", 0.3, 3),
+        ("DriveDeadzone", 0.6, 3),  # from one width a fit comes to another
+    ],
+)
+def test_whole_numbers_that_promise_alike_are_all_tried(
+    friction_case: Path, name: str, others: float, tried: int
+) -> None:
+    case = load(friction_case)
+    pool = [candidate(case, name, 0.9), *(candidate(case, name, 0.9 * others) for _ in range(11))]
+    assert len(first_round(pool)) == tried
+
+
+def test_an_accepted_fit_that_has_not_converged_is_carried_on(
+    friction_case: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Beside the one that has converged there is one that stopped after a step; both come to the same end."""
+    case = load(friction_case)
+    believed, _, last = fitted(case, "CoulombFriction")
+    short = fit(
+        last.machine, case.fit, believed.noise, last.fit.estimate.free, last.fit.fixed, start=believed.point,
+        stages=1, iterations=1,
+    )  # fmt: skip
+    judged = judge(last.machine, short.point)
+    finding = Finding(Ranked(last, short, -100.0), None, judged, judged)
+    floor = noise_floor(case, case.validate, believed.noise)
+    search = Search(case, [], Lead(), floor, last.machine.amendment, short, judged, [finding])
+    search._carry_on(lambda text: None)
+    assert search.fit.deviance() < short.deviance() - 10
+    assert search.fit.deviance() == pytest.approx(last.fit.deviance(), abs=1.0)
+    assert search.findings[0].after is search.judgement
+    carried = search.fit
+    monkeypatch.setattr(searching, "fit", None)  # converged: no other fit is made
+    search._carry_on(lambda text: None)
+    assert search.fit is carried
 
 
 def test_a_richer_law_begins_where_the_one_it_contains_has_ended(friction_case: Path) -> None:
