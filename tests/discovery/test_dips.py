@@ -51,7 +51,7 @@ def ends(values: list[float], deviances: list[float]) -> Iterator[SimpleNamespac
 
 @pytest.fixture
 def five_ends(monkeypatch: pytest.MonkeyPatch) -> SimpleNamespace:
-    """A fit that ended at 1, and where it ends when it is begun again: two dips near the best, one far above."""
+    """A fit that ended at 1, and where it ends when it is begun again: four ends near the best, one far above."""
     first, *others = ends([1.0, 1.3, 1.1, 0.9, 5.0, 1.2], [10.0, 9.0, 6.0, 8.0, 90.0, 7.0])
     sequence = iter(others)
     monkeypatch.setattr(dips, "fit", lambda *_, **__: next(sequence))
