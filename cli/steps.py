@@ -80,12 +80,13 @@ def amend(
     from codegen.library import Library
     from discovery.cases import load
     from discovery.explain import judge_written, write_amended
-    from discovery.steps import add_amendment, fitted
+    from discovery.steps import add_amendment, add_scatter, fitted
 
     with Console(stderr=True).status("reading the recordings") as status:
         library = Library()
         result = fitted(load(case), status.update, library)
         add_amendment(result, library, effect, status.update)
+        add_scatter(result, status.update)
     folder = _folder("amend", case, out)
     path = write_amended(result, folder)
     judge_written(result, path)

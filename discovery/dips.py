@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 
 from .fit import Fit, fit
-from .objective import Objective
+from .screen import Screen
 from .time_limit import TimeUp
 
 PROBES = 4  # directions in which the cost is compared with its quadratic form
@@ -27,43 +27,37 @@ Progress = Callable[[str], None]
 def is_smooth(found: Fit) -> bool:
     """Whether the cost rises around a fit as its Jacobian says it does, a few standard errors to both sides."""
     estimate = found.estimate
-    recordings = found.machine.case.fit
-    objective = Objective(found.machine, recordings, found.noise)
-    weights = objective.weights(found.level)
-    here = objective.weighted(found.point, weights)
     free = [k for k, f in enumerate(estimate.free) if not estimate.at_bound(f.name)]
-    if here is None or not estimate.jacobian or not free:
+    if not estimate.jacobian or not free:
         return True
-    matrix = np.vstack(estimate.jacobian)[:, free]
-    root = np.linalg.pinv(np.linalg.qr(matrix, mode="r"))
-    scales = np.array([estimate.free[k].scale for k in free])
+    screen = Screen(found)
+    root = np.linalg.pinv(np.linalg.qr(screen.jacobian[:, free], mode="r"))
     random = np.random.default_rng(1)
+
+    def cost(step: np.ndarray) -> float:
+        values = estimate.values.copy()
+        for k, z in zip(free, step, strict=True):
+            values[k] = estimate.free[k].clip(values[k] + z * estimate.free[k].scale)
+        point = found.fixed | {f.name: float(v) for f, v in zip(estimate.free, values, strict=True)}
+        data = screen.outputs(found.machine, point)
+        beliefs = [((v - f.centre) / f.sigma) ** 2 for f, v in zip(estimate.free, values, strict=True) if f.sigma]
+        return float("inf") if data is None else float(data @ data) + sum(beliefs)
+
+    here = cost(np.zeros(len(free)))
     for _ in range(PROBES):
         direction = random.normal(size=len(free))
         step = root @ (SIGMAS * direction / np.linalg.norm(direction))
-        rises = [_rise(objective, found, weights, free, sign * step * scales) for sign in (1.0, -1.0)]
-        # the slope that is left at the end of a fit cancels in the mean of both sides
-        if None in rises or abs(np.mean(rises) - float(here @ here) - SIGMAS**2) > SMOOTH * SIGMAS**2:
+        rise = (cost(step) + cost(-step)) / 2 - here  # the slope that is left at the end of a fit cancels
+        if abs(rise - SIGMAS**2) > SMOOTH * SIGMAS**2:
             return False
     return True
-
-
-def _rise(
-    objective: Objective, found: Fit, weights: list[np.ndarray], free: list[int], step: np.ndarray
-) -> float | None:
-    point = dict(found.point)
-    for k, value in zip(free, step, strict=True):
-        f = found.estimate.free[k]
-        point[f.name] = f.clip(point[f.name] + value)
-    there = objective.weighted(point, weights)
-    return None if there is None else float(there @ there)
 
 
 def explored(found: Fit, progress: Progress) -> tuple[Fit, dict[str, float]]:
     """(the best of several fits begun beside this one, how far apart they end): 1-sigma of each free parameter.
 
-    Fits that end much higher than most say nothing of the ground near the best. Where `progress` raises TimeUp, those
-    that have been made count.
+    Fits that end much higher than most say nothing of the ground near the best. Where the time is up, those that
+    have been made count.
     """
     random = np.random.default_rng(1)
     fits = [found]

@@ -15,7 +15,9 @@ from .experiments import separate
 from .explanation import Clock, Explanation
 from .judge import judge_file
 from .steps import add_findings, add_fit, add_location, add_scatter, opened
-from .time_limit import limited
+from .time_limit import within
+
+AS_LIKELY = 0.5  # of a finding's confidence, that rivals at other places have together where the data cannot tell
 
 Progress = Callable[[str], None]
 
@@ -31,14 +33,15 @@ def explain(
     result, machine = opened(case, library)
     if machine is None:
         return result
-    clock, search_progress = Clock(result.seconds), limited(progress, limit)
+    clock = Clock(result.seconds)
     add_fit(result, machine, progress)
     clock.done("fit")
     if not is_noise(result.base):
         add_location(result, progress)
         clock.done("locate")
-    add_findings(result, library, search_progress)
-    add_scatter(result, search_progress)
+    with within(limit):
+        add_findings(result, library, progress)
+        add_scatter(result, progress)
     clock.done("name")
     _conclude(result)
     return result
@@ -49,8 +52,9 @@ def _conclude(result: Explanation) -> None:
     left = [w for w in whiteness(result.final).values() if not w.passed]
     if result.findings:
         first = result.findings[0]
+        # a tie at one place leaves no doubt that physics is missing there
         rivals = [r for r in first.naming.rivals(first.ranked) if r.identity[1] != first.ranked.identity[1]]
-        if rivals and first.ranked.confidence < 0.5:  # a tie at one place leaves no doubt that physics is missing there
+        if sum(r.confidence for r in rivals) > AS_LIKELY * first.ranked.confidence:
             result.verdict = "undetermined"
             names = ", ".join(dict.fromkeys(r.attachment.label for r in rivals[:3]))
             result.reason = f"{first.ranked.attachment.label} and {names} explain the data equally well"
@@ -110,5 +114,4 @@ def write_amended(result: Explanation, folder: Path) -> Path | None:
 def judge_written(result: Explanation, path: Path) -> None:
     """Judge the amended file as it is written: its own numbers are those that are reported."""
     starts = {n: v for n, v in result.final.point.items() if n.startswith("start:")}
-    result.after = judge_file(result.case, result.amendment, path, starts)
-    result.findings[-1] = replace(result.findings[-1], after=result.after)
+    result.rejudge(judge_file(result.case, result.amendment, path, starts))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 import time
 
 import numpy as np
@@ -43,6 +43,11 @@ class Explanation:
     lead: Lead = field(default_factory=Lead)  # of fits of this model
     scatter: dict[str, float] = field(default_factory=dict)  # of each parameter, from dip to dip on rough ground
     _errors: dict[str, float] | None = None
+
+    def rejudge(self, after: Judgement) -> None:
+        """Take the judgement of all findings together anew."""
+        self.after = after
+        self.findings[-1] = replace(self.findings[-1], after=after)
 
     def errors(self) -> dict[str, float]:
         """1-sigma of each parameter of the final fit."""

@@ -1,9 +1,11 @@
-"""Standard errors of fitted parameters: noise with its colour, and rough ground.
+"""Standard errors of fitted parameters: noise with its colour, rounding, and rough ground.
 
-Sandwich covariance: each signal's share of the score has the variance that the colour of its residual gives it. Where
-events make the sum of squares rough, sensitivities are taken with the shafts held near their recorded motion, and what
-the values move by when they are released is an error too: no derivative at the end of such a fit says how far it may
-be from the best one.
+Sandwich covariance: each signal's share of the score has the variance that the colour of its residual gives it. The
+error of a signal whose resolution is coarser than its noise is rounding, which is the same wherever the signal comes
+by the same value again; so the fitted outputs are rounded, the levels anywhere, and the variance that this gives the
+score counts where it is the larger. Where events make the sum of squares rough, sensitivities are taken with the
+shafts held near their recorded motion, and what the values move by when they are released is an error too: no
+derivative at the end of such a fit says how far it may be from the best one.
 """
 
 from __future__ import annotations
@@ -12,6 +14,9 @@ import numpy as np
 
 from .fit import Fit
 from .lead import Lead
+from .noise import is_coarse, sample_weights
+
+ROUNDINGS = 32  # places of the levels, over which rounding is averaged
 
 
 def standard_errors(fit: Fit, lead: Lead | None = None) -> dict[str, float]:
@@ -33,17 +38,45 @@ def covariance(fit: Fit) -> np.ndarray:
     inside = scales > 0
     inverse = np.zeros_like(estimate.normal)
     inverse[np.ix_(inside, inside)] = np.linalg.pinv(estimate.normal[np.ix_(inside, inside)], hermitian=True)
-    return inverse @ _score_covariance(fit) @ inverse * np.outer(scales, scales)
+    noisy, rounded = (
+        inverse @ score @ inverse * np.outer(scales, scales)
+        for score in (_score_covariance(fit, False), _score_covariance(fit, True))
+    )
+    larger = np.sqrt(np.maximum(1.0, np.diag(rounded) / np.where(inside, np.diag(noisy), 1.0)))
+    return noisy * np.outer(larger, larger)
 
 
-def _score_covariance(fit: Fit) -> np.ndarray:
-    """Covariance (p, p) of half the gradient in scaled coordinates: beliefs, and each signal with its colour."""
+def _score_covariance(fit: Fit, rounded: bool) -> np.ndarray:
+    """Covariance (p, p) of half the gradient in scaled coordinates: beliefs, and each signal's noise with its colour,
+    or the rounding of those that are coarse."""
     colour = fit.correlation()
+    coarse = [c for c in fit.noise if rounded and is_coarse(fit.noise[c])]
     data = np.zeros_like(fit.estimate.normal)
     total = np.zeros_like(data)
-    for block, residuals in zip(fit.estimate.jacobian, fit.residuals.values(), strict=True):
+    scores = {c: np.zeros((ROUNDINGS, len(data))) for c in coarse}
+    for block, (name, residuals) in zip(fit.estimate.jacobian, fit.residuals.items(), strict=True):
         lengths = [len(residuals[c]) for c in fit.noise]
         for column, rows in zip(fit.noise, np.split(block, np.cumsum(lengths)), strict=False):
             data += rows.T @ rows
-            total += colour[column] * (rows.T @ rows)
+            if column in coarse:
+                scores[column] += _rounding(fit, name, column) @ rows
+            else:
+                total += colour[column] * (rows.T @ rows)
+    total += sum(s.T @ s / ROUNDINGS for s in scores.values())
     return total + np.maximum(fit.estimate.normal - data, 0.0) * np.eye(len(total))
+
+
+def _rounding(fit: Fit, recording: str, column: str) -> np.ndarray:
+    """Errors (ROUNDINGS, n) that rounding gives a simulated output, weighted so that rows of the Jacobian, which have
+    the weights of the recorded samples, make a score of them."""
+    noise, weights = fit.noise[column], fit.weights[recording][column]
+    measured = next(r.columns[column] for r in fit.machine.case.fit if r.name == recording)
+    levels = (measured - fit.residuals[recording][column]) / noise.quantum
+    result = np.zeros((ROUNDINGS, len(levels)))
+    seen = weights > 0
+    for k in range(ROUNDINGS):
+        place = (k + 0.5) / ROUNDINGS
+        rounded = np.round(levels + place)
+        error = (rounded - place - levels) * noise.quantum / (noise.std * fit.level[column])
+        result[k, seen] = (error * sample_weights(rounded, noise) ** 2)[seen] / weights[seen]
+    return result

@@ -17,6 +17,8 @@ import os
 import numpy as np
 from scipy.optimize import lsq_linear
 
+from . import time_limit
+
 WORKERS = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 _pool = ThreadPoolExecutor(max_workers=WORKERS)
 
@@ -94,6 +96,7 @@ class Problem:
         self.simulations = 0
 
     def _evaluate(self, points: list[np.ndarray]) -> list[list[np.ndarray] | None]:
+        time_limit.check()
         tasks = [(self._named(p), k) for p in points for k in range(self.pieces)]
         self.simulations += len(tasks)
         parts = list(_pool.map(self._weighted, tasks))

@@ -24,6 +24,7 @@ from .objective import Objective
 from .places import Shaft
 from .race import best_starts, first_round, relatives, still_in
 from .screen import Candidate, Screen, prepare, telling_recordings
+from .time_limit import TimeUp, check
 from .tracking import trackable
 
 ROUNDS = ((2, 2, 100), (2, 3, 10), (3, 3, 4), (10, 4, 2))  # (stages, iterations, fits): successive halving
@@ -31,6 +32,8 @@ SMALL_STEP = 0.1  # of a start that is predicted to first order, which may still
 HALF = 0.5  # of the best gain, that a hypothesis must have to be fitted further: a simpler law, or one to be led
 SEVERAL_STARTS = 1  # rounds after which only the best start of each hypothesis goes on
 LED = 2  # hypotheses that are fitted again, led by trackers, where none has left noise
+CONTENDING = 0.1  # share of the best gain, within which rivals are begun again from where the best hypothesis ended,
+AS_GOOD = 3.0  # while to first order they leave at most so many times what it does there itself
 
 
 @dataclass
@@ -64,6 +67,7 @@ def screen_all(
     failures: list[tuple[str, str]] = []
 
     def one(attachment: Attachment) -> list[Candidate]:
+        check()
         amended = replace(amendment, attachments=[*amendment.attachments, attachment])
         machine, why = try_machine(case, amended, base.machine)
         if machine is None:
@@ -96,25 +100,46 @@ def compete(
     case: Case, candidates: list[Candidate], base: Fit, *, bandwidths: tuple[float, ...] = (0.0,),
     progress: Progress = lambda text: None,
 ) -> Naming:  # fmt: skip
-    """Fit and rank candidates (most promising first) on top of `base`."""
+    """Fit and rank candidates (most promising first) on top of `base`.
+
+    Where the time is up, those that have been fitted are ranked if the best leaves noise; else TimeUp is raised.
+    """
     screened = [(c.attachment.label, c.predicted) for c in best_starts(candidates)]
     fitted: dict[str, Candidate] = {}
+    done = False
+    try:
+        failures = _race(case, candidates, base, bandwidths, fitted, progress)
+        done = True
+    except TimeUp:
+        if not any(nearly_noise(c.fit) for c in fitted.values()):
+            raise
+        failures = []
+    if not fitted:
+        return Naming([], screened, failures)
+    correlation = best_correlation(list(fitted.values()))
+    ranked = [Ranked(c, c.fit, score(c, base, correlation)) for c in fitted.values()]
+    ranked.sort(key=lambda r: r.score)
+    if done:
+        ranked = cross_validated(case, base, ranked, correlation, progress)
+    confidences(ranked)
+    return Naming(ranked, screened, failures, correlation)
+
+
+def _race(
+    case: Case, candidates: list[Candidate], base: Fit, bandwidths: tuple[float, ...], fitted: dict[str, Candidate],
+    progress: Progress,
+) -> list[tuple[str, str]]:  # fmt: skip
+    """Fit what may win, into `fitted`; what could not be simulated, with the reason."""
     first = first_round(candidates)
     _halve(case, base, first, bandwidths, fitted, progress)
     related = relatives(candidates, fitted)
     _halve(case, base, related, bandwidths, fitted, progress)
+    if fitted:
+        _lead(case, base, list(fitted.values()), progress)
+        _simplify(case, base, list(fitted.values()))
+        _contend(case, base, list(fitted.values()), progress)
     failed = dict.fromkeys(c.attachment.label for c in [*first, *related] if c.attachment.label not in fitted)
-    failures = [(label, "no simulation succeeded from its start values") for label in failed]
-    if not fitted:
-        return Naming([], screened, failures)
-    _lead(case, base, list(fitted.values()), progress)
-    _simplify(case, base, list(fitted.values()))
-    correlation = best_correlation(list(fitted.values()))
-    ranked = [Ranked(c, c.fit, score(c, base, correlation)) for c in fitted.values()]
-    ranked.sort(key=lambda r: r.score)
-    ranked = cross_validated(case, base, ranked, correlation, progress)
-    confidences(ranked)
-    return Naming(ranked, screened, failures, correlation)
+    return [(label, "no simulation succeeded from its start values") for label in failed]
 
 
 def _halve(
@@ -230,6 +255,42 @@ def _from_richer(case: Case, base: Fit, candidate: Candidate, best: Candidate) -
             break
         start = simpler.fit.point
     return simpler.fit
+
+
+def _contend(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
+    """Begin rivals of the best hypothesis again, the base's parameters where that one left them.
+
+    Without an effect they stand for it as well as they can, and on the way back a fit may end in a dip: which of two
+    hypotheses that do equally well is named must not hang on that.
+    """
+    best = min(candidates, key=lambda c: c.fit.deviance())
+    near = best.fit.deviance() + CONTENDING * (base.deviance() - best.fit.deviance())
+    close = [c for c in candidates if c.fit.deviance() <= near]
+    free, point = base.estimate.free, best.fit.point
+    there = fit(base.machine, case.fit, base.noise, free, base.fixed, start=point, stages=1, iterations=0)
+    if len(close) < 2 or there is None:
+        return
+    screen = Screen(there, telling_recordings(there))
+    least = AS_GOOD * (1.0 - _prepared(screen, best).predicted)
+
+    def begin_again(candidate: Candidate) -> None:
+        again = _prepared(screen, candidate)
+        if 1.0 - again.predicted > least:
+            return
+        for stages, iterations, _ in (ROUNDS[0], ROUNDS[-1]):
+            again.fit = fit_candidate(case, there, (0.0,), stages, iterations, progress, again)
+            if again.fit is None or again.fit.deviance() > candidate.fit.deviance():
+                return
+            candidate.fit, candidate.free = again.fit, again.free
+
+    with ThreadPoolExecutor(WORKERS) as pool:
+        list(pool.map(begin_again, close))
+
+
+def _prepared(screen: Screen, candidate: Candidate) -> Candidate:
+    """The candidate at its most promising start against another fit of the base."""
+    found = prepare(screen, candidate.attachment, candidate.machine)
+    return found[0] if found else replace(candidate, predicted=0.0)
 
 
 def _fit_led(case: Case, base: Fit, candidate: Candidate, shafts: list[Shaft]) -> Fit | None:

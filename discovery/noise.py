@@ -74,13 +74,18 @@ def estimate(pieces: list[np.ndarray], given: float | None = None) -> Noise:
     return Noise(max(level(pieces), floor, 1e-9 * spread, 1e-300), step, False)
 
 
+def is_coarse(noise: Noise) -> bool:
+    """Whether a signal's error is rounding: its noise is well below its resolution, so that nothing dithers it."""
+    return noise.quantum > 0 and noise.std <= 0.5 * noise.quantum
+
+
 def sample_weights(values: np.ndarray, noise: Noise) -> np.ndarray:
     """Weight (n,) of each sample: 0 where missing; 1/sqrt(k) in a run of k equal samples of a signal without dither.
 
     Where noise is well below the resolution, equal samples in a row carry one and the same rounding error.
     """
     weights = np.isfinite(values).astype(float)
-    if noise.quantum == 0 or noise.std > 0.5 * noise.quantum:
+    if not is_coarse(noise):
         return weights
     change = np.flatnonzero(np.diff(np.nan_to_num(values, nan=np.inf)) != 0) + 1
     lengths = np.diff(np.concatenate([[0], change, [len(values)]]))

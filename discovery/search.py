@@ -142,7 +142,6 @@ class Search:
             after = try_judge(found.machine, found.point) if found else None
             if after is None or found.deviance() > here.deviance() - 1.0:
                 return
-            self.findings[-1] = replace(self.findings[-1], after=after)
             self.take(self.amendment.attachments, found, after)
 
     def _better(self, other: Search) -> bool:
@@ -156,8 +155,10 @@ class Search:
         return True
 
     def take(self, attachments: list[Attachment], found: Fit, judgement: Judgement) -> None:
+        """Go on from this amendment; its judgement is that of the last finding, too."""
         self.amendment = replace(self.amendment, attachments=attachments)
         self.fit, self.judgement = found, judgement
+        self.findings[-1] = replace(self.findings[-1], after=judgement)
 
     def polished(self, best: Ranked, base: Fit) -> Fit | None:
         """The hypothesis fitted to all, nothing held; None where that fails or is no better than the base."""
@@ -201,7 +202,6 @@ class Search:
             progress(f"{best.attachment.label} instead of {finding.ranked.attachment.label}")
             best.fit = polished
             self.findings[k] = replace(finding, ranked=best, naming=naming)
-            self.findings[-1] = replace(self.findings[-1], after=after)
             self.take([*others, best.attachment], polished, after)
 
     def _drop_needless(self, progress: Progress) -> None:
@@ -219,7 +219,6 @@ class Search:
             if after is not None and not pays(after.validate, self.judgement.validate, self.floor):
                 progress(f"{finding.ranked.attachment.label} is not needed")
                 self.findings.remove(finding)
-                self.findings[-1] = replace(self.findings[-1], after=after)
                 self.take(attachments, found, after)
 
     def _without(self, ranked: Ranked, amendment: Amendment, stages: int = 0) -> Fit | None:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
-
 import numpy as np
 
 from codegen.library import Library
@@ -98,7 +96,7 @@ def add_amendment(result: Explanation, library: Library, effect: str, progress: 
 def add_findings(result: Explanation, library: Library, progress: Progress) -> None:
     """Findings until what is left is noise or nothing pays: of the catalogue, then an empirical law.
 
-    Where `progress` raises TimeUp, what was found until then stands.
+    Where the time is up, what was found until then stands.
     """
     search = _search(result, catalogue.read(library))
     shafts = trackable(result.case, result.base.machine.model, result.amendment.structure)[:1]
@@ -120,8 +118,8 @@ def add_scatter(result: Explanation, progress: Progress) -> None:
     best, result.scatter = explored(result.final, progress)
     after = try_judge(best.machine, best.point) if best is not result.final else None
     if after is not None:
-        result.final, result.after = best, after
-        result.findings[-1] = replace(result.findings[-1], after=after)
+        result.final = best
+        result.rejudge(after)
 
 
 def _held(result: Explanation, direct: Search, shafts: list[places.Shaft], progress: Progress) -> Search | None:

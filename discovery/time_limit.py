@@ -1,26 +1,35 @@
-"""A limit on the time that a search may take: what it has found until then stands."""
+"""A limit on the time that a search may take: what it has found until then stands.
+
+Long work calls `check` between its simulations; past the end of the limit that raises TimeUp.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterator
+from contextlib import contextmanager
+import math
 import time
 
-Progress = Callable[[str], None]
+_seconds, _end = math.inf, math.inf
 
 
 class TimeUp(Exception):
     """A search has taken as long as it may; the message says how long that is."""
 
 
-def limited(progress: Progress, seconds: float | None) -> Progress:
-    """Progress that ends what reports to it: a call later than `seconds` from now raises TimeUp."""
-    if seconds is None:
-        return progress
-    end = time.monotonic() + seconds
+@contextmanager
+def within(seconds: float | None) -> Iterator[None]:
+    """Limit what is done inside to so many seconds from now; None sets no limit."""
+    global _seconds, _end
+    if seconds is not None:
+        _seconds, _end = seconds, time.monotonic() + seconds
+    try:
+        yield
+    finally:
+        _seconds, _end = math.inf, math.inf
 
-    def report(text: str) -> None:
-        if time.monotonic() > end:
-            raise TimeUp(f"the search was stopped after {seconds:.0f} s, before it was done")
-        progress(text)
 
-    return report
+def check() -> None:
+    """Raise TimeUp where the limit has been passed."""
+    if time.monotonic() > _end:
+        raise TimeUp(f"the search was stopped after {_seconds:.0f} s, before it was done")

@@ -8,21 +8,27 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from discovery import dips
+from discovery import dips, screen
 from discovery.least_squares import Free, Problem, solve
 from discovery.time_limit import TimeUp
 
 FREE = [Free("x", 1.0, 1.0, step=1e-3)]
+BELIEVED = [Free("y", 0.0, 1.0, sigma=1.0)]
 NOISE = np.random.default_rng(0).normal(size=400)
 
 
-def fitted(function: Callable[[float], np.ndarray], monkeypatch: pytest.MonkeyPatch) -> SimpleNamespace:
+def fitted(
+    function: Callable[[float], np.ndarray], free: list[Free], monkeypatch: pytest.MonkeyPatch
+) -> SimpleNamespace:
     """The least-squares fit of the parameter x whose weighted residual is `function`."""
     objective = SimpleNamespace(weights=lambda level: None, weighted=lambda values, weights: function(values["x"]))
-    monkeypatch.setattr(dips, "Objective", lambda *_: objective)
-    estimate = solve(Problem(FREE, lambda values, _: function(values["x"]), 1), np.array([1.0]))
-    machine = SimpleNamespace(case=SimpleNamespace(fit=[]))
-    return SimpleNamespace(estimate=estimate, machine=machine, noise={}, level={}, point=estimate.point, fixed={})
+    monkeypatch.setattr(screen, "Objective", lambda *_: objective)
+    start = np.array([f.centre for f in free])
+    estimate = solve(Problem(free, lambda values, _: function(values["x"]), 1), start)
+    machine = SimpleNamespace(case=SimpleNamespace(fit=[SimpleNamespace(name="r")]))
+    return SimpleNamespace(
+        estimate=estimate, machine=machine, noise={}, level={}, point=estimate.point, fixed={}, residuals={"r": {}}
+    )
 
 
 @pytest.mark.parametrize(
@@ -34,10 +40,11 @@ def fitted(function: Callable[[float], np.ndarray], monkeypatch: pytest.MonkeyPa
         (lambda x: 10.0 * np.round(x - 2.0, 1) + NOISE, False),
     ],
 )
+@pytest.mark.parametrize("unseen", [[], BELIEVED], ids=["", "and a parameter that the data does not see"])
 def test_ground_is_smooth_where_the_cost_rises_as_derivatives_say(
-    function: Callable[[float], np.ndarray], smooth: bool, monkeypatch: pytest.MonkeyPatch
+    function: Callable[[float], np.ndarray], smooth: bool, unseen: list[Free], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert dips.is_smooth(fitted(function, monkeypatch)) is smooth
+    assert dips.is_smooth(fitted(function, FREE + unseen, monkeypatch)) is smooth
 
 
 def ends(values: list[float], deviances: list[float]) -> Iterator[SimpleNamespace]:

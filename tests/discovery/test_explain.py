@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 import json
 from pathlib import Path
 import shutil
@@ -13,14 +14,16 @@ from codegen.library import Library
 from discovery import catalogue, diagnosis, report
 from discovery.amend import Amendment
 from discovery.cases import load
+from discovery.comparison import confidences
 from discovery.evidence import is_noise
-from discovery.explain import explain, judge_written, write_amended
+from discovery.explain import _conclude, explain, judge_written, write_amended
 from discovery.explanation import Explanation
 from discovery.intervals import standard_errors
 from discovery.judge import judge_file
 from discovery.least_squares import Free, Problem, solve
 from discovery.locate import locate
 from discovery.machine import Machine
+from discovery.name import Naming
 from discovery.noise import estimate, quantum
 from discovery.places import read
 from discovery.steps import fit_believed
@@ -104,6 +107,26 @@ def test_the_amended_file_gives_the_reported_numbers(explained: Explanation, tmp
     assert data["amended_model"] == path.name
     page = report.write(explained, tmp_path, path).read_text()
     assert "friction.coulomb" in page and 'src="http' not in page and 'href="http' not in page
+
+
+@pytest.mark.parametrize(
+    ("behind", "place", "verdict"),
+    [(0.5, "drive", "undetermined"), (6.0, "drive", "missing_physics"), (0.5, "shaft", "missing_physics")],
+)
+def test_a_rival_elsewhere_that_is_as_likely_leaves_it_undetermined(
+    explained: Explanation, behind: float, place: str, verdict: str
+) -> None:
+    finding = explained.findings[0]
+    own = finding.ranked
+    other = next(r for r in finding.naming.ranked if r.identity[0] != own.identity[0])
+    there = replace(other.candidate, attachment=replace(other.attachment, location=place))
+    ranked = [replace(own), replace(other, candidate=there, fit=own.fit, score=own.score + behind)]
+    confidences(ranked)
+    tied = replace(finding, ranked=ranked[0], naming=Naming(ranked, []))
+    result = replace(explained, findings=[tied], trial=None, reason="", experiment="")
+    _conclude(result)
+    assert result.verdict == verdict
+    assert ("explain the data equally well" in result.reason) == (verdict == "undetermined")
 
 
 CUBIC_DRAG = """within Lacuna.Effects;

@@ -1,0 +1,95 @@
+"""Naming: rivals that do equally well, and races that are not finished."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from codegen.library import Library
+from discovery import name as naming
+from discovery.amend import Amendment
+from discovery.cases import Case, load
+from discovery.fit import Fit, fit
+from discovery.machine import Machine
+from discovery.name import Naming, compete
+from discovery.places import read
+from discovery.screen import Candidate, Screen, prepare
+from discovery.steps import fit_believed
+from discovery.time_limit import TimeUp, check, within
+
+from .conftest import attachment
+
+Prepared = Callable[[str], Candidate]
+
+
+@pytest.fixture(scope="module")
+def case(friction_case: Path) -> Case:
+    return load(friction_case)
+
+
+@pytest.fixture(scope="module")
+def base(case: Case) -> Fit:
+    return fit_believed(case, Machine(case, Amendment(read(Library(), case.model))))[0]
+
+
+@pytest.fixture
+def prepared(case: Case, base: Fit) -> Prepared:
+    """Screened candidates by the name of the effect, not fitted yet."""
+
+    def candidate(effect: str) -> Candidate:
+        added = attachment(case, effect)
+        machine = Machine(case, Amendment(base.machine.amendment.structure, [added]))
+        return prepare(Screen(base), added, machine)[0]
+
+    return candidate
+
+
+def fitted(case: Case, base: Fit, candidate: Candidate, **how: object) -> Candidate:
+    free = [*base.estimate.free, *candidate.free]
+    return replace(candidate, fit=fit(candidate.machine, case.fit, base.noise, free, base.fixed, **how))
+
+
+def test_a_rival_that_ended_in_a_dip_is_begun_again_from_where_the_best_hypothesis_ended(
+    case: Case, base: Fit, prepared: Prepared
+) -> None:
+    """Friction that may depend on the direction is dry friction here: left a little off, it comes to the same end."""
+    best = fitted(case, base, prepared("CoulombFriction"))
+    rival = prepared("AsymmetricFriction")
+    level = best.fit.point[best.attachment.full_name("tau_c")]
+    dip = best.fit.point | {rival.attachment.full_name(n): 1.0002 * level for n in ("tau_pos", "tau_neg")}
+    rival = fitted(case, base, rival, start=dip, stages=1, iterations=0)
+    worse = fitted(case, base, prepared("ConstantLoad"))
+    left = worse.fit
+    assert rival.fit.deviance() > best.fit.deviance() + 20
+    naming._contend(case, base, [best, rival, worse], lambda text: None)
+    assert rival.fit.deviance() == pytest.approx(best.fit.deviance(), abs=4.0)
+    assert worse.fit is left
+
+
+def raced(case: Case, base: Fit, prepared: Prepared, effect: str, monkeypatch: pytest.MonkeyPatch) -> Naming:
+    """The naming of a race that runs out of time when its only hypothesis has been fitted."""
+
+    def too_late(*_: object) -> None:
+        raise TimeUp("the search was stopped")
+
+    monkeypatch.setattr(naming, "_contend", too_late)
+    return compete(case, [prepared(effect)], base)
+
+
+def test_a_race_without_time_names_what_leaves_noise(
+    case: Case, base: Fit, prepared: Prepared, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = raced(case, base, prepared, "CoulombFriction", monkeypatch)
+    assert found.best.identity == ("friction.coulomb", "shaft")
+    with pytest.raises(TimeUp):
+        raced(case, base, prepared, "ConstantLoad", monkeypatch)
+
+
+def test_no_fit_goes_on_when_the_time_is_up(case: Case, base: Fit, prepared: Prepared) -> None:
+    with within(0.0), pytest.raises(TimeUp, match="stopped after 0 s"):
+        fitted(case, base, prepared("CoulombFriction"))
+    check()  # outside, no limit holds
+    assert fitted(case, base, prepared("CoulombFriction"), stages=1, iterations=1).fit is not None
