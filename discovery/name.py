@@ -14,26 +14,19 @@ from functools import partial
 from runtime import SimulationError
 
 from .amend import Amendment, Attachment
+from .candidate_fit import fit_candidate
 from .cases import Case
 from .comparison import TIE, Progress, Ranked, best_correlation, confidences, cross_validated, score
 from .evidence import nearly_noise
-from .fit import Fit, falling_bandwidths, fit
-from .least_squares import WORKERS, Free
+from .fit import Fit
+from .least_squares import WORKERS
 from .machine import try_machine
-from .objective import Objective
-from .places import Shaft
-from .race import best_starts, first_round, relatives, still_in
+from .race import ROUNDS, best_starts, first_round, relatives, still_in
+from .restarts import begin_again
 from .screen import Candidate, Screen, prepare, telling_recordings
 from .time_limit import TimeUp, check
-from .tracking import trackable
 
-ROUNDS = ((2, 2, 100), (2, 3, 10), (3, 3, 4), (10, 4, 2))  # (stages, iterations, fits): successive halving
-SMALL_STEP = 0.1  # of a start that is predicted to first order, which may still hold where the whole of it does not
-HALF = 0.5  # of the best gain, that a hypothesis must have to be fitted further: a simpler law, or one to be led
 SEVERAL_STARTS = 1  # rounds after which only the best start of each hypothesis goes on
-LED = 2  # hypotheses that are fitted again, led by trackers, where none has left noise
-CONTENDING = 0.1  # share of the best gain, within which rivals are begun again from where the best hypothesis ended,
-AS_GOOD = 3.0  # while to first order they leave at most so many times what it does there itself
 
 
 @dataclass
@@ -135,9 +128,7 @@ def _race(
     related = relatives(candidates, fitted)
     _halve(case, base, related, bandwidths, fitted, progress)
     if fitted:
-        _lead(case, base, list(fitted.values()), progress)
-        _simplify(case, base, list(fitted.values()))
-        _contend(case, base, list(fitted.values()), progress)
+        begin_again(case, base, list(fitted.values()), progress)
     failed = dict.fromkeys(c.attachment.label for c in [*first, *related] if c.attachment.label not in fitted)
     return [(label, "no simulation succeeded from its start values") for label in failed]
 
@@ -167,139 +158,3 @@ def _halve(
         leader = min(fitted.values(), key=lambda c: score(c, base, correlation))
         pool = still_in(pool, scores, before, leader.fit, score(leader, base, correlation), base, correlation)
         before = scores
-
-
-def fit_candidate(
-    case: Case, base: Fit, bandwidths: tuple[float, ...], stages: int, iterations: int, progress: Progress,
-    candidate: Candidate,
-) -> Fit | None:  # fmt: skip
-    """Fit the base's parameters and the effect's together, from the screened start."""
-    progress(f"fitting {candidate.attachment.label}")
-    free: list[Free] = [*base.estimate.free, *candidate.free]
-    if candidate.fit is not None:
-        start = candidate.fit.point
-        bandwidths = bandwidths[-1:]
-    else:
-        start = _start(case, base, candidate)
-    fixed = base.fixed | candidate.fixed
-    return fit(
-        candidate.machine, case.fit, base.noise, free, fixed, start=start, bandwidths=bandwidths, stages=stages,
-        iterations=iterations, known=base.sensitivities() if candidate.fit is None else None,
-    )  # fmt: skip
-
-
-def _start(case: Case, base: Fit, candidate: Candidate) -> dict[str, float]:
-    """The screened start that misses by least: the base's parameters as they are, or as they would go with the effect,
-    or only a little of both."""
-    objective = Objective(candidate.machine, case.fit, base.noise)
-    weights = objective.weights(base.level)
-
-    def missed(start: dict[str, float]) -> float:
-        residual = objective.weighted(start | candidate.fixed, weights)
-        return float("inf") if residual is None else float(residual @ residual)
-
-    full = base.point | candidate.shift | candidate.start
-    return min((base.point | candidate.start, full, _small_step(base, candidate, full)), key=missed)
-
-
-def _small_step(base: Fit, candidate: Candidate, full: dict[str, float]) -> dict[str, float]:
-    """A little of the way from the base without the effect to a start; what has no neutral value stays."""
-    attachment = candidate.attachment
-    neutral = {attachment.full_name(n): v for n, v in attachment.effect.neutral.items()}
-    without = full | {n: v for n, v in neutral.items() if n in full} | base.point
-    return {n: without[n] + SMALL_STEP * (v - without[n]) for n, v in full.items()}
-
-
-def _lead(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
-    """Fit the best hypotheses again, shafts held near their recorded motion at first, where none of them left noise.
-
-    Stick and slip make the sum of squares rough: a fit that starts far away can end in one of its many dips.
-    """
-    ordered = sorted(candidates, key=lambda c: c.fit.deviance())
-    far = base.deviance() - HALF * (base.deviance() - ordered[0].fit.deviance())
-    shafts = trackable(case, base.machine.model, base.machine.amendment.structure)
-    if not shafts or base.machine.amendment.trackers or nearly_noise(ordered[0].fit):
-        return
-    for candidate in [c for c in ordered[:LED] if c.fit.deviance() <= far]:
-        progress(f"leading {candidate.attachment.label}")
-        found = _fit_led(case, base, candidate, shafts)
-        if found is not None and found.deviance() < candidate.fit.deviance():
-            candidate.fit = found
-
-
-def _simplify(case: Case, base: Fit, candidates: list[Candidate]) -> None:
-    """Start the laws that the best hypothesis contains from where it ended: a simpler one may do as well."""
-    best = min(candidates, key=lambda c: c.fit.deviance())
-    for candidate in candidates:
-        if best.attachment.contains(candidate.attachment):
-            found = _from_richer(case, base, candidate, best)
-            if found is not None and found.deviance() < candidate.fit.deviance():
-                candidate.fit = found
-
-
-def _from_richer(case: Case, base: Fit, candidate: Candidate, best: Candidate) -> Fit | None:
-    """The fit of a law from the values of one that contains it; given up where a first look shows it far behind."""
-    point = best.fit.point
-    shared = {f.name: point.get(best.attachment.full_name(f.name.rsplit(".", 1)[-1])) for f in candidate.free}
-    start = candidate.fit.point | {f.name: point[f.name] for f in base.estimate.free}
-    start |= {name: value for name, value in shared.items() if value is not None}
-    correlation = best_correlation([best])
-    goal = score(best, base, correlation)
-    simpler = replace(candidate, fit=None)
-    for stages, iterations, _ in (ROUNDS[0], ROUNDS[-1]):
-        free, fixed = [*base.estimate.free, *candidate.free], base.fixed | candidate.fixed
-        simpler.fit = fit(
-            candidate.machine, case.fit, base.noise, free, fixed, start=start, stages=stages, iterations=iterations
-        )
-        if simpler.fit is None or score(simpler, base, correlation) > HALF * goal:
-            break
-        start = simpler.fit.point
-    return simpler.fit
-
-
-def _contend(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
-    """Begin rivals of the best hypothesis again, the base's parameters where that one left them.
-
-    Without an effect they stand for it as well as they can, and on the way back a fit may end in a dip: which of two
-    hypotheses that do equally well is named must not hang on that.
-    """
-    best = min(candidates, key=lambda c: c.fit.deviance())
-    near = best.fit.deviance() + CONTENDING * (base.deviance() - best.fit.deviance())
-    close = [c for c in candidates if c.fit.deviance() <= near]
-    free, point = base.estimate.free, best.fit.point
-    there = fit(base.machine, case.fit, base.noise, free, base.fixed, start=point, stages=1, iterations=0)
-    if len(close) < 2 or there is None:
-        return
-    screen = Screen(there, telling_recordings(there))
-    least = AS_GOOD * (1.0 - _prepared(screen, best).predicted)
-
-    def begin_again(candidate: Candidate) -> None:
-        again = _prepared(screen, candidate)
-        if 1.0 - again.predicted > least:
-            return
-        for stages, iterations, _ in (ROUNDS[0], ROUNDS[-1]):
-            again.fit = fit_candidate(case, there, (0.0,), stages, iterations, progress, again)
-            if again.fit is None or again.fit.deviance() > candidate.fit.deviance():
-                return
-            candidate.fit, candidate.free = again.fit, again.free
-
-    with ThreadPoolExecutor(WORKERS) as pool:
-        list(pool.map(begin_again, close))
-
-
-def _prepared(screen: Screen, candidate: Candidate) -> Candidate:
-    """The candidate at its most promising start against another fit of the base."""
-    found = prepare(screen, candidate.attachment, candidate.machine)
-    return found[0] if found else replace(candidate, predicted=0.0)
-
-
-def _fit_led(case: Case, base: Fit, candidate: Candidate, shafts: list[Shaft]) -> Fit | None:
-    amendment = replace(candidate.machine.amendment, trackers=shafts)
-    machine, _ = try_machine(case, amendment, base.machine)
-    if machine is None:
-        return None
-    free, fixed = [*base.estimate.free, *candidate.free], base.fixed | candidate.fixed
-    start = base.point | candidate.start
-    bandwidths = falling_bandwidths(case, machine)
-    led = fit(machine, case.fit, base.noise, free, fixed, start=start, bandwidths=bandwidths, stages=4)
-    return led and fit(candidate.machine, case.fit, base.noise, free, fixed, start=led.point)

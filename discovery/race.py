@@ -11,6 +11,7 @@ from .evidence import nearly_noise
 from .fit import Fit
 from .screen import Candidate
 
+ROUNDS = ((2, 2, 100), (2, 3, 10), (3, 3, 4), (10, 4, 2))  # (stages, iterations, fits): successive halving
 FIRST_ROUND = 8
 ENOUGH = 0.9  # of the promise of a law, that one which it contains must have to be tried in its stead,
 LEAVES = 1.5  # while it leaves at most so many times the misfit

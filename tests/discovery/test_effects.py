@@ -10,7 +10,7 @@ from scipy.optimize import nnls
 
 from codegen.compile import compile_model
 from codegen.library import Library
-from discovery import catalogue, name
+from discovery import candidate_fit, catalogue
 from discovery.amend import Amendment, Attachment
 from discovery.cases import load
 from discovery.fit import fit
@@ -120,7 +120,7 @@ def test_the_start_of_a_hypothesis_takes_the_believed_parameters_along(tmp_path:
         found = fit(candidate.machine, case.fit, base.noise, [*free, *candidate.free], fixed, start=start, iterations=0)
         return found.estimate.cost
 
-    taken = name._start(case, base, candidate)
+    taken = candidate_fit._start(case, base, candidate)
     assert missed(taken) < missed(base.point | candidate.start)
 
 

@@ -36,5 +36,5 @@ def test_rounding_that_repeats_widens_an_interval(shape: np.ndarray, repeats: bo
     scatter = float(np.sqrt(np.mean([(f.estimate["slope"] - 1.0) ** 2 for f in fits])))
     said = np.array([standard_errors(f)["slope"] for f in fits])
     as_noise = np.array([f.estimate.normal[0, 0] ** -0.5 * f.estimate.free[0].scale for f in fits])
-    assert 0.8 < np.median(said) / scatter < 1.5  # of what rounding gives and what as much white noise would, the larger
+    assert 0.8 < np.median(said) / scatter < 1.5  # the larger of what rounding gives and of what white noise would
     assert bool(np.median(as_noise) < 0.5 * scatter) is repeats

@@ -16,6 +16,7 @@ from discovery.fit import Fit, fit
 from discovery.machine import Machine
 from discovery.name import Naming, compete
 from discovery.places import read
+from discovery.restarts import begin_again
 from discovery.screen import Candidate, Screen, prepare
 from discovery.steps import fit_believed
 from discovery.time_limit import TimeUp, check, within
@@ -64,7 +65,7 @@ def test_a_rival_that_ended_in_a_dip_is_begun_again_from_where_the_best_hypothes
     worse = fitted(case, base, prepared("ConstantLoad"))
     left = worse.fit
     assert rival.fit.deviance() > best.fit.deviance() + 20
-    naming._contend(case, base, [best, rival, worse], lambda text: None)
+    begin_again(case, base, [best, rival, worse], lambda text: None)
     assert rival.fit.deviance() == pytest.approx(best.fit.deviance(), abs=4.0)
     assert worse.fit is left
 
@@ -75,7 +76,7 @@ def raced(case: Case, base: Fit, prepared: Prepared, effect: str, monkeypatch: p
     def too_late(*_: object) -> None:
         raise TimeUp("the search was stopped")
 
-    monkeypatch.setattr(naming, "_contend", too_late)
+    monkeypatch.setattr(naming, "begin_again", too_late)
     return compete(case, [prepared(effect)], base)
 
 

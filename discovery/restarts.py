@@ -1,0 +1,131 @@
+"""Hypotheses begun again from elsewhere, so that no dip which a fit ended in decides which of them is named.
+
+Where none leaves noise, the best are led by trackers; laws that the best one contains begin where it ended; and so do
+its rivals.
+"""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+
+from .candidate_fit import fit_candidate
+from .cases import Case
+from .comparison import Progress, best_correlation, score
+from .evidence import nearly_noise
+from .fit import Fit, falling_bandwidths, fit
+from .least_squares import WORKERS
+from .machine import try_machine
+from .places import Shaft
+from .race import ROUNDS
+from .screen import Candidate, Screen, prepare, telling_recordings
+from .tracking import trackable
+
+HALF = 0.5  # of the best gain, that a hypothesis must have to be fitted further: a simpler law, or one to be led
+LED = 2  # hypotheses that are fitted again, led by trackers, where none has left noise
+CONTENDING = 0.1  # share of the best gain, within which rivals are begun again from where the best hypothesis ended,
+AS_GOOD = 3.0  # while to first order they leave at most so many times what it does there itself
+
+
+def begin_again(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
+    """Fit those that may do better again, on top of `base`."""
+    _lead(case, base, candidates, progress)
+    _simplify(case, base, candidates)
+    _contend(case, base, candidates, progress)
+
+
+def _lead(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
+    """Fit the best hypotheses again, shafts held near their recorded motion at first, where none of them left noise.
+
+    Stick and slip make the sum of squares rough: a fit that starts far away can end in one of its many dips.
+    """
+    ordered = sorted(candidates, key=lambda c: c.fit.deviance())
+    far = base.deviance() - HALF * (base.deviance() - ordered[0].fit.deviance())
+    shafts = trackable(case, base.machine.model, base.machine.amendment.structure)
+    if not shafts or base.machine.amendment.trackers or nearly_noise(ordered[0].fit):
+        return
+    for candidate in [c for c in ordered[:LED] if c.fit.deviance() <= far]:
+        progress(f"leading {candidate.attachment.label}")
+        found = _fit_led(case, base, candidate, shafts)
+        if found is not None and found.deviance() < candidate.fit.deviance():
+            candidate.fit = found
+
+
+def _simplify(case: Case, base: Fit, candidates: list[Candidate]) -> None:
+    """Start the laws that the best hypothesis contains from where it ended: a simpler one may do as well."""
+    best = min(candidates, key=lambda c: c.fit.deviance())
+    for candidate in candidates:
+        if best.attachment.contains(candidate.attachment):
+            found = _from_richer(case, base, candidate, best)
+            if found is not None and found.deviance() < candidate.fit.deviance():
+                candidate.fit = found
+
+
+def _from_richer(case: Case, base: Fit, candidate: Candidate, best: Candidate) -> Fit | None:
+    """The fit of a law from the values of one that contains it; given up where a first look shows it far behind."""
+    point = best.fit.point
+    shared = {f.name: point.get(best.attachment.full_name(f.name.rsplit(".", 1)[-1])) for f in candidate.free}
+    start = candidate.fit.point | {f.name: point[f.name] for f in base.estimate.free}
+    start |= {name: value for name, value in shared.items() if value is not None}
+    correlation = best_correlation([best])
+    goal = score(best, base, correlation)
+    simpler = replace(candidate, fit=None)
+    for stages, iterations, _ in (ROUNDS[0], ROUNDS[-1]):
+        free, fixed = [*base.estimate.free, *candidate.free], base.fixed | candidate.fixed
+        simpler.fit = fit(
+            candidate.machine, case.fit, base.noise, free, fixed, start=start, stages=stages, iterations=iterations
+        )
+        if simpler.fit is None or score(simpler, base, correlation) > HALF * goal:
+            break
+        start = simpler.fit.point
+    return simpler.fit
+
+
+def _contend(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
+    """Begin rivals of the best hypothesis again, the base's parameters where that one left them.
+
+    Without an effect they stand for it as well as they can, and on the way back a fit may end in a dip: which of two
+    hypotheses that do equally well is named must not hang on that.
+    """
+    best = min(candidates, key=lambda c: c.fit.deviance())
+    near = best.fit.deviance() + CONTENDING * (base.deviance() - best.fit.deviance())
+    close = [c for c in candidates if c.fit.deviance() <= near]
+    if len(close) < 2:
+        return
+    free, point = base.estimate.free, best.fit.point
+    there = fit(base.machine, case.fit, base.noise, free, base.fixed, start=point, stages=1, iterations=0)
+    if there is None:
+        return
+    screen = Screen(there, telling_recordings(there))
+    least = AS_GOOD * (1.0 - _prepared(screen, best).predicted)
+
+    def fit_again(candidate: Candidate) -> None:
+        again = _prepared(screen, candidate)
+        if 1.0 - again.predicted > least:
+            return
+        for stages, iterations, _ in (ROUNDS[0], ROUNDS[-1]):
+            again.fit = fit_candidate(case, there, (0.0,), stages, iterations, progress, again)
+            if again.fit is None or again.fit.deviance() > candidate.fit.deviance():
+                return
+            candidate.fit, candidate.free, candidate.fixed = again.fit, again.free, again.fixed
+
+    with ThreadPoolExecutor(WORKERS) as pool:
+        list(pool.map(fit_again, close))
+
+
+def _prepared(screen: Screen, candidate: Candidate) -> Candidate:
+    """The candidate at its most promising start against another fit of the base."""
+    found = prepare(screen, candidate.attachment, candidate.machine)
+    return found[0] if found else replace(candidate, predicted=0.0)
+
+
+def _fit_led(case: Case, base: Fit, candidate: Candidate, shafts: list[Shaft]) -> Fit | None:
+    amendment = replace(candidate.machine.amendment, trackers=shafts)
+    machine, _ = try_machine(case, amendment, base.machine)
+    if machine is None:
+        return None
+    free, fixed = [*base.estimate.free, *candidate.free], base.fixed | candidate.fixed
+    start = base.point | candidate.start
+    bandwidths = falling_bandwidths(case, machine)
+    led = fit(machine, case.fit, base.noise, free, fixed, start=start, bandwidths=bandwidths, stages=4)
+    return led and fit(candidate.machine, case.fit, base.noise, free, fixed, start=led.point)
