@@ -42,7 +42,8 @@ def covariance(fit: Fit) -> np.ndarray:
         inverse @ score @ inverse * np.outer(scales, scales)
         for score in (_score_covariance(fit, False), _score_covariance(fit, True))
     )
-    larger = np.sqrt(np.maximum(1.0, np.diag(rounded) / np.where(inside, np.diag(noisy), 1.0)))
+    as_noise = np.diag(noisy)
+    larger = np.sqrt(np.maximum(1.0, np.diag(rounded) / np.where(as_noise > 0, as_noise, 1.0)))
     return noisy * np.outer(larger, larger)
 
 

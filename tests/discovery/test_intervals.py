@@ -17,7 +17,7 @@ UNSTEADY = PERIODIC * (1.0 + 0.3 * np.sin(0.01 * np.arange(600)))
 def fitted(measured: np.ndarray, shape: np.ndarray, noise: Noise) -> SimpleNamespace:
     """The fit of the angle's factor, `slope`, to a recorded angle."""
     weights = sample_weights(measured, noise)
-    free = [Free("slope", 1.0, 0.1)]
+    free = [Free("slope", 1.0, 0.1), Free("unseen", 0.0, 1.0)]
     problem = Problem(free, lambda values, _: (measured - values["slope"] * shape) * weights / noise.std, 1)
     estimate = solve(problem)
     residual = {"angle": measured - estimate["slope"] * shape}
@@ -37,4 +37,5 @@ def test_rounding_that_repeats_widens_an_interval(shape: np.ndarray, repeats: bo
     said = np.array([standard_errors(f)["slope"] for f in fits])
     as_noise = np.array([f.estimate.normal[0, 0] ** -0.5 * f.estimate.free[0].scale for f in fits])
     assert 0.8 < np.median(said) / scatter < 1.5  # the larger of what rounding gives and of what white noise would
+    assert all(standard_errors(f)["unseen"] == 0.0 for f in fits[:3])
     assert bool(np.median(as_noise) < 0.5 * scatter) is repeats

@@ -83,7 +83,7 @@ def _word(score: Score) -> str:
     return f"**{score.first}**"
 
 
-def _page(words: dict[tuple[str, str], str], seed: int) -> str:
+def _page(words: dict[tuple[str, str], str], seed: int, version: str) -> str:
     rows = list(dict.fromkeys(effect for effect, _ in words))
     lines = ["| concealed | " + " | ".join(VARIANTS) + " |", "|" + " --- |" * (len(VARIANTS) + 1)]
     lines += [f"| {r} | " + " | ".join(words.get((r, v), "-") for v in VARIANTS) + " |" for r in rows]
@@ -92,7 +92,8 @@ def _page(words: dict[tuple[str, str], str], seed: int) -> str:
     return (
         f"""# How the diagnosis degrades
 
-Written by `make degrade` (seed {seed}). The same recordings with more noise, cut short, and without the current.
+Written by `make degrade` (seed {seed}) of the tool's version `{version}` (a hash of its code and models). The same
+recordings with more noise, cut short, and without the current.
 
 * right, {count["right"]} of {len(words)}: the effect is the first finding.
 * undetermined, {count["undetermined"]}: it says that the data cannot tell.
@@ -126,7 +127,7 @@ def main() -> int:
     )
     scores = score_folder(out / "lacuna", out / "truth", names)
     words = {names[s.case]: _word(s) for s in scores}
-    (ROOT / "docs" / "degradation.md").write_text(_page(words, arguments.seed))
+    (ROOT / "docs" / "degradation.md").write_text(_page(words, arguments.seed, version))
     print("written: docs/degradation.md")
     return 0
 
