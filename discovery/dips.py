@@ -12,6 +12,7 @@ from collections.abc import Callable
 import numpy as np
 
 from .fit import Fit, fit
+from .least_squares import pulls
 from .screen import Screen
 from .time_limit import TimeUp
 
@@ -40,10 +41,9 @@ def is_smooth(found: Fit) -> bool:
             values[k] = estimate.free[k].clip(values[k] + z * estimate.free[k].scale)
         point = found.fixed | {f.name: float(v) for f, v in zip(estimate.free, values, strict=True)}
         data = screen.outputs(found.machine, point)
-        beliefs = [((v - f.centre) / f.sigma) ** 2 for f, v in zip(estimate.free, values, strict=True) if f.sigma]
-        return float("inf") if data is None else float(data @ data) + sum(beliefs)
+        return float("inf") if data is None else float(data @ data + np.sum(pulls(estimate.free, values) ** 2))
 
-    here = cost(np.zeros(len(free)))
+    here = float(screen.load @ screen.load)
     for _ in range(PROBES):
         direction = random.normal(size=len(free))
         step = root @ (SIGMAS * direction / np.linalg.norm(direction))

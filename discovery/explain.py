@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+import time
 
 from codegen.library import Library
 
@@ -25,10 +26,11 @@ Progress = Callable[[str], None]
 def explain(
     case: Case, progress: Progress = lambda text: None, library: Library | None = None, limit: float | None = None
 ) -> Explanation:
-    """Explain a case; after `limit` seconds no search goes on, and what was found stands.
+    """Explain a case; after `limit` seconds no search goes on, and what was found stands. Fit and location always end.
 
     Raises CaseError where model and case do not fit, Diagnostic where the model is wrong.
     """
+    begun = time.monotonic()
     library = library or Library()
     result, machine = opened(case, library)
     if machine is None:
@@ -39,7 +41,7 @@ def explain(
     if not is_noise(result.base):
         add_location(result, progress)
         clock.done("locate")
-    with within(limit):
+    with within(limit, begun):
         add_findings(result, library, progress)
         add_scatter(result, progress)
     clock.done("name")

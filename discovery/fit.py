@@ -159,6 +159,14 @@ def fit(
     return _finish(machine, recordings, dict(noise), found, level, problem.simulations, dict(fixed))
 
 
+def linearised(
+    machine: Machine, recordings: Sequence[Recording], noise: Mapping[str, Noise], free: list[Free],
+    fixed: Mapping[str, float], point: Mapping[str, float],
+) -> Fit | None:  # fmt: skip
+    """The machine at a point, as a fit that does not move: its residuals, levels and Jacobian there."""
+    return fit(machine, recordings, noise, free, fixed, start=point, stages=1, iterations=0)
+
+
 def _led(
     objective: Objective, problem: Problem, values: np.ndarray, bandwidths: Sequence[float],
     known: Mapping[str, list[np.ndarray]], stages: int, iterations: int,
@@ -234,4 +242,4 @@ def nrmse(
 def falling_bandwidths(case: Case, machine: Machine) -> tuple[float, ...]:
     """Bandwidths (rad/s) of the trackers, from about what noise allows down to none."""
     top = min(noise_bandwidth(case, m) for m in machine.motions() if m is not None)
-    return (top / 8, top / 16, top / 50, 0.0)
+    return (top, top / 8, top / 16, top / 50, 0.0)

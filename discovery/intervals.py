@@ -38,20 +38,23 @@ def covariance(fit: Fit) -> np.ndarray:
     inside = scales > 0
     inverse = np.zeros_like(estimate.normal)
     inverse[np.ix_(inside, inside)] = np.linalg.pinv(estimate.normal[np.ix_(inside, inside)], hermitian=True)
-    noisy, rounded = (
-        inverse @ score @ inverse * np.outer(scales, scales)
-        for score in (_score_covariance(fit, False), _score_covariance(fit, True))
-    )
-    as_noise = np.diag(noisy)
-    larger = np.sqrt(np.maximum(1.0, np.diag(rounded) / np.where(as_noise > 0, as_noise, 1.0)))
+
+    def sandwich(score: np.ndarray) -> np.ndarray:
+        return inverse @ score @ inverse * np.outer(scales, scales)
+
+    noisy = sandwich(_score_covariance(fit, []))
+    coarse = [c for c in fit.noise if is_coarse(fit.noise[c])]
+    if not coarse:
+        return noisy
+    rounded, as_noise = np.diag(sandwich(_score_covariance(fit, coarse))), np.diag(noisy)
+    larger = np.sqrt(np.maximum(1.0, rounded / np.where(as_noise > 0, as_noise, 1.0)))
     return noisy * np.outer(larger, larger)
 
 
-def _score_covariance(fit: Fit, rounded: bool) -> np.ndarray:
+def _score_covariance(fit: Fit, coarse: list[str]) -> np.ndarray:
     """Covariance (p, p) of half the gradient in scaled coordinates: beliefs, and each signal's noise with its colour,
-    or the rounding of those that are coarse."""
+    or the rounding of those that are `coarse`."""
     colour = fit.correlation()
-    coarse = [c for c in fit.noise if rounded and is_coarse(fit.noise[c])]
     data = np.zeros_like(fit.estimate.normal)
     total = np.zeros_like(data)
     scores = {c: np.zeros((ROUNDINGS, len(data))) for c in coarse}

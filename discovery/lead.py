@@ -18,7 +18,7 @@ from .noise import Noise
 from .objective import Objective
 
 ROUGH = 20  # events a second, from which fits are led
-HELD = 1  # which of the bandwidths holds the shafts while hypotheses are compared
+FAST, HELD = 1, 2  # which of the bandwidths holds the shafts for sensitivities, and while hypotheses are compared
 SHARES = (0.02, 0.04, 0.08, 0.16, 0.3, 0.55, 1.0)  # of the recordings' lengths, fitted one after the other
 LOST = 2.5  # level of a signal, from which the simulated motion is taken to have run away,
 FOLLOWED = 1.5  # unless another signal is below this level: that one's edges are where they were recorded
@@ -59,7 +59,7 @@ class Lead:
     def hold_fast(self, base: Fit) -> Fit:
         """The fit with the motion held as much as the lead can: where sensitivities are smooth."""
         if self.bandwidths:
-            return _tracked(base, self.bandwidths[0])
+            return _tracked(base, self.bandwidths[FAST])
         return self._begun(base, EARLY, float("inf")) if self.grows else base
 
     def release(self, machine: Machine, case: Case, base: Fit, free: list[Free], held: Fit) -> Fit | None:

@@ -45,6 +45,11 @@ class Free:
         return float(min(max(value, self.lower), self.upper))
 
 
+def pulls(free: list[Free], values: np.ndarray) -> np.ndarray:
+    """How far values (p,) are from what is believed, in believed sigmas; 0 where nothing is."""
+    return np.array([(v - f.centre) / f.sigma if f.sigma else 0.0 for f, v in zip(free, values, strict=True)])
+
+
 @dataclass
 class Estimate:
     """Where a fit ended. `cost` is the sum of squares of data and belief; `data_cost` of the data alone."""
@@ -110,16 +115,13 @@ class Problem:
     def _named(self, values: np.ndarray) -> dict[str, float]:
         return self.fixed | {f.name: float(v) for f, v in zip(self.free, values, strict=True)}
 
-    def _beliefs(self, values: np.ndarray) -> np.ndarray:
-        return np.array([(v - f.centre) / f.sigma if f.sigma else 0.0 for f, v in zip(self.free, values, strict=True)])
-
     def evaluate(self, values: np.ndarray) -> tuple[float, float, list[np.ndarray]] | None:
         """(cost, data cost, residuals) at a point; None where the simulation fails."""
         (parts,) = self._evaluate([values])
         if parts is None:
             return None
         data = float(sum(r @ r for r in parts))
-        return data + float(np.sum(self._beliefs(values) ** 2)), data, parts
+        return data + float(np.sum(pulls(self.free, values) ** 2)), data, parts
 
     def jacobian(self, values: np.ndarray, parts: list[np.ndarray], columns: list[int]) -> dict[int, list[np.ndarray]]:
         """Forward differences of the chosen columns, stepping away from a near bound; failed columns are zero."""
@@ -231,7 +233,7 @@ def _normal_equations(
         block = np.column_stack([columns[k][piece] for k in range(size)])
         normal += block.T @ block
         gradient += block.T @ residual
-    beliefs = problem._beliefs(values)
+    beliefs = pulls(problem.free, values)
     for k, f in enumerate(problem.free):
         if f.sigma:
             weight = f.scale / f.sigma

@@ -99,23 +99,26 @@ def compete(
     """
     screened = [(c.attachment.label, c.predicted) for c in best_starts(candidates)]
     fitted: dict[str, Candidate] = {}
-    done = False
+    failures: list[tuple[str, str]] = []
     try:
         failures = _race(case, candidates, base, bandwidths, fitted, progress)
-        done = True
+        if not fitted:
+            return Naming([], screened, failures)
+        ranked, correlation = _ranked(fitted, base)
+        ranked = cross_validated(case, base, ranked, correlation, progress)
     except TimeUp:
         if not any(nearly_noise(c.fit) for c in fitted.values()):
             raise
-        failures = []
-    if not fitted:
-        return Naming([], screened, failures)
-    correlation = best_correlation(list(fitted.values()))
-    ranked = [Ranked(c, c.fit, score(c, base, correlation)) for c in fitted.values()]
-    ranked.sort(key=lambda r: r.score)
-    if done:
-        ranked = cross_validated(case, base, ranked, correlation, progress)
+        ranked, correlation = _ranked(fitted, base)
     confidences(ranked)
     return Naming(ranked, screened, failures, correlation)
+
+
+def _ranked(fitted: dict[str, Candidate], base: Fit) -> tuple[list[Ranked], dict[str, float]]:
+    """What was fitted, best first, and the samples of each signal that count as one."""
+    correlation = best_correlation(list(fitted.values()))
+    ranked = [Ranked(c, c.fit, score(c, base, correlation)) for c in fitted.values()]
+    return sorted(ranked, key=lambda r: r.score), correlation
 
 
 def _race(

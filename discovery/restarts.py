@@ -6,14 +6,16 @@ its rivals.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from functools import partial
 
 from .candidate_fit import fit_candidate
 from .cases import Case
 from .comparison import Progress, best_correlation, score
 from .evidence import nearly_noise
-from .fit import Fit, falling_bandwidths, fit
+from .fit import Fit, falling_bandwidths, fit, linearised
 from .least_squares import WORKERS
 from .machine import try_machine
 from .places import Shaft
@@ -30,7 +32,7 @@ AS_GOOD = 3.0  # while to first order they leave at most so many times what it d
 def begin_again(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
     """Fit those that may do better again, on top of `base`."""
     _lead(case, base, candidates, progress)
-    _simplify(case, base, candidates)
+    _simplify(case, base, candidates, progress)
     _contend(case, base, candidates, progress)
 
 
@@ -51,34 +53,43 @@ def _lead(case: Case, base: Fit, candidates: list[Candidate], progress: Progress
             candidate.fit = found
 
 
-def _simplify(case: Case, base: Fit, candidates: list[Candidate]) -> None:
+def _simplify(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
     """Start the laws that the best hypothesis contains from where it ended: a simpler one may do as well."""
     best = min(candidates, key=lambda c: c.fit.deviance())
     for candidate in candidates:
         if best.attachment.contains(candidate.attachment):
-            found = _from_richer(case, base, candidate, best)
+            found = _from_richer(case, base, candidate, best, progress)
             if found is not None and found.deviance() < candidate.fit.deviance():
                 candidate.fit = found
 
 
-def _from_richer(case: Case, base: Fit, candidate: Candidate, best: Candidate) -> Fit | None:
-    """The fit of a law from the values of one that contains it; given up where a first look shows it far behind."""
+def _from_richer(
+    case: Case, base: Fit, candidate: Candidate, best: Candidate, progress: Progress
+) -> Fit | None:  # fmt: skip
+    """The fit of a law from the values of one that contains it; None where a first look shows it far behind."""
     point = best.fit.point
     shared = {f.name: point.get(best.attachment.full_name(f.name.rsplit(".", 1)[-1])) for f in candidate.free}
     start = candidate.fit.point | {f.name: point[f.name] for f in base.estimate.free}
     start |= {name: value for name, value in shared.items() if value is not None}
     correlation = best_correlation([best])
-    goal = score(best, base, correlation)
-    simpler = replace(candidate, fit=None)
+    goal = HALF * score(best, base, correlation)
+
+    def hopeful(found: Fit) -> bool:
+        return score(replace(candidate, fit=found), base, correlation) <= goal
+
+    return _fit_again(case, base, replace(candidate, start=start, shift={}), hopeful, progress)
+
+
+def _fit_again(
+    case: Case, base: Fit, candidate: Candidate, hopeful: Callable[[Fit], bool], progress: Progress
+) -> Fit | None:  # fmt: skip
+    """The fit of a candidate from its start; None where a first look at it is not hopeful."""
+    candidate = replace(candidate, fit=None)
     for stages, iterations, _ in (ROUNDS[0], ROUNDS[-1]):
-        free, fixed = [*base.estimate.free, *candidate.free], base.fixed | candidate.fixed
-        simpler.fit = fit(
-            candidate.machine, case.fit, base.noise, free, fixed, start=start, stages=stages, iterations=iterations
-        )
-        if simpler.fit is None or score(simpler, base, correlation) > HALF * goal:
-            break
-        start = simpler.fit.point
-    return simpler.fit
+        candidate.fit = fit_candidate(case, base, (0.0,), stages, iterations, progress, candidate)
+        if candidate.fit is None or not hopeful(candidate.fit):
+            return None
+    return candidate.fit
 
 
 def _contend(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
@@ -89,28 +100,24 @@ def _contend(case: Case, base: Fit, candidates: list[Candidate], progress: Progr
     """
     best = min(candidates, key=lambda c: c.fit.deviance())
     near = best.fit.deviance() + CONTENDING * (base.deviance() - best.fit.deviance())
-    close = [c for c in candidates if c.fit.deviance() <= near]
+    close = sorted([c for c in candidates if c.fit.deviance() <= near], key=lambda c: c.fit.deviance())
     if len(close) < 2:
         return
-    free, point = base.estimate.free, best.fit.point
-    there = fit(base.machine, case.fit, base.noise, free, base.fixed, start=point, stages=1, iterations=0)
+    there = linearised(base.machine, case.fit, base.noise, base.estimate.free, base.fixed, best.fit.point)
     if there is None:
         return
     screen = Screen(there, telling_recordings(there))
-    least = AS_GOOD * (1.0 - _prepared(screen, best).predicted)
 
-    def fit_again(candidate: Candidate) -> None:
-        again = _prepared(screen, candidate)
-        if 1.0 - again.predicted > least:
-            return
-        for stages, iterations, _ in (ROUNDS[0], ROUNDS[-1]):
-            again.fit = fit_candidate(case, there, (0.0,), stages, iterations, progress, again)
-            if again.fit is None or again.fit.deviance() > candidate.fit.deviance():
-                return
-            candidate.fit, candidate.free, candidate.fixed = again.fit, again.free, again.fixed
+    def fit_again(candidate: Candidate, again: Candidate) -> None:
+        found = _fit_again(case, there, again, lambda f: f.deviance() <= candidate.fit.deviance(), progress)
+        if found is not None:
+            candidate.fit, candidate.free, candidate.fixed = found, again.free, again.fixed
 
     with ThreadPoolExecutor(WORKERS) as pool:
-        list(pool.map(fit_again, close))
+        prepared = list(pool.map(partial(_prepared, screen), close))
+        least = AS_GOOD * (1.0 - prepared[0].predicted)
+        pairs = [(c, again) for c, again in zip(close, prepared, strict=True) if 1.0 - again.predicted <= least]
+        list(pool.map(fit_again, *zip(*pairs, strict=True)))
 
 
 def _prepared(screen: Screen, candidate: Candidate) -> Candidate:

@@ -18,7 +18,7 @@ from .amend import Attachment
 from .cases import Recording
 from .catalogue import Effect, EffectParameter
 from .fit import Fit, Objective
-from .least_squares import Free, bounded_linear
+from .least_squares import Free, bounded_linear, pulls
 from .machine import Machine
 
 RESPONSE = 0.1  # of the residual: size of the response from which a column is taken
@@ -53,13 +53,11 @@ class Screen:
         self.residual = objective.weighted(base.point, self.weights)
         self.norm = float(np.linalg.norm(self.residual))
         estimate = base.estimate
-        beliefs = [(f, v) for f, v in zip(estimate.free, estimate.values, strict=True)]
-        rows = np.diag([f.scale / f.sigma if f.sigma else 0.0 for f, _ in beliefs])
-        pulls = np.array([(v - f.centre) / f.sigma if f.sigma else 0.0 for f, v in beliefs])
+        rows = np.diag([f.scale / f.sigma if f.sigma else 0.0 for f in estimate.free])
         names = {r.name for r in self.recordings}
         blocks = [b for name, b in zip(base.residuals, estimate.jacobian, strict=False) if name in names]
         self.jacobian = np.vstack([*blocks, rows]) if blocks else np.zeros((len(self.residual), 0))
-        self.load = np.concatenate([self.residual, pulls]) if blocks else self.residual
+        self.load = np.concatenate([self.residual, pulls(estimate.free, estimate.values)]) if blocks else self.residual
         self.orthogonal, self.triangle = np.linalg.qr(self.jacobian)
         self.cost = float(np.sum(self._project(self.load) ** 2))
 

@@ -17,7 +17,7 @@ from .cases import Case
 from .catalogue import Effect
 from .comparison import CLOSE, MIN_GAIN, TIE, Ranked, confidences, price
 from .evidence import holds, nearly_noise, pays, settled
-from .fit import Fit, fit
+from .fit import Fit, fit, linearised
 from .hypotheses import enumerate_attachments
 from .judge import Judgement, try_judge
 from .lead import Lead
@@ -228,8 +228,9 @@ class Search:
         free = [f for f in self.fit.estimate.free if not f.name.startswith(prefix)]
         fixed = {n: v for n, v in self.fit.fixed.items() if not n.startswith(prefix)}
         machine = Machine(self.case, amendment, self.fit.machine.solver)
-        effort = {"stages": stages} if stages else {"stages": 1, "iterations": 0}
-        return fit(machine, self.case.fit, self.fit.noise, free, fixed, start=self.fit.point, **effort)
+        if not stages:
+            return linearised(machine, self.case.fit, self.fit.noise, free, fixed, self.fit.point)
+        return fit(machine, self.case.fit, self.fit.noise, free, fixed, start=self.fit.point, stages=stages)
 
     def _rivals(self, finding: Finding, without: Amendment, held: Fit) -> list[Candidate]:
         """The finding and the best of what was tried beside it, with the values they had, in the model without it.

@@ -18,11 +18,12 @@ class TimeUp(Exception):
 
 
 @contextmanager
-def within(seconds: float | None) -> Iterator[None]:
-    """Limit what is done inside to so many seconds from now; None sets no limit."""
+def within(seconds: float | None, begun: float | None = None) -> Iterator[None]:
+    """Limit what is done inside to so many seconds from now, or from when it was `begun` (s of `time.monotonic`); None
+    sets no limit."""
     global _seconds, _end
     if seconds is not None:
-        _seconds, _end = seconds, time.monotonic() + seconds
+        _seconds, _end = seconds, (time.monotonic() if begun is None else begun) + seconds
     try:
         yield
     finally:
