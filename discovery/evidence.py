@@ -17,6 +17,7 @@ GROWTH = 1.3  # of the power of block means from one block length to the next th
 LEFT = 1.2  # RMS in units of the noise, up to which a model stands for all of the misfit
 ROUGH_SLACK = 0.3  # RMS misfit, in units of the noise, that the end of a fit on rough ground may leave
 SPREAD = 0.005  # relative spread of an RMS over 20 000 samples of noise: a smaller gain is none
+CLEARLY = 0.8  # times the NRMSE of the signals in their geometric mean, from which a model is better
 TOLERANCE = 0.04  # of the noise level, within which it counts as known
 COLOURED = 5.0  # RMS, in units of the noise as estimated, that coloured noise may have
 TAILS = 2.0  # RMS over what the median says it is, from which a residual is no noise: a misfit at some moments
@@ -124,7 +125,13 @@ def outside_belief(fit: Fit, sigmas: float = 3.0) -> dict[str, float]:
 
 
 def pays(before: Mapping[str, float], after: Mapping[str, float], floor: Mapping[str, float]) -> bool:
-    """Whether a model is better on recordings that it has not seen: NRMSE of the case, above what noise could give."""
+    """Whether a model is better on recordings that it has not seen: NRMSE of the case, above what noise could give.
+
+    Or, where that is ruled by one signal which stays as it is, NRMSE of the signals in their geometric mean.
+    """
     noise = float(np.sqrt(np.mean([floor[c] ** 2 for c in floor])))
     gap = before[""] - noise
-    return before[""] - after[""] > max(0.02 * gap, SPREAD * before[""])
+    if before[""] - after[""] > max(0.02 * gap, SPREAD * before[""]):
+        return True
+    ratios = [max(after[c], floor[c]) / max(before[c], floor[c]) for c in floor]
+    return after[""] < before[""] and float(np.exp(np.mean(np.log(ratios)))) < CLEARLY

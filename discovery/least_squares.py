@@ -22,6 +22,9 @@ from . import time_limit
 WORKERS = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 _pool = ThreadPoolExecutor(max_workers=WORKERS)
 
+TRIES = 8  # of a step, at most: with more damping each time, or twice as far
+SHORT = 1.5  # times the predicted drop of the cost, from which a step was too short
+
 Residual = Callable[[dict[str, float], int], np.ndarray | None]
 
 
@@ -204,7 +207,7 @@ def _downhill(
     """Raise the damping until a step lowers the cost, or until none is predicted to matter."""
     free = problem.free
     scales = np.array([f.scale for f in free])
-    for _ in range(8):
+    for _ in range(TRIES):
         step = _bounded_step(free, values, normal, gradient, damping)
         predicted = -(2 * gradient @ step + step @ normal @ step)
         if predicted < tolerance * len(free):
@@ -213,10 +216,25 @@ def _downhill(
         there = problem.evaluate(moved)
         if there is not None and there[0] < cost:
             ratio = (cost - there[0]) / predicted
+            if ratio > SHORT:
+                moved, there = _further(problem, values, moved, there)
             damping = max(damping * (0.1 if ratio > 0.5 else 1.0 if ratio > 0.1 else 4.0), 1e-9)
             return _Step(True, False, damping, ratio, moved, there)
         damping = max(damping, 1e-6) * 8
     return _Step(False, False, damping)
+
+
+def _further(
+    problem: Problem, values: np.ndarray, moved: np.ndarray, there: tuple[float, float, list[np.ndarray]]
+) -> tuple[np.ndarray, tuple[float, float, list[np.ndarray]]]:  # fmt: skip
+    """A step doubled while that lowers the cost: noise in a Jacobian of differences makes all of its steps short."""
+    for _ in range(TRIES):
+        further = np.array([f.clip(v) for f, v in zip(problem.free, 2 * moved - values, strict=True)])
+        beyond = problem.evaluate(further)
+        if beyond is None or beyond[0] >= there[0]:
+            break
+        moved, there = further, beyond
+    return moved, there
 
 
 def _blocks(columns: dict[int, list[np.ndarray]], pieces: int) -> list[np.ndarray]:

@@ -101,7 +101,10 @@ def _enriched(candidate: Candidate, best: Candidate) -> Candidate:
 
 def best_starts(candidates: list[Candidate]) -> list[Candidate]:
     """Of candidates in order, the first of each attachment."""
-    return list({c.attachment.label: c for c in reversed(candidates)}.values())[::-1]
+    first: dict[str, Candidate] = {}
+    for candidate in candidates:
+        first.setdefault(candidate.attachment.label, candidate)
+    return list(first.values())
 
 
 def still_in(

@@ -29,6 +29,8 @@ from .screen import Candidate
 MAX_FINDINGS = 3
 FAR = 10.0  # level of a signal, in units of its noise, from which the best hypothesis is taken to have lost its way
 CARRIED = 3  # times at most, that an accepted fit is begun again from where it stopped
+ALIKE = 0.01  # share of the best gain, within which rivals are released with the best one,
+RELEASED = 3  # at most so many of them
 RECONSIDERED = 4  # rivals of an earlier finding that are tried again
 
 Progress = Callable[[str], None]
@@ -89,7 +91,7 @@ class Search:
         best = naming.best
         if best is None or best.score > -MIN_GAIN:
             return False
-        best, polished = self._simplest_released(best, naming, progress)
+        best, polished = self._best_released(best, naming, progress)
         if polished is None:
             return False
         after = try_judge(polished.machine, polished.point)
@@ -107,28 +109,36 @@ class Search:
         self._carry_on(progress)
         return True
 
-    def _simplest_released(self, best: Ranked, naming: Naming, progress: Progress) -> tuple[Ranked, Fit | None]:
-        """Of the best law and those that it contains, all released, the one with the least deviance and price.
+    def _best_released(self, best: Ranked, naming: Naming, progress: Progress) -> tuple[Ranked, Fit | None]:
+        """Of the best hypothesis, its rivals and the laws that it contains, all released, the one with the least
+        deviance and price.
 
-        While shafts are held, what a law has beyond a simpler one may only have stood for the hold.
+        While shafts are held, what a law has beyond a simpler one may only have stood for the hold, and what tells two
+        hypotheses apart may be hidden by it.
         """
-        within = best.score + CLOSE * abs(best.score)
-        simpler = [r for r in naming.ranked if best.attachment.contains(r.attachment) and r.score < within]
+        if self.lead.direct:
+            return best, best.fit
+        gain = abs(best.score)
+        rivals = [r for r in naming.ranked[:RELEASED] if r.score < best.score + ALIKE * gain]
+        simpler = [r for r in naming.ranked if best.attachment.contains(r.attachment)]
+        contenders = rivals + [r for r in simpler if r not in rivals and r.score < best.score + CLOSE * gain]
         released = []
-        for ranked in [best] if self.lead.direct else [best, *simpler]:
+        for ranked in contenders:
             progress(f"polishing {ranked.attachment.label}")
             polished = self.polished(ranked, self.fit)
-            released += [(ranked, polished)] if polished is not None else []
+            if polished is not None:
+                released.append((ranked, polished))
+            elif ranked is not best:
+                ranked.score = 0.0
         if not released:
             return best, None
         correlation = released[0][1].correlation()
         paid = [f.deviance(correlation) + price(r.candidate, self.fit, correlation) for r, f in released]
-        chosen, polished = released[int(np.argmin(paid))]
-        if chosen is not best:
-            chosen.score = best.score - (paid[0] - min(paid))
-            naming.ranked.sort(key=lambda r: r.score)
-            confidences(naming.ranked)
-        return chosen, polished
+        for (ranked, _), much in zip(released, paid, strict=True):
+            ranked.score = much - min(paid) - gain
+        naming.ranked.sort(key=lambda r: r.score)
+        confidences(naming.ranked)
+        return released[int(np.argmin(paid))]
 
     def _carry_on(self, progress: Progress) -> None:
         """Go on with an accepted fit that has not converged: a signal far more precise than the others makes a curved
@@ -173,7 +183,7 @@ class Search:
 
     def _reconsider(self, k: int, progress: Progress) -> None:
         """Name finding k anew, given the others: exchange it where a rival is better by more than a tie, or a simpler
-        law of the same kind is no worse."""
+        law of the same kind is no worse, unless the present one is better on what has not been seen."""
         finding = self.findings[k]
         progress(f"reconsidering {finding.ranked.attachment.label}")
         others = [a for a in self.amendment.attachments if a is not finding.ranked.attachment]
@@ -198,7 +208,7 @@ class Search:
         if polished.deviance(naming.correlation) - saved > self.fit.deviance(naming.correlation) + TIE:
             return
         after = try_judge(polished.machine, polished.point)
-        if after is not None and pays(self.judgement.validate, after.validate, self.floor):
+        if after is not None and not pays(after.validate, self.judgement.validate, self.floor):
             progress(f"{best.attachment.label} instead of {finding.ranked.attachment.label}")
             best.fit = polished
             self.findings[k] = replace(finding, ranked=best, naming=naming)

@@ -191,7 +191,7 @@ def test_once_released_a_law_has_to_beat_the_simpler_one_it_contains(
     before = judge(base.machine, base.point)
     search = Search(case, [], Lead((10.0, 0.0)), floor, base.machine.amendment, base, before)
     naming = Naming(held, [])
-    best, found = search._simplest_released(held[0], naming, lambda text: None)
+    best, found = search._best_released(held[0], naming, lambda text: None)
     assert best.identity == ("friction.coulomb", "shaft")
     assert found is coulomb.fit
     assert naming.best is best
