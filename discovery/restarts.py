@@ -37,7 +37,8 @@ def begin_again(case: Case, base: Fit, candidates: list[Candidate], progress: Pr
 
 
 def _lead(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
-    """Fit the best hypotheses again, shafts held near their recorded motion at first, where none of them left noise.
+    """Fit the best hypotheses again, and the best one's physics at other places, shafts held near their recorded motion
+    at first, where none of them left noise.
 
     Stick and slip make the sum of squares rough: a fit that starts far away can end in one of its many dips.
     """
@@ -46,7 +47,9 @@ def _lead(case: Case, base: Fit, candidates: list[Candidate], progress: Progress
     shafts = trackable(case, base.machine.model, base.machine.amendment.structure)
     if not shafts or base.machine.amendment.trackers or nearly_noise(ordered[0].fit):
         return
-    for candidate in [c for c in ordered[:LED] if c.fit.deviance() <= far]:
+    physics = ordered[0].attachment.effect.identifier
+    good = [c for c in ordered[:LED] if c.fit.deviance() <= far]
+    for candidate in good + [c for c in ordered if c.attachment.effect.identifier == physics and c not in good]:
         progress(f"leading {candidate.attachment.label}")
         found = _fit_led(case, base, candidate, shafts)
         if found is not None and found.deviance() < candidate.fit.deviance():
