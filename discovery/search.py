@@ -128,7 +128,7 @@ class Search:
             polished = self.polished(ranked, self.fit)
             if polished is not None:
                 released.append((ranked, polished))
-            elif ranked is not best:
+            else:
                 ranked.score = 0.0
         if not released:
             return best, None
