@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from discovery.evidence import holds, like_noise
+from discovery.evidence import holds, like_noise, pays
 from discovery.noise import Noise
 
 N = 8000
@@ -45,3 +45,19 @@ def test_what_fits_holds_only_if_unseen_recordings_are_noise_too(unseen: float, 
     noise = {"i": Noise(1.0, 0.0, True), "w": Noise(1.0, 0.0, given)}
     judged = {"": 0.02, "i": 0.02, "w": 0.01 * unseen}
     assert holds(judged, floor, noise) == passes
+
+
+@pytest.mark.parametrize(
+    ("current", "angle", "worth"),
+    [
+        (0.41, 0.001, True),  # the angle is explained, while the current rules the NRMSE of the case
+        (0.41, 0.065, False),
+        (0.43, 0.001, False),  # what is won on one signal is lost on the other
+        (0.20, 0.070, True),
+    ],
+)
+def test_a_model_pays_that_explains_one_signal_of_several(current: float, angle: float, worth: bool) -> None:
+    def judged(i: float, theta: float) -> dict[str, float]:
+        return {"": float(np.hypot(i, theta) / np.sqrt(2)), "i": i, "theta": theta}
+
+    assert pays(judged(0.411, 0.07), judged(current, angle), {"i": 0.05, "theta": 0.001}) == worth

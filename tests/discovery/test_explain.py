@@ -40,6 +40,19 @@ def test_least_squares_finds_rosenbrock_within_bounds() -> None:
     assert bounded["x"] == pytest.approx(0.5) and bounded.at_bound("x")
 
 
+def test_steps_that_a_noisy_jacobian_makes_short_are_lengthened() -> None:
+    """Differences over small steps add their noise to the curvature: undoubled, steps go a tenth of the way."""
+    count, offset = 0, np.linspace(0.0, 1.0, 50)
+
+    def residual(p: dict[str, float], piece: int) -> np.ndarray:
+        nonlocal count
+        count += 1
+        return (p["x"] - 3.0) * offset + 1e-5 * np.random.default_rng(count).normal(size=offset.size)
+
+    found = solve(Problem([Free("x", 0.0, 1.0, step=5e-6)], residual, 1), iterations=2)
+    assert found["x"] == pytest.approx(3.0, abs=0.5)
+
+
 def test_noise_and_resolution_are_estimated() -> None:
     random = np.random.default_rng(3)
     t = np.arange(4000) * 1e-3

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+import time
 
 import pytest
 
@@ -87,6 +88,25 @@ def test_a_race_without_time_names_what_leaves_noise(
     assert found.best.identity == ("friction.coulomb", "shaft")
     with pytest.raises(TimeUp):
         raced(case, base, prepared, "ConstantLoad", monkeypatch)
+
+
+def test_a_race_without_time_to_cross_validate_keeps_its_order(
+    case: Case, base: Fit, prepared: Prepared, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def too_late(*_: object) -> None:
+        raise TimeUp("the search was stopped")
+
+    monkeypatch.setattr(naming, "cross_validated", too_late)
+    found = compete(case, [prepared("CoulombFriction"), prepared("ConstantLoad")], base)
+    assert found.best.identity == ("friction.coulomb", "shaft")
+    assert found.best.confidence > 0.5
+
+
+def test_a_limit_counts_from_when_the_work_was_begun() -> None:
+    with within(10.0, time.monotonic() - 11.0), pytest.raises(TimeUp, match="stopped after 10 s"):
+        check()
+    with within(10.0, time.monotonic() - 9.0):
+        check()
 
 
 def test_no_fit_goes_on_when_the_time_is_up(case: Case, base: Fit, prepared: Prepared) -> None:
