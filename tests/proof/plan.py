@@ -31,6 +31,7 @@ PAIRS = (
     ("Joint", ("friction.coulomb", "load.gravity")),
     ("FlightControl", ("backlash", "stiffness")),
     ("FrictionDevice", ("friction.coulomb", "stiffness")),
+    ("DcServo", ("drive.supply_sag", "friction.coulomb")),
 )
 LAWS = (
     ("DcServo", "cubic_drag"),
@@ -40,6 +41,8 @@ LAWS = (
     ("DcServo", "cold_grease"),
     ("DcServo", "hardening_spring"),
 )
+OF_EACH_LAW = 2
+OF_EACH_RIVAL = 5
 OFF = {
     "DcServo": ("R", "Ke", "J", "b", "R", "Ke", "J", "b"),
     "ScrewEma": ("R", "Ke", "Jm", "Js", "Ke"),
@@ -83,7 +86,7 @@ def _rivals() -> list[Plan]:
     drop, friction = ("drive.dead_time", {"shaft_tau_c": 0.002}), ("friction.coulomb", {"V_d": 0.2})
     return [
         Plan("rivals", "DcServo", (effect,), gain=(2.0, 4.0), outputs=("w",), rival=rival)
-        for effect, rival in (drop, friction, drop, friction)
+        for effect, rival in (drop, friction) * OF_EACH_RIVAL
     ]
 
 
@@ -92,7 +95,7 @@ def plan(seed: int) -> list[tuple[str, Plan, int]]:
     rng = np.random.default_rng([seed, 0])
     cases = _effects(rng) + _nulls()
     cases += [Plan("two", bench, effects, gain=(2.5, 7.0)) for bench, effects in PAIRS]
-    cases += [Plan("law", bench, (law,), gain=(2.5, 6.0)) for bench, law in LAWS]
+    cases += [Plan("law", bench, (law,), gain=(2.5, 6.0)) for bench, law in LAWS * OF_EACH_LAW]
     cases += [Plan("weak", b, ("friction.coulomb",), gain=(1.02, 1.06)) for b in ("DcServo", "ScrewEma", "Joint")]
     cases += [Plan("one_way", bench, ("friction.coulomb",)) for bench in ("DcServo", "Joint")]
     cases += _rivals()
