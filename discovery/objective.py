@@ -90,16 +90,16 @@ def anneal(
     `known` are unweighted columns of the Jacobian that may serve at first.
     """
     level: dict[str, float] = {}
-    values, best = start, None
+    values, best, cost = start, None, np.inf
     for _ in range(stages):
         problem.weights = None
         here = problem.evaluate(values)
         if here is None:
             return best, level
         new = {n: max(1.0 if n in objective.noise else 1e-6, v) for n, v in objective.measure(here[2]).items()}
-        if best is not None and _settled(level, new, best.converged or bool(objective.stiffness)):
+        if best is not None and (here[0] == cost or _settled(level, new, best.converged or bool(objective.stiffness))):
             break
-        level = new
+        level, cost = new, here[0]
         problem.weights = objective.weights(level)
         weighted = {k: [c * w for c, w in zip(cs, problem.weights, strict=True)] for k, cs in (known or {}).items()}
         found = solve(problem, values, iterations=iterations, damping=1e-6, tolerance=1e-3, known=weighted)
@@ -110,5 +110,5 @@ def anneal(
 
 
 def _settled(before: Mapping[str, float], after: Mapping[str, float], converged: bool) -> bool:
-    """Whether another stage would lead on: not from where none could, nor where `converged` ends in the same levels."""
-    return before == after or (converged and all(abs(np.log(after[n] / before[n])) < SETTLED for n in after))
+    """Whether another stage leads nowhere: where `converged` ends in the same levels."""
+    return converged and all(abs(np.log(after[n] / before[n])) < SETTLED for n in after)

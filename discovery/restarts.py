@@ -1,7 +1,7 @@
 """Hypotheses begun again from elsewhere, so that no dip which a fit ended in decides which of them is named.
 
-Where none leaves noise, the best are led by trackers; laws that the best one contains begin where it ended; and so do
-its rivals.
+The best begin with what is believed of the parameters, if they have not converged; where none leaves noise, they are
+led by trackers; laws that the best one contains begin where it ended; and so do its rivals.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from .screen import Candidate, Screen, prepare, telling_recordings
 from .tracking import trackable
 
 HALF = 0.5  # of the best gain, that a hypothesis must have to be fitted further: a simpler law, or one to be led
+BELIEVED = 2  # hypotheses at most, that begin again with the believed parameters
 LED = 2  # hypotheses that are fitted again, led by trackers, where none has left noise
 CONTENDING = 0.1  # share of the best gain, within which rivals are begun again from where the best hypothesis ended,
 AS_GOOD = 3.0  # while to first order they leave at most so many times what it does there itself
@@ -31,9 +32,30 @@ AS_GOOD = 3.0  # while to first order they leave at most so many times what it d
 
 def begin_again(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
     """Fit those that may do better again, on top of `base`."""
+    _believe(case, base, candidates, progress)
     _lead(case, base, candidates, progress)
     _simplify(case, base, candidates, progress)
     _contend(case, base, candidates, progress)
+
+
+def _believe(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
+    """Fit those of the best hypotheses that have not converged again, from what is believed of the base's parameters.
+
+    Without an effect they stand for it as well as they can, and the way back may be a long and narrow valley: of
+    parameters that the data tells only together.
+    """
+    believed = {f.name: f.centre for f in base.estimate.free if f.sigma}
+    ordered = sorted(candidates, key=lambda c: c.fit.deviance())
+    near = ordered[0].fit.deviance() + CONTENDING * (base.deviance() - ordered[0].fit.deviance())
+
+    def fit_again(candidate: Candidate) -> None:
+        again = replace(candidate, start=candidate.fit.point | believed, shift={})
+        found = _fit_again(case, base, again, lambda f: f.deviance() <= near, progress)
+        if found is not None and found.deviance() < candidate.fit.deviance():
+            candidate.fit = found
+
+    with ThreadPoolExecutor(WORKERS) as pool:
+        list(pool.map(fit_again, [c for c in ordered[:BELIEVED] if not c.fit.estimate.converged]))
 
 
 def _lead(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
