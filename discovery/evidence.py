@@ -8,12 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from .fit import Fit
-from .noise import Noise
+from .noise import Noise, is_coarse
 
 BLOCKS = (1, 8, 40, 200)  # samples over which a residual is averaged
 SIGMAS = 5.0
 ROUNDING = 2.5  # allowance for rounding errors of a slow signal, which are alike from sample to sample
 GROWTH = 1.3  # of the power of block means from one block length to the next that colour may still explain
+HALF_STEP = 3**0.5  # of resolution, in units of the standard deviation of rounding
 LEFT = 1.2  # RMS in units of the noise, up to which a model stands for all of the misfit
 ROUGH_SLACK = 0.3  # RMS misfit, in units of the noise, that the end of a fit on rough ground may leave
 SPREAD = 0.005  # relative spread of an RMS over 20 000 samples of noise: a smaller gain is none
@@ -49,7 +50,7 @@ def _blocks(fit: Fit, column: str, block: int, slack: float = 0.0) -> Whiteness:
     total, count = 0.0, 0
     for name, residual in fit.residuals.items():
         weight = fit.weights[name][column]
-        values = np.nan_to_num(residual[column]) * weight / fit.noise[column].std
+        values = np.nan_to_num(residual[column]) * weight**2 / fit.noise[column].std
         usable = len(values) // block * block
         sums = values[:usable].reshape(-1, block).sum(axis=1)
         power = (weight[:usable] ** 2).reshape(-1, block).sum(axis=1)
@@ -107,7 +108,14 @@ def settled(fit: Fit, rough: bool = False) -> bool:
 def holds(unseen: Mapping[str, float], floor: Mapping[str, float], noise: Mapping[str, Noise]) -> bool:
     """Whether NRMSE on recordings that nothing was fitted to are those of noise: parameters can stand for other physics
     in the recordings that they are fitted to, but not in others."""
-    return all(unseen[c] < (LEFT if n.given else COLOURED) * floor[c] for c, n in noise.items())
+    return all(unseen[c] < _at_most(n) * floor[c] for c, n in noise.items())
+
+
+def _at_most(noise: Noise) -> float:
+    """RMS that noise may have, in units of its level; where nothing moves, rounding may err by half a step for long."""
+    if not noise.given:
+        return COLOURED
+    return HALF_STEP if is_coarse(noise) else LEFT
 
 
 def nearly_noise(fit: Fit) -> bool:
