@@ -19,6 +19,7 @@ from .least_squares import _pool
 from .machine import Machine
 
 LINEAR = (1e-3, 0.3)  # of the residual: sizes of an answer that is above rounding and still proportional
+FOLLOWED = 0.5  # of an effort's power, that hats may miss: what is faster would pass for a slow effort
 
 
 @dataclass
@@ -29,9 +30,13 @@ class Response:
     blocks: list[np.ndarray]
 
     def to(self, effort: Sequence[np.ndarray], times: Sequence[np.ndarray]) -> list[np.ndarray]:
-        """The change for efforts (n,) on the recordings' samples."""
-        pairs = zip(self.nodes, effort, times, strict=True)
-        return [b @ _hats(n, e, t) for b, (n, e, t) in zip(self.blocks, pairs, strict=True)]
+        """The change for efforts (n,) on the recordings' samples; none for those that are too fast for the hats."""
+        hats = [_hats(n, e, t) for n, e, t in zip(self.nodes, effort, times, strict=True)]
+        followed = [np.interp(t, n, h) for n, h, t in zip(self.nodes, hats, times, strict=True)]
+        missed = sum(float(np.sum((e - f) ** 2)) for e, f in zip(effort, followed, strict=True))
+        if missed > FOLLOWED * sum(float(e @ e) for e in effort):
+            return [np.zeros(len(b)) for b in self.blocks]
+        return [b @ h for b, h in zip(self.blocks, hats, strict=True)]
 
 
 def _hats(nodes: np.ndarray, effort: np.ndarray, time: np.ndarray) -> np.ndarray:
