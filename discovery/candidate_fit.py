@@ -13,21 +13,16 @@ SMALL_STEP = 0.1  # of a start that is predicted to first order, which may still
 
 
 def fit_candidate(
-    case: Case, base: Fit, bandwidths: tuple[float, ...], stages: int, iterations: int, progress: Progress,
-    candidate: Candidate,
+    case: Case, base: Fit, stages: int, iterations: int, progress: Progress, candidate: Candidate
 ) -> Fit | None:  # fmt: skip
     """Fit the base's parameters and the effect's together, from the screened start."""
     progress(f"fitting {candidate.attachment.label}")
     free: list[Free] = [*base.estimate.free, *candidate.free]
-    if candidate.fit is not None:
-        start = candidate.fit.point
-        bandwidths = bandwidths[-1:]
-    else:
-        start = _start(case, base, candidate)
+    start = candidate.fit.point if candidate.fit is not None else _start(case, base, candidate)
     fixed = base.fixed | candidate.fixed
     return fit(
-        candidate.machine, case.fit, base.noise, free, fixed, start=start, bandwidths=bandwidths, stages=stages,
-        iterations=iterations, known=base.sensitivities() if candidate.fit is None else None,
+        candidate.machine, case.fit, base.noise, free, fixed, start=start, stages=stages, iterations=iterations,
+        known=base.sensitivities() if candidate.fit is None else None,
     )  # fmt: skip
 
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .cases import Case, Recording
-from .least_squares import Estimate, Free, Problem
+from .least_squares import Estimate, Free, Problem, clipped
 from .machine import Machine
 from .noise import Noise, correlation_time, estimate, sample_weights
 from .objective import STAGES, Objective, anneal
@@ -144,7 +144,7 @@ def fit(
     objective = Objective(machine, recordings, noise)
     problem = Problem(free, objective, len(objective.recordings), dict(fixed))
     first = dict(start or {})
-    values = np.array([f.clip(first.get(f.name, f.centre if f.start is None else f.start)) for f in free])
+    values = clipped(free, [first.get(f.name, f.centre if f.start is None else f.start) for f in free])
 
     def led() -> tuple[Estimate | None, dict[str, float]]:
         return _led(objective, problem, values, bandwidths, known or {}, stages, iterations)
@@ -195,7 +195,7 @@ def _extrapolated(problem: Problem, before: tuple[float, np.ndarray], last: tupl
     """Values at bandwidth 0 on the line through two tracked fits: what noise in the tracked motion spoils falls so."""
     (wide, there), (narrow, here) = before, last
     values = here + (here - there) * narrow / (wide - narrow)
-    return np.array([f.clip(v) for f, v in zip(problem.free, values, strict=True)])
+    return clipped(problem.free, values)
 
 
 def _finish(

@@ -9,7 +9,7 @@ Reference: J. J. More, The Levenberg-Marquardt algorithm: implementation and the
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 import os
@@ -51,6 +51,11 @@ class Free:
 def pulls(free: list[Free], values: np.ndarray) -> np.ndarray:
     """How far values (p,) are from what is believed, in believed sigmas; 0 where nothing is."""
     return np.array([(v - f.centre) / f.sigma if f.sigma else 0.0 for f, v in zip(free, values, strict=True)])
+
+
+def clipped(free: list[Free], values: Iterable[float]) -> np.ndarray:
+    """The values (p,) within their bounds."""
+    return np.array([f.clip(v) for f, v in zip(free, values, strict=True)])
 
 
 @dataclass
@@ -161,9 +166,7 @@ def solve(
     `known` columns of the Jacobian (in scaled coordinates) are used as they are while they still lead downhill.
     """
     free = problem.free
-    values = (
-        np.array([f.clip(f.centre if f.start is None else f.start) for f in free]) if start is None else start.copy()
-    )
+    values = clipped(free, [f.centre if f.start is None else f.start for f in free]) if start is None else start.copy()
     here = problem.evaluate(values)
     if here is None:
         return None
@@ -212,7 +215,7 @@ def _downhill(
         predicted = -(2 * gradient @ step + step @ normal @ step)
         if predicted < tolerance * len(free):
             return _Step(False, True, damping)
-        moved = np.array([f.clip(v) for f, v in zip(free, values + step * scales, strict=True)])
+        moved = clipped(free, values + step * scales)
         there = problem.evaluate(moved)
         if there is not None and there[0] < cost:
             ratio = (cost - there[0]) / predicted
@@ -229,7 +232,7 @@ def _further(
 ) -> tuple[np.ndarray, tuple[float, float, list[np.ndarray]]]:  # fmt: skip
     """A step doubled while that lowers the cost: noise in a Jacobian of differences makes all of its steps short."""
     for _ in range(TRIES):
-        further = np.array([f.clip(v) for f, v in zip(problem.free, 2 * moved - values, strict=True)])
+        further = clipped(problem.free, 2 * moved - values)
         beyond = problem.evaluate(further)
         if beyond is None or beyond[0] >= there[0]:
             break

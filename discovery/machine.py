@@ -23,7 +23,6 @@ from .tracking import Motion, recorded_motion
 RTOL = 1e-6
 STEPS_PER_SAMPLE, STEPS_PER_SECOND = 40, 8000  # a run that needs more is given up: its parameters are absurd
 STEPS_GROWTH = 10  # so is a hypothesis that needs so many times the steps of the model it amends
-_compile_lock = threading.Lock()
 
 
 class Machine:
@@ -37,8 +36,7 @@ class Machine:
         self.step_limits = step_limits or {}
         self.steps: dict[str, int] = {}
         self.path = source or write_source(amendment)
-        with _compile_lock:
-            self.compiled = compile_model(str(self.path))
+        self.compiled = compile_model(str(self.path))
         self.model = Model(self.compiled.path)
         self.columns = {s.column: amendment.output(s.variable) for s in case.outputs}
         self._check_signals()

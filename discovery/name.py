@@ -81,31 +81,32 @@ def screen_all(
 
 def rank(
     case: Case, amendment: Amendment, attachments: list[Attachment], base: Fit, *,
-    bandwidths: tuple[float, ...] = (0.0,), progress: Progress = lambda text: None,
+    final: bool = True, progress: Progress = lambda text: None,
 ) -> Naming:  # fmt: skip
-    """Screen, fit and rank hypotheses on top of `base`, the fit of the amendment so far."""
+    """Screen, fit and rank hypotheses on top of `base`, the fit of the amendment so far; `final`: see `compete`."""
     candidates, failures = screen_all(case, amendment, attachments, base, progress)
-    naming = compete(case, candidates, base, bandwidths=bandwidths, progress=progress)
+    naming = compete(case, candidates, base, final=final, progress=progress)
     return replace(naming, failures=[*failures, *naming.failures])
 
 
 def compete(
-    case: Case, candidates: list[Candidate], base: Fit, *, bandwidths: tuple[float, ...] = (0.0,),
-    progress: Progress = lambda text: None,
+    case: Case, candidates: list[Candidate], base: Fit, *, final: bool = True, progress: Progress = lambda text: None,
 ) -> Naming:  # fmt: skip
     """Fit and rank candidates (most promising first) on top of `base`.
 
-    Where the time is up, those that have been fitted are ranked if the best leaves noise; else TimeUp is raised.
+    A `final` ranking is cross-validated; not one of fits that are held, which is decided when they are released. Where
+    the time is up, those that have been fitted are ranked if the best leaves noise; else TimeUp is raised.
     """
     screened = [(c.attachment.label, c.predicted) for c in best_starts(candidates)]
     fitted: dict[str, Candidate] = {}
     failures: list[tuple[str, str]] = []
     try:
-        failures = _race(case, candidates, base, bandwidths, fitted, progress)
+        failures = _race(case, candidates, base, fitted, progress)
         if not fitted:
             return Naming([], screened, failures)
         ranked, correlation = _ranked(fitted, base)
-        ranked = cross_validated(case, base, ranked, correlation, progress)
+        if final:
+            ranked = cross_validated(case, base, ranked, correlation, progress)
     except TimeUp:
         if not any(nearly_noise(c.fit) for c in fitted.values()):
             raise
@@ -122,14 +123,13 @@ def _ranked(fitted: dict[str, Candidate], base: Fit) -> tuple[list[Ranked], dict
 
 
 def _race(
-    case: Case, candidates: list[Candidate], base: Fit, bandwidths: tuple[float, ...], fitted: dict[str, Candidate],
-    progress: Progress,
+    case: Case, candidates: list[Candidate], base: Fit, fitted: dict[str, Candidate], progress: Progress
 ) -> list[tuple[str, str]]:  # fmt: skip
     """Fit what may win, into `fitted`; what could not be simulated, with the reason."""
     first = first_round(candidates)
-    _halve(case, base, first, bandwidths, fitted, progress)
+    _halve(case, base, first, fitted, progress)
     related = relatives(candidates, fitted)
-    _halve(case, base, related, bandwidths, fitted, progress)
+    _halve(case, base, related, fitted, progress)
     if fitted:
         begin_again(case, base, list(fitted.values()), progress)
     failed = dict.fromkeys(c.attachment.label for c in [*first, *related] if c.attachment.label not in fitted)
@@ -137,15 +137,14 @@ def _race(
 
 
 def _halve(
-    case: Case, base: Fit, pool: list[Candidate], bandwidths: tuple[float, ...], fitted: dict[str, Candidate],
-    progress: Progress,
+    case: Case, base: Fit, pool: list[Candidate], fitted: dict[str, Candidate], progress: Progress
 ) -> None:  # fmt: skip
     """Fit a pool by successive halving; the best start of each hypothesis ends in `fitted`."""
     before: dict[int, float] = {}
     for k, (stages, iterations, keep) in enumerate(ROUNDS):
         pool = (pool if k <= SEVERAL_STARTS else best_starts(pool))[:keep]
         with ThreadPoolExecutor(WORKERS) as workers:
-            fits = workers.map(partial(fit_candidate, case, base, bandwidths, stages, iterations, progress), pool)
+            fits = workers.map(partial(fit_candidate, case, base, stages, iterations, progress), pool)
             for candidate, found in zip(pool, fits, strict=True):
                 better = candidate.fit is None or (found is not None and found.deviance() < candidate.fit.deviance())
                 candidate.fit = found if better else candidate.fit

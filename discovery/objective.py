@@ -8,11 +8,12 @@ import numpy as np
 
 from .amend import tracker_name
 from .cases import Recording
-from .least_squares import Estimate, Problem, solve
+from .least_squares import Estimate, Problem, pulls, solve
 from .machine import Machine
 from .noise import Noise, sample_weights
 
 STAGES = 10
+WORTH = 1.0  # of the weighted cost, that a stage of a fit has to win for another to follow
 SETTLED = 0.02  # relative change of a signal's level at which weights are taken to have settled
 
 
@@ -90,23 +91,32 @@ def anneal(
     `known` are unweighted columns of the Jacobian that may serve at first.
     """
     level: dict[str, float] = {}
-    values, best, cost = start, None, np.inf
+    values, best = start, None
     for _ in range(stages):
         problem.weights = None
         here = problem.evaluate(values)
         if here is None:
             return best, level
         new = {n: max(1.0 if n in objective.noise else 1e-6, v) for n, v in objective.measure(here[2]).items()}
-        if best is not None and (here[0] == cost or _settled(level, new, best.converged or bool(objective.stiffness))):
+        if best is not None and _settled(level, new, best.converged or bool(objective.stiffness)):
             break
-        level, cost = new, here[0]
+        level = new
         problem.weights = objective.weights(level)
+        before = _cost(problem, values, here[2])
         weighted = {k: [c * w for c, w in zip(cs, problem.weights, strict=True)] for k, cs in (known or {}).items()}
         found = solve(problem, values, iterations=iterations, damping=1e-6, tolerance=1e-3, known=weighted)
         if found is None:
             return best, level
         best, values = found, found.values
+        if before - found.cost < WORTH:
+            break
     return best, level
+
+
+def _cost(problem: Problem, values: np.ndarray, parts: list[np.ndarray]) -> float:
+    """The cost that unweighted parts have under the problem's weights, belief included."""
+    squares = sum(float(np.sum((p * w) ** 2)) for p, w in zip(parts, problem.weights, strict=True))
+    return squares + float(np.sum(pulls(problem.free, values) ** 2))
 
 
 def _settled(before: Mapping[str, float], after: Mapping[str, float], converged: bool) -> bool:

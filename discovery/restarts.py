@@ -111,7 +111,7 @@ def _fit_again(
     """The fit of a candidate from its start; None where a first look at it is not hopeful."""
     candidate = replace(candidate, fit=None)
     for stages, iterations, _ in (ROUNDS[0], ROUNDS[-1]):
-        candidate.fit = fit_candidate(case, base, (0.0,), stages, iterations, progress, candidate)
+        candidate.fit = fit_candidate(case, base, stages, iterations, progress, candidate)
         if candidate.fit is None or not hopeful(candidate.fit):
             return None
     return candidate.fit

@@ -15,7 +15,7 @@ import numpy as np
 from .amend import Amendment, Attachment
 from .cases import Case
 from .catalogue import Effect
-from .comparison import CLOSE, MIN_GAIN, TIE, Ranked, confidences, price
+from .comparison import CLOSE, MIN_GAIN, TIE, Ranked, confidences, price, score
 from .evidence import holds, nearly_noise, pays, settled
 from .fit import Fit, fit, linearised
 from .hypotheses import enumerate_attachments
@@ -86,7 +86,7 @@ class Search:
     def add(self, progress: Progress) -> bool:
         attachments = enumerate_attachments(self.case, self.amendment.structure, self.effects, self.amendment)
         held = self.lead.hold(self.fit)
-        naming = rank(held.machine.case, self.amendment, attachments, held, progress=progress)
+        naming = rank(held.machine.case, self.amendment, attachments, held, final=self.lead.direct, progress=progress)
         self.namings.append(naming)
         best = naming.best
         if best is None or best.score > -MIN_GAIN:
@@ -133,7 +133,7 @@ class Search:
         if not released:
             return best, None
         correlation = released[0][1].correlation()
-        paid = [f.deviance(correlation) + price(r.candidate, self.fit, correlation) for r, f in released]
+        paid = [score(replace(r.candidate, fit=f), self.fit, correlation) for r, f in released]
         for (ranked, _), much in zip(released, paid, strict=True):
             ranked.score = much - min(paid) - gain
         naming.ranked.sort(key=lambda r: r.score)
@@ -193,7 +193,7 @@ class Search:
             return
         held = self.lead.hold(base)
         candidates = self._rivals(finding, without, held)
-        naming = compete(held.machine.case, candidates, held, progress=progress)
+        naming = compete(held.machine.case, candidates, held, final=self.lead.direct, progress=progress)
         best, own = naming.best, naming.of(finding.ranked.identity)
         if best is None or own is None:
             return
