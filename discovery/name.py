@@ -128,9 +128,10 @@ def _race(
     """Fit what may win, into `fitted`; what could not be simulated, with the reason."""
     first = first_round(candidates)
     _halve(case, base, first, fitted, progress)
-    related = relatives(candidates, fitted)
-    _halve(case, base, related, fitted, progress)
+    related: list[Candidate] = []
     if fitted:
+        related = relatives(candidates, fitted, _ranked(fitted, base)[0][0].candidate)
+        _halve(case, base, related, fitted, progress)
         begin_again(case, base, list(fitted.values()), progress)
     failed = dict.fromkeys(c.attachment.label for c in [*first, *related] if c.attachment.label not in fitted)
     return [(label, "no simulation succeeded from its start values") for label in failed]

@@ -65,34 +65,28 @@ def _starts(best: Candidate, candidates: list[Candidate]) -> int:
     return min(max(promising, STARTS), WHOLE_STARTS)
 
 
-def relatives(candidates: list[Candidate], fitted: dict[str, Candidate]) -> list[Candidate]:
-    """Not yet fitted: laws that the best hypothesis contains, laws that contain it or a law which it contains (from
-    where that one ended, too) and, where it leaves more than noise, its other forms."""
-    if not fitted:
-        return []
-    best = min(fitted.values(), key=lambda c: c.fit.deviance())
+def relatives(candidates: list[Candidate], fitted: dict[str, Candidate], best: Candidate) -> list[Candidate]:
+    """Not yet fitted: laws that the best hypothesis contains, laws that contain it (from where it ended, too) and,
+    where it leaves more than noise, its other forms."""
     own = best.attachment
-    family = [best] + [c for c in fitted.values() if own.contains(c.attachment)]
     promise = max(c.predicted for c in candidates if c.attachment.label == own.label)
     least = float("inf") if nearly_noise(best.fit) else HALF * promise
     new = [c for c in candidates if c.attachment.location == own.location and c.attachment.label not in fitted]
-    family = [best, *(c for c in fitted.values() if own.contains(c.attachment))]
-    within = {id(c): next((f for f in family if c.attachment.contains(f.attachment)), None) for c in new}
-    richer = [c for c in new if within[id(c)]]
+    richer = [c for c in new if c.attachment.contains(own)]
     alike = [
         c for c in new
         if own.contains(c.attachment)
         or (c.attachment.effect.identifier == own.effect.identifier and c.predicted > least)
     ]  # fmt: skip
-    found = [*(_enriched(c, within[id(c)]) for c in best_starts(richer)), *richer, *alike]
+    found = [*(_enriched(c, best) for c in best_starts(richer)), *richer, *alike]
     labels = [c.attachment.label for c in found]
     return [c for k, c in enumerate(found) if labels[:k].count(labels[k]) < STARTS]
 
 
-def _enriched(candidate: Candidate, simpler: Candidate) -> Candidate:
-    """A law that contains a fitted one, begun where that one ended: its levels equal, what it adds at nothing."""
-    own, effect, full = simpler.attachment, candidate.attachment.effect, candidate.attachment.full_name
-    point = simpler.fit.point
+def _enriched(candidate: Candidate, best: Candidate) -> Candidate:
+    """A law that contains the best one, begun where that one ended: its levels equal, what it adds at nothing."""
+    own, effect, full = best.attachment, candidate.attachment.effect, candidate.attachment.full_name
+    point = best.fit.point
     start = candidate.start | {n: v for n, v in point.items() if not n.startswith(f"{own.component}.")}
     shared = {p.name: point[own.full_name(p.name)] for p in own.effect.parameters if own.full_name(p.name) in point}
     if len(shared) == 1:
