@@ -15,6 +15,7 @@ from discovery.experiments import separate
 from discovery.law_terms import Group, evaluate
 from discovery.machine import Machine
 from discovery.places import read
+from discovery.response import Response
 from discovery.steps import fit_believed
 from tests.discovery.conftest import BELIEVED, write_case
 
@@ -33,6 +34,16 @@ def test_a_terms_text_is_what_is_evaluated() -> None:
     trajectory = {"w": np.array([-2.0, 0.0, 4.0]), "time": np.arange(3.0)}
     assert evaluate("sign(w)*abs(w/w_ref)^0.5", trajectory, {"w": 4.0}) == pytest.approx([-(0.5**0.5), 0.0, 1.0])
     assert Group(("cos(time)*0+1",)).values(trajectory, {})[0] == pytest.approx([1.0, 1.0, 1.0])
+
+
+@pytest.mark.parametrize(("omega", "followed"), [(15.0, True), (40.0, True), (85.5, False)])
+def test_what_is_too_fast_for_the_hats_of_effort_does_not_pass_for_a_slow_effort(omega: float, followed: bool) -> None:
+    """128 hats over 8 s: 85.5 rad/s beats with their spacing to 14 rad/s."""
+    nodes, time = np.linspace(0.0, 8.0, 128), np.linspace(0.0, 8.0, 8001)
+    response = Response([nodes], [np.eye(128)])
+    (hats,) = response.to([np.sin(omega * time)], [time])
+    share = np.sinc(omega * (nodes[1] - nodes[0]) / (2 * np.pi)) ** 2  # mean of a sine under a hat
+    assert np.allclose(hats[1:-1], share * np.sin(omega * nodes[1:-1]) * followed, atol=0.02)
 
 
 @pytest.mark.slow

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from discovery.evidence import holds, like_noise, pays
-from discovery.noise import Noise
+from discovery.evidence import holds, like_noise, pays, whiteness
+from discovery.noise import Noise, sample_weights
 
 N = 8000
 white = np.random.default_rng(3).standard_normal(N)
@@ -45,6 +45,31 @@ def test_what_fits_holds_only_if_unseen_recordings_are_noise_too(unseen: float, 
     noise = {"i": Noise(1.0, 0.0, True), "w": Noise(1.0, 0.0, given)}
     judged = {"": 0.02, "i": 0.02, "w": 0.01 * unseen}
     assert holds(judged, floor, noise) == passes
+
+
+def encoder(angle: np.ndarray) -> SimpleNamespace:
+    """The fit of an angle that is known exactly to its reading with a resolution of one."""
+    reading = np.round(angle)
+    noise = {"theta": Noise(12**-0.5, 1.0, True)}
+    weights = {"r": {"theta": sample_weights(reading, noise["theta"])}}
+    return SimpleNamespace(noise=noise, residuals={"r": {"theta": reading - angle}}, weights=weights)
+
+
+@pytest.mark.parametrize(("rest", "passes"), [(0.45, True), (0.9, False)])
+def test_a_shaft_at_rest_makes_one_rounding_error_however_long(rest: float, passes: bool) -> None:
+    """Of a resolution's width, half is rounding; a rest that is further away than that is a misfit."""
+    moving = 7.3 * np.sin(np.arange(N) / 90.0) ** 2
+    fitted = encoder(np.concatenate([moving, np.full(300, 20.0 + rest), moving]))
+    if not passes:
+        fitted.residuals["r"]["theta"][N : N + 300] += 20.0
+    assert all(w.passed for w in whiteness(fitted).values()) == passes
+
+
+def test_rounding_may_err_by_half_a_step_where_nothing_moves() -> None:
+    floor = {"theta": 1e-5}
+    for times, passes in ((1.7, True), (1.8, False)):
+        assert holds({"": 0.0, "theta": times * 1e-5}, floor, {"theta": Noise(12**-0.5, 1.0, True)}) == passes
+    assert not holds({"": 0.0, "theta": 1.7e-5}, floor, {"theta": Noise(1.0, 1.0, True)})
 
 
 @pytest.mark.parametrize(

@@ -47,6 +47,17 @@ def test_a_stage_that_led_nowhere_is_not_repeated() -> None:
     assert trial.simulations == one_stage
 
 
+def test_a_fit_goes_on_below_the_noise_while_it_wins() -> None:
+    """A residual that is smaller than its noise all along says nothing of where the fit ends: steps of one unit."""
+    crawling = OneSignal(lambda x: 0.9 * np.exp(-x) * np.ones(400))
+    crawling.weights = lambda level: [np.full(400, 1 / level["y"])]
+    trial = problem(crawling)
+    found, level = anneal(crawling, trial, np.array([0.0]), iterations=1)
+    assert level == {"y": 1.0} and not found.converged
+    assert found.values[0] > 2.5  # where the next step wins less than one of the cost: 324 exp(-2x)
+    assert found.iterations == 1
+
+
 def test_a_start_that_cannot_run_gives_way_to_the_last_one_that_was_tracked(monkeypatch: pytest.MonkeyPatch) -> None:
     objective = OneSignal(lambda x: None if x > 5.0 else np.full(4, 3.0 * (x - 2.0)), held=1.9)
     monkeypatch.setattr(fitting, "_extrapolated", lambda *_: np.array([6.0]))

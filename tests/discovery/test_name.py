@@ -11,6 +11,7 @@ import pytest
 
 from codegen.library import Library
 from discovery import name as naming
+from discovery import restarts
 from discovery.amend import Amendment
 from discovery.cases import Case, load
 from discovery.fit import Fit, fit
@@ -69,6 +70,52 @@ def test_a_rival_that_ended_in_a_dip_is_begun_again_from_where_the_best_hypothes
     begin_again(case, base, [best, rival, worse], lambda text: None)
     assert rival.fit.deviance() == pytest.approx(best.fit.deviance(), abs=4.0)
     assert worse.fit is left
+
+
+def test_the_best_begins_again_with_what_is_believed_of_parameters_unless_it_has_converged(
+    case: Case, base: Fit, prepared: Prepared
+) -> None:
+    best = fitted(case, base, prepared("CoulombFriction"))
+    away = best.fit.point | {n: 1.2 * best.fit.point[n] for n in ("R", "Ke", "J")}
+    stuck = fitted(case, base, prepared("CoulombFriction"), start=away, stages=1, iterations=0)
+    assert best.fit.estimate.converged and stuck.fit.deviance() > best.fit.deviance() + 1000
+    own = best.fit
+    restarts._believe(case, base, [stuck, best], lambda text: None)
+    assert stuck.fit.deviance() == pytest.approx(own.deviance(), abs=1.0)
+    assert best.fit is own
+
+
+def test_what_is_tried_next_is_related_to_the_best_by_evidence(
+    case: Case, base: Fit, prepared: Prepared, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A richer law leaves a little less than one that it contains, and does not pay for what it adds."""
+    simple = fitted(case, base, prepared("CoulombFriction"))
+    rich = prepared("StribeckFriction")
+    level = simple.fit.point[simple.attachment.full_name("tau_c")]
+    here = simple.fit.point | {rich.attachment.full_name(n): level for n in ("tau_c", "tau_s")}
+    rich = fitted(case, base, rich, start=here)
+    rich.fit.estimate.cost = simple.fit.estimate.cost - 0.5  # of belief, whatever dips either has ended in
+    rich.fit.estimate.data_cost = simple.fit.estimate.data_cost
+    rich.fit.residuals = simple.fit.residuals
+    assert rich.fit.deviance() < simple.fit.deviance()
+    asked: list[Candidate] = []
+    monkeypatch.setattr(naming, "_halve", lambda case, base, pool, fitted, progress: fitted.update(
+        {c.attachment.label: c for c in pool}))  # fmt: skip
+    monkeypatch.setattr(naming, "first_round", lambda candidates: candidates)
+    monkeypatch.setattr(naming, "relatives", lambda candidates, fitted, best: asked.append(best) or [])
+    monkeypatch.setattr(naming, "begin_again", lambda *_: None)
+    compete(case, [rich, simple], base, final=False)
+    assert asked == [simple]
+
+
+def test_a_ranking_of_held_fits_is_not_cross_validated(
+    case: Case, base: Fit, prepared: Prepared, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[object] = []
+    monkeypatch.setattr(naming, "cross_validated", lambda case, base, ranked, *_: asked.append(ranked) or ranked)
+    for final in (False, True):
+        compete(case, [prepared("CoulombFriction")], base, final=final)
+        assert len(asked) == final
 
 
 def raced(case: Case, base: Fit, prepared: Prepared, effect: str, monkeypatch: pytest.MonkeyPatch) -> Naming:
