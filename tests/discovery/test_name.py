@@ -73,14 +73,21 @@ def test_a_rival_that_ended_in_a_dip_is_begun_again_from_where_the_best_hypothes
 
 
 def test_the_best_begins_again_with_what_is_believed_of_parameters_unless_it_has_converged(
-    case: Case, base: Fit, prepared: Prepared
+    case: Case, base: Fit, prepared: Prepared, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    again: list[Candidate] = []
+    fit_again = restarts._fit_again
+    monkeypatch.setattr(
+        restarts, "_fit_again", lambda case, base, c, *how: again.append(c) or fit_again(case, base, c, *how)
+    )
     best = fitted(case, base, prepared("CoulombFriction"))
     away = best.fit.point | {n: 1.2 * best.fit.point[n] for n in ("R", "Ke", "J")}
     stuck = fitted(case, base, prepared("CoulombFriction"), start=away, stages=1, iterations=0)
     assert best.fit.estimate.converged and stuck.fit.deviance() > best.fit.deviance() + 1000
     own = best.fit
     restarts._believe(case, base, [stuck, best], lambda text: None)
+    level = stuck.attachment.full_name("tau_c")
+    assert again[0].start == {f.name: f.centre for f in base.estimate.free} | {level: away[level]}
     assert stuck.fit.deviance() == pytest.approx(own.deviance(), abs=1.0)
     assert best.fit is own
 
