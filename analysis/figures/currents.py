@@ -19,7 +19,7 @@ from analysis.settings import Settings
 
 TITLE = "Phase currents and rotor position"
 CAPTION = (
-    "As figure 7 of the paper, over the last two electrical turns. Around: electrical rotor angle, zero where "
+    "As figure 7 of the paper, over the last electrical turn. Around: electrical rotor angle, zero where "
     "phase A's back-EMF rises through zero. Outwards: filtered phase current; the dotted circle is zero current. "
     "The red arrow marks the angle at which the fault raises the back-EMF most. The healthy motor draws the same "
     "pattern three times, 120 degrees apart; the fault weakens the back-EMF on the side away from the arrow, and "
@@ -31,7 +31,7 @@ def draw(settings: Settings, rows: list[Row]) -> Figure:
     figure = new_figure(11.5, 4.7)
     marks = landmarks(settings, rows)
     picks = [marks[0], *marks[-2:]]
-    limit = 1.05 * max(float(np.abs(last_turns(settings, row)[1]).max()) for row, _ in picks)
+    limit = 1.05 * max(float(np.abs(last_turn(settings, row)[1]).max()) for row, _ in picks)
     panels = figure.subplots(1, len(picks), subplot_kw={"projection": "polar"})
     for axes, (row, colour) in zip(panels, picks, strict=True):
         _draw_orbit(axes, settings, row, limit)
@@ -42,16 +42,16 @@ def draw(settings: Settings, rows: list[Row]) -> Figure:
     return figure
 
 
-def last_turns(settings: Settings, row: Row, turns: int = 2) -> tuple[np.ndarray, np.ndarray]:
-    """Electrical angle (rad) and currents (A) over the last electrical turns of the record."""
+def last_turn(settings: Settings, row: Row) -> tuple[np.ndarray, np.ndarray]:
+    """Electrical angle (rad) and currents (A) over the last electrical turn of the record."""
     pole_pairs = settings.raw["actuator"].get("pole_pairs", 1)
     angle = pole_pairs * row.traces["angle"].astype(float)
-    shown = angle >= angle[-1] - 2 * np.pi * turns
+    shown = angle >= angle[-1] - 2 * np.pi
     return angle[shown], row.traces["currents"][:, shown]
 
 
 def _draw_orbit(axes: Axes, settings: Settings, row: Row, limit: float) -> None:
-    angle, currents = last_turns(settings, row)
+    angle, currents = last_turn(settings, row)
     for channel, current in enumerate(currents):
         axes.plot(angle, current, PHASE_STYLES[channel], color=PHASES[channel], linewidth=1.6)
     axes.set_ylim(-1.25 * limit, limit)
