@@ -15,9 +15,11 @@ from .evidence import TOLERANCE, holds, is_noise, like_noise, outside_belief, se
 from .experiments import separate
 from .explanation import Clock, Explanation
 from .judge import judge_file
+from .search import FAR
 from .steps import add_findings, add_fit, add_location, add_scatter, opened
 from .time_limit import within
 
+LARGER_PART = 0.5  # of the NRMSE on unseen recordings, that findings which leave far more than noise must take away
 AS_LIKELY = 0.5  # of a finding's confidence, that rivals at other places have together where the data cannot tell
 
 Progress = Callable[[str], None]
@@ -51,21 +53,10 @@ def explain(
 
 def _conclude(result: Explanation) -> None:
     """The verdict, from the findings, the whiteness of what is left and the believed parameters."""
-    left = [w for w in whiteness(result.final).values() if not w.passed]
     if result.findings:
-        first = result.findings[0]
-        # a tie at one place leaves no doubt that physics is missing there
-        rivals = [r for r in first.naming.rivals(first.ranked) if r.identity[1] != first.ranked.identity[1]]
-        if sum(r.confidence for r in rivals) > AS_LIKELY * first.ranked.confidence:
-            result.verdict = "undetermined"
-            names = ", ".join(dict.fromkeys(r.attachment.label for r in rivals[:3]))
-            result.reason = f"{first.ranked.attachment.label} and {names} explain the data equally well"
-            result.trial = separate(result.case, first.ranked.fit, rivals[0].fit)
-            labels = (first.ranked.attachment.label, rivals[0].attachment.label)
-            result.experiment = result.trial.sentence(labels) if result.trial else experiment_for(first.ranked, rivals)
-        else:
-            result.verdict = "missing_physics"
+        _conclude_from_findings(result)
         return
+    left = [w for w in whiteness(result.final).values() if not w.passed]
     worst = max(left, key=lambda w: w.ratio / w.limit).column if left and not _quiet(result) else ""
     if worst or not holds(result.after.validate, result.floor, result.final.noise):
         result.verdict = "undetermined"
@@ -74,6 +65,30 @@ def _conclude(result: Explanation) -> None:
         result.experiment = "record the same motion with the quantities that are not recorded now"
     else:
         result.verdict = "parameters" if outside_belief(result.base) else "consistent"
+
+
+def _conclude_from_findings(result: Explanation) -> None:
+    """Physics is missing, unless another place explains the data as well or most of what is missing is left."""
+    first = result.findings[0]
+    # a tie at one place leaves no doubt that physics is missing there
+    rivals = [r for r in first.naming.rivals(first.ranked) if r.identity[1] != first.ranked.identity[1]]
+    taken = 1.0 - result.after.validate[""] / result.before.validate[""]
+    if taken < LARGER_PART and max(result.final.level.values()) > FAR:
+        result.verdict = "undetermined"
+        result.reason = (
+            f"{first.ranked.attachment.label} fits best, but takes only {taken:.0%} of the error on unseen recordings "
+            "away, and what is left is far from noise: the larger part of what is missing is something else"
+        )
+        result.experiment = experiment_for(first.ranked, first.naming.ranked[1:])
+    elif sum(r.confidence for r in rivals) > AS_LIKELY * first.ranked.confidence:
+        result.verdict = "undetermined"
+        names = ", ".join(dict.fromkeys(r.attachment.label for r in rivals[:3]))
+        result.reason = f"{first.ranked.attachment.label} and {names} explain the data equally well"
+        result.trial = separate(result.case, first.ranked.fit, rivals[0].fit)
+        labels = (first.ranked.attachment.label, rivals[0].attachment.label)
+        result.experiment = result.trial.sentence(labels) if result.trial else experiment_for(first.ranked, rivals)
+    else:
+        result.verdict = "missing_physics"
 
 
 def _quiet(result: Explanation) -> bool:

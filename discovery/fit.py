@@ -21,6 +21,7 @@ from .objective import STAGES, Objective, anneal
 from .store import remembered
 from .tracking import noise_bandwidth
 
+FALLING = (1.0, 1 / 8, 1 / 16, 1 / 50, 0.0)  # bandwidths of trackers, of the largest that noise allows
 LOWER_SHARE = 0.02  # of its believed value, below which no positive parameter is tried
 
 
@@ -239,7 +240,7 @@ def nrmse(
     return result
 
 
-def falling_bandwidths(case: Case, machine: Machine) -> tuple[float, ...]:
+def falling_bandwidths(case: Case, machine: Machine, shares: Sequence[float] = FALLING) -> tuple[float, ...]:
     """Bandwidths (rad/s) of the trackers, from about what noise allows down to none."""
     top = min(noise_bandwidth(case, m) for m in machine.motions() if m is not None)
-    return (top, top / 8, top / 16, top / 50, 0.0)
+    return tuple(top * share for share in shares)

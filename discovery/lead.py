@@ -27,10 +27,14 @@ EARLY = 0.16  # share on which the motion is still held fast by its beginning
 
 @dataclass(frozen=True)
 class Lead:
-    """`bandwidths` (rad/s) of the trackers, falling to 0, or growing shares of the recordings, or neither."""
+    """`bandwidths` (rad/s) of the trackers, falling to 0, or growing shares of the recordings, or neither.
+
+    Hypotheses are compared at the bandwidth of index `held`.
+    """
 
     bandwidths: tuple[float, ...] = ()
     grows: bool = False
+    held: int = HELD
 
     @property
     def direct(self) -> bool:
@@ -52,7 +56,7 @@ class Lead:
         `like` is a fit that is held already: the share is then the same.
         """
         if self.bandwidths:
-            return _tracked(base, self.bandwidths[HELD])
+            return _tracked(base, self.bandwidths[self.held])
         most, lost = (1.0, LOST) if like is None else (_share(like.machine.case), float("inf"))
         return self._begun(base, most, lost) if self.grows else base
 
@@ -66,7 +70,7 @@ class Lead:
         """The fit to all of `case` by a machine of it, from where a fit that was held has ended."""
         fixed = {n: v for n, v in held.fixed.items() if not n.startswith("tracker_")}
         if self.bandwidths:
-            ladder = self.bandwidths[HELD:]
+            ladder = self.bandwidths[self.held :]
             return fit(machine, case.fit, base.noise, free, fixed, start=held.point, bandwidths=ladder)
         share = _share(held.machine.case)
         return _grown(machine, case, base.noise, free, fixed, held.point, [s for s in SHARES if s > share] or [1.0])

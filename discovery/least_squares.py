@@ -60,10 +60,12 @@ def clipped(free: list[Free], values: Iterable[float]) -> np.ndarray:
 
 @dataclass
 class Estimate:
-    """Where a fit ended. `cost` is the sum of squares of data and belief; `data_cost` of the data alone."""
+    """Where a fit ended. `cost` is the sum of squares of data and belief; `data_cost` of the data alone; `begun` the
+    cost where it began."""
 
     free: list[Free]
     values: np.ndarray
+    begun: float
     cost: float
     data_cost: float
     residuals: list[np.ndarray]
@@ -170,7 +172,7 @@ def solve(
     here = problem.evaluate(values)
     if here is None:
         return None
-    frozen = dict(known or {})
+    begun, frozen = here[0], dict(known or {})
     converged, count, normal, columns = False, 0, np.zeros((len(free),) * 2), {}
     while count < iterations and free and not converged:
         count += 1
@@ -186,7 +188,7 @@ def solve(
             frozen, damping = {}, 1e-3 if not step.taken else damping
     cost, data, parts = here
     return Estimate(
-        free, values, cost, data, parts, normal, converged, count, problem.simulations,
+        free, values, begun, cost, data, parts, normal, converged, count, problem.simulations,
         _blocks(columns, problem.pieces),
     )  # fmt: skip
 

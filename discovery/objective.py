@@ -8,7 +8,7 @@ import numpy as np
 
 from .amend import tracker_name
 from .cases import Recording
-from .least_squares import Estimate, Problem, pulls, solve
+from .least_squares import Estimate, Problem, solve
 from .machine import Machine
 from .noise import Noise, sample_weights
 
@@ -102,21 +102,14 @@ def anneal(
             break
         level = new
         problem.weights = objective.weights(level)
-        before = _cost(problem, values, here[2])
         weighted = {k: [c * w for c, w in zip(cs, problem.weights, strict=True)] for k, cs in (known or {}).items()}
         found = solve(problem, values, iterations=iterations, damping=1e-6, tolerance=1e-3, known=weighted)
         if found is None:
             return best, level
         best, values = found, found.values
-        if before - found.cost < WORTH:
+        if found.begun - found.cost < WORTH:
             break
     return best, level
-
-
-def _cost(problem: Problem, values: np.ndarray, parts: list[np.ndarray]) -> float:
-    """The cost that unweighted parts have under the problem's weights, belief included."""
-    squares = sum(float(np.sum((p * w) ** 2)) for p, w in zip(parts, problem.weights, strict=True))
-    return squares + float(np.sum(pulls(problem.free, values) ** 2))
 
 
 def _settled(before: Mapping[str, float], after: Mapping[str, float], converged: bool) -> bool:

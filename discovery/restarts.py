@@ -46,16 +46,25 @@ def _believe(case: Case, base: Fit, candidates: list[Candidate], progress: Progr
     """
     believed = {f.name: f.centre for f in base.estimate.free if f.sigma}
     ordered = sorted(candidates, key=lambda c: c.fit.deviance())
-    near = ordered[0].fit.deviance() + CONTENDING * (base.deviance() - ordered[0].fit.deviance())
+    near = _near(base, ordered[0])
 
     def fit_again(candidate: Candidate) -> None:
         again = replace(candidate, start=candidate.fit.point | believed, shift={})
-        found = _fit_again(case, base, again, lambda f: f.deviance() <= near, progress)
-        if found is not None and found.deviance() < candidate.fit.deviance():
-            candidate.fit = found
+        _take(candidate, _fit_again(case, base, again, lambda f: f.deviance() <= near, progress))
 
     with ThreadPoolExecutor(WORKERS) as pool:
         list(pool.map(fit_again, [c for c in ordered[:BELIEVED] if not c.fit.estimate.converged]))
+
+
+def _near(base: Fit, best: Candidate) -> float:
+    """The deviance up to which a rival of the best hypothesis may still be made equal to it."""
+    return best.fit.deviance() + CONTENDING * (base.deviance() - best.fit.deviance())
+
+
+def _take(candidate: Candidate, found: Fit | None) -> None:
+    """Keep a fit that is better than the one that the candidate has."""
+    if found is not None and found.deviance() < candidate.fit.deviance():
+        candidate.fit = found
 
 
 def _lead(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
@@ -69,13 +78,15 @@ def _lead(case: Case, base: Fit, candidates: list[Candidate], progress: Progress
     shafts = trackable(case, base.machine.model, base.machine.amendment.structure)
     if not shafts or base.machine.amendment.trackers or nearly_noise(ordered[0].fit):
         return
-    physics = ordered[0].attachment.effect.identifier
+    own = ordered[0].attachment
     good = [c for c in ordered[:LED] if c.fit.deviance() <= far]
-    for candidate in good + [c for c in ordered if c.attachment.effect.identifier == physics and c not in good]:
+    elsewhere = [
+        c for c in ordered
+        if c.attachment.effect.identifier == own.effect.identifier and c.attachment.location != own.location
+    ]  # fmt: skip
+    for candidate in good + [c for c in elsewhere if c not in good]:
         progress(f"leading {candidate.attachment.label}")
-        found = _fit_led(case, base, candidate, shafts)
-        if found is not None and found.deviance() < candidate.fit.deviance():
-            candidate.fit = found
+        _take(candidate, _fit_led(case, base, candidate, shafts))
 
 
 def _simplify(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
@@ -83,9 +94,7 @@ def _simplify(case: Case, base: Fit, candidates: list[Candidate], progress: Prog
     best = min(candidates, key=lambda c: c.fit.deviance())
     for candidate in candidates:
         if best.attachment.contains(candidate.attachment):
-            found = _from_richer(case, base, candidate, best, progress)
-            if found is not None and found.deviance() < candidate.fit.deviance():
-                candidate.fit = found
+            _take(candidate, _from_richer(case, base, candidate, best, progress))
 
 
 def _from_richer(
@@ -124,7 +133,7 @@ def _contend(case: Case, base: Fit, candidates: list[Candidate], progress: Progr
     hypotheses that do equally well is named must not hang on that.
     """
     best = min(candidates, key=lambda c: c.fit.deviance())
-    near = best.fit.deviance() + CONTENDING * (base.deviance() - best.fit.deviance())
+    near = _near(base, best)
     close = sorted([c for c in candidates if c.fit.deviance() <= near], key=lambda c: c.fit.deviance())
     if len(close) < 2:
         return

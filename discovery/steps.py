@@ -31,6 +31,8 @@ from .tracking import trackable
 
 Progress = Callable[[str], None]
 
+STIFFLY = (1.0, 1 / 4, 1 / 16, 1 / 50, 0.0)  # bandwidths of trackers where what is missing is as stiff as they are
+
 
 def opened(case: Case, library: Library) -> tuple[Explanation, Machine | None]:
     """The case with what is wrong with its recordings, and the believed model; none where they are of no use."""
@@ -132,7 +134,7 @@ def _held(result: Explanation, direct: Search, shafts: list[places.Shaft], progr
     case, structure = result.case, result.amendment.structure
     progress("looking again, the recorded shaft held near its motion")
     machine = Machine(case, Amendment(structure, trackers=shafts))
-    lead = Lead(falling_bandwidths(case, machine))
+    lead = Lead(falling_bandwidths(case, machine, STIFFLY), held=1)
     free, fixed = believed(case, machine)
     base = lead.fit(machine, case, result.base.noise, free, fixed)
     if base is None:

@@ -142,6 +142,22 @@ def test_a_rival_elsewhere_that_is_as_likely_leaves_it_undetermined(
     assert ("explain the data equally well" in result.reason) == (verdict == "undetermined")
 
 
+@pytest.mark.parametrize(
+    ("left", "level", "verdict"),
+    [(0.9, 300.0, "undetermined"), (0.9, 1.5, "missing_physics"), (0.4, 300.0, "missing_physics")],
+)
+def test_a_finding_that_leaves_the_larger_part_far_above_noise_is_no_diagnosis(
+    explained: Explanation, left: float, level: float, verdict: str
+) -> None:
+    final = replace(explained.final, level=dict.fromkeys(explained.final.level, level))
+    after = replace(explained.after, validate={n: left * v for n, v in explained.before.validate.items()})
+    result = replace(explained, final=final, after=after, reason="", experiment="")
+    _conclude(result)
+    assert result.verdict == verdict
+    assert ("takes only 10% of the error" in result.reason) == (verdict == "undetermined")
+    assert bool(result.experiment) == (verdict == "undetermined")
+
+
 CUBIC_DRAG = """within Lacuna.Effects;
 model CubicDrag "Loss growing with the cube of speed"
   extends Interfaces.FlangeEffect;
