@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from .cases import Case, Recording
+from .evidence import nearly_noise
 from .fit import Fit, falling_bandwidths, fit
 from .least_squares import Free
 from .machine import Machine
@@ -76,7 +77,8 @@ class Lead:
         return _grown(machine, case, base.noise, free, fixed, held.point, [s for s in SHARES if s > share] or [1.0])
 
     def _begun(self, base: Fit, most: float, lost: float) -> Fit:
-        """The fit to the largest share, up to `most`, on which some signal still follows the recorded one."""
+        """The fit to the largest share, up to `most`, on which some signal still follows the recorded one; or to the
+        first on which what is missing shows."""
         case, machine = base.machine.case, base.machine
         start = {f.name: base.point[f.name] for f in base.estimate.free if not f.sigma}
         kept = base
@@ -84,7 +86,7 @@ class Lead:
             short = cut(case, share)
             here = machine if share == 1.0 else Machine(short, machine.amendment, machine.solver)
             found = fit(here, short.fit, base.noise, base.estimate.free, base.fixed, start=start)
-            if found is None or (kept is not base and _astray(found, lost)):
+            if found is None or (kept is not base and _astray(found, lost) and not nearly_noise(kept)):
                 break
             kept, start = found, found.point
         return kept

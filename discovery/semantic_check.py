@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from scipy.signal import lfilter
 
 from .cases import Recording
 from .least_squares import Free
@@ -35,6 +36,7 @@ SURE = 0.9  # gain from which outputs that are early alike say that the drive is
 STANDS = 0.1  # share of the recording in which a signal stands, and of the simulated range that it leaves out
 OBEYED, BROKEN = 1e-6, 0.3  # residual of a relation between outputs over its largest term
 AS_GOOD = 0.1  # part of what moving the signal takes away that the least of several moves may leave
+TIME_CONSTANTS = np.linspace(0.5, 2.0, 16)  # of a sensor, in units of the lag that moving its signal takes for it
 CHANGES = (10, 100)  # samples over which changes are compared when looking for a shift: fast ones, and beyond noise
 
 
@@ -163,7 +165,8 @@ def _shifts(machine: Machine, recording: Recording, simulated: dict[str, np.ndar
         others = [other for c, (other, found) in lags.items() if c != column and found > ALIKE]
         if late and any(lag - LATE < other for other in others):  # a machine slower than believed delays them all
             continue
-        if (late or early) and not together and _agrees(recording.columns[column], simulated[column], lag):
+        pair = recording.columns[column], simulated[column], lag
+        if (late or early) and not together and _agrees(*pair) and not (late and _is_smoothed(*pair)):
             seconds = lag * recording.interval
             text = f"shifted in time by {seconds:+.4g} s against the other signals"
             found.append(Problem("shift", recording.name, column, float(recording.time[0]), text, True))
@@ -174,6 +177,16 @@ def _agrees(measured: np.ndarray, simulated: np.ndarray, lag: int) -> bool:
     """Whether the shapes agree when `measured` is moved forward by `lag` samples: what is out of step is not late."""
     moved, still = (measured[lag:], simulated[:-lag]) if lag > 0 else (measured[:lag], simulated[-lag:])
     return bool(np.corrcoef(filled(moved), still)[0, 1] > SHAPE)
+
+
+def _is_smoothed(measured: np.ndarray, simulated: np.ndarray, lag: int) -> bool:
+    """Whether a first-order lag of its sensor does better than that `measured` is `lag` samples late."""
+    span = CHANGES[-1]
+    changes, model = filled(measured)[span:] - filled(measured)[:-span], simulated[span:] - simulated[:-span]
+    pole = [np.exp(-1.0 / (share * lag)) for share in TIME_CONSTANTS]
+    smoothed = [lfilter([1.0 - p], [1.0, -p], model, zi=[p * model[0]])[0] for p in pole]
+    left = min(float(np.sum((changes - s)[lag:] ** 2)) for s in smoothed)
+    return left < float(np.sum((changes[lag:] - model[:-lag]) ** 2))
 
 
 def _lag(measured: np.ndarray, simulated: np.ndarray) -> tuple[int, float]:
