@@ -160,14 +160,22 @@ def build(name: str, item: Plan, seed: int) -> Case:
         unseen = item.gain[0] > 1.3 and validate < 1.3
         told_apart = bool(item.rival) and case.refit["rival"]["fit"] > 1.01
         distance += unseen + told_apart
-        if distance < least:
+        if distance < least and _judged(case, seed):
             best, least = case, distance
         if least < 0.4:
             break
     if best is None:
         raise RuntimeError(f"{name}: no size of {item.effects} on {item.bench} can be simulated")
-    judge(best, seed, best.true)
     return best
+
+
+def _judged(case: Case, seed: int) -> bool:
+    """Judges to the end; False where a step of the refit diverges, as it may near the edge of a loop's stability."""
+    try:
+        judge(case, seed, case.true)
+    except ArithmeticError:
+        return False
+    return True
 
 
 def generate(item: tuple[str, Plan, int, Path]) -> str:
