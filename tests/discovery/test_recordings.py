@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from codegen.library import Library
 from discovery.cases import Case, CaseError, Recording, load
@@ -133,6 +134,15 @@ def test_sound_recordings_of_any_length_are_not_suspected(consistent_case: Path,
     for recording in case.fit:
         recording.time = recording.time[:count]
         recording.columns = {n: v[:count] for n, v in recording.columns.items()}
+    assert [str(p) for p in problems_of(case)] == []
+
+
+def test_a_slow_sensor_is_no_shifted_signal(consistent_case: Path) -> None:
+    """A lag of 66 samples moves a signal by nearly as many, but smooths it, too."""
+    case = load(consistent_case)
+    pole = np.exp(-1.0 / 66)
+    for recording in case.fit + case.validate:
+        recording.columns["theta"] = lfilter([1.0 - pole], [1.0, -pole], recording.columns["theta"])
     assert [str(p) for p in problems_of(case)] == []
 
 

@@ -1,0 +1,84 @@
+"""Where a fit is held while hypotheses are compared: stiffly enough to be linear, and where something shows."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from codegen.library import Library
+from discovery import lead as leading
+from discovery.amend import Amendment
+from discovery.cases import load
+from discovery.fit import FALLING, believed, falling_bandwidths, fit, noise_of
+from discovery.lead import HELD, SHARES, Lead
+from discovery.machine import Machine
+from discovery.name import screen_all
+from discovery.places import read
+from discovery.steps import STIFFLY
+from discovery.tracking import trackable
+
+from .conftest import BELIEVED, attachment, write_case
+
+COGGING = """model CoggingServo
+  extends Lacuna.Benches.DcServo;
+  Lacuna.Effects.CoggingTorque cogging(amplitude=0.012, periods=8, phase=0.3);
+equation
+  connect(cogging.flange, shaft.flange_b);
+end CoggingServo;
+"""
+
+
+@pytest.fixture(scope="module")
+def cogging_case(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("cogging")
+    (folder / "CoggingServo.mo").write_text(COGGING, encoding="utf-8")
+    return write_case(folder, str(folder / "CoggingServo.mo"), BELIEVED | {"R": 3.45})
+
+
+@pytest.mark.parametrize(("shares", "held", "seen"), [(STIFFLY, 1, True), (FALLING, HELD, False)])
+def test_the_periods_of_a_strong_cogging_show_where_the_shaft_is_held_stiffly(
+    cogging_case: Path, shares: tuple[float, ...], held: int, seen: bool
+) -> None:
+    """Its wells, amplitude times periods, are 0.096 N.m/rad deep; a tracker of J w^2 has to be stiffer than they."""
+    case = load(cogging_case)
+    structure = read(Library(), case.model)
+    shafts = trackable(case, Machine(case, Amendment(structure)).model, structure)[:1]
+    machine = Machine(case, Amendment(structure, trackers=shafts))
+    lead = Lead(falling_bandwidths(case, machine, shares), held=held)
+    assert (BELIEVED["J"] * lead.bandwidths[held] ** 2 > 0.096) == seen
+    free, fixed = believed(case, machine)
+    base = lead.hold(fit(machine, case.fit, noise_of(case), free, fixed, stages=1, iterations=0))
+    cogging = attachment(case, "CoggingTorque")
+    best = screen_all(case, machine.amendment, [cogging], base, lambda text: None)[0][0]
+    right = best.fixed[cogging.full_name("periods")] == 8 and best.predicted > 0.3
+    assert right == seen
+
+
+@pytest.mark.parametrize(
+    ("levels", "chosen"),
+    [
+        ((1.0, 1.0, 9.0, 9.0), 0.08),  # what is missing shows with the third share only
+        ((1.0, 1.6, 9.0), 0.04),  # it shows before the motion has run away
+        ((1.0,) * len(SHARES), 1.0),
+    ],
+)
+def test_a_fit_that_grows_is_held_where_something_is_seen_to_be_missing(
+    consistent_case: Path, monkeypatch: pytest.MonkeyPatch, levels: tuple[float, ...], chosen: float
+) -> None:
+    case = load(consistent_case)
+    estimate = SimpleNamespace(free=[])
+    left = iter(levels)
+
+    def machine_of(case, *rest) -> SimpleNamespace:
+        return SimpleNamespace(case=case, amendment=None, solver="")
+
+    def fit_of(machine, *rest, **options) -> SimpleNamespace:
+        return SimpleNamespace(machine=machine, level={"i": next(left)}, point={})
+
+    monkeypatch.setattr(leading, "Machine", machine_of)
+    monkeypatch.setattr(leading, "fit", fit_of)
+    whole = SimpleNamespace(machine=machine_of(case), estimate=estimate, point={}, noise={}, fixed={})
+    held = Lead(grows=True).hold(whole)
+    assert len(held.machine.case.fit[0].time) == int(chosen * len(case.fit[0].time))
