@@ -6,6 +6,7 @@ import tomllib
 import numpy as np
 import pytest
 
+from tests.proof import generate as generator
 from tests.proof.benches import BENCHES
 from tests.proof.case import noise_std
 from tests.proof.generate import build, generate
@@ -65,6 +66,26 @@ def test_misfit_is_of_the_planned_order(bench, effect):
     case = build("x", Plan("effect", bench, (effect,), gain=(2.0, 4.0)), 11)
     fit = case.refit["fit"]
     assert 1.5 < fit["refit_believed"] / fit["floor"] < 5.5
+
+
+def test_experiments_are_drawn_again_where_a_refit_diverges(monkeypatch):
+    """A controller with a delay near the edge of stability: a step of the refit may go beyond it."""
+    drawn = []
+
+    def sized(case, seed, target):
+        drawn.append(case)
+        case.refit = {"validate": {"refit_believed": 3.0, "floor": 1.0}}
+        return 0.1
+
+    def judge(case, seed, start):
+        if case is drawn[0]:
+            raise ArithmeticError("diverged")
+
+    monkeypatch.setattr(generator, "_tune", sized)
+    monkeypatch.setattr(generator, "judge", judge)
+    case = build("x", Plan("effect", "Joint", ("friction.coulomb",), gain=(2.0, 4.0)), 11)
+    assert case is drawn[1] and len(drawn) == 2
+    assert not np.array_equal(drawn[0].inputs[0], drawn[1].inputs[0])
 
 
 def test_nothing_concealed_leaves_the_floor():
