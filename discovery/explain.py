@@ -19,7 +19,7 @@ from .search import FAR
 from .steps import add_findings, add_fit, add_location, add_scatter, opened
 from .time_limit import within
 
-LARGER_PART = 0.5  # of the NRMSE on unseen recordings, that findings which leave far more than noise must take away
+WORTH = 0.2  # of the NRMSE on unseen recordings, that findings which leave far more than noise must take away
 AS_LIKELY = 0.5  # of a finding's confidence, that rivals at other places have together where the data cannot tell
 
 Progress = Callable[[str], None]
@@ -68,16 +68,16 @@ def _conclude(result: Explanation) -> None:
 
 
 def _conclude_from_findings(result: Explanation) -> None:
-    """Physics is missing, unless another place explains the data as well or most of what is missing is left."""
+    """Physics is missing, unless another place explains the data as well or nearly all of what is missing is left."""
     first = result.findings[0]
     # a tie at one place leaves no doubt that physics is missing there
     rivals = [r for r in first.naming.rivals(first.ranked) if r.identity[1] != first.ranked.identity[1]]
     taken = 1.0 - result.after.validate[""] / result.before.validate[""]
-    if taken < LARGER_PART and max(result.final.level.values()) > FAR:
+    if taken < WORTH and max(result.final.level.values()) > FAR:
         result.verdict = "undetermined"
         result.reason = (
             f"{first.ranked.attachment.label} fits best, but takes only {taken:.0%} of the error on unseen recordings "
-            "away, and what is left is far from noise: the larger part of what is missing is something else"
+            "away, and what is left is far from noise: what is missing is something else"
         )
         result.experiment = experiment_for(first.ranked, first.naming.ranked[1:])
     elif sum(r.confidence for r in rivals) > AS_LIKELY * first.ranked.confidence:

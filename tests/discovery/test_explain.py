@@ -144,9 +144,9 @@ def test_a_rival_elsewhere_that_is_as_likely_leaves_it_undetermined(
 
 @pytest.mark.parametrize(
     ("left", "level", "verdict"),
-    [(0.9, 300.0, "undetermined"), (0.9, 1.5, "missing_physics"), (0.4, 300.0, "missing_physics")],
+    [(0.9, 300.0, "undetermined"), (0.9, 1.5, "missing_physics"), (0.7, 300.0, "missing_physics")],
 )
-def test_a_finding_that_leaves_the_larger_part_far_above_noise_is_no_diagnosis(
+def test_a_finding_that_leaves_nearly_all_far_above_noise_is_no_diagnosis(
     explained: Explanation, left: float, level: float, verdict: str
 ) -> None:
     final = replace(explained.final, level=dict.fromkeys(explained.final.level, level))
