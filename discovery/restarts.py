@@ -11,6 +11,8 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
 
+from runtime import SimulationError
+
 from .candidate_fit import fit_candidate
 from .cases import Case
 from .comparison import Progress, best_correlation, score
@@ -155,8 +157,12 @@ def _contend(case: Case, base: Fit, candidates: list[Candidate], progress: Progr
 
 
 def _prepared(screen: Screen, candidate: Candidate) -> Candidate:
-    """The candidate at its most promising start against another fit of the base."""
-    found = prepare(screen, candidate.attachment, candidate.machine)
+    """The candidate at its most promising start against another fit of the base; without promise where it does not run
+    there."""
+    try:
+        found = prepare(screen, candidate.attachment, candidate.machine)
+    except SimulationError:
+        found = []
     return found[0] if found else replace(candidate, predicted=0.0)
 
 

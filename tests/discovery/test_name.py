@@ -12,7 +12,7 @@ import pytest
 from codegen.library import Library
 from discovery import name as naming
 from discovery import restarts
-from discovery.amend import Amendment
+from discovery.amend import Amendment, Attachment
 from discovery.cases import Case, load
 from discovery.fit import Fit, fit
 from discovery.machine import Machine
@@ -22,6 +22,7 @@ from discovery.restarts import begin_again
 from discovery.screen import Candidate, Screen, prepare
 from discovery.steps import fit_believed
 from discovery.time_limit import TimeUp, check, within
+from runtime import SimulationError
 
 from .conftest import attachment
 
@@ -70,6 +71,24 @@ def test_a_rival_that_ended_in_a_dip_is_begun_again_from_where_the_best_hypothes
     begin_again(case, base, [best, rival, worse], lambda text: None)
     assert rival.fit.deviance() == pytest.approx(best.fit.deviance(), abs=4.0)
     assert worse.fit is left
+
+
+def test_a_rival_that_does_not_run_where_it_is_begun_again_stays_as_it_is(
+    case: Case, base: Fit, prepared: Prepared, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Friction that chatters from the best one's parameters is no reason to lose the diagnosis."""
+    best, rival = fitted(case, base, prepared("CoulombFriction")), fitted(case, base, prepared("StribeckFriction"))
+    own = rival.fit
+    prepare = restarts.prepare
+
+    def chatters(screen: Screen, attachment: Attachment, machine: Machine) -> list[Candidate]:
+        if attachment is rival.attachment:
+            raise SimulationError("chattering")
+        return prepare(screen, attachment, machine)
+
+    monkeypatch.setattr(restarts, "prepare", chatters)
+    restarts._contend(case, base, [best, rival], lambda text: None)
+    assert rival.fit is own
 
 
 def test_the_best_begins_again_with_what_is_believed_of_parameters_unless_it_has_converged(
