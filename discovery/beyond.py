@@ -14,8 +14,9 @@ import numpy as np
 from .comparison import MIN_GAIN, Ranked, score
 from .empirical_law import GROUPS, find
 from .evidence import like_noise, nearly_noise, pays
-from .fit import Fit
-from .judge import Judgement, try_judge
+from .fit import Fit, linearised
+from .judge import try_judge
+from .machine import Machine
 from .name import Naming
 from .screen import Candidate
 from .search import Finding, Search
@@ -26,23 +27,23 @@ MARGIN = 40.0  # of the deviance, by which a law has to beat effects of the cata
 Progress = Callable[[str], None]
 
 
-def explain_beyond(search: Search, base: Fit, before: Judgement, progress: Progress) -> None:
+def explain_beyond(search: Search, believed: Search, progress: Progress) -> None:
     """Go on with a search after its first round; then a law in place of its findings or beside them.
 
-    `base` and `before` are the believed model's fit and judgement. Where several effects together leave noise, one
-    group of terms is tried that could stand for them all; where they do not, longer laws too.
+    `believed` is a search that has found nothing: the believed model, and how fits of laws instead of findings are led.
+    Where several effects together leave noise, one group of terms is tried that could stand for them all; where they do
+    not, longer laws too.
     """
-    if search.settled() or like_noise(base):
+    if search.settled() or like_noise(believed.fit):
         return
     search.run(progress)
     explained = bool(search.findings) and (search.settled() or nearly_noise(search.fit))
     if explained and len(search.findings) == 1:
         return
     progress("looking for an empirical law")
-    held = search.lead.hold(base)
-    amendment = replace(search.amendment, attachments=[])
-    law = find(held.machine.case, amendment, held, progress, most=1 if explained else GROUPS)
-    if law is not None and _instead(search, base, before, law):
+    held = believed.lead.hold(believed.fit)
+    law = find(held.machine.case, believed.amendment, held, progress, most=1 if explained else GROUPS)
+    if law is not None and _instead(search, believed, held, law):
         return
     if search.findings and not explained:
         _beside(search, progress)
@@ -64,35 +65,38 @@ def _beside(search: Search, progress: Progress) -> None:
         search.take([*search.amendment.attachments, candidate.attachment], polished, after)
 
 
-def _instead(search: Search, base: Fit, before: Judgement, law: Candidate) -> bool:
+def _instead(search: Search, believed: Search, held: Fit, law: Candidate) -> bool:
     """One law for all of the misfit of the believed model, in place of every finding."""
     if not (nearly_noise(law.fit) or like_noise(law.fit)):
         return False
-    start = search.lead.hold(base)
     correlation = law.fit.correlation()
-    gain = score(law, start, correlation)
+    gain = score(law, held, correlation)
     margin = 0.0 if len(law.free) <= SHORT and len(search.findings) > 1 else MARGIN
-    if gain > -MIN_GAIN or (search.findings and gain > _found(search, start, correlation) - margin):
+    if gain > -MIN_GAIN or (search.findings and gain > _found(search, believed, held, correlation) - margin):
         return False
-    ranked = _ranked(law, start)
-    polished = search.polished(ranked, base)
+    ranked = _ranked(law, held)
+    polished = believed.polished(ranked, believed.fit)
     after = try_judge(polished.machine, polished.point) if polished is not None else None
-    if after is None or not pays(before.validate, after.validate, search.floor):
+    if after is None or not pays(believed.judgement.validate, after.validate, search.floor):
         return False
     ranked.fit = polished
-    search.findings[:] = [Finding(ranked, Naming([ranked, *_others(search)], []), before, after)]
+    search.findings[:] = [Finding(ranked, Naming([ranked, *_others(search)], []), believed.judgement, after)]
     search.take([law.attachment], polished, after)
     search.reason = ""
     return True
 
 
-def _found(search: Search, base: Fit, correlation: dict[str, float]) -> float:
+def _found(search: Search, believed: Search, held: Fit, correlation: dict[str, float]) -> float:
     """What the findings of the catalogue score against the believed model, their shafts held as a law's are."""
-    found = search.lead.hold(search.fit, base)
-    free = [f for f in found.estimate.free if f.name not in {b.name for b in base.estimate.free}]
-    informative = sum(count / correlation[c] for c, count in base.counts().items())
-    price = len(free) * float(np.log(max(informative, 2.0)))
-    return found.deviance(correlation) + price - base.deviance(correlation)
+    amendment = replace(search.amendment, trackers=believed.amendment.trackers)
+    machine = Machine(search.case, amendment, search.fit.machine.solver)
+    there = search.fit
+    free = linearised(machine, search.case.fit, there.noise, there.estimate.free, there.fixed, there.point)
+    found = believed.lead.hold(free or there, held)
+    added = [f for f in found.estimate.free if f.name not in {b.name for b in held.estimate.free}]
+    informative = sum(count / correlation[c] for c, count in held.counts().items())
+    price = len(added) * float(np.log(max(informative, 2.0)))
+    return found.deviance(correlation) + price - held.deviance(correlation)
 
 
 def _ranked(candidate: Candidate, base: Fit) -> Ranked:

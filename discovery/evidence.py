@@ -17,6 +17,7 @@ GROWTH = 1.3  # of the power of block means from one block length to the next th
 HALF_STEP = 3**0.5  # of resolution, in units of the standard deviation of rounding
 LEFT = 1.2  # RMS in units of the noise, up to which a model stands for all of the misfit
 ROUGH_SLACK = 0.3  # RMS misfit, in units of the noise, that the end of a fit on rough ground may leave
+FAR = 10.0  # level of a signal, in units of its noise, from which the best hypothesis is taken to have lost its way
 SPREAD = 0.005  # relative spread of an RMS over 20 000 samples of noise: a smaller gain is none
 CLEARLY = 0.8  # times the NRMSE of the signals in their geometric mean, from which a model is better
 TOLERANCE = 0.04  # of the noise level, within which it counts as known
@@ -121,6 +122,11 @@ def _at_most(noise: Noise) -> float:
 def nearly_noise(fit: Fit) -> bool:
     """Whether no signal leaves much more than its noise: what may still be there is too little to be told apart."""
     return max(fit.level.values()) < LEFT
+
+
+def astray(fit: Fit) -> bool:
+    """Whether far more than noise is left in a signal."""
+    return max(fit.level.values()) > FAR
 
 
 def outside_belief(fit: Fit, sigmas: float = 3.0) -> dict[str, float]:

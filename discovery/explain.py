@@ -11,15 +11,14 @@ from codegen.library import Library
 
 from .cases import Case
 from .comparison import Ranked
-from .evidence import TOLERANCE, holds, is_noise, like_noise, outside_belief, settled, whiteness
+from .evidence import TOLERANCE, astray, holds, is_noise, like_noise, outside_belief, settled, whiteness
 from .experiments import separate
 from .explanation import Clock, Explanation
 from .judge import judge_file
-from .search import FAR
 from .steps import add_findings, add_fit, add_location, add_scatter, opened
 from .time_limit import within
 
-WORTH = 0.2  # of the NRMSE on unseen recordings, that findings which leave far more than noise must take away
+LEAST_TAKEN = 0.2  # of the NRMSE on unseen recordings, that findings which leave far more than noise must take away
 AS_LIKELY = 0.5  # of a finding's confidence, that rivals at other places have together where the data cannot tell
 
 Progress = Callable[[str], None]
@@ -73,7 +72,7 @@ def _conclude_from_findings(result: Explanation) -> None:
     # a tie at one place leaves no doubt that physics is missing there
     rivals = [r for r in first.naming.rivals(first.ranked) if r.identity[1] != first.ranked.identity[1]]
     taken = 1.0 - result.after.validate[""] / result.before.validate[""]
-    if taken < WORTH and max(result.final.level.values()) > FAR:
+    if taken < LEAST_TAKEN and astray(result.final):
         result.verdict = "undetermined"
         result.reason = (
             f"{first.ranked.attachment.label} fits best, but takes only {taken:.0%} of the error on unseen recordings "

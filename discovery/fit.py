@@ -164,7 +164,7 @@ def linearised(
     machine: Machine, recordings: Sequence[Recording], noise: Mapping[str, Noise], free: list[Free],
     fixed: Mapping[str, float], point: Mapping[str, float],
 ) -> Fit | None:  # fmt: skip
-    """The machine at a point, as a fit that does not move: its residuals, levels and Jacobian there."""
+    """The machine at a point, as a fit that does not move: its residuals and levels there."""
     return fit(machine, recordings, noise, free, fixed, start=point, stages=1, iterations=0)
 
 

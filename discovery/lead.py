@@ -71,7 +71,7 @@ class Lead:
         """The fit to all of `case` by a machine of it, from where a fit that was held has ended."""
         fixed = {n: v for n, v in held.fixed.items() if not n.startswith("tracker_")}
         if self.bandwidths:
-            ladder = self.bandwidths[self.held :]
+            ladder = self.bandwidths[self.held + 1 :]
             return fit(machine, case.fit, base.noise, free, fixed, start=held.point, bandwidths=ladder)
         share = _share(held.machine.case)
         return _grown(machine, case, base.noise, free, fixed, held.point, [s for s in SHARES if s > share] or [1.0])

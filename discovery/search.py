@@ -16,7 +16,7 @@ from .amend import Amendment, Attachment
 from .cases import Case
 from .catalogue import Effect
 from .comparison import CLOSE, MIN_GAIN, TIE, Ranked, confidences, price, score
-from .evidence import holds, nearly_noise, pays, settled
+from .evidence import astray, holds, nearly_noise, pays, settled
 from .fit import Fit, fit, linearised
 from .hypotheses import enumerate_attachments
 from .judge import Judgement, try_judge
@@ -27,7 +27,6 @@ from .objective import STAGES
 from .screen import Candidate
 
 MAX_FINDINGS = 3
-FAR = 10.0  # level of a signal, in units of its noise, from which the best hypothesis is taken to have lost its way
 CARRIED = 3  # times at most, that an accepted fit is begun again from where it stopped
 ALIKE = 0.01  # share of the best gain, within which rivals are released with the best one,
 RELEASED = 3  # at most so many of them
@@ -81,7 +80,7 @@ class Search:
 
     def lost(self) -> bool:
         """Whether fits that nothing has led leave so much that the search has to begin anew."""
-        return self.restarts and self.lead.direct and max(self.fit.level.values()) > FAR
+        return self.restarts and self.lead.direct and astray(self.fit)
 
     def add(self, progress: Progress) -> bool:
         attachments = enumerate_attachments(self.case, self.amendment.structure, self.effects, self.amendment)
@@ -92,20 +91,27 @@ class Search:
         if best is None or best.score > -MIN_GAIN:
             return False
         best, polished = self._best_released(best, naming, progress)
+        if self._accept(best, polished, naming, progress):
+            return True
+        simpler = [r for r in naming.ranked if best.attachment.contains(r.attachment) and r.score < -MIN_GAIN]
+        return any(self._accept(r, self.polished(r, self.fit), naming, progress) for r in simpler)
+
+    def _accept(self, ranked: Ranked, polished: Fit | None, naming: Naming, progress: Progress) -> bool:
+        """Go on with a hypothesis if it pays on unseen recordings, alone or with a second one."""
         if polished is None:
             return False
+        self.reason = _does_not_pay(ranked)
         after = try_judge(polished.machine, polished.point)
         if after is None:
-            self.reason = _does_not_pay(best)
             return False
-        trial = replace(self, findings=[*self.findings, Finding(best, naming, self.judgement, after)])
-        best.fit = polished
-        trial.take([*self.amendment.attachments, best.attachment], polished, after)
+        trial = replace(self, findings=[*self.findings, Finding(ranked, naming, self.judgement, after)])
+        ranked.fit = polished
+        trial.take([*self.amendment.attachments, ranked.attachment], polished, after)
         if not self._better(trial) and not (trial._add_another(progress) and self._better(trial)):
-            self.reason = _does_not_pay(best)
             return False
         self.findings[:] = trial.findings
         self.take(trial.amendment.attachments, trial.fit, trial.judgement)
+        self.reason = ""
         self._carry_on(progress)
         return True
 

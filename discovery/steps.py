@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from .beyond import explain_beyond
 from .cases import Case, CaseError
 from .comparison import MIN_GAIN
 from .dips import explored, is_smooth
-from .evidence import is_noise, nearly_noise, outside_belief
+from .evidence import astray, is_noise, nearly_noise, outside_belief
 from .explanation import Explanation
 from .fit import Fit, believed, falling_bandwidths, fit, noise_of
 from .hypotheses import enumerate_attachments
@@ -101,14 +102,16 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
 
     Where the time is up, what was found until then stands.
     """
-    search = _search(result, catalogue.read(library))
+    believed = _search(result, catalogue.read(library))
+    search = replace(believed, findings=[], namings=[])
     shafts = trackable(result.case, result.base.machine.model, result.amendment.structure)[:1]
     search.restarts = bool(shafts)
     try:
         search.run(progress, most=1)
         if search.lost():
-            search = _held(result, search, shafts, progress) or search
-        explain_beyond(search, result.base, result.before, progress)
+            believed = _held(result, believed, shafts)
+            search = _anew(result, search, believed, progress) or search
+        explain_beyond(search, believed, progress)
     except TimeUp as stopped:
         search.reason = str(stopped)
     _take(result, search)
@@ -125,28 +128,47 @@ def add_scatter(result: Explanation, progress: Progress) -> None:
         result.rejudge(after)
 
 
-def _held(result: Explanation, direct: Search, shafts: list[places.Shaft], progress: Progress) -> Search | None:
-    """The search begun anew with these recorded shafts held near their motion; None where it ends no better.
+def _held(result: Explanation, believed: Search, shafts: list[places.Shaft]) -> Search:
+    """A search not yet begun, that compares hypotheses with these recorded shafts held near their motion."""
+    case, there = result.case, result.base
+    machine = Machine(case, Amendment(result.amendment.structure, trackers=shafts))
+    base = fit(machine, case.fit, there.noise, there.estimate.free, there.fixed, start=there.point, stages=1)
+    lead = Lead(falling_bandwidths(case, machine, STIFFLY), held=1)
+    if base is None:
+        return believed
+    return replace(believed, lead=lead, amendment=machine.amendment, fit=base)
+
+
+def _anew(result: Explanation, direct: Search, believed: Search, progress: Progress) -> Search | None:
+    """The search begun anew with recorded shafts held; None where it ends no better.
 
     Where the first finding leaves far more than noise, every hypothesis may have ended in a dip of rough ground:
     an output error grows with the recording, and what is missing near its beginning decides all that follows.
     """
-    case, structure = result.case, result.amendment.structure
     progress("looking again, the recorded shaft held near its motion")
-    machine = Machine(case, Amendment(structure, trackers=shafts))
-    lead = Lead(falling_bandwidths(case, machine, STIFFLY), held=1)
-    free, fixed = believed(case, machine)
-    base = lead.fit(machine, case, result.base.noise, free, fixed)
-    if base is None:
-        return None
-    before = judge(machine, base.point)
-    search = Search(case, direct.effects, lead, result.floor, machine.amendment, base, before)
+    search = replace(believed, findings=[], namings=[])
     search.run(progress, most=1)
     correlation = search.fit.correlation()
     if not search.findings or search.fit.deviance(correlation) > direct.fit.deviance(correlation) - MIN_GAIN:
         return None
-    result.base, result.before, result.lead = base, before, lead
+    if not astray(search.fit):
+        return _let_go(search, direct)
+    result.base, result.lead = believed.fit, believed.lead
     return search
+
+
+def _let_go(search: Search, direct: Search) -> Search:
+    """The search without trackers: a finding that leaves little has led it to where fits need no hold."""
+    here = search.fit
+    amendment = replace(search.amendment, trackers=[])
+    machine = Machine(search.case, amendment, here.machine.solver)
+    found = fit(machine, search.case.fit, here.noise, here.estimate.free, here.fixed, start=here.point)
+    after = try_judge(machine, found.point) if found is not None else None
+    if after is None:
+        return search
+    free = replace(direct, amendment=amendment, findings=search.findings, namings=search.namings, exhausted=False)
+    free.take(amendment.attachments, found, after)
+    return free
 
 
 def _search(result: Explanation, effects: list[catalogue.Effect]) -> Search:
