@@ -65,13 +65,22 @@ def attachment(case: Case, name: str) -> Attachment:
     return next(a for a in found if a.effect.name == name)
 
 
-FRICTION = """model FrictionServo
-  extends Lacuna.Benches.DcServo;
-  Lacuna.Effects.CoulombFriction friction(tau_c=0.0015);
-equation
-  connect(friction.flange, shaft.flange_b);
-end FrictionServo;
-"""
+def conceal(folder: Path, truth: dict[str, float], **effects: str) -> Path:
+    """Write a case of the motor with these effects on its shaft: component name = "Effect(parameters)"."""
+    lines = ["model ConcealingServo", "  extends Lacuna.Benches.DcServo;"]
+    for name, effect in effects.items():
+        kind, _, values = effect.partition("(")
+        lines.append(f"  Lacuna.Effects.{kind} {name}({values};")
+    lines += ["equation", *(f"  connect({name}.flange, shaft.flange_b);" for name in effects), "end ConcealingServo;"]
+    return write_case(folder, write_model(folder, lines), truth)
+
+
+def write_model(folder: Path, lines: list[str]) -> str:
+    """The path of a file with the class ConcealingServo."""
+    path = folder / "ConcealingServo.mo"
+    folder.mkdir(parents=True, exist_ok=True)
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return str(path)
 
 
 @pytest.fixture(scope="session")
@@ -82,6 +91,5 @@ def consistent_case(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def friction_case(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("friction")
-    (folder / "FrictionServo.mo").write_text(FRICTION, encoding="utf-8")
-    return write_case(folder, str(folder / "FrictionServo.mo"), BELIEVED | {"R": 3.45})
+    truth = BELIEVED | {"R": 3.45}
+    return conceal(tmp_path_factory.mktemp("friction"), truth, friction="CoulombFriction(tau_c=0.0015)")

@@ -17,17 +17,19 @@ from discovery.machine import Machine
 from discovery.places import read
 from discovery.response import Response
 from discovery.steps import fit_believed
-from tests.discovery.conftest import BELIEVED, write_case
+from tests.discovery.conftest import BELIEVED, write_case, write_model
 
-CUBIC = """model CubicServo
-  extends Lacuna.Benches.DcServo;
-  Lacuna.Components.Mechanics.TorqueSource loss;
-  parameter Real c3(unit="N.m.s3/rad3") = 5e-10;
-equation
-  connect(loss.flange, shaft.flange_b);
-  loss.u = -c3*w^3;
-end CubicServo;
-"""
+
+def losing(folder: Path, torque: str, unit: str, c: float) -> Path:
+    """A case of the motor with a torque against its shaft, `c` in it in this unit."""
+    lines = ["model ConcealingServo", "  extends Lacuna.Benches.DcServo;"]
+    lines += [
+        "  Lacuna.Components.Mechanics.TorqueSource loss;",
+        f'  parameter Real c(unit="{unit}") = {c};',
+        "equation",
+    ]
+    lines += ["  connect(loss.flange, shaft.flange_b);", f"  loss.u = -{torque};", "end ConcealingServo;"]
+    return write_case(folder, write_model(folder, lines), BELIEVED | {"R": 3.45})
 
 
 def test_a_terms_text_is_what_is_evaluated() -> None:
@@ -47,18 +49,27 @@ def test_what_is_too_fast_for_the_hats_of_effort_does_not_pass_for_a_slow_effort
 
 
 @pytest.mark.slow
-def test_a_cubic_loss_is_found_as_a_law(tmp_path: Path) -> None:
-    (tmp_path / "CubicServo.mo").write_text(CUBIC, encoding="utf-8")
-    case = load(write_case(tmp_path, str(tmp_path / "CubicServo.mo"), BELIEVED | {"R": 3.45}))
+@pytest.mark.parametrize(
+    ("torque", "unit", "c", "shape", "phi", "expected"),
+    [
+        ("c*w^3", "N.m.s3/rad3", 5e-10, "^3", 0.0, 0.004),
+        ("c*w*sin(4*theta)", "N.m.s/rad", 2e-5, "sin(4*shaft.phi)", 0.3, 0.00373),  # too fast for 128 hats of effort
+    ],
+)
+def test_a_loss_that_no_catalogue_holds_is_found_as_a_law(
+    tmp_path: Path, torque: str, unit: str, c: float, shape: str, phi: float, expected: float
+) -> None:
+    case = load(losing(tmp_path, torque, unit, c))
     machine = Machine(case, Amendment(read(Library(), case.model)))
     base, _ = fit_believed(case, machine)
     law = find(case, machine.amendment, base)
     prefix = f"{law.attachment.component}."
     values = {n.removeprefix(prefix): v for n, v in law.fit.point.items() if n.startswith(prefix)}
     text = law.attachment.expression(values)
-    assert law.attachment.location == "shaft" and "shaft.w" in text and "^3" in text
-    at_200 = eval(text.replace("^", "**").replace("shaft.w", "200.0"), {"sign": np.sign, "abs": abs})
-    assert at_200 == pytest.approx(0.004, rel=0.02)
+    assert law.attachment.location == "shaft" and "shaft.w" in text and shape in text
+    at_200 = text.replace("^", "**").replace("shaft.w", "200.0").replace("shaft.phi", str(phi))
+    known = {"sign": np.sign, "abs": abs, "sin": np.sin, "cos": np.cos}
+    assert eval(at_200, known) == pytest.approx(expected, rel=0.02)
 
 
 def test_an_experiment_separates_two_explanations(consistent_case: Path) -> None:

@@ -19,22 +19,13 @@ from discovery.places import read
 from discovery.steps import STIFFLY
 from discovery.tracking import trackable
 
-from .conftest import BELIEVED, attachment, write_case
-
-COGGING = """model CoggingServo
-  extends Lacuna.Benches.DcServo;
-  Lacuna.Effects.CoggingTorque cogging(amplitude=0.012, periods=8, phase=0.3);
-equation
-  connect(cogging.flange, shaft.flange_b);
-end CoggingServo;
-"""
+from .conftest import BELIEVED, attachment, conceal
 
 
 @pytest.fixture(scope="module")
 def cogging_case(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("cogging")
-    (folder / "CoggingServo.mo").write_text(COGGING, encoding="utf-8")
-    return write_case(folder, str(folder / "CoggingServo.mo"), BELIEVED | {"R": 3.45})
+    cogging = "CoggingTorque(amplitude=0.012, periods=8, phase=0.3)"
+    return conceal(tmp_path_factory.mktemp("cogging"), BELIEVED | {"R": 3.45}, cogging=cogging)
 
 
 @pytest.mark.parametrize(("shares", "held", "seen"), [(STIFFLY, 1, True), (FALLING, HELD, False)])

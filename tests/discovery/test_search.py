@@ -26,17 +26,7 @@ from discovery.search import Finding, Search
 from discovery.steps import fit_believed
 from discovery.time_limit import TimeUp
 
-from .conftest import BELIEVED, attachment, write_case
-
-TWO = """model TwoServo
-  extends Lacuna.Benches.DcServo;
-  Lacuna.Effects.CoulombFriction friction(tau_c=0.0015);
-  Lacuna.Effects.GravityLoad gravity(mgl=0.004);
-equation
-  connect(friction.flange, shaft.flange_b);
-  connect(gravity.flange, shaft.flange_b);
-end TwoServo;
-"""
+from .conftest import BELIEVED, attachment, conceal
 
 
 def fitted(case: Case, *names: str) -> tuple[Fit, list[Candidate], Candidate]:
@@ -152,8 +142,8 @@ def test_the_race_is_shorter_once_a_hypothesis_leaves_noise() -> None:
 
 def test_two_effects_that_pay_only_together_are_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What pays is set so high that neither of the two reaches it alone: within a fifth of the noise."""
-    (tmp_path / "TwoServo.mo").write_text(TWO, encoding="utf-8")
-    case = load(write_case(tmp_path / "case", str(tmp_path / "TwoServo.mo"), BELIEVED))
+    both = {"friction": "CoulombFriction(tau_c=0.0015)", "gravity": "GravityLoad(mgl=0.004)"}
+    case = load(conceal(tmp_path, BELIEVED, **both))
     structure = read(Library(), case.model)
     base, lead = fit_believed(case, Machine(case, Amendment(structure)))
     floor = noise_floor(case, case.validate, base.noise)
@@ -192,6 +182,29 @@ def test_a_finding_gives_way_to_the_simpler_law_unless_that_is_worse_on_what_was
     monkeypatch.setattr(searching, "try_judge", judged_as)
     search._reconsider(0, lambda text: None)
     assert (search.findings[0].ranked.identity == ("friction.coulomb", "shaft")) == exchanged
+
+
+def test_a_law_that_does_not_pay_gives_way_to_the_simpler_one_it_contains(
+    friction_case: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    case = load(friction_case)
+    base, _, coulomb = fitted(case, "CoulombFriction")
+    _, _, stribeck = fitted(case, "StribeckFriction")
+    ranked = [Ranked(stribeck, stribeck.fit, -3000.0, 1.0), Ranked(coulomb, coulomb.fit, -2900.0, 0.0)]
+    monkeypatch.setattr(searching, "rank", lambda *args, **options: Naming(ranked, []))
+    real = searching.try_judge
+
+    def judged_as(machine: Machine, point: dict[str, float]) -> Judgement:
+        result = real(machine, point)
+        return replace(result, validate=before.validate) if machine is stribeck.machine else result
+
+    before = judge(base.machine, base.point)
+    monkeypatch.setattr(searching, "try_judge", judged_as)
+    floor = noise_floor(case, case.validate, base.noise)
+    search = Search(case, [], Lead(), floor, base.machine.amendment, base, before)
+    assert search.add(lambda text: None)
+    assert [f.ranked.identity for f in search.findings] == [("friction.coulomb", "shaft")]
+    assert search.reason == ""
 
 
 def test_a_finding_that_the_others_do_without_is_dropped(friction_case: Path) -> None:
