@@ -152,8 +152,8 @@ def _part(done: int, all_cases: int) -> str:
     if done == all_cases:
         return ""
     return f"""
-**The run is not complete: {done} of {all_cases} cases.** They are run in an order in which every beginning has of each
-kind and bench its share, so that these figures estimate the whole.
+**The run is not complete: {done} of {all_cases} cases.** Which of a kind were run first does not hang on their outcome:
+their order is spread over the benches.
 """
 
 
