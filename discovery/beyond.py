@@ -9,12 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-import numpy as np
-
-from .comparison import MIN_GAIN, Ranked, score
+from .comparison import MIN_GAIN, Ranked, price, score
 from .empirical_law import GROUPS, find
 from .evidence import like_noise, nearly_noise, pays
-from .fit import Fit, linearised
+from .fit import Fit, carried
 from .judge import try_judge
 from .machine import Machine
 from .name import Naming
@@ -27,23 +25,23 @@ MARGIN = 40.0  # of the deviance, by which a law has to beat effects of the cata
 Progress = Callable[[str], None]
 
 
-def explain_beyond(search: Search, believed: Search, progress: Progress) -> None:
+def explain_beyond(search: Search, unbegun: Search, progress: Progress) -> None:
     """Go on with a search after its first round; then a law in place of its findings or beside them.
 
-    `believed` is a search that has found nothing: the believed model, and how fits of laws instead of findings are led.
+    `unbegun` is a search that has found nothing: the believed model, and how fits of laws instead of findings are led.
     Where several effects together leave noise, one group of terms is tried that could stand for them all; where they do
     not, longer laws too.
     """
-    if search.settled() or like_noise(believed.fit):
+    if search.settled() or like_noise(unbegun.fit):
         return
     search.run(progress)
     explained = bool(search.findings) and (search.settled() or nearly_noise(search.fit))
     if explained and len(search.findings) == 1:
         return
     progress("looking for an empirical law")
-    held = believed.lead.hold(believed.fit)
-    law = find(held.machine.case, believed.amendment, held, progress, most=1 if explained else GROUPS)
-    if law is not None and _instead(search, believed, held, law):
+    held = unbegun.lead.hold(unbegun.fit)
+    law = find(held.machine.case, unbegun.amendment, held, progress, most=1 if explained else GROUPS)
+    if law is not None and _instead(search, unbegun, held, law):
         return
     if search.findings and not explained:
         _beside(search, progress)
@@ -65,38 +63,35 @@ def _beside(search: Search, progress: Progress) -> None:
         search.take([*search.amendment.attachments, candidate.attachment], polished, after)
 
 
-def _instead(search: Search, believed: Search, held: Fit, law: Candidate) -> bool:
+def _instead(search: Search, unbegun: Search, held: Fit, law: Candidate) -> bool:
     """One law for all of the misfit of the believed model, in place of every finding."""
     if not (nearly_noise(law.fit) or like_noise(law.fit)):
         return False
     correlation = law.fit.correlation()
     gain = score(law, held, correlation)
     margin = 0.0 if len(law.free) <= SHORT and len(search.findings) > 1 else MARGIN
-    if gain > -MIN_GAIN or (search.findings and gain > _found(search, believed, held, correlation) - margin):
+    if gain > -MIN_GAIN or (search.findings and gain > _found(search, unbegun, held, correlation) - margin):
         return False
     ranked = _ranked(law, held)
-    polished = believed.polished(ranked, believed.fit)
+    polished = unbegun.polished(ranked, unbegun.fit)
     after = try_judge(polished.machine, polished.point) if polished is not None else None
-    if after is None or not pays(believed.judgement.validate, after.validate, search.floor):
+    if after is None or not pays(unbegun.judgement.validate, after.validate, search.floor):
         return False
     ranked.fit = polished
-    search.findings[:] = [Finding(ranked, Naming([ranked, *_others(search)], []), believed.judgement, after)]
+    search.findings[:] = [Finding(ranked, Naming([ranked, *_others(search)], []), unbegun.judgement, after)]
     search.take([law.attachment], polished, after)
     search.reason = ""
     return True
 
 
-def _found(search: Search, believed: Search, held: Fit, correlation: dict[str, float]) -> float:
+def _found(search: Search, unbegun: Search, held: Fit, correlation: dict[str, float]) -> float:
     """What the findings of the catalogue score against the believed model, their shafts held as a law's are."""
-    amendment = replace(search.amendment, trackers=believed.amendment.trackers)
+    amendment = replace(search.amendment, trackers=unbegun.amendment.trackers)
     machine = Machine(search.case, amendment, search.fit.machine.solver)
-    there = search.fit
-    free = linearised(machine, search.case.fit, there.noise, there.estimate.free, there.fixed, there.point)
-    found = believed.lead.hold(free or there, held)
-    added = [f for f in found.estimate.free if f.name not in {b.name for b in held.estimate.free}]
-    informative = sum(count / correlation[c] for c, count in held.counts().items())
-    price = len(added) * float(np.log(max(informative, 2.0)))
-    return found.deviance(correlation) + price - held.deviance(correlation)
+    there = carried(search.fit, machine, stages=1, iterations=0) or search.fit
+    found = unbegun.lead.hold(there, held)
+    added = {f.name for f in found.estimate.free} - {f.name for f in held.estimate.free}
+    return found.deviance(correlation) + price(len(added), held, correlation) - held.deviance(correlation)
 
 
 def _ranked(candidate: Candidate, base: Fit) -> Ranked:

@@ -116,14 +116,14 @@ def best_correlation(candidates: list[Candidate]) -> dict[str, float]:
     return {column: min(samples, COLOUR) for column, samples in found.items()}
 
 
-def price(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> float:
-    """ln n for each parameter of the effect, n independent samples."""
+def price(parameters: int, base: Fit, correlation: dict[str, float]) -> float:
+    """ln n for each parameter of an effect, n independent samples."""
     informative = sum(count / correlation[c] for c, count in base.counts().items())
-    return len(candidate.free) * float(np.log(max(informative, 2.0)))
+    return parameters * float(np.log(max(informative, 2.0)))
 
 
 def score(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> float:
-    paid = candidate.fit.deviance(correlation) + price(candidate, base, correlation)
+    paid = candidate.fit.deviance(correlation) + price(len(candidate.free), base, correlation)
     return paid - base.deviance(correlation)
 
 

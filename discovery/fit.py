@@ -168,6 +168,15 @@ def linearised(
     return fit(machine, recordings, noise, free, fixed, start=point, stages=1, iterations=0)
 
 
+def carried(found: Fit, machine: Machine, *, stages: int = STAGES, iterations: int = 4) -> Fit | None:
+    """A fit carried on by a machine of the same parameters: the same one, or one whose shafts are held or let go."""
+    case, estimate = machine.case, found.estimate
+    return fit(
+        machine, case.fit, found.noise, estimate.free, found.fixed, start=found.point, stages=stages,
+        iterations=iterations,
+    )  # fmt: skip
+
+
 def _led(
     objective: Objective, problem: Problem, values: np.ndarray, bandwidths: Sequence[float],
     known: Mapping[str, list[np.ndarray]], stages: int, iterations: int,

@@ -110,7 +110,8 @@ class Problem:
         self.weights: list[np.ndarray] | None = None  # of each sample of each piece; None: all one
         self.simulations = 0
 
-    def _evaluate(self, points: list[np.ndarray]) -> list[list[np.ndarray] | None]:
+    def evaluate_each(self, points: list[np.ndarray]) -> list[list[np.ndarray] | None]:
+        """Weighted residuals of all pieces at each point; None where the simulation fails."""
         time_limit.check()
         tasks = [(self._named(p), k) for p in points for k in range(self.pieces)]
         self.simulations += len(tasks)
@@ -127,7 +128,7 @@ class Problem:
 
     def evaluate(self, values: np.ndarray) -> tuple[float, float, list[np.ndarray]] | None:
         """(cost, data cost, residuals) at a point; None where the simulation fails."""
-        (parts,) = self._evaluate([values])
+        (parts,) = self.evaluate_each([values])
         if parts is None:
             return None
         data = float(sum(r @ r for r in parts))
@@ -146,7 +147,7 @@ class Problem:
             points.append(point)
             steps.append(h / f.scale)
         result = {}
-        for k, h, moved in zip(columns, steps, self._evaluate(points), strict=True):
+        for k, h, moved in zip(columns, steps, self.evaluate_each(points), strict=True):
             result[k] = [np.zeros_like(r) for r in parts] if moved is None else [
                 (m - r) / h for m, r in zip(moved, parts, strict=True)
             ]  # fmt: skip

@@ -30,9 +30,9 @@ class Machine:
 
     def __init__(
         self, case: Case, amendment: Amendment, solver: str = "dopri5", source: Path | None = None,
-        step_limits: Mapping[str, int] | None = None,
+        step_limits: Mapping[str, int] | None = None, rtol: float = RTOL,
     ):  # fmt: skip
-        self.case, self.amendment, self.solver = case, amendment, solver
+        self.case, self.amendment, self.solver, self.rtol = case, amendment, solver, rtol
         self.step_limits = step_limits or {}
         self.steps: dict[str, int] = {}
         self.path = source or write_source(amendment)
@@ -106,7 +106,7 @@ class Machine:
     ) -> dict[str, np.ndarray]:
         """Any variables of the model along a recording; raises SimulationError where the run fails."""
         session = Session(
-            self.model, solver=self.solver, rtol=RTOL, outputs=names, output_times=recording.time, events=False,
+            self.model, solver=self.solver, rtol=self.rtol, outputs=names, output_times=recording.time, events=False,
             inputs=self._inputs_of(recording), max_steps=self._step_limit(recording),
         )  # fmt: skip
         time = recording.time
@@ -150,8 +150,8 @@ class Machine:
         except queue.Empty:
             outputs = list(dict.fromkeys([*self.columns.values(), *(f"{t}.tau" for t in self._trackers())]))
             return Session(
-                self.model, solver=self.solver, rtol=RTOL, outputs=outputs, output_times=recording.time, events=False,
-                inputs=self._inputs_of(recording), max_steps=self._step_limit(recording),
+                self.model, solver=self.solver, rtol=self.rtol, outputs=outputs, output_times=recording.time,
+                events=False, inputs=self._inputs_of(recording), max_steps=self._step_limit(recording),
             )  # fmt: skip
 
     def _step_limit(self, recording: Recording) -> int:

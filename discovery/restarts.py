@@ -174,5 +174,5 @@ def _fit_led(case: Case, base: Fit, candidate: Candidate, shafts: list[Shaft]) -
     free, fixed = [*base.estimate.free, *candidate.free], base.fixed | candidate.fixed
     start = base.point | candidate.start
     bandwidths = falling_bandwidths(case, machine)
-    led = fit(machine, case.fit, base.noise, free, fixed, start=start, bandwidths=bandwidths, stages=4)
+    led = fit(machine, case.fit, base.noise, free, fixed, start=start, bandwidths=bandwidths, stages=2)
     return led and fit(candidate.machine, case.fit, base.noise, free, fixed, start=led.point)

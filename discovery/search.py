@@ -17,7 +17,7 @@ from .cases import Case
 from .catalogue import Effect
 from .comparison import CLOSE, MIN_GAIN, TIE, Ranked, confidences, price, score
 from .evidence import astray, holds, nearly_noise, pays, settled
-from .fit import Fit, fit, linearised
+from .fit import Fit, carried, fit, linearised
 from .hypotheses import enumerate_attachments
 from .judge import Judgement, try_judge
 from .lead import Lead
@@ -153,10 +153,9 @@ class Search:
             if not self.lead.direct or self.fit.estimate.converged:
                 return
             progress("carrying the fit on")
-            here = self.fit
-            found = fit(here.machine, self.case.fit, here.noise, here.estimate.free, here.fixed, start=here.point)
+            found = carried(self.fit, self.fit.machine)
             after = try_judge(found.machine, found.point) if found else None
-            if after is None or found.deviance() > here.deviance() - 1.0:
+            if after is None or found.deviance() > self.fit.deviance() - 1.0:
                 return
             self.take(self.amendment.attachments, found, after)
 
@@ -210,7 +209,7 @@ class Search:
         polished = self.polished(best, base)
         if polished is None:
             return
-        saved = price(own.candidate, base, naming.correlation) - price(best.candidate, base, naming.correlation)
+        saved = price(len(own.candidate.free) - len(best.candidate.free), base, naming.correlation)
         if polished.deviance(naming.correlation) - saved > self.fit.deviance(naming.correlation) + TIE:
             return
         after = try_judge(polished.machine, polished.point)
@@ -228,7 +227,7 @@ class Search:
             attachments = [a for a in self.amendment.attachments if a is not finding.ranked.attachment]
             found = self._without(finding.ranked, replace(self.amendment, attachments=attachments), STAGES)
             correlation = self.fit.correlation()
-            paid = price(finding.ranked.candidate, self.fit, correlation)
+            paid = price(len(finding.ranked.candidate.free), self.fit, correlation)
             if found is None or found.deviance(correlation) > self.fit.deviance(correlation) + paid:
                 continue
             after = try_judge(found.machine, found.point)

@@ -17,7 +17,7 @@ from .comparison import MIN_GAIN
 from .dips import explored, is_smooth
 from .evidence import astray, is_noise, nearly_noise, outside_belief
 from .explanation import Explanation
-from .fit import Fit, believed, falling_bandwidths, fit, noise_of
+from .fit import Fit, believed, carried, falling_bandwidths, fit, noise_of
 from .hypotheses import enumerate_attachments
 from .judge import judge, noise_floor, try_judge
 from .lead import ROUGH, Lead, lead_for
@@ -102,16 +102,16 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
 
     Where the time is up, what was found until then stands.
     """
-    believed = _search(result, catalogue.read(library))
-    search = replace(believed, findings=[], namings=[])
+    unbegun = _search(result, catalogue.read(library))
+    search = _begun(unbegun)
     shafts = trackable(result.case, result.base.machine.model, result.amendment.structure)[:1]
     search.restarts = bool(shafts)
     try:
         search.run(progress, most=1)
         if search.lost():
-            believed = _held(result, believed, shafts)
-            search = _anew(result, search, believed, progress) or search
-        explain_beyond(search, believed, progress)
+            unbegun = _held(result, unbegun, shafts)
+            search = _anew(result, search, unbegun, progress) or search
+        explain_beyond(search, unbegun, progress)
     except TimeUp as stopped:
         search.reason = str(stopped)
     _take(result, search)
@@ -128,41 +128,45 @@ def add_scatter(result: Explanation, progress: Progress) -> None:
         result.rejudge(after)
 
 
-def _held(result: Explanation, believed: Search, shafts: list[places.Shaft]) -> Search:
+def _begun(unbegun: Search) -> Search:
+    """A search with nothing found as yet, from one that stays as it is."""
+    return replace(unbegun, findings=[], namings=[])
+
+
+def _held(result: Explanation, unbegun: Search, shafts: list[places.Shaft]) -> Search:
     """A search not yet begun, that compares hypotheses with these recorded shafts held near their motion."""
-    case, there = result.case, result.base
+    case = result.case
     machine = Machine(case, Amendment(result.amendment.structure, trackers=shafts))
-    base = fit(machine, case.fit, there.noise, there.estimate.free, there.fixed, start=there.point, stages=1)
+    base = carried(result.base, machine, stages=1)
     lead = Lead(falling_bandwidths(case, machine, STIFFLY), held=1)
     if base is None:
-        return believed
-    return replace(believed, lead=lead, amendment=machine.amendment, fit=base)
+        return unbegun
+    return replace(unbegun, lead=lead, amendment=machine.amendment, fit=base)
 
 
-def _anew(result: Explanation, direct: Search, believed: Search, progress: Progress) -> Search | None:
+def _anew(result: Explanation, direct: Search, unbegun: Search, progress: Progress) -> Search | None:
     """The search begun anew with recorded shafts held; None where it ends no better.
 
     Where the first finding leaves far more than noise, every hypothesis may have ended in a dip of rough ground:
     an output error grows with the recording, and what is missing near its beginning decides all that follows.
     """
     progress("looking again, the recorded shaft held near its motion")
-    search = replace(believed, findings=[], namings=[])
+    search = _begun(unbegun)
     search.run(progress, most=1)
     correlation = search.fit.correlation()
     if not search.findings or search.fit.deviance(correlation) > direct.fit.deviance(correlation) - MIN_GAIN:
         return None
     if not astray(search.fit):
         return _let_go(search, direct)
-    result.base, result.lead = believed.fit, believed.lead
+    result.base, result.lead = unbegun.fit, unbegun.lead
     return search
 
 
 def _let_go(search: Search, direct: Search) -> Search:
     """The search without trackers: a finding that leaves little has led it to where fits need no hold."""
-    here = search.fit
     amendment = replace(search.amendment, trackers=[])
-    machine = Machine(search.case, amendment, here.machine.solver)
-    found = fit(machine, search.case.fit, here.noise, here.estimate.free, here.fixed, start=here.point)
+    machine = Machine(search.case, amendment, search.fit.machine.solver)
+    found = carried(search.fit, machine)
     after = try_judge(machine, found.point) if found is not None else None
     if after is None:
         return search

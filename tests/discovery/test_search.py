@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -41,6 +42,24 @@ def fitted(case: Case, *names: str) -> tuple[Fit, list[Candidate], Candidate]:
         base = fit(machine, case.fit, base.noise, [*base.estimate.free, *found.free], base.fixed)
         candidates.append(replace(found, fit=base))
     return believed, candidates, candidates[-1]
+
+
+def both_laws(case: Case) -> tuple[Fit, list[Ranked]]:
+    """(the believed model's fit, Stribeck friction ranked 100 before the Coulomb friction that it contains)."""
+    base, _, coulomb = fitted(case, "CoulombFriction")
+    _, _, stribeck = fitted(case, "StribeckFriction")
+    return base, [Ranked(stribeck, stribeck.fit, -3000.0, 1.0), Ranked(coulomb, coulomb.fit, -2900.0, 0.0)]
+
+
+def judge_as(monkeypatch: pytest.MonkeyPatch, unseen: Callable[[Machine, dict[str, float]], dict[str, float]]) -> None:
+    """Let the search see these NRMSE on unseen recordings, made of the machine and its own."""
+    real = searching.try_judge
+
+    def judged(machine: Machine, point: dict[str, float]) -> Judgement:
+        result = real(machine, point)
+        return replace(result, validate=unseen(machine, result.validate))
+
+    monkeypatch.setattr(searching, "try_judge", judged)
 
 
 def candidate(case: Case, name: str, promise: float) -> Candidate:
@@ -115,10 +134,10 @@ def test_an_accepted_fit_that_has_not_converged_is_carried_on(
     assert search.fit.deviance() < short.deviance() - 10
     assert search.fit.deviance() == pytest.approx(last.fit.deviance(), abs=1.0)
     assert search.findings[0].after is search.judgement
-    carried = search.fit
-    monkeypatch.setattr(searching, "fit", None)  # converged: no other fit is made
+    ended = search.fit
+    monkeypatch.setattr(searching, "carried", None)  # converged: no other fit is made
     search._carry_on(lambda text: None)
-    assert search.fit is carried
+    assert search.fit is ended
 
 
 def test_a_richer_law_begins_where_the_one_it_contains_has_ended(friction_case: Path) -> None:
@@ -173,13 +192,7 @@ def test_a_finding_gives_way_to_the_simpler_law_unless_that_is_worse_on_what_was
     search = Search(
         case, read_catalogue(Library()), Lead(), floor, stribeck.machine.amendment, stribeck.fit, judged, [finding]
     )
-    real = searching.try_judge
-
-    def judged_as(machine: Machine, point: dict[str, float]) -> Judgement:
-        result = real(machine, point)
-        return replace(result, validate={c: unseen * v for c, v in result.validate.items()})
-
-    monkeypatch.setattr(searching, "try_judge", judged_as)
+    judge_as(monkeypatch, lambda _, own: {c: unseen * v for c, v in own.items()})
     search._reconsider(0, lambda text: None)
     assert (search.findings[0].ranked.identity == ("friction.coulomb", "shaft")) == exchanged
 
@@ -188,18 +201,11 @@ def test_a_law_that_does_not_pay_gives_way_to_the_simpler_one_it_contains(
     friction_case: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     case = load(friction_case)
-    base, _, coulomb = fitted(case, "CoulombFriction")
-    _, _, stribeck = fitted(case, "StribeckFriction")
-    ranked = [Ranked(stribeck, stribeck.fit, -3000.0, 1.0), Ranked(coulomb, coulomb.fit, -2900.0, 0.0)]
+    base, ranked = both_laws(case)
     monkeypatch.setattr(searching, "rank", lambda *args, **options: Naming(ranked, []))
-    real = searching.try_judge
-
-    def judged_as(machine: Machine, point: dict[str, float]) -> Judgement:
-        result = real(machine, point)
-        return replace(result, validate=before.validate) if machine is stribeck.machine else result
-
     before = judge(base.machine, base.point)
-    monkeypatch.setattr(searching, "try_judge", judged_as)
+    stribeck = ranked[0].fit.machine
+    judge_as(monkeypatch, lambda machine, own: before.validate if machine is stribeck else own)
     floor = noise_floor(case, case.validate, base.noise)
     search = Search(case, [], Lead(), floor, base.machine.amendment, base, before)
     assert search.add(lambda text: None)
@@ -243,9 +249,8 @@ def test_once_released_a_law_has_to_beat_the_simpler_one_it_contains(
 ) -> None:
     """Held, the richer law leads by 100; released, both leave the same, and the price of its parameters decides."""
     case = load(friction_case)
-    base, _, coulomb = fitted(case, "CoulombFriction")
-    _, _, stribeck = fitted(case, "StribeckFriction")
-    held = [Ranked(stribeck, stribeck.fit, -3000.0, 1.0), Ranked(coulomb, coulomb.fit, -2900.0, 0.0)]
+    base, held = both_laws(case)
+    coulomb = held[1].fit
     monkeypatch.setattr(Search, "polished", lambda self, ranked, base: ranked.fit)
     floor = noise_floor(case, case.validate, base.noise)
     before = judge(base.machine, base.point)
@@ -253,6 +258,6 @@ def test_once_released_a_law_has_to_beat_the_simpler_one_it_contains(
     naming = Naming(held, [])
     best, found = search._best_released(held[0], naming, lambda text: None)
     assert best.identity == ("friction.coulomb", "shaft")
-    assert found is coulomb.fit
+    assert found is coulomb
     assert naming.best is best
     assert best.confidence > 0.5

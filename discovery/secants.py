@@ -1,0 +1,83 @@
+"""The ground around the end of a fit: sensitivities over a standard error, and what the solver's own error moves.
+
+The differences that lead a fit are taken over short steps, and carry the noise of events and of the solver's steps.
+Along parameters that the data tells only together that noise is most of what they say, and would pass for information.
+So sensitivities are taken anew as central differences, a standard error to both sides along the principal axes of the
+normal equations.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from .fit import Fit
+from .least_squares import Estimate, Problem, clipped
+from .machine import RTOL, Machine
+from .objective import Objective
+
+ROUNDS = 2  # of differences: the axes of the first are those of the noisy ones
+FINE = 0.01  # of the solver's tolerance, with which its error is measured
+UNSEEN = 1e-14  # of the largest eigenvalue of the normal equations, below which nothing is known of an axis
+
+
+def with_secants(found: Fit) -> Fit:
+    """The fit with its Jacobian and normal equations from secants; as it is where it does not run that far to all
+    sides."""
+    problem = _around(found, found.machine)
+    estimate: Estimate | None = found.estimate
+    for _ in range(ROUNDS):
+        estimate = estimate and problem and _with_secants(problem, estimate)
+    return found if estimate is None else replace(found, estimate=estimate)
+
+
+def _around(found: Fit, machine: Machine) -> Problem | None:
+    """The weighted residual of a fit as a function of its parameters, held as it is; None where it does not run."""
+    objective = Objective(machine, machine.case.fit, found.noise)
+    objective.stiffness = {n: v for n, v in found.fixed.items() if n.startswith("tracker_")}
+    problem = Problem(found.estimate.free, objective, len(objective.recordings), found.fixed)
+    here = problem.evaluate(found.estimate.values)
+    if here is None:
+        return None
+    problem.weights = objective.weights(objective.measure(here[2]) | found.level)
+    return problem
+
+
+def _with_secants(problem: Problem, estimate: Estimate) -> Estimate | None:
+    free, values = estimate.free, estimate.values
+    scales = np.array([f.scale for f in free])
+    axes = _axes(estimate)
+    ends = [clipped(free, values + side * scales * axis) for axis in axes.T for side in (1.0, -1.0)]
+    outputs = problem.evaluate_each(ends)
+    if not outputs or any(o is None for o in outputs):
+        return None
+    moves = np.linalg.pinv(np.array([(a - b) / scales for a, b in zip(ends[::2], ends[1::2], strict=True)]))
+    responses = list(zip(outputs[::2], outputs[1::2], strict=True))
+    jacobian = [(moves @ np.array([a[k] - b[k] for a, b in responses])).T for k in range(problem.pieces)]
+    beliefs = np.diag([(f.scale / f.sigma) ** 2 if f.sigma else 0.0 for f in free])
+    return replace(estimate, jacobian=jacobian, normal=sum(b.T @ b for b in jacobian) + beliefs)
+
+
+def _axes(estimate: Estimate) -> np.ndarray:
+    """Principal axes (p, m) of the normal equations in scaled coordinates, a standard error long; parameters at a bound
+    stay there."""
+    inside = [k for k, f in enumerate(estimate.free) if not estimate.at_bound(f.name)]
+    values, vectors = np.linalg.eigh(estimate.normal[np.ix_(inside, inside)])
+    seen = values > UNSEEN * np.max(values, initial=0.0)
+    axes = np.zeros((len(estimate.free), int(seen.sum())))
+    axes[inside] = vectors[:, seen] / np.sqrt(values[seen])
+    return axes
+
+
+def solver_shift(found: Fit) -> np.ndarray:
+    """How far (p,), to first order, a finer tolerance of the solver would move the values; 0 where it does not run."""
+    estimate, machine = found.estimate, found.machine
+    finer = Machine(machine.case, machine.amendment, machine.solver, source=machine.path, rtol=FINE * RTOL)
+    coarse, fine = _around(found, machine), _around(found, finer)
+    if coarse is None or fine is None or not estimate.jacobian:
+        return np.zeros(len(estimate.free))
+    errors = [p.evaluate(estimate.values)[2] for p in (coarse, fine)]
+    load = sum(b.T @ (f - c) for b, c, f in zip(estimate.jacobian, *errors, strict=True))
+    axes = _axes(estimate)
+    return -axes @ (axes.T @ load) * np.array([f.scale for f in estimate.free])
