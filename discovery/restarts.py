@@ -71,9 +71,9 @@ def _take(candidate: Candidate, found: Fit | None) -> None:
 
 def _lead(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
     """Fit the best hypotheses again, and the best one's physics at other places, shafts held near their recorded motion
-    at first, where none of them left noise.
+    at first, where none of them left noise; and the one that promised most, where it ended worse than nothing.
 
-    Stick and slip make the sum of squares rough: a fit that starts far away can end in one of its many dips.
+    Stick, slip and impacts make the sum of squares rough: a fit that starts far away can end in one of its many dips.
     """
     ordered = sorted(candidates, key=lambda c: c.fit.deviance())
     far = base.deviance() - HALF * (base.deviance() - ordered[0].fit.deviance())
@@ -88,7 +88,12 @@ def _lead(case: Case, base: Fit, candidates: list[Candidate], progress: Progress
     ]  # fmt: skip
     for candidate in good + [c for c in elsewhere if c not in good]:
         progress(f"leading {candidate.attachment.label}")
-        _take(candidate, _fit_led(case, base, candidate, shafts))
+        _take(candidate, _fit_led(case, base, candidate, shafts, base.point))
+    promising = max(candidates, key=lambda c: c.predicted)
+    if promising.fit.deviance() > base.deviance():
+        progress(f"leading {promising.attachment.label} from what is believed")
+        believed = base.point | {f.name: f.centre for f in base.estimate.free if f.sigma}
+        _take(promising, _fit_led(case, base, promising, shafts, believed))
 
 
 def _simplify(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
@@ -166,13 +171,16 @@ def _prepared(screen: Screen, candidate: Candidate) -> Candidate:
     return found[0] if found else replace(candidate, predicted=0.0)
 
 
-def _fit_led(case: Case, base: Fit, candidate: Candidate, shafts: list[Shaft]) -> Fit | None:
+def _fit_led(
+    case: Case, base: Fit, candidate: Candidate, shafts: list[Shaft], point: dict[str, float]
+) -> Fit | None:  # fmt: skip
+    """The fit of a candidate begun at this point of the base's parameters, shafts held at first."""
     amendment = replace(candidate.machine.amendment, trackers=shafts)
     machine, _ = try_machine(case, amendment, base.machine)
     if machine is None:
         return None
     free, fixed = [*base.estimate.free, *candidate.free], base.fixed | candidate.fixed
-    start = base.point | candidate.start
+    start = point | candidate.start
     bandwidths = falling_bandwidths(case, machine)
     led = fit(machine, case.fit, base.noise, free, fixed, start=start, bandwidths=bandwidths, stages=2)
     return led and fit(candidate.machine, case.fit, base.noise, free, fixed, start=led.point)
