@@ -24,9 +24,11 @@ from discovery.steps import fit_believed
 from discovery.time_limit import TimeUp, check, within
 from runtime import SimulationError
 
-from .conftest import attachment
+from .conftest import BELIEVED, attachment
 
 Prepared = Callable[[str], Candidate]
+
+FAR_OFF = {"R": 5.0, "Ke": 0.05, "b": 2e-4}
 
 
 @pytest.fixture(scope="module")
@@ -109,6 +111,27 @@ def test_the_best_begins_again_with_what_is_believed_of_parameters_unless_it_has
     assert again[0].start == {f.name: f.centre for f in base.estimate.free} | {level: away[level]}
     assert stuck.fit.deviance() == pytest.approx(own.deviance(), abs=1.0)
     assert best.fit is own
+
+
+def test_what_promised_most_and_ended_worse_than_nothing_is_led_from_what_is_believed(
+    case: Case, base: Fit, prepared: Prepared, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Without friction the fitted parameters stand for it as well as they can: nothing to begin a way back from."""
+    begun: list[float] = []
+    fit_led = restarts._fit_led
+    monkeypatch.setattr(
+        restarts,
+        "_fit_led",
+        lambda case, base, c, shafts, point: begun.append(point["R"]) or fit_led(case, base, c, shafts, point),
+    )
+    friction, drag = prepared("CoulombFriction"), prepared("QuadraticDrag")
+    right = fitted(case, base, friction)
+    stuck = replace(right, fit=fitted(case, base, friction, stages=1, iterations=0, start=FAR_OFF).fit)
+    other = fitted(case, base, replace(drag, predicted=friction.predicted / 2), stages=1, iterations=1)
+    assert stuck.fit.deviance() > base.deviance()
+    restarts._lead(case, base, [other, stuck], lambda text: None)
+    assert begun[-1] == BELIEVED["R"] != pytest.approx(base.point["R"], rel=1e-3)
+    assert stuck.fit.deviance() == pytest.approx(right.fit.deviance(), abs=1.0)
 
 
 def test_what_is_tried_next_is_related_to_the_best_by_evidence(
