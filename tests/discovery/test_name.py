@@ -58,6 +58,14 @@ def fitted(case: Case, base: Fit, candidate: Candidate, **how: object) -> Candid
     return replace(candidate, fit=fit(candidate.machine, case.fit, base.noise, free, base.fixed, **how))
 
 
+def watched(monkeypatch: pytest.MonkeyPatch, name: str) -> list[tuple]:
+    """The arguments of each call of a function of `restarts` from now on."""
+    calls: list[tuple] = []
+    function = getattr(restarts, name)
+    monkeypatch.setattr(restarts, name, lambda *args: calls.append(args) or function(*args))
+    return calls
+
+
 def test_a_rival_that_ended_in_a_dip_is_begun_again_from_where_the_best_hypothesis_ended(
     case: Case, base: Fit, prepared: Prepared
 ) -> None:
@@ -96,11 +104,7 @@ def test_a_rival_that_does_not_run_where_it_is_begun_again_stays_as_it_is(
 def test_the_best_begins_again_with_what_is_believed_of_parameters_unless_it_has_converged(
     case: Case, base: Fit, prepared: Prepared, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    again: list[Candidate] = []
-    fit_again = restarts._fit_again
-    monkeypatch.setattr(
-        restarts, "_fit_again", lambda case, base, c, *how: again.append(c) or fit_again(case, base, c, *how)
-    )
+    again = watched(monkeypatch, "_fit_again")
     best = fitted(case, base, prepared("CoulombFriction"))
     away = best.fit.point | {n: 1.2 * best.fit.point[n] for n in ("R", "Ke", "J")}
     stuck = fitted(case, base, prepared("CoulombFriction"), start=away, stages=1, iterations=0)
@@ -108,7 +112,7 @@ def test_the_best_begins_again_with_what_is_believed_of_parameters_unless_it_has
     own = best.fit
     restarts._believe(case, base, [stuck, best], lambda text: None)
     level = stuck.attachment.full_name("tau_c")
-    assert again[0].start == {f.name: f.centre for f in base.estimate.free} | {level: away[level]}
+    assert again[0][2].start == {f.name: f.centre for f in base.estimate.free} | {level: away[level]}
     assert stuck.fit.deviance() == pytest.approx(own.deviance(), abs=1.0)
     assert best.fit is own
 
@@ -117,20 +121,14 @@ def test_what_promised_most_and_ended_worse_than_nothing_is_led_from_what_is_bel
     case: Case, base: Fit, prepared: Prepared, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Without friction the fitted parameters stand for it as well as they can: nothing to begin a way back from."""
-    begun: list[float] = []
-    fit_led = restarts._fit_led
-    monkeypatch.setattr(
-        restarts,
-        "_fit_led",
-        lambda case, base, c, shafts, point: begun.append(point["R"]) or fit_led(case, base, c, shafts, point),
-    )
+    led = watched(monkeypatch, "_fit_led")
     friction, drag = prepared("CoulombFriction"), prepared("QuadraticDrag")
     right = fitted(case, base, friction)
     stuck = replace(right, fit=fitted(case, base, friction, stages=1, iterations=0, start=FAR_OFF).fit)
     other = fitted(case, base, replace(drag, predicted=friction.predicted / 2), stages=1, iterations=1)
     assert stuck.fit.deviance() > base.deviance()
     restarts._lead(case, base, [other, stuck], lambda text: None)
-    assert begun[-1] == BELIEVED["R"] != pytest.approx(base.point["R"], rel=1e-3)
+    assert led[-1][-1]["R"] == BELIEVED["R"] != pytest.approx(base.point["R"], rel=1e-3)
     assert stuck.fit.deviance() == pytest.approx(right.fit.deviance(), abs=1.0)
 
 
