@@ -94,6 +94,7 @@ rt_status rt_initialise(rt_session *s) {
   rt_status status = set_parameters_and_starts(s);
   if (!status) status = rt_clock_begin(s);
   if (status) return status;
+  rt_inputs_reset(s);
   rt_inputs_begin(s, s->start);
   if ((status = solve_initial_equations(s))) return status;
   return first_events(s);

@@ -22,6 +22,12 @@ static double linear(rt_input *in, double t) {
   return in->values[k] + fraction * (in->values[k + 1] - in->values[k]);
 }
 
+/* A run begins: nothing is known of the samples to come. */
+void rt_inputs_reset(rt_session *s) {
+  for (int i = 0; i < s->d->n_u; i++)
+    s->inputs[i].ahead = 0;
+}
+
 /* Inputs from t on: samples at t itself have been reached. */
 void rt_inputs_begin(rt_session *s, double t) {
   for (int i = 0; i < s->d->n_u; i++)
@@ -54,16 +60,17 @@ static bool is_break(const rt_session *s, const rt_input *in, int k) {
   return in->interpolation == RT_HOLD ? k > 0 && in->values[k] != in->values[k - 1] : is_kink(s, in, k);
 }
 
-/* The next sample after the present time at which an input jumps or bends. */
-double rt_inputs_next_break(const rt_session *s) {
+/* The next sample after the present time at which an input jumps or bends. No step passes it, so that every sample is
+ * looked at once in a run. */
+double rt_inputs_next_break(rt_session *s) {
   double next = INFINITY, now = s->t + s->clock.tolerance;
   for (int i = 0; i < s->d->n_u; i++) {
-    const rt_input *in = &s->inputs[i];
+    rt_input *in = &s->inputs[i];
     if (!in->n) continue;
-    int k = sample_at(in, in->cursor, now);
-    if (in->time[k] <= now) k++;
-    while (k < in->n && in->time[k] < next && !is_break(s, in, k))
+    int k = in->ahead;
+    while (k < in->n && (in->time[k] <= now || (in->time[k] < next && !is_break(s, in, k))))
       k++;
+    in->ahead = k;
     if (k < in->n) next = rt_min(next, in->time[k]);
   }
   return next;

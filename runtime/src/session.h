@@ -14,10 +14,11 @@ struct rt_model {
   const mdl_descriptor *descriptor;
 };
 
-/* One recorded input. `cursor` is the sample that holds from the start of the present step on. */
+/* One recorded input. `cursor` is the sample that holds from the start of the present step on; between the present time
+ * and sample `ahead` nothing jumps or bends. */
 typedef struct {
   const double *time, *values;
-  int n, cursor;
+  int n, cursor, ahead;
   rt_interpolation interpolation;
 } rt_input;
 
@@ -162,9 +163,10 @@ int rt_state_variable(const rt_session *s, int state);
 int rt_unknown_variable(const rt_session *s, int k);
 
 /* inputs.c */
+void rt_inputs_reset(rt_session *s);
 void rt_inputs_begin(rt_session *s, double t);
 void rt_inputs_at(rt_session *s, double t);
-double rt_inputs_next_break(const rt_session *s);
+double rt_inputs_next_break(rt_session *s);
 int rt_inputs_due(rt_session *s);
 
 /* clock.c */

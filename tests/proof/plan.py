@@ -41,8 +41,8 @@ LAWS = (
     ("DcServo", "cold_grease"),
     ("DcServo", "hardening_spring"),
 )
-OF_EACH_LAW = 2
-OF_EACH_RIVAL = 5
+OF_EACH_LAW = 2  # cases of every law
+OF_EACH_RIVAL = 5  # cases in which each of the two is what is missing
 OFF = {
     "DcServo": ("R", "Ke", "J", "b", "R", "Ke", "J", "b"),
     "ScrewEma": ("R", "Ke", "Jm", "Js", "Ke"),

@@ -134,6 +134,17 @@ TEST(InputSamples, AreRecordedAsGiven) {
   }
 }
 
+TEST_P(Inputs, AreTheSameInEveryRunOfASession) {
+  for (rt_interpolation interpolation : {RT_LINEAR, RT_HOLD}) {
+    Samples s = {{0, 0.3, 0.6, 1}, {0, 0, 1, 1}};
+    Session<Lag> session({.solver = GetParam()});
+    rt_session_input(session.get(), 1, 4, s.time.data(), s.values.data(), interpolation);
+    Result first = session.run(1), again = session.run(1);
+    EXPECT_EQ(again.last(0), first.last(0));
+    EXPECT_EQ(again.counters().steps, first.counters().steps);
+  }
+}
+
 TEST_P(Inputs, CrossingsOfAnInputAreEvents) {
   Samples ramp = {{0, 1, 2}, {0, 1, 0}};
   auto events = drive<Watched>({.solver = GetParam()}, ramp, RT_LINEAR).events();
