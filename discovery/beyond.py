@@ -14,7 +14,6 @@ from .empirical_law import GROUPS, find
 from .evidence import like_noise, nearly_noise, pays
 from .fit import Fit, carried
 from .judge import try_judge
-from .machine import Machine
 from .name import Naming
 from .screen import Candidate
 from .search import Finding, Search
@@ -87,7 +86,7 @@ def _instead(search: Search, unbegun: Search, held: Fit, law: Candidate) -> bool
 def _found(search: Search, unbegun: Search, held: Fit, correlation: dict[str, float]) -> float:
     """What the findings of the catalogue score against the believed model, their shafts held as a law's are."""
     amendment = replace(search.amendment, trackers=unbegun.amendment.trackers)
-    machine = Machine(search.case, amendment, search.fit.machine.solver)
+    machine = search.fit.machine.amended(amendment, search.case)
     there = carried(search.fit, machine, stages=1, iterations=0) or search.fit
     found = unbegun.lead.hold(there, held)
     added = {f.name for f in found.estimate.free} - {f.name for f in held.estimate.free}

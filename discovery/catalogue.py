@@ -66,6 +66,10 @@ class Effect:
     def parameter(self, name: str) -> EffectParameter:
         return next(p for p in self.parameters if p.name == name)
 
+    def two_sided(self, variable: str) -> bool:
+        """Whether parameters in units of this variable begin on both sides of zero."""
+        return any(s < 0 for n, v in self.relative.items() if v == variable for s in self.starts.get(n, []))
+
 
 def read(library: Library, package: str = "Effects") -> list[Effect]:
     """Every effect of the package, in order of name. Raises CatalogueError."""

@@ -197,10 +197,7 @@ def _outside(f: Free, value: float) -> bool:
 def sentence(result: Explanation) -> str:
     """The verdict as an engineer would say it."""
     if result.verdict == "missing_physics":
-        parts = []
-        for f in result.findings:
-            a = f.ranked.attachment
-            parts.append(f"{a.effect.title[0].lower()}{a.effect.title[1:]} at {a.location}")
+        parts = [_named(f) for f in result.findings]
         gain = result.before.validate[""] / max(result.after.validate[""], 1e-12)
         return f"The model lacks {' and '.join(parts)}; with it the error on unseen recordings falls {gain:.2g} times."
     if result.verdict == "parameters":
@@ -210,6 +207,14 @@ def sentence(result: Explanation) -> str:
     if result.verdict == "consistent":
         return "The model explains the recordings: what is left is noise."
     return "These recordings cannot say what is missing: " + (result.reason or "the residual is not noise") + "."
+
+
+def _named(finding: Finding) -> str:
+    """What a finding is and where; the other places, where the data does not tell."""
+    a = finding.ranked.attachment
+    others = dict.fromkeys(r.attachment.label for r in finding.elsewhere) if finding.tied else {}
+    or_else = f" (or {', '.join(others)}: the data does not tell)" if others else ""
+    return f"{a.effect.title[0].lower()}{a.effect.title[1:]} at {a.location}{or_else}"
 
 
 def left_over(result: Explanation) -> list[str]:

@@ -19,7 +19,6 @@ from .steps import add_findings, add_fit, add_location, add_scatter, opened
 from .time_limit import within
 
 LEAST_TAKEN = 0.2  # of the NRMSE on unseen recordings, that findings which leave far more than noise must take away
-AS_LIKELY = 0.5  # of a finding's confidence, that rivals at other places have together where the data cannot tell
 
 Progress = Callable[[str], None]
 
@@ -67,10 +66,8 @@ def _conclude(result: Explanation) -> None:
 
 
 def _conclude_from_findings(result: Explanation) -> None:
-    """Physics is missing, unless another place explains the data as well or nearly all of what is missing is left."""
+    """Physics is missing, unless every finding is tied with another place or nearly all of what is missing is left."""
     first = result.findings[0]
-    # a tie at one place leaves no doubt that physics is missing there
-    rivals = [r for r in first.naming.rivals(first.ranked) if r.identity[1] != first.ranked.identity[1]]
     taken = 1.0 - result.after.validate[""] / result.before.validate[""]
     if taken < LEAST_TAKEN and astray(result.final):
         result.verdict = "undetermined"
@@ -79,8 +76,9 @@ def _conclude_from_findings(result: Explanation) -> None:
             "away, and what is left is far from noise: what is missing is something else"
         )
         result.experiment = experiment_for(first.ranked, first.naming.ranked[1:])
-    elif sum(r.confidence for r in rivals) > AS_LIKELY * first.ranked.confidence:
+    elif all(f.tied for f in result.findings):
         result.verdict = "undetermined"
+        rivals = first.elsewhere
         names = ", ".join(dict.fromkeys(r.attachment.label for r in rivals[:3]))
         result.reason = f"{first.ranked.attachment.label} and {names} explain the data equally well"
         result.trial = separate(result.case, first.ranked.fit, rivals[0].fit)

@@ -10,7 +10,7 @@ import numpy as np
 
 from .amend import Amendment
 from .cases import Case, Recording
-from .fit import nrmse, residuals_of
+from .fit import noise_of, nrmse, residuals_of
 from .machine import Machine
 
 
@@ -43,7 +43,7 @@ def try_judge(machine: Machine, values: Mapping[str, float]) -> Judgement | None
 def judge_file(case: Case, amendment: Amendment, path: Path, starts: Mapping[str, float]) -> Judgement:
     """The same for a model file, with the values that are written in it; `starts` are fitted initial states."""
     plain = Amendment(amendment.structure, amendment.attachments)
-    return judge(Machine(case, plain, source=path), starts)
+    return judge(Machine(case, plain, source=path).precise(starts, noise_of(case)), starts)
 
 
 def noise_floor(case: Case, recordings: Sequence[Recording], noise: Mapping) -> dict[str, float]:

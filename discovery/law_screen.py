@@ -11,7 +11,6 @@ from .cases import Case
 from .fit import Fit
 from .law import Law, Site, component_of
 from .law_terms import Group, Variable, groups
-from .machine import Machine
 from .places import Device, Line, Shaft
 from .response import respond
 from .screen import Candidate, Screen
@@ -113,7 +112,7 @@ class Effort:
             self.paths.append({v.local: path[v.name] for v in site.variables} | {"time": recording.time})
         if not isinstance(site.place, Device):
             amendment = replace(base.machine.amendment, probes=(site.place,))
-            self.response = respond(Machine(case, amendment, base.machine.solver), base, 0, _hats(base))
+            self.response = respond(base.machine.amended(amendment, case), base, 0, _hats(base))
 
     def columns(self, group: Group, weights: list[np.ndarray]) -> list[np.ndarray]:
         """One column for each term: what a loss of one unit of it changes in the weighted residual."""

@@ -23,6 +23,7 @@ FAST, HELD = 1, 2  # which of the bandwidths holds the shafts for sensitivities,
 SHARES = (0.02, 0.04, 0.08, 0.16, 0.3, 0.55, 1.0)  # of the recordings' lengths, fitted one after the other
 LOST = 2.5  # level of a signal, from which the simulated motion is taken to have run away,
 FOLLOWED = 1.5  # unless another signal is below this level: that one's edges are where they were recorded
+BELIEVABLE = 8.0  # sigmas from its believed value, within which a parameter is sought while shafts are held
 EARLY = 0.16  # share on which the motion is still held fast by its beginning
 
 
@@ -84,7 +85,7 @@ class Lead:
         kept = base
         for share in [s for s in SHARES if s <= most]:
             short = cut(case, share)
-            here = machine if share == 1.0 else Machine(short, machine.amendment, machine.solver)
+            here = machine if share == 1.0 else machine.amended(machine.amendment, short)
             found = fit(here, short.fit, base.noise, base.estimate.free, base.fixed, start=start)
             if found is None or (kept is not base and _astray(found, lost) and not nearly_noise(kept)):
                 break
@@ -136,5 +137,14 @@ def _tracked(base: Fit, bandwidth: float) -> Fit:
     machine = base.machine
     objective = Objective(machine, machine.case.fit, base.noise)
     objective.track(bandwidth, base.point)
-    fixed = base.fixed | objective.stiffness
-    return fit(machine, machine.case.fit, base.noise, base.estimate.free, fixed, start=base.point) or base
+    fixed, free = base.fixed | objective.stiffness, [_near_belief(f, base.point[f.name]) for f in base.estimate.free]
+    return fit(machine, machine.case.fit, base.noise, free, fixed, start=base.point) or base
+
+
+def _near_belief(free: Free, value: float) -> Free:
+    """A parameter kept to what is believed of it, or to where it is: a shaft that is held follows its recorded motion
+    all the better, the less the machine has to say."""
+    if not free.sigma:
+        return free
+    reach = max(BELIEVABLE * free.sigma, abs(value - free.centre))
+    return replace(free, lower=max(free.lower, free.centre - reach), upper=min(free.upper, free.centre + reach))

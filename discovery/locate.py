@@ -61,7 +61,7 @@ def locate(case: Case, base: Fit) -> Located:
     screen = Screen(base)
     places = [_sensor(case, screen, k) for k in range(len(case.outputs))]
     if probes:
-        machine = Machine(case, replace(base.machine.amendment, probes=tuple(probes)), base.machine.solver)
+        machine = base.machine.amended(replace(base.machine.amendment, probes=tuple(probes)), case)
         places += [_probe(machine, screen, base, k, probe) for k, probe in enumerate(probes)]
     places.sort(key=lambda p: -p.explained)
     located = Located(places)
@@ -130,7 +130,7 @@ def _tracked_effort(best: PlaceEffort, base: Fit, case: Case) -> list[np.ndarray
     shaft = next((s for s in shafts if s.location == best.location), None)
     if shaft is None:
         return None
-    machine = Machine(case, replace(base.machine.amendment, trackers=[shaft]), base.machine.solver)
+    machine = base.machine.amended(replace(base.machine.amendment, trackers=[shaft]), case)
     objective = Objective(machine, case.fit, base.noise)
     objective.track(falling_bandwidths(case, machine)[0], base.point)
     runs = [machine.simulate(base.point | objective.stiffness, r) for r in case.fit]

@@ -18,9 +18,11 @@ from runtime import Model, RecordedInput, Session, SimulationError
 
 from .amend import Amendment, probe_name, tracker_name
 from .cases import Case, CaseError, Recording, Signal
-from .tracking import Motion, recorded_motion
+from .noise import Noise
+from .tracking import Motion, recorded_column, recorded_motion
 
-RTOL = 1e-6
+RTOL, LEAST_RTOL, FINER = 1e-6, 1e-9, 0.1  # of the solver: usual, least, and the step from one to the next finer one
+NEGLIGIBLE = 1e-3  # RMS of the solver's errors, in units of noise; friction that is added makes ten times as much of it
 STEPS_PER_SAMPLE, STEPS_PER_SECOND = 40, 8000  # a run that needs more is given up: its parameters are absurd
 STEPS_GROWTH = 10  # so is a hypothesis that needs so many times the steps of the model it amends
 
@@ -67,9 +69,32 @@ class Machine:
                 raise CaseError(f"{self.case.folder / 'case.toml'}: input `{name}` of the model is not recorded")
             driven.add(variable.index)
 
+    def amended(self, amendment: Amendment, case: Case | None = None) -> Machine:
+        """The believed model with another amendment, or bound to another case, simulated in the same way."""
+        return Machine(case or self.case, amendment, self.solver, rtol=self.rtol)
+
+    def precise(self, parameters: Mapping[str, float], noise: Mapping[str, Noise]) -> Machine:
+        """The machine with a tolerance at which the solver's errors are negligible beside the noise of each output."""
+        machine, here = self, self._outputs(parameters)
+        while machine.rtol > LEAST_RTOL:
+            finer = Machine(self.case, self.amendment, self.solver, source=self.path, rtol=FINER * machine.rtol)
+            there = finer._outputs(parameters)
+            if here is None or there is None or _differ(here, there, noise) < NEGLIGIBLE:
+                break
+            machine, here = finer, there
+        return machine
+
+    def _outputs(self, parameters: Mapping[str, float]) -> list[dict[str, np.ndarray]] | None:
+        outputs = [self.simulate(parameters, r) for r in self.case.fit]
+        return None if any(o is None for o in outputs) else outputs
+
     def motions(self) -> list[Motion | None]:
         """For each tracker of the amendment, which recorded signals give the motion of its shaft."""
         return [recorded_motion(self.case, self.model, shaft) for shaft in self.amendment.trackers]
+
+    def recorded(self, variable: str) -> str | None:
+        """The output that records a variable; None if none does."""
+        return recorded_column(self.case, self.model, variable)
 
     def unknown_states(self) -> list[str]:
         """States whose value at the first sample has to be fitted, by the variable that case.toml names."""
@@ -197,6 +222,14 @@ class Machine:
         return next(n for n, v in self.model.states.items() if v.index == variable.index)
 
 
+def _differ(
+    one: list[dict[str, np.ndarray]], other: list[dict[str, np.ndarray]], noise: Mapping[str, Noise]
+) -> float:  # fmt: skip
+    """The largest RMS difference of an output of a recording, in units of its noise."""
+    pairs = [(a[c] - b[c]) / n.std for a, b in zip(one, other, strict=True) for c, n in noise.items()]
+    return max(float(np.sqrt(np.mean(p**2))) for p in pairs)
+
+
 def _plain(parameters: Mapping[str, float]) -> dict[str, float]:
     """Without the start values of states."""
     return {k: v for k, v in parameters.items() if not k.startswith("start:")}
@@ -237,6 +270,6 @@ def try_machine(case: Case, amendment: Amendment, base: Machine) -> tuple[Machin
     samples = {r.name: len(r.time) for r in case.fit}
     limits = {name: STEPS_GROWTH * max(steps, 1000, samples.get(name, 0)) for name, steps in base.steps.items()}
     try:
-        return Machine(case, amendment, base.solver, step_limits=limits), ""
+        return Machine(case, amendment, base.solver, step_limits=limits, rtol=base.rtol), ""
     except (Diagnostic, CompilerError, SimulationError) as error:
         return None, str(error)

@@ -24,6 +24,7 @@ from .machine import Machine
 RESPONSE = 0.1  # of the residual: size of the response from which a column is taken
 PROBES = 5
 TELLING = 0.5  # share of the misfit that screened recordings hold
+ONE_SIDED = 0.05  # of the greatest size of a variable, below which it is not taken to go to that side
 RANGE = 10.0  # how far beyond its start values a parameter without a neutral value may go
 
 
@@ -173,24 +174,32 @@ def _shape_starts(
     effect = attachment.effect
     shape = [n for n in names if n not in effect.neutral and n not in effect.polar]
     shape += [n for n in effect.fixed if n in effect.starts]
-    size = {}
-    for name in shape:
-        if name in effect.relative:
-            size[name] = _range(screen, machine, f"{attachment.component}.{effect.relative[name]}", point)
     lists = []
     for name in shape:
         starts = effect.starts.get(name, [effect.parameter(name).default])
-        factor = size.get(name, 1.0)
-        lists.append([(attachment.full_name(name), s * factor) for s in starts])
+        if name in effect.relative:
+            variable = effect.relative[name]
+            high, low = _reached(screen, machine, f"{attachment.component}.{variable}", point)
+            side = (high, low) if effect.two_sided(variable) else (0.0, 0.0)
+            starts = [s * _size(side[s < 0], max(high, low)) for s in starts]
+        lists.append([(attachment.full_name(name), s) for s in starts])
     return [dict(combination) for combination in product(*lists)]
 
 
-def _range(screen: Screen, machine: Machine, variable: str, point: dict[str, float]) -> float:
-    largest = 0.0
-    for recording in screen.recordings:
-        values = machine.trajectory(point, recording, [variable])[variable]
-        largest = max(largest, float(np.nanmax(np.abs(values))))
-    return largest or 1.0
+def _reached(screen: Screen, machine: Machine, variable: str, point: dict[str, float]) -> tuple[float, float]:
+    """How far a variable goes to either side of zero: as recorded, where it is, or else as simulated."""
+    column = machine.recorded(variable)
+    high = low = 0.0
+    for recording in machine.case.fit:
+        simulated = None if column else machine.trajectory(point, recording, [variable])[variable]
+        course = recording.columns[column] if column else simulated
+        high, low = max(high, float(np.nanmax(course))), max(low, -float(np.nanmin(course)))
+    return high, low
+
+
+def _size(side: float, largest: float) -> float:
+    """How far a variable goes to one side; the greatest of both where it hardly goes there, or where none is asked."""
+    return (side if side > ONE_SIDED * largest else largest) or 1.0
 
 
 def _linearised(
@@ -278,7 +287,7 @@ def _limits(shapes: list[dict[str, float]]) -> dict[str, tuple[float, float]]:
     for name in shapes[0]:
         values = [s[name] for s in shapes]
         sizes = [abs(v) for v in values]
-        low, high = min(sizes) / RANGE, max(sizes) * RANGE
+        low, high = min(sizes) / RANGE, max(sizes) * RANGE or math.inf
         limits[name] = (low, high) if values[0] > 0 else (-high, -low)
     return limits
 

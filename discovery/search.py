@@ -21,7 +21,7 @@ from .fit import Fit, carried, fit, linearised
 from .hypotheses import enumerate_attachments
 from .judge import Judgement, try_judge
 from .lead import Lead
-from .machine import Machine, try_machine
+from .machine import try_machine
 from .name import Naming, compete, rank, screen_all
 from .objective import STAGES
 from .screen import Candidate
@@ -30,6 +30,7 @@ MAX_FINDINGS = 3
 CARRIED = 3  # times at most, that an accepted fit is begun again from where it stopped
 ALIKE = 0.01  # share of the best gain, within which rivals are released with the best one,
 RELEASED = 3  # at most so many of them
+AS_LIKELY = 0.5  # of a finding's confidence, that rivals at other places have together where the data cannot tell
 RECONSIDERED = 4  # rivals of an earlier finding that are tried again
 
 Progress = Callable[[str], None]
@@ -43,6 +44,17 @@ class Finding:
     naming: Naming
     before: Judgement
     after: Judgement
+
+    @property
+    def elsewhere(self) -> list[Ranked]:
+        """Rivals at other places: a tie at one place leaves no doubt that physics is missing there."""
+        ranked = self.ranked
+        return [r for r in self.naming.rivals(ranked) if r.identity[1] != ranked.identity[1]]
+
+    @property
+    def tied(self) -> bool:
+        """Whether the data cannot tell at which place it is."""
+        return sum(r.confidence for r in self.elsewhere) > AS_LIKELY * self.ranked.confidence
 
 
 @dataclass
@@ -180,7 +192,7 @@ class Search:
         if self.lead.direct:
             return best.fit
         candidate = best.candidate
-        machine = Machine(self.case, candidate.machine.amendment, self.fit.machine.solver)
+        machine = self.fit.machine.amended(candidate.machine.amendment, self.case)
         found = self.lead.release(machine, self.case, base, [*base.estimate.free, *candidate.free], best.fit)
         if found is None or found.deviance(best.fit.correlation()) > base.deviance(best.fit.correlation()):
             return None
@@ -242,7 +254,7 @@ class Search:
         prefix = ranked.attachment.component + "."
         free = [f for f in self.fit.estimate.free if not f.name.startswith(prefix)]
         fixed = {n: v for n, v in self.fit.fixed.items() if not n.startswith(prefix)}
-        machine = Machine(self.case, amendment, self.fit.machine.solver)
+        machine = self.fit.machine.amended(amendment, self.case)
         if not stages:
             return linearised(machine, self.case.fit, self.fit.noise, free, fixed, self.fit.point)
         return fit(machine, self.case.fit, self.fit.noise, free, fixed, start=self.fit.point, stages=stages)

@@ -14,7 +14,7 @@ import numpy as np
 
 from .fit import Fit
 from .least_squares import Estimate, Problem, clipped
-from .machine import RTOL, Machine
+from .machine import Machine
 from .objective import Objective
 
 ROUNDS = 2  # of differences: the axes of the first are those of the noisy ones
@@ -73,7 +73,7 @@ def _axes(estimate: Estimate) -> np.ndarray:
 def solver_shift(found: Fit) -> np.ndarray:
     """How far (p,), to first order, a finer tolerance of the solver would move the values; 0 where it does not run."""
     estimate, machine = found.estimate, found.machine
-    finer = Machine(machine.case, machine.amendment, machine.solver, source=machine.path, rtol=FINE * RTOL)
+    finer = Machine(machine.case, machine.amendment, machine.solver, source=machine.path, rtol=FINE * machine.rtol)
     coarse, fine = _around(found, machine), _around(found, finer)
     if coarse is None or fine is None or not estimate.jacobian:
         return np.zeros(len(estimate.free))

@@ -163,7 +163,8 @@ def _shifts(machine: Machine, recording: Recording, simulated: dict[str, np.ndar
     for column, (lag, gain) in lags.items():
         late, early = lag >= LATE and gain > 0.8, lag <= -EARLY and gain > (0.8 if lag <= -LATE else 0.97)
         others = [other for c, (other, found) in lags.items() if c != column and found > ALIKE]
-        if late and any(lag - LATE < other for other in others):  # a machine slower than believed delays them all
+        slower, faster = any(other > lag - LATE for other in others), any(other < lag + EARLY for other in others)
+        if (late and slower) or (early and faster):  # a machine that is not as fast as believed shifts them all
             continue
         pair = recording.columns[column], simulated[column], lag
         if (late or early) and not together and _agrees(*pair) and not (late and _is_smoothed(*pair)):

@@ -136,7 +136,7 @@ def _begun(unbegun: Search) -> Search:
 def _held(result: Explanation, unbegun: Search, shafts: list[places.Shaft]) -> Search:
     """A search not yet begun, that compares hypotheses with these recorded shafts held near their motion."""
     case = result.case
-    machine = Machine(case, Amendment(result.amendment.structure, trackers=shafts))
+    machine = result.base.machine.amended(Amendment(result.amendment.structure, trackers=shafts))
     base = carried(result.base, machine, stages=1)
     lead = Lead(falling_bandwidths(case, machine, STIFFLY), held=1)
     if base is None:
@@ -165,7 +165,7 @@ def _anew(result: Explanation, direct: Search, unbegun: Search, progress: Progre
 def _let_go(search: Search, direct: Search) -> Search:
     """The search without trackers: a finding that leaves little has led it to where fits need no hold."""
     amendment = replace(search.amendment, trackers=[])
-    machine = Machine(search.case, amendment, search.fit.machine.solver)
+    machine = search.fit.machine.amended(amendment, search.case)
     found = carried(search.fit, machine)
     after = try_judge(machine, found.point) if found is not None else None
     if after is None:
@@ -193,9 +193,10 @@ def _believed_machine(case: Case, structure: places.Structure) -> Machine:
     free, fixed = believed(case, machine)
     shafts = trackable(case, machine.model, structure)[:1]
     values = fixed | {f.name: f.centre for f in free}
+    machine = machine.precise(values, noise_of(case))
     if not shafts or machine.events_per_second(values, case.fit[0]) < ROUGH:
         return machine
-    return Machine(case, Amendment(structure, trackers=shafts))
+    return machine.amended(Amendment(structure, trackers=shafts))
 
 
 def fit_believed(case: Case, machine: Machine) -> tuple[Fit, Lead]:

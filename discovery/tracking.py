@@ -54,12 +54,13 @@ def smooth(values: np.ndarray, half: int = 8) -> np.ndarray:
 def recorded_motion(case: Case, model: Model, shaft: Shaft) -> Motion | None:
     """Which outputs record the angle or the speed of a shaft, aliases of the model considered; None if none does."""
     location = shaft.location
-    angle = _column(case, model, f"{location}.phi")
-    speed = _column(case, model, f"{location}.w")
+    angle = recorded_column(case, model, f"{location}.phi")
+    speed = recorded_column(case, model, f"{location}.w")
     return Motion(angle, speed) if angle or speed else None
 
 
-def _column(case: Case, model: Model, name: str) -> str | None:
+def recorded_column(case: Case, model: Model, name: str) -> str | None:
+    """The output that records a variable or an alias of it; None if none does."""
     target = model.variables.get(name)
     for signal in case.outputs:
         found = model.variables.get(signal.variable)
