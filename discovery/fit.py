@@ -44,6 +44,10 @@ class Fit:
     def point(self) -> dict[str, float]:
         return self.fixed | self.estimate.point
 
+    def believed(self) -> dict[str, float]:
+        """What is believed of the parameters, by name."""
+        return {f.name: f.centre for f in self.estimate.free if f.sigma}
+
     def sensitivities(self) -> dict[str, list[np.ndarray]]:
         """Unweighted columns of the Jacobian (units of noise per scaled parameter) for each recording, by parameter."""
         if not self.estimate.jacobian:

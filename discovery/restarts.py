@@ -50,16 +50,11 @@ def _believe(case: Case, base: Fit, candidates: list[Candidate], progress: Progr
     near = _near(base, ordered[0])
 
     def fit_again(candidate: Candidate) -> None:
-        again = replace(candidate, start=candidate.fit.point | _believed(base), shift={})
+        again = replace(candidate, start=candidate.fit.point | base.believed(), shift={})
         _take(candidate, _fit_again(case, base, again, lambda f: f.deviance() <= near, progress))
 
     with ThreadPoolExecutor(WORKERS) as pool:
         list(pool.map(fit_again, [c for c in ordered[:BELIEVED] if not c.fit.estimate.converged]))
-
-
-def _believed(base: Fit) -> dict[str, float]:
-    """What is believed of the base's parameters."""
-    return {f.name: f.centre for f in base.estimate.free if f.sigma}
 
 
 def _near(base: Fit, best: Candidate) -> float:
@@ -96,7 +91,7 @@ def _lead(case: Case, base: Fit, candidates: list[Candidate], progress: Progress
     promising = max(candidates, key=lambda c: c.predicted)
     if promising.fit.deviance() > base.deviance():
         progress(f"leading {promising.attachment.label} from what is believed")
-        _take(promising, _fit_led(case, base, promising, shafts, base.point | _believed(base)))
+        _take(promising, _fit_led(case, base, promising, shafts, base.point | base.believed()))
 
 
 def _simplify(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:

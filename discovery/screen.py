@@ -146,6 +146,8 @@ def prepare(screen: Screen, attachment: Attachment, machine: Machine) -> list[Ca
     amounts: dict[str, float] = {}
     limits = _limits(shapes)
     found = [_linearised(screen, attachment, machine, names, point, shape, limits, amounts) for shape in shapes]
+    if not any(n in effect.neutral for n in names):
+        found += [_from_believed(screen, attachment, machine, names, shape, limits) for shape in shapes]
     found = [replace(c, attachment=asked) for c in found if c is not None]
     return sorted(found, key=lambda c: -c.predicted)
 
@@ -200,6 +202,17 @@ def _reached(screen: Screen, machine: Machine, variable: str, point: dict[str, f
 def _size(side: float, largest: float) -> float:
     """How far a variable goes to one side; the greatest of both where it hardly goes there, or where none is asked."""
     return (side if side > ONE_SIDED * largest else largest) or 1.0
+
+
+def _from_believed(
+    screen: Screen, attachment: Attachment, machine: Machine, names: list[str], shape: dict[str, float],
+    limits: dict[str, tuple[float, float]],
+) -> Candidate | None:  # fmt: skip
+    """The candidate for one start of the shape and the believed parameters: refitted without it, they stand for it, and
+    may keep the motion away from where it acts."""
+    believed = screen.base.believed()
+    found = _linearised(screen, attachment, machine, names, screen.base.point | believed, shape, limits, {})
+    return found and replace(found, start=believed | found.start, shift={})
 
 
 def _linearised(

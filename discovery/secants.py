@@ -25,23 +25,24 @@ UNSEEN = 1e-14  # of the largest eigenvalue of the normal equations, below which
 def with_secants(found: Fit) -> Fit:
     """The fit with its Jacobian and normal equations from secants; as it is where it does not run that far to all
     sides."""
-    problem = _around(found, found.machine)
+    problem, _ = _around(found, found.machine)
     estimate: Estimate | None = found.estimate
     for _ in range(ROUNDS):
         estimate = estimate and problem and _with_secants(problem, estimate)
     return found if estimate is None else replace(found, estimate=estimate)
 
 
-def _around(found: Fit, machine: Machine) -> Problem | None:
-    """The weighted residual of a fit as a function of its parameters, held as it is; None where it does not run."""
+def _around(found: Fit, machine: Machine) -> tuple[Problem | None, list[np.ndarray]]:
+    """The residual of a fit as a function of its parameters, weighted and held as it is, and its value at the fit's
+    own; None where it does not run."""
     objective = Objective(machine, machine.case.fit, found.noise)
     objective.stiffness = {n: v for n, v in found.fixed.items() if n.startswith("tracker_")}
     problem = Problem(found.estimate.free, objective, len(objective.recordings), found.fixed)
     here = problem.evaluate(found.estimate.values)
     if here is None:
-        return None
+        return None, []
     problem.weights = objective.weights(objective.measure(here[2]) | found.level)
-    return problem
+    return problem, [p * w for p, w in zip(here[2], problem.weights, strict=True)]
 
 
 def _with_secants(problem: Problem, estimate: Estimate) -> Estimate | None:
@@ -74,10 +75,9 @@ def solver_shift(found: Fit) -> np.ndarray:
     """How far (p,), to first order, a finer tolerance of the solver would move the values; 0 where it does not run."""
     estimate, machine = found.estimate, found.machine
     finer = Machine(machine.case, machine.amendment, machine.solver, source=machine.path, rtol=FINE * machine.rtol)
-    coarse, fine = _around(found, machine), _around(found, finer)
+    (coarse, here), (fine, there) = _around(found, machine), _around(found, finer)
     if coarse is None or fine is None or not estimate.jacobian:
         return np.zeros(len(estimate.free))
-    errors = [p.evaluate(estimate.values)[2] for p in (coarse, fine)]
-    load = sum(b.T @ (f - c) for b, c, f in zip(estimate.jacobian, *errors, strict=True))
+    load = sum(b.T @ (f - c) for b, c, f in zip(estimate.jacobian, here, there, strict=True))
     axes = _axes(estimate)
     return -axes @ (axes.T @ load) * np.array([f.scale for f in estimate.free])

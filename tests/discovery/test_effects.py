@@ -17,11 +17,11 @@ from discovery.fit import fit
 from discovery.least_squares import bounded_linear
 from discovery.machine import Machine
 from discovery.places import read
-from discovery.screen import Screen, prepare
+from discovery.screen import Screen, _limits, prepare
 from discovery.steps import fit_believed
 import runtime
 
-from .conftest import BELIEVED, attachment, write_case
+from .conftest import BELIEVED, attachment, conceal, write_case
 
 RIPPLE = """model RippleServo
   extends Lacuna.Benches.DcServo;
@@ -122,6 +122,26 @@ def test_the_start_of_a_hypothesis_takes_the_believed_parameters_along(tmp_path:
 
     taken = candidate_fit._start(case, base, candidate)
     assert missed(taken) < missed(base.point | candidate.start)
+
+
+def test_a_stop_is_found_with_its_place_and_its_stiffness_and_damping(tmp_path: Path) -> None:
+    case = load(conceal(tmp_path, BELIEVED, stop="EndStop(phi_max=6.5, c=0.02, d=2e-4, J=shaft.J)"))
+    machine = Machine(case, Amendment(read(Library(), case.model)))
+    base, _ = fit_believed(case, machine)
+    stop = attachment(case, "EndStop")
+    amended = Machine(case, Amendment(machine.amendment.structure, [stop]))
+    best = prepare(Screen(base), stop, amended)[0]
+    assert best.predicted > 0.5
+    found = candidate_fit.fit_candidate(case, base, 10, 4, lambda text: None, best)
+    values = {n: found.point[stop.full_name(n)] for n in ("phi_max", "c", "d")}
+    assert values["phi_max"] == pytest.approx(6.5, rel=0.003)
+    assert values["c"] == pytest.approx(0.02, rel=0.05) and values["d"] == pytest.approx(2e-4, rel=0.1)
+
+
+def test_every_parameter_of_the_catalogue_that_is_fitted_can_move(tmp_path: Path) -> None:
+    """A start of zero is no bound: the damping of a stop that begins without any has to be found."""
+    limits = _limits([{"stop.d": 0.0, "stop.c": 2.0}])
+    assert limits["stop.c"] == (0.2, 20.0) and limits["stop.d"][0] < limits["stop.d"][1]
 
 
 def test_a_threshold_in_a_loop_lets_the_loop_settle_on_it(tmp_path: Path) -> None:

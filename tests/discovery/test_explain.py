@@ -142,6 +142,20 @@ def test_a_rival_elsewhere_that_is_as_likely_leaves_it_undetermined(
     assert ("explain the data equally well" in result.reason) == (verdict == "undetermined")
 
 
+def test_a_finding_that_is_certain_makes_the_verdict_though_another_is_tied(explained: Explanation) -> None:
+    finding = explained.findings[0]
+    other = next(r for r in finding.naming.ranked if r.identity[0] != finding.ranked.identity[0])
+    there = replace(other.candidate, attachment=replace(other.attachment, location="drive"))
+    ranked = [replace(finding.ranked), replace(other, candidate=there, fit=finding.ranked.fit)]
+    ranked[1].score = ranked[0].score + 0.5
+    confidences(ranked)
+    tied = replace(finding, ranked=ranked[0], naming=Naming(ranked, []))
+    result = replace(explained, findings=[tied, finding], trial=None, reason="", experiment="")
+    _conclude(result)
+    assert tied.tied and not finding.tied and result.verdict == "missing_physics"
+    assert diagnosis.sentence(result).count(": the data does not tell)") == 1
+
+
 @pytest.mark.parametrize(
     ("left", "level", "verdict"),
     [(0.9, 300.0, "undetermined"), (0.9, 1.5, "missing_physics"), (0.7, 300.0, "missing_physics")],

@@ -12,7 +12,7 @@ from discovery import lead as leading
 from discovery.amend import Amendment
 from discovery.cases import load
 from discovery.fit import FALLING, believed, falling_bandwidths, fit, noise_of
-from discovery.lead import HELD, SHARES, Lead
+from discovery.lead import BELIEVABLE, HELD, SHARES, Lead
 from discovery.machine import Machine
 from discovery.name import screen_all
 from discovery.places import read
@@ -45,6 +45,23 @@ def test_the_periods_of_a_strong_cogging_show_where_the_shaft_is_held_stiffly(
     best = screen_all(case, machine.amendment, [cogging], base, lambda text: None)[0][0]
     right = best.fixed[cogging.full_name("periods")] == 8 and best.predicted > 0.3
     assert right == seen
+
+
+def test_parameters_stay_near_belief_while_a_shaft_is_held(cogging_case: Path) -> None:
+    """A machine that says nothing follows its held shaft best: what is missing would end in absurd parameters."""
+    case = load(cogging_case)
+    shafts = trackable(case, Machine(case, Amendment(read(Library(), case.model))).model, read(Library(), case.model))
+    machine = Machine(case, Amendment(read(Library(), case.model), trackers=shafts[:1]))
+    free, fixed = believed(case, machine)
+    base = fit(machine, case.fit, noise_of(case), free, fixed, stages=1, iterations=0)
+    far = {f.name: f.centre + 12 * f.sigma for f in free if f.name == "R"}
+    elsewhere = fit(machine, case.fit, noise_of(case), free, fixed, start=base.point | far, stages=1, iterations=0)
+    for fitted, reach in ((base, BELIEVABLE), (elsewhere, 12.0)):  # a fit that has left belief may stay where it is
+        held = Lead(falling_bandwidths(case, machine)).hold(fitted).estimate.free
+        bounds = {f.name: (f.lower, f.upper) for f in held}["R"]
+        believed_r = next(f for f in free if f.name == "R")
+        assert bounds[1] == pytest.approx(believed_r.centre + reach * believed_r.sigma)
+        assert bounds[0] == pytest.approx(max(believed_r.centre - reach * believed_r.sigma, believed_r.lower))
 
 
 @pytest.mark.parametrize(

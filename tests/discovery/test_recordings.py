@@ -15,8 +15,12 @@ import pytest
 from scipy.signal import lfilter
 
 from codegen.library import Library
+from discovery import semantic_check
+from discovery.amend import Amendment
 from discovery.cases import Case, CaseError, Recording, load
 from discovery.explain import explain
+from discovery.machine import Machine
+from discovery.places import read
 from discovery.recordings_check import Problem, check_case
 from discovery.steps import opened
 
@@ -144,6 +148,26 @@ def test_a_slow_sensor_is_no_shifted_signal(consistent_case: Path) -> None:
     for recording in case.fit + case.validate:
         recording.columns["theta"] = lfilter([1.0 - pole], [1.0, -pole], recording.columns["theta"])
     assert [str(p) for p in problems_of(case)] == []
+
+
+@pytest.mark.parametrize(("others", "suspected"), [((-18, 0.96), False), ((0, 0.0), True), ((-3, 0.96), True)])
+def test_a_machine_faster_than_believed_shifts_no_column(
+    consistent_case: Path, monkeypatch: pytest.MonkeyPatch, others: tuple[int, float], suspected: bool
+) -> None:
+    """It advances every signal that it moves, though one hardly shows it and another most."""
+    case = load(consistent_case)
+    case.signals["w"] = replace(case.signals["theta"], column="w", variable="w", unit="rad/s", si_unit="rad/s")
+    for recording in case.fit + case.validate:
+        recording.columns["w"] = np.gradient(recording.columns["theta"], recording.interval)
+    machine = Machine(case, Amendment(read(Library(), case.model)))
+    lags = {"i": (-10, 0.03), "w": others, "theta": (-18, 0.99)}
+    order = iter([s.column for s in case.outputs])
+    monkeypatch.setattr(semantic_check, "_lag", lambda *signals: lags[next(order)])
+    monkeypatch.setattr(semantic_check, "_agrees", lambda *signals: True)
+    recording = case.fit[0]
+    simulated = machine.simulate(case.parameters, recording)
+    found = semantic_check._shifts(machine, recording, simulated)
+    assert [p.column for p in found] == (["theta"] if suspected else [])
 
 
 @pytest.mark.parametrize(("spoil", "kind", "column", "time"), WITHOUT_A_MODEL)

@@ -28,7 +28,7 @@ def outputs(values: dict[str, float], piece: int) -> np.ndarray:
 def test_what_noise_adds_to_short_differences_is_no_information(monkeypatch: pytest.MonkeyPatch) -> None:
     problem = Problem(FREE, outputs, 1)
     found = End(solve(problem))
-    monkeypatch.setattr(secants, "_around", lambda found, machine: problem)
+    monkeypatch.setattr(secants, "_around", lambda found, machine: (problem, []))
     known = 100 * 0.1**2 * 2  # 100 samples that see 0.1 of the difference, which is sqrt(2) a unit along it
 
     def of_difference(estimate: Estimate) -> float:
