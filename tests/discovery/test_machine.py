@@ -1,0 +1,51 @@
+"""How precisely a machine is simulated."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from codegen.library import Library
+from discovery.amend import Amendment
+from discovery.cases import load
+from discovery.fit import believed, noise_of
+from discovery.machine import LEAST_RTOL, RTOL, Machine
+from discovery.noise import Noise
+from discovery.places import read
+
+
+@pytest.fixture(scope="module")
+def machine(friction_case: Path) -> Machine:
+    case = load(friction_case)
+    return Machine(case, Amendment(read(Library(), case.model)))
+
+
+def quieter(noise: dict[str, Noise], share: float) -> dict[str, Noise]:
+    return {c: replace(n, std=share * n.std) for c, n in noise.items()}
+
+
+def test_the_solver_is_as_precise_as_the_noise_asks(machine: Machine) -> None:
+    """Its errors are no more than the noise allows, beside a solution a thousand times as precise."""
+    free, fixed = believed(machine.case, machine)
+    values = fixed | {f.name: f.centre for f in free}
+    noise = noise_of(machine.case)
+    assert machine.precise(values, noise).rtol == RTOL
+    quiet = quieter(noise, 1e-4)
+    precise = machine.precise(values, quiet)
+    assert LEAST_RTOL < precise.rtol < RTOL
+    reference = Machine(machine.case, machine.amendment, machine.solver, rtol=1e-3 * precise.rtol)
+    for recording in machine.case.fit:
+        here, there = precise.simulate(values, recording), reference.simulate(values, recording)
+        for column, n in quiet.items():
+            assert np.sqrt(np.mean((here[column] - there[column]) ** 2)) < 3e-3 * n.std
+
+
+def test_no_noise_asks_for_more_than_the_solver_can_give(machine: Machine) -> None:
+    free, fixed = believed(machine.case, machine)
+    values = fixed | {f.name: f.centre for f in free}
+    least = machine.precise(values, quieter(noise_of(machine.case), 1e-12))
+    assert least.rtol == pytest.approx(LEAST_RTOL)
+    assert least.amended(Amendment(machine.amendment.structure)).rtol == least.rtol
