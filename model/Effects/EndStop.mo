@@ -13,7 +13,7 @@ equation
   tau = if angle > phi_max then max(c*(angle - phi_max) + d*w, 0)
     elseif angle < phi_min then min(c*(angle - phi_min) + d*w, 0) else 0;
   annotation(__Lacuna(effect="end_stop", attaches="flange", signals(J="inertia"),
-    starts(phi_max={0.99, 0.8}, phi_min={-0.99, -0.8}, c={300, 3000, 3e4, 3e5}, d={20}),
+    starts(phi_max={1000, 0.99, 0.8}, phi_min={-1000, -0.99, -0.8}, c={300, 3000, 3e4}, d={20}),
     relative(phi_max="angle", phi_min="angle", c="c_unit", d="d_unit"),
     signature="effort at one end of the stroke only, zero elsewhere",
     excitation="motion up to the limits", reference="Brogliato 2016"));

@@ -10,7 +10,7 @@ import pytest
 from codegen.library import Library
 from discovery import lead as leading
 from discovery.amend import Amendment
-from discovery.cases import load
+from discovery.cases import Case, load
 from discovery.fit import FALLING, believed, falling_bandwidths, fit, noise_of
 from discovery.lead import BELIEVABLE, HELD, SHARES, Lead
 from discovery.machine import Machine
@@ -79,13 +79,12 @@ def test_a_fit_that_grows_is_held_where_something_is_seen_to_be_missing(
     estimate = SimpleNamespace(free=[])
     left = iter(levels)
 
-    def machine_of(case, *rest) -> SimpleNamespace:
-        return SimpleNamespace(case=case, amendment=None, solver="")
+    def machine_of(case: Case) -> SimpleNamespace:
+        return SimpleNamespace(case=case, amendment=None, amended=lambda amendment, case: machine_of(case))
 
     def fit_of(machine, *rest, **options) -> SimpleNamespace:
         return SimpleNamespace(machine=machine, level={"i": next(left)}, point={})
 
-    monkeypatch.setattr(leading, "Machine", machine_of)
     monkeypatch.setattr(leading, "fit", fit_of)
     whole = SimpleNamespace(machine=machine_of(case), estimate=estimate, point={}, noise={}, fixed={})
     held = Lead(grows=True).hold(whole)
