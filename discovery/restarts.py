@@ -106,10 +106,8 @@ def _from_richer(
     case: Case, base: Fit, candidate: Candidate, best: Candidate, progress: Progress
 ) -> Fit | None:  # fmt: skip
     """The fit of a law from the values of one that contains it; None where a first look shows it far behind."""
-    point = best.fit.point
-    shared = {f.name: point.get(best.attachment.full_name(f.name.rsplit(".", 1)[-1])) for f in candidate.free}
-    start = candidate.fit.point | {f.name: point[f.name] for f in base.estimate.free}
-    start |= {name: value for name, value in shared.items() if value is not None}
+    start = candidate.fit.point | {f.name: best.fit.point[f.name] for f in base.estimate.free}
+    start |= _shared(candidate, best)
     correlation = best_correlation([best])
     goal = HALF * score(best, base, correlation)
 
@@ -117,6 +115,17 @@ def _from_richer(
         return score(replace(candidate, fit=found), base, correlation) <= goal
 
     return _fit_again(case, base, replace(candidate, start=start, shift={}), hopeful, progress)
+
+
+def _shared(candidate: Candidate, richer: Candidate) -> dict[str, float]:
+    """The values of a law in one that contains it: of the same name, or the mean of the levels of friction there."""
+    own, point = richer.attachment, richer.fit.point
+    places = {f.name: own.full_name(f.name.rsplit(".", 1)[-1]) for f in candidate.free}
+    shared = {name: point[place] for name, place in places.items() if place in point}
+    levels = [point[own.full_name(n)] for n in own.effect.levels if own.full_name(n) in point]
+    if candidate.attachment.effect.friction and levels and not shared:
+        shared = dict.fromkeys(places, sum(levels) / len(levels))
+    return shared
 
 
 def _fit_again(

@@ -24,6 +24,7 @@ from .machine import Machine
 RESPONSE = 0.1  # of the residual: size of the response from which a column is taken
 PROBES = 5
 TELLING = 0.5  # share of the misfit that screened recordings hold
+ABSURD = 1e30  # misfit in units of its level, from which a simulation has run away
 ONE_SIDED = 0.05  # of the greatest size of a variable, below which it is not taken to go to that side
 RANGE = 10.0  # how far beyond its start values a parameter without a neutral value may go
 
@@ -66,8 +67,9 @@ class Screen:
         return vector - self.orthogonal @ (self.orthogonal.T @ vector)
 
     def outputs(self, machine: Machine, values: Mapping[str, float]) -> np.ndarray | None:
-        """Weighted residual of a machine at a point, in the units of the base's."""
-        return Objective(machine, self.recordings, self.noise).weighted(values, self.weights)
+        """Weighted residual of a machine at a point, in the units of the base's; None where it runs away."""
+        found = Objective(machine, self.recordings, self.noise).weighted(values, self.weights)
+        return None if found is None or np.max(np.abs(found)) > ABSURD else found
 
     def explained(
         self, columns: list[np.ndarray], offset: np.ndarray | None = None,
