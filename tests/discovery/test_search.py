@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from codegen.library import Library
@@ -22,6 +23,7 @@ from discovery.machine import Machine
 from discovery.name import Naming
 from discovery.places import read
 from discovery.race import _enriched, best_starts, first_round, in_the_race
+from discovery.restarts import _shared
 from discovery.screen import Candidate, Screen, prepare
 from discovery.search import Finding, Search
 from discovery.steps import fit_believed
@@ -195,6 +197,33 @@ def test_a_finding_gives_way_to_the_simpler_law_unless_that_is_worse_on_what_was
     judge_as(monkeypatch, lambda _, own: {c: unseen * v for c, v in own.items()})
     search._reconsider(0, lambda text: None)
     assert (search.findings[0].ranked.identity == ("friction.coulomb", "shaft")) == exchanged
+
+
+def test_a_finding_that_is_reconsidered_waits_for_no_simpler_law(friction_case: Path) -> None:
+    """A constant load that promises something was not tried beside asymmetric friction before: it is a rival now."""
+    case = load(friction_case)
+    believed, _, asymmetric = fitted(case, "AsymmetricFriction")
+    judged = judge(asymmetric.machine, asymmetric.fit.point)
+    naming = Naming([Ranked(asymmetric, asymmetric.fit, -100.0)], [])
+    finding = Finding(naming.best, naming, judged, judged)
+    amendment = asymmetric.machine.amendment
+    search = Search(case, read_catalogue(Library()), Lead(), {}, amendment, asymmetric.fit, judged, [finding])
+    rivals = search._rivals(finding, believed.machine.amendment, believed)
+    labels = {c.attachment.effect.name for c in first_round(sorted(rivals, key=lambda c: -c.predicted))}
+    assert {"AsymmetricFriction", "CoulombFriction"} <= labels
+
+
+def test_a_simpler_friction_begins_at_the_mean_level_of_the_one_that_contains_it(friction_case: Path) -> None:
+    case = load(friction_case)
+    _, _, coulomb = fitted(case, "CoulombFriction")
+    _, _, asymmetric = fitted(case, "AsymmetricFriction")
+    own = asymmetric.attachment
+    levels = {own.full_name("tau_pos"): 0.001, own.full_name("tau_neg"): 0.002}
+    estimate = replace(
+        asymmetric.fit.estimate, values=np.array([levels.get(f.name, 1.0) for f in asymmetric.fit.estimate.free])
+    )
+    richer = replace(asymmetric, fit=replace(asymmetric.fit, estimate=estimate))
+    assert _shared(coulomb, richer) == {coulomb.attachment.full_name("tau_c"): pytest.approx(0.0015)}
 
 
 def test_a_law_that_does_not_pay_gives_way_to_the_simpler_one_it_contains(
