@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import product
 import math
 
 import numpy as np
@@ -20,13 +19,12 @@ from .catalogue import Effect, EffectParameter
 from .fit import Fit, Objective
 from .least_squares import Free, bounded_linear, pulls
 from .machine import Machine
+from .shapes import limits_of, shape_starts
 
 RESPONSE = 0.1  # of the residual: size of the response from which a column is taken
 PROBES = 5
 TELLING = 0.5  # share of the misfit that screened recordings hold
 ABSURD = 1e30  # misfit in units of its level, from which a simulation has run away
-ONE_SIDED = 0.05  # of the greatest size of a variable, below which it is not taken to go to that side
-RANGE = 10.0  # how far beyond its start values a parameter without a neutral value may go
 
 
 @dataclass
@@ -144,9 +142,9 @@ def prepare(screen: Screen, attachment: Attachment, machine: Machine) -> list[Ca
     ]
     if not names:
         return []
-    shapes = _shape_starts(screen, attachment, machine, names, point)
+    shapes = shape_starts(attachment, machine, names, point)
     amounts: dict[str, float] = {}
-    limits = _limits(shapes)
+    limits = limits_of(shapes)
     found = [_linearised(screen, attachment, machine, names, point, shape, limits, amounts) for shape in shapes]
     if not any(n in effect.neutral for n in names):
         found += [_from_believed(screen, attachment, machine, names, shape, limits) for shape in shapes]
@@ -169,41 +167,6 @@ def _bound_parameters(machine: Machine, attachment: Attachment) -> set[str]:
     """Parameters of the effect that the amended model ties to parameters of the believed one."""
     settable = machine.model.parameters
     return {p.name for p in attachment.effect.parameters if attachment.full_name(p.name) not in settable}
-
-
-def _shape_starts(
-    screen: Screen, attachment: Attachment, machine: Machine, names: list[str], point: dict[str, float]
-) -> list[dict[str, float]]:
-    """Combinations of start values of the parameters that have no neutral value, by full name."""
-    effect = attachment.effect
-    shape = [n for n in names if n not in effect.neutral and n not in effect.polar]
-    shape += [n for n in effect.fixed if n in effect.starts]
-    lists = []
-    for name in shape:
-        starts = effect.starts.get(name, [effect.parameter(name).default])
-        if name in effect.relative:
-            variable = effect.relative[name]
-            high, low = _reached(screen, machine, f"{attachment.component}.{variable}", point)
-            side = (high, low) if effect.two_sided(variable) else (0.0, 0.0)
-            starts = [s * _size(side[s < 0], max(high, low)) for s in starts]
-        lists.append([(attachment.full_name(name), s) for s in starts])
-    return [dict(combination) for combination in product(*lists)]
-
-
-def _reached(screen: Screen, machine: Machine, variable: str, point: dict[str, float]) -> tuple[float, float]:
-    """How far a variable goes to either side of zero: as recorded, where it is, or else as simulated."""
-    column = machine.recorded(variable)
-    high = low = 0.0
-    for recording in machine.case.fit:
-        simulated = None if column else machine.trajectory(point, recording, [variable])[variable]
-        course = recording.columns[column] if column else simulated
-        high, low = max(high, float(np.nanmax(course))), max(low, -float(np.nanmin(course)))
-    return high, low
-
-
-def _size(side: float, largest: float) -> float:
-    """How far a variable goes to one side; the greatest of both where it hardly goes there, or where none is asked."""
-    return (side if side > ONE_SIDED * largest else largest) or 1.0
 
 
 def _from_believed(
@@ -294,17 +257,6 @@ def _response(
             break
         amount *= min(max(target / size, 1e-4), 1e4) if size > 0 else 1e4
     return best
-
-
-def _limits(shapes: list[dict[str, float]]) -> dict[str, tuple[float, float]]:
-    """Bounds of the parameters without a neutral value: the range of their starts, widened on a logarithmic scale."""
-    limits = {}
-    for name in shapes[0]:
-        values = [s[name] for s in shapes]
-        sizes = [abs(v) for v in values]
-        low, high = min(sizes) / RANGE, max(sizes) * RANGE or math.inf
-        limits[name] = (low, high) if values[0] > 0 else (-high, -low)
-    return limits
 
 
 def _free(

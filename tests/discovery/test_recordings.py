@@ -164,9 +164,7 @@ def test_a_machine_faster_than_believed_shifts_no_column(
     order = iter([s.column for s in case.outputs])
     monkeypatch.setattr(semantic_check, "_lag", lambda *signals: lags[next(order)])
     monkeypatch.setattr(semantic_check, "_agrees", lambda *signals: True)
-    recording = case.fit[0]
-    simulated = machine.simulate(case.parameters, recording)
-    found = semantic_check._shifts(machine, recording, simulated)
+    found = semantic_check._shifts(machine, case.fit[0], machine.simulate(case.parameters, case.fit[0]))
     assert [p.column for p in found] == (["theta"] if suspected else [])
 
 

@@ -1,0 +1,64 @@
+"""Shapes: where the parameters of an effect that have no neutral value start, and how far they may go.
+
+The place of a stop, a Stribeck speed, a time constant: the catalogue lists values, in units of what a variable reaches.
+"""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+
+from .amend import Attachment
+from .machine import Machine
+
+ONE_SIDED = 0.05  # of the greatest size of a variable, below which it is not taken to go to that side
+RANGE = 10.0  # how far beyond its start values a parameter without a neutral value may go
+
+
+def shape_starts(
+    attachment: Attachment, machine: Machine, names: list[str], point: dict[str, float]
+) -> list[dict[str, float]]:
+    """Combinations of start values of the parameters that have no neutral value, by full name."""
+    effect = attachment.effect
+    shape = [n for n in names if n not in effect.neutral and n not in effect.polar]
+    shape += [n for n in effect.fixed if n in effect.starts]
+    lists = []
+    for name in shape:
+        starts = effect.starts.get(name, [effect.parameter(name).default])
+        if name in effect.relative:
+            variable = effect.relative[name]
+            high, low = _reached(machine, f"{attachment.component}.{variable}", point)
+            side = (high, low) if effect.two_sided(variable) else (0.0, 0.0)
+            starts = [s * _size(side[s < 0], max(high, low)) for s in starts]
+        lists.append([(attachment.full_name(name), s) for s in starts])
+    return [dict(combination) for combination in product(*lists)]
+
+
+def _reached(machine: Machine, variable: str, point: dict[str, float]) -> tuple[float, float]:
+    """How far a variable goes to either side of zero: as recorded, where it is, or else as simulated."""
+    column = machine.recorded(variable)
+    high = low = 0.0
+    for recording in machine.case.fit:
+        simulated = None if column else machine.trajectory(point, recording, [variable])[variable]
+        course = recording.columns[column] if column else simulated
+        high, low = max(high, float(np.nanmax(course))), max(low, -float(np.nanmin(course)))
+    return high, low
+
+
+def _size(side: float, largest: float) -> float:
+    """How far a variable goes to one side; the greatest of both where it hardly goes there, or where none is asked."""
+    return (side if side > ONE_SIDED * largest else largest) or 1.0
+
+
+def limits_of(shapes: list[dict[str, float]]) -> dict[str, tuple[float, float]]:
+    """Bounds of the parameters without a neutral value: the range of their starts, widened on a logarithmic scale; none
+    where they start at zero."""
+    limits = {}
+    for name in shapes[0]:
+        values = [s[name] for s in shapes]
+        sizes = [abs(v) for v in values]
+        low, high = min(sizes) / RANGE, max(sizes) * RANGE
+        if high:
+            limits[name] = (low, high) if values[0] > 0 else (-high, -low)
+    return limits
