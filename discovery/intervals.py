@@ -5,7 +5,8 @@ error of a signal whose resolution is coarser than its noise is rounding, which 
 by the same value again; so the fitted outputs are rounded, the levels anywhere, and the variance that this gives the
 score counts where it is the larger. Where events make the sum of squares rough, sensitivities are taken with the
 shafts held near their recorded motion, and what the values move by when they are released is an error too: no
-derivative at the end of such a fit says how far it may be from the best one. So is what the solver's error moves.
+derivative at the end of such a fit says how far it may be from the best one. So is what the solver's error moves, and
+what the digits that are not written of recorded inputs may have moved.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import numpy as np
 from .fit import Fit
 from .lead import Lead
 from .noise import is_coarse, sample_weights
-from .secants import solver_shift, with_secants
+from .secants import input_shift, solver_shift, with_secants
 
 ROUNDINGS = 32  # places of the levels, over which rounding is averaged
 
@@ -24,7 +25,7 @@ def standard_errors(fit: Fit, lead: Lead | None = None) -> dict[str, float]:
     """1-sigma of each free parameter (in its unit; 0 at a bound); `lead` is how the fit was led."""
     held = with_secants(lead.hold_fast(fit) if lead else fit)
     moved = held.estimate.values - fit.estimate.values
-    variance = np.diag(covariance(held)) + moved**2 + solver_shift(held) ** 2
+    variance = np.diag(covariance(held)) + moved**2 + solver_shift(held) ** 2 + input_shift(held) ** 2
     return {
         f.name: 0.0 if fit.estimate.at_bound(f.name) else float(np.sqrt(max(v, 0.0)))
         for f, v in zip(fit.estimate.free, variance, strict=True)

@@ -14,6 +14,7 @@ import numpy as np
 
 _THIRD = np.array([1.0, -3.0, 3.0, -1.0])
 _MAD_TO_SIGMA = 1.4826
+MANY, DIGITS, FINE = 100, 9, 1e-6  # values of a column, digits, and share of the range, for a last digit to matter
 PARTS = 8  # steps that the least difference may have: of a shaft that turns on, no two angles need be neighbours
 
 
@@ -72,6 +73,19 @@ def estimate(pieces: list[np.ndarray], given: float | None = None) -> Noise:
         return Noise(max(given, floor * 0.99), step, True)
     spread = float(np.nanstd(np.concatenate(pieces)))
     return Noise(max(level(pieces), floor, 1e-9 * spread, 1e-300), step, False)
+
+
+def last_digit(pieces: list[np.ndarray]) -> float:
+    """The place of the last digit that a column is written with, of all its recordings, as a power of ten.
+
+    0 where no power of ten divides all values or it is negligible, and for a column of few values: these are exact.
+    """
+    values = np.unique(np.concatenate([p[np.isfinite(p)] for p in pieces]))
+    if len(values) < MANY:
+        return 0.0
+    scaled = ((d, values * 10.0**d) for d in range(-DIGITS, DIGITS + 1))
+    place = next((10.0**-d for d, v in scaled if np.ptp(v) > 1.0 and np.all(np.abs(v - np.round(v)) < 1e-3)), 0.0)
+    return place if place > FINE * np.ptp(values) else 0.0
 
 
 def is_coarse(noise: Noise) -> bool:

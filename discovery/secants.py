@@ -1,4 +1,5 @@
-"""The ground around the end of a fit: sensitivities over a standard error, and what the solver's own error moves.
+"""The ground around the end of a fit: sensitivities over a standard error, and what the solver's own error and the
+rounding of recorded inputs move.
 
 The differences that lead a fit are taken over short steps, and carry the noise of events and of the solver's steps.
 Along parameters that the data tells only together that noise is most of what they say, and would pass for information.
@@ -12,13 +13,16 @@ from dataclasses import replace
 
 import numpy as np
 
+from .cases import Recording
 from .fit import Fit
 from .least_squares import Estimate, Problem, clipped
 from .machine import Machine
+from .noise import last_digit
 from .objective import Objective
 
 ROUNDS = 2  # of differences: the axes of the first are those of the noisy ones
 FINE = 0.01  # of the solver's tolerance, with which its error is measured
+DRAWS = 16  # of the digits of inputs that are not written
 UNSEEN = 1e-14  # of the largest eigenvalue of the normal equations, below which nothing is known of an axis
 
 
@@ -73,11 +77,34 @@ def _axes(estimate: Estimate) -> np.ndarray:
 
 def solver_shift(found: Fit) -> np.ndarray:
     """How far (p,), to first order, a finer tolerance of the solver would move the values; 0 where it does not run."""
-    estimate, machine = found.estimate, found.machine
+    machine = found.machine
     finer = Machine(machine.case, machine.amendment, machine.solver, source=machine.path, rtol=FINE * machine.rtol)
-    (coarse, here), (fine, there) = _around(found, machine), _around(found, finer)
-    if coarse is None or fine is None or not estimate.jacobian:
-        return np.zeros(len(estimate.free))
-    load = sum(b.T @ (f - c) for b, c, f in zip(estimate.jacobian, here, there, strict=True))
-    axes = _axes(estimate)
-    return -axes @ (axes.T @ load) * np.array([f.scale for f in estimate.free])
+    return _shifts(found, [finer])[0]
+
+
+def input_shift(found: Fit) -> np.ndarray:
+    """How far (p,), RMS to first order, the digits that are not written of the inputs may move the values."""
+    case, random = found.machine.case, np.random.default_rng(0)
+    digits = {s.column: s.scale * last_digit([r.columns[s.column] / s.scale for r in case.fit]) for s in case.inputs}
+
+    def other_digits(recording: Recording) -> Recording:
+        count = len(recording.time)
+        other = {c: recording.columns[c] + d * random.uniform(-0.5, 0.5, count) for c, d in digits.items() if d}
+        return replace(recording, columns=recording.columns | other)
+
+    if not any(digits.values()):
+        return np.zeros(len(found.estimate.free))
+    drawn = [replace(case, fit=[other_digits(r) for r in case.fit]) for _ in range(DRAWS)]
+    machines = [found.machine.amended(found.machine.amendment, c) for c in drawn]
+    return np.sqrt(np.mean(_shifts(found, machines) ** 2, axis=0))
+
+
+def _shifts(found: Fit, machines: list[Machine]) -> np.ndarray:
+    """How far (m, p), to first order, each of these machines would move the values; 0 where one does not run."""
+    estimate, here = found.estimate, _around(found, found.machine)[1]
+    outputs = [_around(found, machine)[1] for machine in machines]
+    if not here or not all(outputs) or not estimate.jacobian:
+        return np.zeros((len(machines), len(estimate.free)))
+    loads = [sum(b.T @ (t - h) for b, h, t in zip(estimate.jacobian, here, there, strict=True)) for there in outputs]
+    axes, scales = _axes(estimate), np.array([f.scale for f in estimate.free])
+    return -(np.array(loads) @ axes @ axes.T) * scales

@@ -1,13 +1,24 @@
 """Standard errors against the scatter of estimates from data that are made many times."""
 
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from codegen.library import Library
+from discovery.amend import Amendment
+from discovery.cases import load
+from discovery.fit import fit
 from discovery.intervals import covariance
 from discovery.least_squares import Free, Problem, solve
-from discovery.noise import Noise, sample_weights
+from discovery.machine import Machine
+from discovery.noise import Noise, last_digit, sample_weights
+from discovery.places import read
+from discovery.secants import input_shift
+from discovery.steps import fit_believed
+
+from .conftest import BELIEVED, write_case
 
 CYCLE = 9.3 * (1.0 + np.sin(2 * np.pi * np.arange(20) / 20))
 PERIODIC = np.tile(CYCLE, 30)  # the same angles, and their rounding, again and again
@@ -26,6 +37,32 @@ def fitted(measured: np.ndarray, shape: np.ndarray, noise: Noise) -> SimpleNames
         residuals={"r": residual}, correlation=lambda: {"angle": 1.0},
         machine=SimpleNamespace(case=SimpleNamespace(fit=[SimpleNamespace(name="r", columns={"angle": measured})])),
     )  # fmt: skip
+
+
+def test_the_last_digit_of_a_column_is_that_of_its_recordings_together() -> None:
+    fine, coarse = np.round(np.sin(np.arange(500.0)), 5), np.tile([0.0, 0.04, -0.04], 100)
+    assert last_digit([coarse, fine]) == pytest.approx(1e-5)
+    assert last_digit([coarse]) == 0.0  # a command of few levels is given exactly
+    assert last_digit([fine * np.pi]) == 0.0 and last_digit([np.round(np.sin(np.arange(500.0)), 8)]) == 0.0
+
+
+def test_digits_of_an_input_that_are_not_written_widen_the_intervals(tmp_path: Path) -> None:
+    """The scatter of estimates over the digits that a voltage may have had is what the intervals allow for."""
+    case = load(write_case(tmp_path, "Benches.DcServo", BELIEVED))
+    exact = [r.columns["u"] for r in case.fit]
+    for recording, u in zip(case.fit, exact, strict=True):
+        recording.columns["u"] = np.round(u, 2)
+    found, _ = fit_believed(case, Machine(case, Amendment(read(Library(), case.model))))
+    said = input_shift(found)
+    moved, random = [], np.random.default_rng(7)
+    for _ in range(12):
+        for recording, u in zip(case.fit, exact, strict=True):
+            recording.columns["u"] = np.round(u + random.uniform(-0.005, 0.005, len(u)), 2)
+        machine = Machine(case, found.machine.amendment)
+        again = fit(machine, case.fit, found.noise, found.estimate.free, found.fixed, start=found.point)
+        moved.append(again.estimate.values)
+    scatter = np.std(moved, axis=0)
+    assert np.all(said > 0.5 * scatter) and np.all(said < 2.0 * scatter)
 
 
 @pytest.mark.parametrize(("shape", "repeats"), [(UNSTEADY, False), (PERIODIC, True)], ids=["unsteady", "periodic"])
