@@ -75,13 +75,18 @@ def estimate(pieces: list[np.ndarray], given: float | None = None) -> Noise:
     return Noise(max(level(pieces), floor, 1e-9 * spread, 1e-300), step, False)
 
 
+def of_few_levels(values: np.ndarray) -> bool:
+    """Whether a column takes so few values that they are taken to be exact: a command that stands and jumps."""
+    return len(np.unique(values[np.isfinite(values)])) < MANY
+
+
 def last_digit(pieces: list[np.ndarray]) -> float:
     """The place of the last digit that a column is written with, of all its recordings, as a power of ten.
 
-    0 where no power of ten divides all values or it is negligible, and for a column of few values: these are exact.
+    0 where no power of ten divides all values or it is negligible, and for a column of few levels.
     """
     values = np.unique(np.concatenate([p[np.isfinite(p)] for p in pieces]))
-    if len(values) < MANY:
+    if of_few_levels(values):
         return 0.0
     scaled = ((d, values * 10.0**d) for d in range(-DIGITS, DIGITS + 1))
     place = next((10.0**-d for d, v in scaled if np.ptp(v) > 1.0 and np.all(np.abs(v - np.round(v)) < 1e-3)), 0.0)

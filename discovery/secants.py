@@ -17,7 +17,7 @@ from .cases import Recording
 from .fit import Fit
 from .least_squares import Estimate, Problem, clipped
 from .machine import Machine
-from .noise import last_digit
+from .noise import last_digit, of_few_levels
 from .objective import Objective
 
 ROUNDS = 2  # of differences: the axes of the first are those of the noisy ones
@@ -88,8 +88,8 @@ def input_shift(found: Fit) -> np.ndarray:
     digits = {s.column: s.scale * last_digit([r.columns[s.column] / s.scale for r in case.fit]) for s in case.inputs}
 
     def other_digits(recording: Recording) -> Recording:
-        count = len(recording.time)
-        other = {c: recording.columns[c] + d * random.uniform(-0.5, 0.5, count) for c, d in digits.items() if d}
+        written = {c: recording.columns[c] for c, d in digits.items() if d and not of_few_levels(recording.columns[c])}
+        other = {c: v + digits[c] * random.uniform(-0.5, 0.5, len(v)) for c, v in written.items()}
         return replace(recording, columns=recording.columns | other)
 
     if not any(digits.values()):
