@@ -86,14 +86,17 @@ def input_shift(found: Fit) -> np.ndarray:
     """How far (p,), RMS to first order, the digits that are not written of the inputs may move the values."""
     case, random = found.machine.case, np.random.default_rng(0)
     digits = {s.column: s.scale * last_digit([r.columns[s.column] / s.scale for r in case.fit]) for s in case.inputs}
-
-    def other_digits(recording: Recording) -> Recording:
-        written = {c: recording.columns[c] for c, d in digits.items() if d and not of_few_levels(recording.columns[c])}
-        other = {c: v + digits[c] * random.uniform(-0.5, 0.5, len(v)) for c, v in written.items()}
-        return replace(recording, columns=recording.columns | other)
-
     if not any(digits.values()):
         return np.zeros(len(found.estimate.free))
+    open_ended = {
+        r.name: [c for c, d in digits.items() if d and not of_few_levels(r.columns[c])] for r in case.fit
+    }  # fmt: skip
+
+    def other_digits(recording: Recording) -> Recording:
+        count, columns = len(recording.time), recording.columns
+        other = {c: columns[c] + digits[c] * random.uniform(-0.5, 0.5, count) for c in open_ended[recording.name]}
+        return replace(recording, columns=columns | other)
+
     drawn = [replace(case, fit=[other_digits(r) for r in case.fit]) for _ in range(DRAWS)]
     machines = [found.machine.amended(found.machine.amendment, c) for c in drawn]
     return np.sqrt(np.mean(_shifts(found, machines) ** 2, axis=0))

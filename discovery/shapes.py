@@ -23,27 +23,32 @@ def shape_starts(
     effect = attachment.effect
     shape = [n for n in names if n not in effect.neutral and n not in effect.polar]
     shape += [n for n in effect.fixed if n in effect.starts]
+    units = {effect.relative[name] for name in shape if name in effect.relative}
+    reached = _reached(machine, {u: f"{attachment.component}.{u}" for u in units}, point)
     lists = []
     for name in shape:
         starts = effect.starts.get(name, [effect.parameter(name).default])
         if name in effect.relative:
-            variable = effect.relative[name]
-            high, low = _reached(machine, f"{attachment.component}.{variable}", point)
-            side = (high, low) if effect.two_sided(variable) else (0.0, 0.0)
-            starts = [s * _size(side[s < 0], max(high, low)) for s in starts]
+            unit = effect.relative[name]
+            side = reached[unit] if effect.two_sided(unit) else (0.0, 0.0)
+            starts = [s * _size(side[s < 0], max(reached[unit])) for s in starts]
         lists.append([(attachment.full_name(name), s) for s in starts])
     return [dict(combination) for combination in product(*lists)]
 
 
-def _reached(machine: Machine, variable: str, point: dict[str, float]) -> tuple[float, float]:
-    """How far a variable goes to either side of zero: as recorded, where it is, or else as simulated."""
-    column = machine.recorded(variable)
-    high = low = 0.0
+def _reached(
+    machine: Machine, variables: dict[str, str], point: dict[str, float]
+) -> dict[str, tuple[float, float]]:  # fmt: skip
+    """How far each variable goes above and below zero: as recorded, where it is, or else as simulated."""
+    columns = {key: machine.recorded(variable) for key, variable in variables.items()}
+    unseen = [variable for key, variable in variables.items() if not columns[key]]
+    result = dict.fromkeys(variables, (0.0, 0.0))
     for recording in machine.case.fit:
-        simulated = None if column else machine.trajectory(point, recording, [variable])[variable]
-        course = recording.columns[column] if column else simulated
-        high, low = max(high, float(np.nanmax(course))), max(low, -float(np.nanmin(course)))
-    return high, low
+        simulated = machine.trajectory(point, recording, unseen) if unseen else {}
+        for key, (high, low) in result.items():
+            course = recording.columns[columns[key]] if columns[key] else simulated[variables[key]]
+            result[key] = max(high, float(np.nanmax(course))), max(low, -float(np.nanmin(course)))
+    return result
 
 
 def _size(side: float, largest: float) -> float:

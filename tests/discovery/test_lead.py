@@ -11,7 +11,7 @@ from codegen.library import Library
 from discovery import lead as leading
 from discovery.amend import Amendment
 from discovery.cases import Case, load
-from discovery.fit import FALLING, believed, falling_bandwidths, fit, noise_of
+from discovery.fit import FALLING, believed, falling_bandwidths, fit, linearised, noise_of
 from discovery.lead import BELIEVABLE, HELD, SHARES, Lead
 from discovery.machine import Machine
 from discovery.name import screen_all
@@ -50,18 +50,19 @@ def test_the_periods_of_a_strong_cogging_show_where_the_shaft_is_held_stiffly(
 def test_parameters_stay_near_belief_while_a_shaft_is_held(cogging_case: Path) -> None:
     """A machine that says nothing follows its held shaft best: what is missing would end in absurd parameters."""
     case = load(cogging_case)
-    shafts = trackable(case, Machine(case, Amendment(read(Library(), case.model))).model, read(Library(), case.model))
-    machine = Machine(case, Amendment(read(Library(), case.model), trackers=shafts[:1]))
+    structure = read(Library(), case.model)
+    shafts = trackable(case, Machine(case, Amendment(structure)).model, structure)[:1]
+    machine = Machine(case, Amendment(structure, trackers=shafts))
     free, fixed = believed(case, machine)
-    base = fit(machine, case.fit, noise_of(case), free, fixed, stages=1, iterations=0)
-    far = {f.name: f.centre + 12 * f.sigma for f in free if f.name == "R"}
-    elsewhere = fit(machine, case.fit, noise_of(case), free, fixed, start=base.point | far, stages=1, iterations=0)
+    own = next(f for f in free if f.name == "R")
+    base = linearised(machine, case.fit, noise_of(case), free, fixed, {})
+    far = base.point | {"R": own.centre + 12 * own.sigma}
+    elsewhere = linearised(machine, case.fit, noise_of(case), free, fixed, far)
     for fitted, reach in ((base, BELIEVABLE), (elsewhere, 12.0)):  # a fit that has left belief may stay where it is
-        held = Lead(falling_bandwidths(case, machine)).hold(fitted).estimate.free
-        bounds = {f.name: (f.lower, f.upper) for f in held}["R"]
-        believed_r = next(f for f in free if f.name == "R")
-        assert bounds[1] == pytest.approx(believed_r.centre + reach * believed_r.sigma)
-        assert bounds[0] == pytest.approx(max(believed_r.centre - reach * believed_r.sigma, believed_r.lower))
+        free_held = Lead(falling_bandwidths(case, machine)).hold(fitted).estimate.free
+        held = next(f for f in free_held if f.name == "R")
+        assert held.upper == pytest.approx(own.centre + reach * own.sigma)
+        assert held.lower == pytest.approx(max(own.centre - reach * own.sigma, own.lower))
 
 
 @pytest.mark.parametrize(
