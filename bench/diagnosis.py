@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 import os
 from pathlib import Path
 import time
@@ -11,6 +13,7 @@ import numpy as np
 from bench.generated import ROOT
 from discovery import cases
 from discovery.explain import explain
+from runtime import Session
 
 GOAL = 60.0  # s, median on two cores
 
@@ -28,7 +31,28 @@ def split(rounds: int) -> list[dict[str, object]]:
 
 def _row(folder: Path) -> dict[str, object]:
     begin = time.perf_counter()
-    result = explain(cases.load(folder))
+    with _simulating() as simulated:
+        result = explain(cases.load(folder))
     seconds = time.perf_counter() - begin
     parts = {step: result.seconds.get(step, 0.0) for step in ("fit", "locate", "name")}
+    parts["simulate (processor)"] = sum(simulated)
     return {"case": folder.name, "verdict": result.verdict, **parts, "in all": seconds, "goal": None}
+
+
+@contextmanager
+def _simulating() -> Iterator[list[float]]:
+    """Processor time of each simulation meanwhile, s, whichever thread it runs in."""
+    run, seconds = Session.run, []
+
+    def timed(session: Session, *arguments, **options):
+        begin = time.thread_time()
+        try:
+            return run(session, *arguments, **options)
+        finally:
+            seconds.append(time.thread_time() - begin)
+
+    Session.run = timed
+    try:
+        yield seconds
+    finally:
+        Session.run = run
