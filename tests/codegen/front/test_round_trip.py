@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 import re
 
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 
 from codegen import expr as ex
 from codegen.flat_text import dump_flat
@@ -17,6 +17,7 @@ from tests.codegen.front.helpers import flatten_text
 @given(EXPRESSIONS)
 def test_an_expression_survives_printing_and_parsing(tmp_path: Path, e: ex.Expr) -> None:
     text = f"model M Real a, b, c, y; equation y = {ex.to_text(e)}; end M;"
+    assume(not re.search(r"/ 0\.0(?!\d)", text))  # the language refuses it
     (equation,) = flatten_text(tmp_path, text).equations
     assert equation.rhs is e, ex.to_text(e)
 
