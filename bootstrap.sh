@@ -46,7 +46,8 @@ python() {
   fi
   echo "installing Python packages into .venv"
   .venv/bin/python -m pip install --quiet --disable-pip-version-check --requirement requirements.lock
-  .venv/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
+  .venv/bin/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation \
+    --config-settings=wheel.cmake=false --editable . # `make build` compiles the libraries
   touch .venv/.installed
 }
 

@@ -11,7 +11,7 @@ import zipfile
 
 import numpy as np
 
-from analysis.errors import AnalysisError
+from lacuna.analysis.errors import AnalysisError
 
 
 @contextmanager

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from analysis.sweep import Progress
+from lacuna.analysis.map.sweep import Progress
 
 
 @contextmanager

@@ -8,12 +8,12 @@ import time
 
 from distributed import LocalCluster
 
-from analysis.campaign.points import sobol_points
-from analysis.campaign.run import run_campaign
-from analysis.campaign.work import Work, run_chunk
-from analysis.plant import ModelPlant
-from analysis.settings import load_settings
-from codegen.compile import compile_model
+from lacuna.analysis.campaign.points import sobol_points
+from lacuna.analysis.campaign.run import run_campaign
+from lacuna.analysis.campaign.work import Work, run_chunk
+from lacuna.analysis.map.plant import ModelPlant
+from lacuna.analysis.settings import load_settings
+from lacuna.codegen.compile import compile_model
 
 TESTS, CHUNK, MILLION = 192, 16, 1e6
 

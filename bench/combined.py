@@ -5,16 +5,16 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from analysis.combined.grid import build_grid, other_fault
-from analysis.combined.report import write_studies
-from analysis.combined.study import run_study
-from analysis.maps import build_map
-from analysis.plant import ModelPlant
-from analysis.preparation import TABLE_FILE, prepare_assessment
-from analysis.progress import progress_bar
-from analysis.settings import load_settings
-from analysis.severity_table import SeverityTable
-from codegen.compile import compile_model
+from lacuna.analysis.map.maps import build_map
+from lacuna.analysis.map.plant import ModelPlant
+from lacuna.analysis.progress import progress_bar
+from lacuna.analysis.settings import load_settings
+from lacuna.analysis.severity.combined.grid import build_grid, other_fault
+from lacuna.analysis.severity.combined.report import write_studies
+from lacuna.analysis.severity.combined.study import run_study
+from lacuna.analysis.severity.preparation import TABLE_FILE, prepare_assessment
+from lacuna.analysis.severity.severity_table import SeverityTable
+from lacuna.codegen.compile import compile_model
 
 
 def main() -> None:

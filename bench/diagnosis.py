@@ -11,9 +11,9 @@ import time
 import numpy as np
 
 from bench.generated import ROOT
-from discovery import cases
-from discovery.explain import explain
-from runtime import Session
+from lacuna.discovery import cases
+from lacuna.discovery.explain import explain
+from lacuna.runtime import Session
 
 GOAL = 60.0  # s, median on two cores
 

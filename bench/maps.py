@@ -7,10 +7,10 @@ from pathlib import Path
 import tempfile
 import time
 
-from analysis.maps import build_map
-from analysis.plant import ModelPlant
-from analysis.settings import Settings, load_settings
-from codegen.compile import compile_model
+from lacuna.analysis.map.maps import build_map
+from lacuna.analysis.map.plant import ModelPlant
+from lacuna.analysis.settings import Settings, load_settings
+from lacuna.codegen.compile import compile_model
 
 GOAL = 5.0  # s on two cores: simulation and analysis of the whole map, after set-up
 

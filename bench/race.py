@@ -10,8 +10,8 @@ import numpy as np
 from bench.by_hand import T1, T2, Problem, with_ida, with_rk4
 from bench.generated import ATOL, LANES, RTOL, Lane, error_against, model_file
 from bench.timing import take_turns
-from codegen.compile import compile_model
-import runtime
+from lacuna import runtime
+from lacuna.codegen.compile import compile_model
 
 BASELINE = "by hand, IDA"
 REFERENCE_STEP = {T1: 5e-6, T2: 1e-6}  # s; halving it changes the states by less than 2e-8

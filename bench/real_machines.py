@@ -12,10 +12,10 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-from codegen.library import Library
-from discovery import cases, diagnosis, report
-from discovery.cases import Case, Recording
-from discovery.explain import Explanation, explain, write_amended
+from lacuna.codegen.library import Library
+from lacuna.discovery import cases, diagnosis, report
+from lacuna.discovery.cases import Case, Recording
+from lacuna.discovery.explain import Explanation, explain, write_amended
 
 ROOT = Path(__file__).parents[1]
 PAGE = ROOT / "docs" / "real-machines.md"

@@ -5,15 +5,15 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from analysis.maps import build_map
-from analysis.plant import ModelPlant
-from analysis.preparation import prepare_assessment
-from analysis.prepared import Prepared
-from analysis.progress import progress_bar
-from analysis.robustness import run_tests
-from analysis.robustness_report import write_study
-from analysis.settings import load_settings
-from codegen.compile import compile_model
+from lacuna.analysis.map.maps import build_map
+from lacuna.analysis.map.plant import ModelPlant
+from lacuna.analysis.progress import progress_bar
+from lacuna.analysis.report.robustness import write_study
+from lacuna.analysis.settings import load_settings
+from lacuna.analysis.severity.preparation import prepare_assessment
+from lacuna.analysis.severity.prepared import Prepared
+from lacuna.analysis.severity.robustness import run_tests
+from lacuna.codegen.compile import compile_model
 
 STRANGERS = 128  # tests of each actuator that is not the map's
 

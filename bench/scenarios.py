@@ -8,8 +8,8 @@ import numpy as np
 
 from bench.generated import ATOL, LANES, RTOL, Lane, error_against
 from bench.timing import take_turns
-from codegen.compile import compile_model
-import runtime
+from lacuna import runtime
+from lacuna.codegen.compile import compile_model
 
 # Model, seconds simulated. The step saturates the drive, the slow sine sticks and slips, the reversal crosses the play.
 SCENARIOS = {

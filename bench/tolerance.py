@@ -15,10 +15,10 @@ import time
 
 import numpy as np
 
-from analysis.chain import Chain
-from analysis.settings import Settings, load_settings
-from codegen.compile import compile_model
-import runtime
+from lacuna import runtime
+from lacuna.analysis.settings import Settings, load_settings
+from lacuna.analysis.spectra.chain import Chain
+from lacuna.codegen.compile import compile_model
 
 ROOT = Path(__file__).parents[1]
 ALLOWED = 1e-5  # relative deviation of a phase RMS: 3 microampere in 300 mA, a thousandth of the smallest band's rise

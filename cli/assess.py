@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from cli.errors import reported
+from lacuna.cli.errors import reported
 
 
 @reported
@@ -27,9 +27,9 @@ def assess(
     A recording that the map does not cover (too short, saturated, swapped phases, another command or actuator) is
     refused with the reason. Writes assessment.json and a figure of the features on the map.
     """
-    from analysis.assessment import assess as assessed
-    from analysis.combined.assessment import assess_both
-    from analysis.combined.grid import GRID_FILE
+    from lacuna.analysis.severity.assessment import assess as assessed
+    from lacuna.analysis.severity.combined.assessment import assess_both
+    from lacuna.analysis.severity.combined.grid import GRID_FILE
 
     folder = out or Path("out/assess") / recording.stem
     read = assess_both if (map / GRID_FILE).exists() else assessed

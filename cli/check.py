@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import typer
 
-from cli.errors import reported
-from cli.options import Model, Units
+from lacuna.cli.errors import reported
+from lacuna.cli.options import Model, Units
 
 
 @reported
 def check(model: Model, units: Units = "error") -> None:
     """Parse, resolve, flatten and check the units of MODEL; print every finding with file, line and a hint."""
-    from codegen.flatten import flatten
-    from codegen.library import Library
+    from lacuna.codegen.flatten import flatten
+    from lacuna.codegen.library import Library
 
     flat = flatten(Library(), model, units=units)
     for warning in flat.warnings:

@@ -9,14 +9,14 @@ from rich.console import Console
 from rich.table import Table
 import typer
 
-from cli.errors import UserError, nearest, reported
-from cli.options import MODEL_HELP, Assignments, assignments, default_folder, number
-from cli.output import console
+from lacuna.cli.errors import UserError, nearest, reported
+from lacuna.cli.options import MODEL_HELP, Assignments, assignments, default_folder, number
+from lacuna.cli.output import console
 
 if TYPE_CHECKING:
-    from analysis.comparison.scenarios import Scenario
-    from analysis.comparison.study import Study
-    import runtime
+    from lacuna import runtime
+    from lacuna.analysis.comparison.scenarios import Scenario
+    from lacuna.analysis.comparison.study import Study
 
 OWN_REFERENCE = 1e-10  # relative tolerance of the reference run of a user's model; tighter may be below its rounding
 
@@ -43,8 +43,8 @@ def compare(
             raise UserError("--against needs a MODEL to compare the file with")
         _with_file(model, against, tolerance, parameter)
         return
-    from analysis.comparison.compare import compare_lanes
-    from analysis.comparison.report import findings
+    from lacuna.analysis.comparison.compare import compare_lanes
+    from lacuna.analysis.comparison.report import findings
 
     chosen = [_own(model, step, stop, parameter)] if model else _chosen(scenarios, only)
     folder = out or (default_folder("compare", model) if model else Path("out/compare"))
@@ -58,14 +58,14 @@ def compare(
 
 
 def _compiled(name: str) -> runtime.Model:
-    from codegen.compile import compile_model
-    from runtime import Model
+    from lacuna.codegen.compile import compile_model
+    from lacuna.runtime import Model
 
     return Model(compile_model(name).path)
 
 
 def _chosen(file: Path | None, names: list[str] | None) -> list[Scenario]:
-    from analysis.comparison.scenarios import DEFAULT_FILE, load
+    from lacuna.analysis.comparison.scenarios import DEFAULT_FILE, load
 
     known = {scenario.name: scenario for scenario in load(file or DEFAULT_FILE)}
     for name in names or []:
@@ -76,7 +76,7 @@ def _chosen(file: Path | None, names: list[str] | None) -> list[Scenario]:
 
 def _own(model: str, steps: list[float] | None, stop: float | None, parameter: list[str] | None) -> Scenario:
     """MODEL as a scenario: its experiment, its states in the overlay, steps from the output interval downwards."""
-    from analysis.comparison.scenarios import Scenario
+    from lacuna.analysis.comparison.scenarios import Scenario
 
     loaded = _compiled(model)
     end = stop or loaded.stop_time
@@ -88,7 +88,7 @@ def _own(model: str, steps: list[float] | None, stop: float | None, parameter: l
 
 
 def _lanes(study: Study) -> Table:
-    from analysis.comparison.report import order_text
+    from lacuna.analysis.comparison.report import order_text
 
     table = Table(title=f"{study.scenario.name}: {study.scenario.title}", title_justify="left")
     table.add_column("solver")
@@ -105,8 +105,8 @@ def _lanes(study: Study) -> Table:
 
 
 def _with_file(model: str, file: Path, tolerance: float, parameter: list[str] | None) -> None:
-    from analysis.comparison.compare import compare_with_file, read_columns
-    import runtime
+    from lacuna import runtime
+    from lacuna.analysis.comparison.compare import compare_with_file, read_columns
 
     loaded = _compiled(model)
     time, columns = read_columns(file)

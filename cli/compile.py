@@ -7,9 +7,9 @@ from typing import Annotated, Literal
 from rich.table import Table
 import typer
 
-from cli.errors import reported
-from cli.options import Model, Units
-from cli.output import console
+from lacuna.cli.errors import reported
+from lacuna.cli.options import Model, Units
+from lacuna.cli.output import console
 
 Dump = Annotated[
     Literal["flat", "structure", "c"] | None,
@@ -23,7 +23,7 @@ def compile(model: Model, dump: Dump = None, units: Units = "error") -> None:
 
     A model whose files are unchanged is neither translated nor compiled again.
     """
-    from codegen.compile import compile_model
+    from lacuna.codegen.compile import compile_model
 
     if dump:
         typer.echo(_dumped(model, dump, units), nl=False)
@@ -40,11 +40,11 @@ def compile(model: Model, dump: Dump = None, units: Units = "error") -> None:
 
 def _dumped(model: str, dump: str, units: str) -> str:
     """The flat model needs the front end alone, so it can be looked at where later passes refuse it."""
-    from codegen.compile import translate
-    from codegen.flat_text import dump_flat
-    from codegen.flatten import flatten
-    from codegen.library import Library
-    from codegen.report import dump as dumped
+    from lacuna.codegen.compile import translate
+    from lacuna.codegen.flat.text import dump_flat
+    from lacuna.codegen.flatten import flatten
+    from lacuna.codegen.library import Library
+    from lacuna.codegen.report import dump as dumped
 
     if dump == "flat":
         return dump_flat(flatten(Library(), model, units=units))

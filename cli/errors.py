@@ -43,7 +43,7 @@ def is_user_error(error: Exception) -> bool:
 
 
 def _is_diagnostic(error: Exception) -> bool:
-    module = sys.modules.get("codegen.errors")
+    module = sys.modules.get("lacuna.codegen.errors")
     return module is not None and isinstance(error, module.Diagnostic)
 
 
@@ -56,6 +56,6 @@ def message_of(error: Exception) -> str:
 
 def nearest(name: str, valid: Iterable[str]) -> str:
     """The end of a refusal of `name`: the valid names that may be meant, or else some that there are."""
-    from runtime.errors import suggestion
+    from lacuna.runtime.errors import suggestion
 
     return suggestion(name, valid)

@@ -8,7 +8,7 @@ from typing import Annotated
 from rich.console import Console
 import typer
 
-from cli.errors import reported
+from lacuna.cli.errors import reported
 
 
 @reported
@@ -25,10 +25,10 @@ def explain(
     judges it on recordings that nothing was fitted to. Writes diagnosis.json, report.html and, where there is one, the
     amended model; prints the verdict. After an interruption, the same call takes up the fits that were finished.
     """
-    from discovery import cases, diagnosis, report
-    from discovery.explain import explain as explained
-    from discovery.explain import judge_written, write_amended
-    from discovery.store import kept
+    from lacuna.discovery import cases, diagnosis, report
+    from lacuna.discovery.explain import explain as explained
+    from lacuna.discovery.explain import judge_written, write_amended
+    from lacuna.discovery.store import kept
 
     loaded = cases.load(case)
     folder = out or Path("out/explain") / case.resolve().name

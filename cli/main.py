@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from cli import assess, check, compare, compile, explain, maps, simulate, steps, sweep
+from lacuna.cli import assess, check, compare, compile, explain, maps, simulate, steps, sweep
 
 app = typer.Typer(
     name="lacuna",

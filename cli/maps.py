@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Annotated
 from rich.table import Table
 import typer
 
-from cli.errors import reported
-from cli.output import console
+from lacuna.cli.errors import reported
+from lacuna.cli.output import console
 
 if TYPE_CHECKING:
-    from analysis.maps import Map
-    from analysis.settings import Settings
+    from lacuna.analysis.map.maps import Map
+    from lacuna.analysis.settings import Settings
 
 
 @reported
@@ -38,12 +38,12 @@ def maps(
 
     With --with friction, a map of two faults at once for `lacuna assess`, into out/maps/paper-with-friction.
     """
-    from analysis.maps import build_map
-    from analysis.plant import ModelPlant
-    from analysis.preparation import prepare_assessment
-    from analysis.progress import progress_bar
-    from analysis.settings import PAPER, load_settings
-    from codegen.compile import compile_model
+    from lacuna.analysis.map.maps import build_map
+    from lacuna.analysis.map.plant import ModelPlant
+    from lacuna.analysis.progress import progress_bar
+    from lacuna.analysis.settings import PAPER, load_settings
+    from lacuna.analysis.severity.preparation import prepare_assessment
+    from lacuna.codegen.compile import compile_model
 
     chosen = load_settings(settings or PAPER)
     if combined:
@@ -61,10 +61,10 @@ def maps(
 
 
 def _combined(settings: Settings, actuator: str | None, symbol: str, out: Path | None, jobs: int | None) -> None:
-    from analysis.combined.grid import build_grid, other_fault
-    from analysis.plant import ModelPlant
-    from analysis.progress import progress_bar
-    from codegen.compile import compile_model
+    from lacuna.analysis.map.plant import ModelPlant
+    from lacuna.analysis.progress import progress_bar
+    from lacuna.analysis.severity.combined.grid import build_grid, other_fault
+    from lacuna.codegen.compile import compile_model
 
     other = other_fault(settings, symbol)
     folder = out or Path("out/maps") / f"{settings.path.stem}-with-{symbol}"

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from cli.errors import UserError
+from lacuna.cli.errors import UserError
 
 MODEL_HELP = "Qualified name (Lacuna.Actuators.X or Actuators.X) or a .mo file"
 

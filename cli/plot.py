@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    import runtime
+    from lacuna import runtime
 
 MOST_SIGNALS = 8  # more lines than this in one panel tell a reader nothing
 

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from rich.table import Table
 import typer
 
-from cli.errors import UserError, nearest, reported
-from cli.options import Assignments, Model, Units, assignments, default_folder, number
-from cli.output import console
+from lacuna.cli.errors import UserError, nearest, reported
+from lacuna.cli.options import Assignments, Model, Units, assignments, default_folder, number
+from lacuna.cli.output import console
 
 if TYPE_CHECKING:
-    import runtime
+    from lacuna import runtime
 
 Solver = Literal["ida", "dopri5", "rodas4", "rk4", "euler"]
 Inputs = Annotated[
@@ -52,7 +52,7 @@ def simulate(
 
     [bold]Example[/bold]: lacuna simulate Actuators.EccentricBldc -p zeta=0.3 --signal rotor.w --plot
     """
-    import runtime
+    from lacuna import runtime
 
     settings = assignments(parameter)
     loaded = _compiled(model, settings, units)
@@ -67,7 +67,7 @@ def simulate(
     path = _destination(result, loaded, out or default_folder("simulate", model))
     written = [runtime.write_csv(result, path)]
     if plot:
-        from cli.plot import draw
+        from lacuna.cli.plot import draw
 
         written.append(draw(result, signal, path.with_suffix(".svg")))
     _report(result, seconds, solver, written)
@@ -77,8 +77,8 @@ def simulate(
 
 def _compiled(model: str, settings: dict[str, str], units: str) -> runtime.Model:
     """The model, translated anew where a parameter that decides its structure is among `settings`."""
-    from codegen.compile import compile_model
-    import runtime
+    from lacuna import runtime
+    from lacuna.codegen.compile import compile_model
 
     loaded = runtime.Model(compile_model(model, units=units).path)
     parameters = {name: v for name, v in loaded.variables.items() if v.kind == "parameter"}
@@ -98,7 +98,7 @@ def _destination(result: runtime.Result, model: runtime.Model, folder: Path) -> 
 
 
 def _recorded(inputs: list[str] | None, hold: bool) -> dict[str, runtime.RecordedInput]:
-    from runtime import RecordedInput, read_csv
+    from lacuna.runtime import RecordedInput, read_csv
 
     recorded = {}
     for name, text in assignments(inputs, "--input").items():

@@ -9,11 +9,11 @@ from rich.console import Console
 from rich.table import Table
 import typer
 
-from cli.errors import UserError, reported
-from cli.output import console
+from lacuna.cli.errors import UserError, reported
+from lacuna.cli.output import console
 
 if TYPE_CHECKING:
-    from discovery.explanation import Explanation
+    from lacuna.discovery.explanation import Explanation
 
 Case = Annotated[Path, typer.Argument(metavar="CASE", help="Folder with case.toml and its recordings")]
 Out = Annotated[Path | None, typer.Option(help="Folder of report.html; default: out/STEP/CASE")]
@@ -23,8 +23,8 @@ SHOWN = 12  # rows of a ranking
 @reported
 def fit(case: Case, out: Out = None) -> None:
     """Are the believed equations enough? Fit all parameters that are not exact; print them with their intervals."""
-    from discovery.cases import load
-    from discovery.steps import fitted
+    from lacuna.discovery.cases import load
+    from lacuna.discovery.steps import fitted
 
     with Console(stderr=True).status("reading the recordings") as status:
         result = fitted(load(case), status.update)
@@ -36,8 +36,8 @@ def fit(case: Case, out: Out = None) -> None:
 @reported
 def locate(case: Case, out: Out = None) -> None:
     """Which effort is missing, and where? Rank the places of the model by what an effort there would explain."""
-    from discovery.cases import load
-    from discovery.steps import add_location, fitted
+    from lacuna.discovery.cases import load
+    from lacuna.discovery.steps import add_location, fitted
 
     with Console(stderr=True).status("reading the recordings") as status:
         result = fitted(load(case), status.update)
@@ -55,9 +55,9 @@ def locate(case: Case, out: Out = None) -> None:
 @reported
 def name(case: Case, out: Out = None) -> None:
     """Which physics is it? Attach the catalogue's effects, simulate and fit again, and rank them by the evidence."""
-    from codegen.library import Library
-    from discovery.cases import load
-    from discovery.steps import add_naming, fitted
+    from lacuna.codegen.library import Library
+    from lacuna.discovery.cases import load
+    from lacuna.discovery.steps import add_naming, fitted
 
     with Console(stderr=True).status("reading the recordings") as status:
         library = Library()
@@ -77,10 +77,10 @@ def amend(
     out: Out = None,
 ) -> None:
     """Write the model amended by one effect of the catalogue, fitted, and judge the file as it is written."""
-    from codegen.library import Library
-    from discovery.cases import load
-    from discovery.explain import judge_written, write_amended
-    from discovery.steps import add_amendment, add_scatter, fitted
+    from lacuna.codegen.library import Library
+    from lacuna.discovery.cases import load
+    from lacuna.discovery.explain import judge_written, write_amended
+    from lacuna.discovery.steps import add_amendment, add_scatter, fitted
 
     with Console(stderr=True).status("reading the recordings") as status:
         library = Library()
@@ -102,12 +102,12 @@ def judge(
     out: Out = None,
 ) -> None:
     """How well does a model file, as written, simulate the recordings that nothing was fitted to?"""
-    from codegen.library import Library
-    from discovery import places
-    from discovery.amend import Amendment
-    from discovery.cases import load
-    from discovery.judge import judge_file
-    from discovery.report import write_judgement
+    from lacuna.codegen.library import Library
+    from lacuna.discovery import places
+    from lacuna.discovery.amend import Amendment
+    from lacuna.discovery.cases import load
+    from lacuna.discovery.judge import judge_file
+    from lacuna.discovery.report import write_judgement
 
     loaded = load(case)
     if not model.is_file():
@@ -118,7 +118,7 @@ def judge(
 
 
 def _parameters(result: Explanation) -> None:
-    from discovery.diagnosis import build
+    from lacuna.discovery.diagnosis import build
 
     table = Table("parameter", "believed", "fitted", "± (95 %)", "unit", "")
     for name, p in build(result, None)["parameters"].items():
@@ -143,6 +143,6 @@ def _folder(step: str, case: Path, out: Path | None) -> Path:
 
 
 def _report(result: Explanation, step: str, case: Path, out: Path | None, amended: Path | None = None) -> None:
-    from discovery.report import write
+    from lacuna.discovery.report import write
 
     typer.echo(f"written: {write(result, _folder(step, case, out), amended)}")

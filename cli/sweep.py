@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from cli.errors import reported
+from lacuna.cli.errors import reported
 
 
 @reported
@@ -30,13 +30,13 @@ def sweep(
 
     [bold]Example[/bold]: lacuna sweep --points 5000 --scheduler tcp://10.0.0.1:8786
     """
-    from analysis.campaign.points import sobol_points
-    from analysis.campaign.run import run_campaign
-    from analysis.campaign.work import Work
-    from analysis.plant import ModelPlant
-    from analysis.progress import progress_bar
-    from analysis.settings import PAPER, load_settings
-    from codegen.compile import compile_model
+    from lacuna.analysis.campaign.points import sobol_points
+    from lacuna.analysis.campaign.run import run_campaign
+    from lacuna.analysis.campaign.work import Work
+    from lacuna.analysis.map.plant import ModelPlant
+    from lacuna.analysis.progress import progress_bar
+    from lacuna.analysis.settings import PAPER, load_settings
+    from lacuna.codegen.compile import compile_model
 
     chosen = load_settings(settings or PAPER)
     compiled = compile_model(actuator or chosen.disturbed_model)

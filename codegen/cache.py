@@ -17,9 +17,9 @@ from pathlib import Path
 import subprocess
 import tempfile
 
-from .errors import Diagnostic, Span
-from .library import MODEL_FOLDER
-from .prepared import Prepared
+from lacuna.codegen.dae.prepared import Prepared
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.library import MODEL_FOLDER
 
 COMPILER = (
     "cc", "-std=c11", "-O2", "-fPIC", "-shared", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic", "-Werror",

@@ -9,22 +9,23 @@ import threading
 import time
 from typing import TypeVar
 
-from . import cache, events, flat, hybrid
-from .emit.source import generate
-from .errors import Diagnostic
-from .expr import Expr
-from .flatten import flatten
-from .initial import discrete_starts, initial_system
-from .library import Library
-from .prepared import Prepared
-from .storage import Storage
-from .structure.aliases import eliminate_aliases
-from .structure.causal import causalise
-from .structure.constants import precompute, precompute_inverses
-from .structure.index_reduction import reduce_index
-from .structure.residual_form import jacobian, residual_form
-from .structure.system import DeclaredValues
-from .structure.tearing import Tearing
+from lacuna.codegen import cache, flat
+from lacuna.codegen.dae import events, hybrid
+from lacuna.codegen.dae.initial import discrete_starts, initial_system
+from lacuna.codegen.dae.prepared import Prepared
+from lacuna.codegen.dae.storage import Storage
+from lacuna.codegen.emit.source import generate
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten import flatten
+from lacuna.codegen.library import Library
+from lacuna.codegen.structure.aliases import eliminate_aliases
+from lacuna.codegen.structure.causal import causalise
+from lacuna.codegen.structure.constants import precompute, precompute_inverses
+from lacuna.codegen.structure.index_reduction import reduce_index
+from lacuna.codegen.structure.residual_form import jacobian, residual_form
+from lacuna.codegen.structure.system import DeclaredValues
+from lacuna.codegen.structure.tearing import Tearing
+from lacuna.codegen.symbolic.expr import Expr
 
 T = TypeVar("T")
 _translating = threading.Lock()  # expressions are shared by all threads; one translation at a time keeps them unique

@@ -11,9 +11,9 @@ from functools import lru_cache
 import hashlib
 from pathlib import Path
 
-from .errors import Diagnostic, Span
-from .suggest import did_you_mean
-from .syntax import ast, parse
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.suggest import did_you_mean
+from lacuna.codegen.syntax import ast, parse
 
 HOME_PACKAGE = "Lacuna"
 MODEL_FOLDER = Path(__file__).resolve().parent.parent / "model"

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from .emit.source import generate
-from .events import DiscreteEquation, targets
-from .expr import Expr, relation, to_text
-from .flat_text import dump_flat
-from .prepared import Prepared
-from .structure.causal import Division, LinearBlock, NonlinearBlock, Step
-from .structure.system import Row
-from .structure.tearing import Assignment
+from lacuna.codegen.dae.events import DiscreteEquation, targets
+from lacuna.codegen.dae.prepared import Prepared
+from lacuna.codegen.emit.source import generate
+from lacuna.codegen.flat.text import dump_flat
+from lacuna.codegen.structure.causal import Division, LinearBlock, NonlinearBlock, Step
+from lacuna.codegen.structure.system import Row
+from lacuna.codegen.structure.tearing import Assignment
+from lacuna.codegen.symbolic.expr import Expr, relation, to_text
 
 
 def dump(prepared: Prepared, what: str) -> str:

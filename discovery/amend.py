@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
-from .catalogue import Effect
-from .places import Device, Line, Part, Shaft, Structure
+from lacuna.discovery.catalogue import Effect
+from lacuna.discovery.places import Device, Line, Part, Shaft, Structure
 
 
 @dataclass(frozen=True)

@@ -9,14 +9,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from .comparison import MIN_GAIN, Ranked, price, score
-from .empirical_law import GROUPS, find
-from .evidence import like_noise, nearly_noise, pays
-from .fit import Fit, carried
-from .judge import try_judge
-from .name import Naming
-from .screen import Candidate
-from .search import Finding, Search
+from lacuna.discovery.comparison import MIN_GAIN, Ranked, price, score
+from lacuna.discovery.empirical_law import GROUPS, find
+from lacuna.discovery.evidence import like_noise, nearly_noise, pays
+from lacuna.discovery.fit import Fit, carried
+from lacuna.discovery.judge import try_judge
+from lacuna.discovery.name import Naming
+from lacuna.discovery.screen import Candidate
+from lacuna.discovery.search import Finding, Search
 
 SHORT = 3  # parameters of a law that needs no margin over several effects
 MARGIN = 40.0  # of the deviance, by which a law has to beat effects of the catalogue that leave as little

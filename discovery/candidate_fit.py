@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from .cases import Case
-from .comparison import Progress
-from .fit import Fit, fit
-from .least_squares import Free
-from .objective import Objective
-from .screen import Candidate
+from lacuna.discovery.cases import Case
+from lacuna.discovery.comparison import Progress
+from lacuna.discovery.fit import Fit, fit
+from lacuna.discovery.least_squares import Free
+from lacuna.discovery.objective import Objective
+from lacuna.discovery.screen import Candidate
 
 SMALL_STEP = 0.1  # of a start that is predicted to first order, which may still hold where the whole of it does not
 

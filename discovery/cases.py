@@ -10,7 +10,7 @@ import tomllib
 
 import numpy as np
 
-from .units import UnitError, to_si
+from lacuna.discovery.units import UnitError, to_si
 
 DEFAULT_UNCERTAINTY = 0.05  # believed relative 1-sigma of a parameter that case.toml does not mention
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from codegen.flatten import flatten
-from codegen.flatten.scope import base_classes
-from codegen.library import Library
-from codegen.syntax import ast
+from lacuna.codegen.flatten import flatten
+from lacuna.codegen.flatten.scope import base_classes
+from lacuna.codegen.library import Library
+from lacuna.codegen.syntax import ast
 
 ATTACHMENTS = ("flange", "line", "star", "phases", "phase", "imposed", "replace", "sensor")
 

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .amend import Attachment
-from .cases import Case
-from .evidence import nearly_noise
-from .fit import Fit, fit, residuals_of
-from .least_squares import WORKERS
-from .screen import Candidate
+from lacuna.discovery.amend import Attachment
+from lacuna.discovery.cases import Case
+from lacuna.discovery.evidence import nearly_noise
+from lacuna.discovery.fit import Fit, fit, residuals_of
+from lacuna.discovery.least_squares import WORKERS
+from lacuna.discovery.screen import Candidate
 
 MIN_GAIN = 20.0  # drop of the deviance, prices paid, below which nothing is believed missing
 CLOSE = 0.3  # share of the best gain within which hypotheses are cross-validated against each other

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from .evidence import whiteness
-from .explanation import Explanation
-from .fit import Fit
-from .least_squares import Free
-from .search import Finding
+from lacuna.discovery.evidence import whiteness
+from lacuna.discovery.explanation import Explanation
+from lacuna.discovery.fit import Fit
+from lacuna.discovery.least_squares import Free
+from lacuna.discovery.search import Finding
 
 
 def build(result: Explanation, amended: Path | None) -> dict[str, Any]:

@@ -11,10 +11,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from .fit import Fit, fit
-from .least_squares import pulls
-from .screen import Screen
-from .time_limit import TimeUp
+from lacuna.discovery.fit import Fit, fit
+from lacuna.discovery.least_squares import pulls
+from lacuna.discovery.screen import Screen
+from lacuna.discovery.time_limit import TimeUp
 
 PROBES = 4  # directions in which the cost is compared with its quadratic form
 SIGMAS = 3.0  # how far

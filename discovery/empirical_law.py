@@ -12,17 +12,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from .amend import Amendment, Attachment
-from .cases import Case
-from .comparison import score
-from .evidence import is_noise
-from .fit import Fit, fit
-from .law import Law, attach, component_of
-from .law_screen import Effort, Proposal, screened, sites
-from .law_terms import Group
-from .least_squares import Free
-from .machine import try_machine
-from .screen import Candidate
+from lacuna.discovery.amend import Amendment, Attachment
+from lacuna.discovery.cases import Case
+from lacuna.discovery.comparison import score
+from lacuna.discovery.evidence import is_noise
+from lacuna.discovery.fit import Fit, fit
+from lacuna.discovery.law import Law, attach, component_of
+from lacuna.discovery.law_screen import Effort, Proposal, screened, sites
+from lacuna.discovery.law_terms import Group
+from lacuna.discovery.least_squares import Free
+from lacuna.discovery.machine import try_machine
+from lacuna.discovery.screen import Candidate
 
 GROUPS = 3  # that a law may be the sum of
 FITTED = 4  # groups that are fitted in each round

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .fit import Fit
-from .noise import Noise, is_coarse
+from lacuna.discovery.fit import Fit
+from lacuna.discovery.noise import Noise, is_coarse
 
 BLOCKS = (1, 8, 40, 200)  # samples over which a residual is averaged
 SIGMAS = 5.0

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .cases import Case, Recording, Signal
-from .fit import Fit
-from .least_squares import _pool
+from lacuna.discovery.cases import Case, Recording, Signal
+from lacuna.discovery.fit import Fit
+from lacuna.discovery.least_squares import _pool
 
 SEEN = 1.0  # RMS difference in standard deviations of the noise from which a recording tells the two apart
 LEVELS = 6  # of a held input

@@ -7,16 +7,15 @@ from dataclasses import replace
 from pathlib import Path
 import time
 
-from codegen.library import Library
-
-from .cases import Case
-from .comparison import Ranked
-from .evidence import TOLERANCE, astray, holds, is_noise, like_noise, outside_belief, settled, whiteness
-from .experiments import separate
-from .explanation import Clock, Explanation
-from .judge import judge_file
-from .steps import add_findings, add_fit, add_location, add_scatter, opened
-from .time_limit import within
+from lacuna.codegen.library import Library
+from lacuna.discovery.cases import Case
+from lacuna.discovery.comparison import Ranked
+from lacuna.discovery.evidence import TOLERANCE, astray, holds, is_noise, like_noise, outside_belief, settled, whiteness
+from lacuna.discovery.experiments import separate
+from lacuna.discovery.explanation import Clock, Explanation
+from lacuna.discovery.judge import judge_file
+from lacuna.discovery.steps import add_findings, add_fit, add_location, add_scatter, opened
+from lacuna.discovery.time_limit import within
 
 LEAST_TAKEN = 0.2  # of the NRMSE on unseen recordings, that findings which leave far more than noise must take away
 

@@ -7,17 +7,17 @@ import time
 
 import numpy as np
 
-from .amend import Amendment
-from .cases import Case
-from .experiments import Experiment
-from .fit import Fit
-from .intervals import standard_errors
-from .judge import Judgement
-from .lead import Lead
-from .locate import Located
-from .name import Naming
-from .recordings_check import Problem
-from .search import Finding
+from lacuna.discovery.amend import Amendment
+from lacuna.discovery.cases import Case
+from lacuna.discovery.experiments import Experiment
+from lacuna.discovery.fit import Fit
+from lacuna.discovery.intervals import standard_errors
+from lacuna.discovery.judge import Judgement
+from lacuna.discovery.lead import Lead
+from lacuna.discovery.locate import Located
+from lacuna.discovery.name import Naming
+from lacuna.discovery.recordings_check import Problem
+from lacuna.discovery.search import Finding
 
 
 @dataclass

@@ -13,13 +13,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .cases import Case, Recording
-from .least_squares import Estimate, Free, Problem, clipped
-from .machine import Machine
-from .noise import Noise, correlation_time, estimate, sample_weights
-from .objective import STAGES, Objective, anneal
-from .store import remembered
-from .tracking import noise_bandwidth
+from lacuna.discovery.cases import Case, Recording
+from lacuna.discovery.least_squares import Estimate, Free, Problem, clipped
+from lacuna.discovery.machine import Machine
+from lacuna.discovery.noise import Noise, correlation_time, estimate, sample_weights
+from lacuna.discovery.objective import STAGES, Objective, anneal
+from lacuna.discovery.store import remembered
+from lacuna.discovery.tracking import noise_bandwidth
 
 FALLING = (1.0, 1 / 8, 1 / 16, 1 / 50, 0.0)  # bandwidths of trackers, of the largest that noise allows
 LOWER_SHARE = 0.02  # of its believed value, below which no positive parameter is tried

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from itertools import product
 
-from .amend import Amendment, Attachment
-from .cases import Case
-from .catalogue import Effect
-from .places import Line, Shaft, Structure
+from lacuna.discovery.amend import Amendment, Attachment
+from lacuna.discovery.cases import Case
+from lacuna.discovery.catalogue import Effect
+from lacuna.discovery.places import Line, Shaft, Structure
 
 FINER = 4  # times, that an effect which samples inside a loop may do so between the recordings' samples
 

@@ -13,10 +13,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from .fit import Fit
-from .lead import Lead
-from .noise import is_coarse, sample_weights
-from .secants import input_shift, solver_shift, with_secants
+from lacuna.discovery.fit import Fit
+from lacuna.discovery.lead import Lead
+from lacuna.discovery.noise import is_coarse, sample_weights
+from lacuna.discovery.secants import input_shift, solver_shift, with_secants
 
 ROUNDINGS = 32  # places of the levels, over which rounding is averaged
 

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from .amend import Amendment
-from .cases import Case, Recording
-from .fit import noise_of, nrmse, residuals_of
-from .machine import Machine
+from lacuna.discovery.amend import Amendment
+from lacuna.discovery.cases import Case, Recording
+from lacuna.discovery.fit import noise_of, nrmse, residuals_of
+from lacuna.discovery.machine import Machine
 
 
 @dataclass(frozen=True)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 import re
 
-from .amend import Attachment
-from .catalogue import Effect, EffectParameter
-from .law_terms import Group, Shape, Variable
-from .places import Device, Line, Shaft
+from lacuna.discovery.amend import Attachment
+from lacuna.discovery.catalogue import Effect, EffectParameter
+from lacuna.discovery.law_terms import Group, Shape, Variable
+from lacuna.discovery.places import Device, Line, Shaft
 
 
 @dataclass(frozen=True)

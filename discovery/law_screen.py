@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .cases import Case
-from .fit import Fit
-from .law import Law, Site, component_of
-from .law_terms import Group, Variable, groups
-from .places import Device, Line, Shaft
-from .response import respond
-from .screen import Candidate, Screen
+from lacuna.discovery.cases import Case
+from lacuna.discovery.fit import Fit
+from lacuna.discovery.law import Law, Site, component_of
+from lacuna.discovery.law_terms import Group, Variable, groups
+from lacuna.discovery.places import Device, Line, Shaft
+from lacuna.discovery.response import respond
+from lacuna.discovery.screen import Candidate, Screen
 
 SHORTLIST = 24  # groups that are tried on what they were not fitted to
 HATS = (128, 512)  # of effort in each recording, from which the answer to every term is put together: between these

@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from .cases import Case, Recording
-from .evidence import nearly_noise
-from .fit import Fit, falling_bandwidths, fit
-from .least_squares import Free
-from .machine import Machine
-from .noise import Noise
-from .objective import Objective
+from lacuna.discovery.cases import Case, Recording
+from lacuna.discovery.evidence import nearly_noise
+from lacuna.discovery.fit import Fit, falling_bandwidths, fit
+from lacuna.discovery.least_squares import Free
+from lacuna.discovery.machine import Machine
+from lacuna.discovery.noise import Noise
+from lacuna.discovery.objective import Objective
 
 ROUGH = 20  # events a second, from which fits are led
 FAST, HELD = 1, 2  # which of the bandwidths holds the shafts for sensitivities, and while hypotheses are compared

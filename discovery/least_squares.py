@@ -17,7 +17,7 @@ import os
 import numpy as np
 from scipy.optimize import lsq_linear
 
-from . import time_limit
+from lacuna.discovery import time_limit
 
 WORKERS = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 _pool = ThreadPoolExecutor(max_workers=WORKERS)

@@ -13,16 +13,16 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.linalg import block_diag
 
-from .amend import tracker_name
-from .cases import Case
-from .fit import Fit, falling_bandwidths
-from .machine import Machine
-from .objective import Objective
-from .organise import Organiser, organiser
-from .places import Line, Shaft
-from .response import respond
-from .screen import Screen
-from .tracking import trackable
+from lacuna.discovery.amend import tracker_name
+from lacuna.discovery.cases import Case
+from lacuna.discovery.fit import Fit, falling_bandwidths
+from lacuna.discovery.machine import Machine
+from lacuna.discovery.objective import Objective
+from lacuna.discovery.organise import Organiser, organiser
+from lacuna.discovery.places import Line, Shaft
+from lacuna.discovery.response import respond
+from lacuna.discovery.screen import Screen
+from lacuna.discovery.tracking import trackable
 
 NODES = 24  # of a probe in each recording
 SMOOTHING = 0.3  # weight of the probe's bends against the misfit

@@ -11,15 +11,14 @@ import threading
 
 import numpy as np
 
-from codegen.cache import CompilerError
-from codegen.compile import compile_model
-from codegen.errors import Diagnostic
-from runtime import Model, RecordedInput, Session, SimulationError
-
-from .amend import Amendment, probe_name, tracker_name
-from .cases import Case, CaseError, Recording, Signal
-from .noise import Noise
-from .tracking import Motion, recorded_column, recorded_motion
+from lacuna.codegen.cache import CompilerError
+from lacuna.codegen.compile import compile_model
+from lacuna.codegen.errors import Diagnostic
+from lacuna.discovery.amend import Amendment, probe_name, tracker_name
+from lacuna.discovery.cases import Case, CaseError, Recording, Signal
+from lacuna.discovery.noise import Noise
+from lacuna.discovery.tracking import Motion, recorded_column, recorded_motion
+from lacuna.runtime import Model, RecordedInput, Session, SimulationError
 
 RTOL, LEAST_RTOL, FINER = 1e-6, 1e-9, 0.1  # of the solver: usual, least, and the step from one to the next finer one
 NEGLIGIBLE = 1e-3  # RMS of the solver's errors, in units of noise; friction that is added makes ten times as much of it

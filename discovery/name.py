@@ -11,20 +11,19 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from functools import partial
 
-from runtime import SimulationError
-
-from .amend import Amendment, Attachment
-from .candidate_fit import fit_candidate
-from .cases import Case
-from .comparison import TIE, Progress, Ranked, best_correlation, confidences, cross_validated, score
-from .evidence import nearly_noise
-from .fit import Fit
-from .least_squares import WORKERS
-from .machine import try_machine
-from .race import ROUNDS, best_starts, first_round, relatives, still_in
-from .restarts import begin_again
-from .screen import Candidate, Screen, prepare, telling_recordings
-from .time_limit import TimeUp, check
+from lacuna.discovery.amend import Amendment, Attachment
+from lacuna.discovery.candidate_fit import fit_candidate
+from lacuna.discovery.cases import Case
+from lacuna.discovery.comparison import TIE, Progress, Ranked, best_correlation, confidences, cross_validated, score
+from lacuna.discovery.evidence import nearly_noise
+from lacuna.discovery.fit import Fit
+from lacuna.discovery.least_squares import WORKERS
+from lacuna.discovery.machine import try_machine
+from lacuna.discovery.race import ROUNDS, best_starts, first_round, relatives, still_in
+from lacuna.discovery.restarts import begin_again
+from lacuna.discovery.screen import Candidate, Screen, prepare, telling_recordings
+from lacuna.discovery.time_limit import TimeUp, check
+from lacuna.runtime import SimulationError
 
 SEVERAL_STARTS = 1  # rounds after which only the best start of each hypothesis goes on
 

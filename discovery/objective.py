@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from .amend import tracker_name
-from .cases import Recording
-from .least_squares import Estimate, Problem, solve
-from .machine import Machine
-from .noise import Noise, sample_weights
+from lacuna.discovery.amend import tracker_name
+from lacuna.discovery.cases import Recording
+from lacuna.discovery.least_squares import Estimate, Problem, solve
+from lacuna.discovery.machine import Machine
+from lacuna.discovery.noise import Noise, sample_weights
 
 STAGES = 10
 WORTH = 1.0  # of the weighted cost, that a stage of a fit has to win for another to follow

@@ -11,12 +11,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 import re
 
-from codegen.flatten.context import Context
-from codegen.flatten.inheritance import written
-from codegen.flatten.instance import Instance
-from codegen.flatten.model import run
-from codegen.library import Library
-from codegen.syntax import ast
+from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.inheritance import written
+from lacuna.codegen.flatten.instance import Instance
+from lacuna.codegen.flatten.model import run
+from lacuna.codegen.library import Library
+from lacuna.codegen.syntax import ast
 
 _FLANGES = ("Flange_a", "Flange_b")
 _PINS = ("PositivePin", "NegativePin")

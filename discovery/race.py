@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from .evidence import nearly_noise
-from .fit import Fit
-from .screen import Candidate
+from lacuna.discovery.evidence import nearly_noise
+from lacuna.discovery.fit import Fit
+from lacuna.discovery.screen import Candidate
 
 ROUNDS = ((2, 2, 100), (2, 3, 10), (3, 3, 4), (10, 4, 2))  # (stages, iterations, fits): successive halving
 FIRST_ROUND = 8

@@ -10,8 +10,8 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from .cases import Case, Recording, Signal
-from .noise import level, quantum
+from lacuna.discovery.cases import Case, Recording, Signal
+from lacuna.discovery.noise import level, quantum
 
 MIN_SAMPLES = 50
 GAP = 5.0  # a pause longer than this many sample intervals is a gap

@@ -12,13 +12,13 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from .cases import Case
-from .diagnosis import build, left_over, sentence
-from .explanation import Explanation
-from .fit import Fit
-from .judge import Judgement
-from .locate import Located
-from .name import Naming
+from lacuna.discovery.cases import Case
+from lacuna.discovery.diagnosis import build, left_over, sentence
+from lacuna.discovery.explanation import Explanation
+from lacuna.discovery.fit import Fit
+from lacuna.discovery.judge import Judgement
+from lacuna.discovery.locate import Located
+from lacuna.discovery.name import Naming
 
 _STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}
 h1{font-size:1.5rem}h2{font-size:1.15rem;margin-top:2rem;border-bottom:1px solid #ccc}table{border-collapse:collapse}

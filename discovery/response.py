@@ -11,12 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from runtime import RecordedInput
-
-from .amend import probe_name
-from .fit import Fit, Objective
-from .least_squares import _pool
-from .machine import Machine
+from lacuna.discovery.amend import probe_name
+from lacuna.discovery.fit import Fit, Objective
+from lacuna.discovery.least_squares import _pool
+from lacuna.discovery.machine import Machine
+from lacuna.runtime import RecordedInput
 
 LINEAR = (1e-3, 0.3)  # of the residual: sizes of an answer that is above rounding and still proportional
 FOLLOWED = 0.5  # of an effort's power, that hats may miss: what is faster would pass for a slow effort

@@ -11,19 +11,18 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
 
-from runtime import SimulationError
-
-from .candidate_fit import fit_candidate
-from .cases import Case
-from .comparison import Progress, best_correlation, score
-from .evidence import nearly_noise
-from .fit import Fit, falling_bandwidths, fit, linearised
-from .least_squares import WORKERS
-from .machine import try_machine
-from .places import Shaft
-from .race import ROUNDS
-from .screen import Candidate, Screen, prepare, telling_recordings
-from .tracking import trackable
+from lacuna.discovery.candidate_fit import fit_candidate
+from lacuna.discovery.cases import Case
+from lacuna.discovery.comparison import Progress, best_correlation, score
+from lacuna.discovery.evidence import nearly_noise
+from lacuna.discovery.fit import Fit, falling_bandwidths, fit, linearised
+from lacuna.discovery.least_squares import WORKERS
+from lacuna.discovery.machine import try_machine
+from lacuna.discovery.places import Shaft
+from lacuna.discovery.race import ROUNDS
+from lacuna.discovery.screen import Candidate, Screen, prepare, telling_recordings
+from lacuna.discovery.tracking import trackable
+from lacuna.runtime import SimulationError
 
 HALF = 0.5  # of the best gain, that a hypothesis must have to be fitted further: a simpler law, or one to be led
 BELIEVED = 2  # hypotheses at most, that begin again with the believed parameters

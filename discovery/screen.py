@@ -13,13 +13,13 @@ import math
 
 import numpy as np
 
-from .amend import Attachment
-from .cases import Recording
-from .catalogue import Effect, EffectParameter
-from .fit import Fit, Objective
-from .least_squares import Free, bounded_linear, pulls
-from .machine import Machine
-from .shapes import limits_of, shape_starts
+from lacuna.discovery.amend import Attachment
+from lacuna.discovery.cases import Recording
+from lacuna.discovery.catalogue import Effect, EffectParameter
+from lacuna.discovery.fit import Fit, Objective
+from lacuna.discovery.least_squares import Free, bounded_linear, pulls
+from lacuna.discovery.machine import Machine
+from lacuna.discovery.shapes import limits_of, shape_starts
 
 RESPONSE = 0.1  # of the residual: size of the response from which a column is taken
 PROBES = 5

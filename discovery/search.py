@@ -12,19 +12,19 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from .amend import Amendment, Attachment
-from .cases import Case
-from .catalogue import Effect
-from .comparison import CLOSE, MIN_GAIN, TIE, Ranked, confidences, price, score
-from .evidence import astray, holds, nearly_noise, pays, settled
-from .fit import Fit, carried, fit, linearised
-from .hypotheses import enumerate_attachments
-from .judge import Judgement, try_judge
-from .lead import Lead
-from .machine import try_machine
-from .name import Naming, compete, rank, screen_all
-from .objective import STAGES
-from .screen import Candidate
+from lacuna.discovery.amend import Amendment, Attachment
+from lacuna.discovery.cases import Case
+from lacuna.discovery.catalogue import Effect
+from lacuna.discovery.comparison import CLOSE, MIN_GAIN, TIE, Ranked, confidences, price, score
+from lacuna.discovery.evidence import astray, holds, nearly_noise, pays, settled
+from lacuna.discovery.fit import Fit, carried, fit, linearised
+from lacuna.discovery.hypotheses import enumerate_attachments
+from lacuna.discovery.judge import Judgement, try_judge
+from lacuna.discovery.lead import Lead
+from lacuna.discovery.machine import try_machine
+from lacuna.discovery.name import Naming, compete, rank, screen_all
+from lacuna.discovery.objective import STAGES
+from lacuna.discovery.screen import Candidate
 
 MAX_FINDINGS = 3
 CARRIED = 3  # times at most, that an accepted fit is begun again from where it stopped

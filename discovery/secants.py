@@ -13,12 +13,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from .cases import Recording
-from .fit import Fit
-from .least_squares import Estimate, Problem, clipped
-from .machine import Machine
-from .noise import last_digit, of_few_levels
-from .objective import Objective
+from lacuna.discovery.cases import Recording
+from lacuna.discovery.fit import Fit
+from lacuna.discovery.least_squares import Estimate, Problem, clipped
+from lacuna.discovery.machine import Machine
+from lacuna.discovery.noise import last_digit, of_few_levels
+from lacuna.discovery.objective import Objective
 
 ROUNDS = 2  # of differences: the axes of the first are those of the noisy ones
 FINE = 0.01  # of the solver's tolerance, with which its error is measured

@@ -9,8 +9,8 @@ from itertools import product
 
 import numpy as np
 
-from .amend import Attachment
-from .machine import Machine
+from lacuna.discovery.amend import Attachment
+from lacuna.discovery.machine import Machine
 
 ONE_SIDED = 0.05  # of the greatest size of a variable, below which it is not taken to go to that side
 RANGE = 10.0  # how far beyond its start values a parameter without a neutral value may go

@@ -7,28 +7,27 @@ from dataclasses import replace
 
 import numpy as np
 
-from codegen.library import Library
-
-from . import catalogue, places
-from .amend import Amendment
-from .beyond import explain_beyond
-from .cases import Case, CaseError
-from .comparison import MIN_GAIN
-from .dips import explored, is_smooth
-from .evidence import astray, is_noise, nearly_noise, outside_belief
-from .explanation import Explanation
-from .fit import Fit, believed, carried, falling_bandwidths, fit, noise_of
-from .hypotheses import enumerate_attachments
-from .judge import judge, noise_floor, try_judge
-from .lead import ROUGH, Lead, lead_for
-from .locate import locate
-from .machine import Machine
-from .name import rank
-from .recordings_check import check_case
-from .search import Search
-from .semantic_check import check_against_model
-from .time_limit import TimeUp
-from .tracking import trackable
+from lacuna.codegen.library import Library
+from lacuna.discovery import catalogue, places
+from lacuna.discovery.amend import Amendment
+from lacuna.discovery.beyond import explain_beyond
+from lacuna.discovery.cases import Case, CaseError
+from lacuna.discovery.comparison import MIN_GAIN
+from lacuna.discovery.dips import explored, is_smooth
+from lacuna.discovery.evidence import astray, is_noise, nearly_noise, outside_belief
+from lacuna.discovery.explanation import Explanation
+from lacuna.discovery.fit import Fit, believed, carried, falling_bandwidths, fit, noise_of
+from lacuna.discovery.hypotheses import enumerate_attachments
+from lacuna.discovery.judge import judge, noise_floor, try_judge
+from lacuna.discovery.lead import ROUGH, Lead, lead_for
+from lacuna.discovery.locate import locate
+from lacuna.discovery.machine import Machine
+from lacuna.discovery.name import rank
+from lacuna.discovery.recordings_check import check_case
+from lacuna.discovery.search import Search
+from lacuna.discovery.semantic_check import check_against_model
+from lacuna.discovery.time_limit import TimeUp
+from lacuna.discovery.tracking import trackable
 
 Progress = Callable[[str], None]
 

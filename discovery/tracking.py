@@ -11,11 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from runtime import Model
-
-from .cases import Case, Recording
-from .noise import estimate
-from .places import Shaft, Structure
+from lacuna.discovery.cases import Case, Recording
+from lacuna.discovery.noise import estimate
+from lacuna.discovery.places import Shaft, Structure
+from lacuna.runtime import Model
 
 
 @dataclass(frozen=True)

@@ -1,10 +1,10 @@
 """Run generated models: load one, simulate it, read and write results."""
 
-from runtime.errors import SimulationError, UnknownNameError
-from runtime.files import read_csv, write_csv, write_mat
-from runtime.model import Equation, Model, Variable
-from runtime.result import EventEntry, Failure, Result
-from runtime.simulation import SOLVERS, RecordedInput, Session, simulate
+from lacuna.runtime.errors import SimulationError, UnknownNameError
+from lacuna.runtime.files import read_csv, write_csv, write_mat
+from lacuna.runtime.model import Equation, Model, Variable
+from lacuna.runtime.result import EventEntry, Failure, Result
+from lacuna.runtime.simulation import SOLVERS, RecordedInput, Session, simulate
 
 __version__ = "0.1.0"
 __all__ = [

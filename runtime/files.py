@@ -11,8 +11,8 @@ import tempfile
 
 import numpy as np
 
-from runtime.errors import SimulationError
-from runtime.result import Result
+from lacuna.runtime.errors import SimulationError
+from lacuna.runtime.result import Result
 
 FORMAT = "lacuna-result-1"
 

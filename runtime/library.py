@@ -5,10 +5,10 @@ from __future__ import annotations
 import ctypes
 from ctypes import POINTER, Structure, c_char_p, c_double, c_int, c_long, c_size_t, c_void_p
 from functools import lru_cache
-import os
 from pathlib import Path
 
-from runtime.errors import SimulationError
+from lacuna.native import native_library
+from lacuna.runtime.errors import SimulationError
 
 STATUS = (
     "ok", "model", "argument", "bound", "initialisation", "inconsistent", "event_cycle", "chattering",
@@ -109,9 +109,8 @@ _SIGNATURES = {
 
 
 def library_path() -> Path:
-    """Where the build put liblacuna_runtime.so ($LACUNA_BUILD, default build/ beside this package)."""
-    build = os.environ.get("LACUNA_BUILD") or Path(__file__).resolve().parent.parent / "build"
-    return Path(build) / "lib" / "liblacuna_runtime.so"
+    """Where liblacuna_runtime.so is (`lacuna.native`)."""
+    return native_library("lacuna_runtime")
 
 
 @lru_cache(maxsize=1)

@@ -8,8 +8,8 @@ from functools import cached_property
 from pathlib import Path
 import weakref
 
-from runtime.errors import SimulationError, UnknownNameError
-from runtime.library import STORAGE, TYPES, library
+from lacuna.runtime.errors import SimulationError, UnknownNameError
+from lacuna.runtime.library import STORAGE, TYPES, library
 
 MESSAGE_SIZE = 600
 

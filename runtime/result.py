@@ -9,9 +9,9 @@ from functools import cached_property
 
 import numpy as np
 
-from runtime.errors import SimulationError
-from runtime.library import EVENT_KINDS, STATUS, library
-from runtime.model import Model
+from lacuna.runtime.errors import SimulationError
+from lacuna.runtime.library import EVENT_KINDS, STATUS, library
+from lacuna.runtime.model import Model
 
 
 @dataclass(frozen=True, slots=True)

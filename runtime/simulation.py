@@ -11,10 +11,10 @@ import weakref
 
 import numpy as np
 
-from runtime.errors import SimulationError
-from runtime.library import COptions, library
-from runtime.model import MESSAGE_SIZE, Model
-from runtime.result import Result
+from lacuna.runtime.errors import SimulationError
+from lacuna.runtime.library import COptions, library
+from lacuna.runtime.model import MESSAGE_SIZE, Model
+from lacuna.runtime.result import Result
 
 SOLVERS = ("ida", "dopri5", "rodas4", "rk4", "euler")
 

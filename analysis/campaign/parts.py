@@ -8,8 +8,8 @@ from pathlib import Path
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from analysis.campaign.points import Points
-from analysis.campaign.work import Work
+from lacuna.analysis.campaign.points import Points
+from lacuna.analysis.campaign.work import Work
 
 
 class Parts:

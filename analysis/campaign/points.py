@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.stats import qmc
 
-from analysis.plant import Plant
-from analysis.sensitivities import moved
-from analysis.settings import Settings
+from lacuna.analysis.map.plant import Plant
+from lacuna.analysis.settings import Settings
+from lacuna.analysis.severity.sensitivities import moved
 
 Points = dict[str, np.ndarray]  # parameter -> its value at every point
 

@@ -9,11 +9,11 @@ from pathlib import Path
 
 from distributed import Client, LocalCluster, as_completed
 
-from analysis.campaign.parts import Parts
-from analysis.campaign.points import Points, chunks
-from analysis.campaign.work import Work, run_chunk
-from analysis.errors import AnalysisError
-from analysis.sweep import Progress
+from lacuna.analysis.campaign.parts import Parts
+from lacuna.analysis.campaign.points import Points, chunks
+from lacuna.analysis.campaign.work import Work, run_chunk
+from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.map.sweep import Progress
 
 IN_FLIGHT = 4  # chunks a worker thread: enough to keep it busy, few enough to bound the scheduler's memory
 

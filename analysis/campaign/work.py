@@ -12,12 +12,12 @@ import tempfile
 import numpy as np
 import pyarrow as pa
 
-from analysis.campaign.points import Points
-from analysis.chain import Chain
-from analysis.errors import AnalysisError
-from analysis.plant import ModelPlant
-from analysis.settings import Settings, load_settings
-import runtime
+from lacuna import runtime
+from lacuna.analysis.campaign.points import Points
+from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.map.plant import ModelPlant
+from lacuna.analysis.settings import Settings, load_settings
+from lacuna.analysis.spectra.chain import Chain
 
 
 @dataclass(frozen=True)

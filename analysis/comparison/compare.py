@@ -8,12 +8,12 @@ from pathlib import Path
 
 import numpy as np
 
-from analysis.comparison.deviation import SignalDeviation, signal_deviation
-from analysis.comparison.scenarios import Scenario
-from analysis.comparison.study import Lane, Study, rows, run
-from analysis.errors import AnalysisError
-from analysis.files import published_together
-import runtime
+from lacuna import runtime
+from lacuna.analysis.comparison.deviation import SignalDeviation, signal_deviation
+from lacuna.analysis.comparison.scenarios import Scenario
+from lacuna.analysis.comparison.study import Lane, Study, rows, run
+from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.files import published_together
 
 
 def compare_lanes(
@@ -47,8 +47,8 @@ def _write_csv(path: Path, table: Sequence[dict[str, object]]) -> None:
 
 
 def _write_report(studies: Sequence[Study], units: dict[str, dict[str, str]], folder: Path) -> None:
-    from analysis.comparison.figures import draw_all
-    from analysis.comparison.report import report_html
+    from lacuna.analysis.comparison.figures import draw_all
+    from lacuna.analysis.comparison.report import report_html
 
     figures = {s.scenario.name: draw_all(s, units[s.scenario.name], folder) for s in studies}
     (folder / "report.html").write_text(report_html(studies, figures, folder), encoding="utf-8")

@@ -9,8 +9,8 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 import numpy as np
 
-from analysis.comparison.study import LaneResult, Study
-from analysis.figures.style import INK, in_style, new_figure
+from lacuna.analysis.comparison.study import LaneResult, Study
+from lacuna.analysis.report.figures.style import INK, in_style, new_figure
 
 COLOURS = {
     "ida": "#0072B2", "dopri5": "#009E73", "rodas4": "#CC79A7", "rk4": "#D55E00",

@@ -10,8 +10,8 @@ from string import Template
 
 import numpy as np
 
-from analysis.comparison.figures import CAPTIONS
-from analysis.comparison.study import LaneResult, Study
+from lacuna.analysis.comparison.figures import CAPTIONS
+from lacuna.analysis.comparison.study import LaneResult, Study
 
 _TEMPLATE = Path(__file__).with_name("report.html.in")
 

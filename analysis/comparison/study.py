@@ -8,7 +8,8 @@ import time as clock
 
 import numpy as np
 
-from analysis.comparison.deviation import (
+from lacuna import runtime
+from lacuna.analysis.comparison.deviation import (
     EventDeviation,
     SignalDeviation,
     event_deviation,
@@ -17,9 +18,8 @@ from analysis.comparison.deviation import (
     outside_event_gaps,
     signal_deviation,
 )
-from analysis.comparison.scenarios import Scenario
-from analysis.errors import AnalysisError
-import runtime
+from lacuna.analysis.comparison.scenarios import Scenario
+from lacuna.analysis.errors import AnalysisError
 
 SMALL_SIGNAL = 1e-3  # of the largest signal with the same unit
 REFERENCE_MARGIN = 10.0  # an error counts for an observed order only this far above that of the reference itself

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from .. import flat
-from ..events import DiscreteEquation
-from ..expr import Expr, walk
-from ..leaves import leaves
-from ..prepared import Prepared
-from ..rewrite import all_statements
-from ..storage import Storage
-from .body import Body
+from lacuna.codegen import flat
+from lacuna.codegen.dae.events import DiscreteEquation
+from lacuna.codegen.dae.prepared import Prepared
+from lacuna.codegen.dae.storage import Storage
+from lacuna.codegen.emit.body import Body
+from lacuna.codegen.symbolic.expr import Expr, walk
+from lacuna.codegen.symbolic.leaves import leaves
+from lacuna.codegen.symbolic.rewrite import all_statements
 
 
 def all_asserts(p: Prepared) -> list[flat.Assert]:

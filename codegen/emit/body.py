@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import contextmanager
 
-from ..expr import BOOLEAN, Expr
-from ..leaves import LEAF_OPS, depends
-from .expression import c_type, is_trivial, lower_powers, to_c
-from .names import Names
+from lacuna.codegen.emit.expression import c_type, is_trivial, lower_powers, to_c
+from lacuna.codegen.emit.names import Names
+from lacuna.codegen.symbolic.expr import BOOLEAN, Expr
+from lacuna.codegen.symbolic.leaves import LEAF_OPS, depends
 
 Access = Callable[[Expr], str | None]  # C text that loads a leaf from memory, None where it must be computed
 

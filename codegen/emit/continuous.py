@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 import re
 
-from ..expr import Expr, is_const, relation, sub, var
-from ..leaves import leaves
-from ..prepared import Prepared
-from ..structure.causal import Step, unknowns_of
-from ..structure.residual_form import CJ, needed
-from ..structure.tearing import Assignment
-from .asserts import of_the_run, write_assert
-from .body import Body
-from .equations import EquationTable
-from .names import Names
-from .steps import StepWriter, comment
+from lacuna.codegen.dae.prepared import Prepared
+from lacuna.codegen.emit.asserts import of_the_run, write_assert
+from lacuna.codegen.emit.body import Body
+from lacuna.codegen.emit.equations import EquationTable
+from lacuna.codegen.emit.names import Names
+from lacuna.codegen.emit.steps import StepWriter, comment
+from lacuna.codegen.structure.causal import Step, unknowns_of
+from lacuna.codegen.structure.residual_form import CJ, needed
+from lacuna.codegen.structure.tearing import Assignment
+from lacuna.codegen.symbolic.expr import Expr, is_const, relation, sub, var
+from lacuna.codegen.symbolic.leaves import leaves
 
 RHS = "static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double *v)"
 RESIDUAL = "static int mdl_residual(mdl_data *m, double t, const double *y, const double *yp, double *r)"

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from .. import flat
-from ..errors import Diagnostic
-from ..events import DiscreteEquation, targets
-from ..expr import relation, sub, var, walk
-from ..hybrid import Relation
-from ..leaves import leaves
-from ..prepared import Prepared
-from ..structure.constants import dependency_order
-from .asserts import assert_index, of_parameters, write_assert
-from .body import Body
-from .continuous import function
-from .names import Names
-from .steps import comment
+from lacuna.codegen import flat
+from lacuna.codegen.dae.events import DiscreteEquation, targets
+from lacuna.codegen.dae.hybrid import Relation
+from lacuna.codegen.dae.prepared import Prepared
+from lacuna.codegen.emit.asserts import assert_index, of_parameters, write_assert
+from lacuna.codegen.emit.body import Body
+from lacuna.codegen.emit.continuous import function
+from lacuna.codegen.emit.names import Names
+from lacuna.codegen.emit.steps import comment
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.structure.constants import dependency_order
+from lacuna.codegen.symbolic.expr import relation, sub, var, walk
+from lacuna.codegen.symbolic.leaves import leaves
 
 EVENT = "static int mdl_event(mdl_data *m, double t, double *x, const double *xdot, const double *v)"
 TIME_RELATIONS = "static int mdl_time_relations(mdl_data *m, double t)"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .. import flat
+from lacuna.codegen import flat
 
 
 class EquationTable:

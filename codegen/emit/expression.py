@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..expr import BOOLEAN, BUILTINS, Expr, call, const, div, mul, transform
-from .names import sanitise
+from lacuna.codegen.emit.names import sanitise
+from lacuna.codegen.symbolic.expr import BOOLEAN, BUILTINS, Expr, call, const, div, mul, transform
 
 _BINARY = {
     "or": ("||", 2), "and": ("&&", 3), "==": ("==", 4), "<>": ("!=", 4), "<": ("<", 5), "<=": ("<=", 5),

@@ -7,14 +7,14 @@ from itertools import product
 import math
 import re
 
-from .. import flat
-from ..errors import Diagnostic
-from ..expr import BOOLEAN, TRUE, Expr, const, is_const
-from ..function_tangent import by_name
-from ..leaves import leaves
-from ..rewrite import expressions
-from .expression import function_name, lower_powers, to_c
-from .names import Names
+from lacuna.codegen import flat
+from lacuna.codegen.emit.expression import function_name, lower_powers, to_c
+from lacuna.codegen.emit.names import Names
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr, const, is_const
+from lacuna.codegen.symbolic.function_tangent import by_name
+from lacuna.codegen.symbolic.leaves import leaves
+from lacuna.codegen.symbolic.rewrite import expressions
 
 LOOP_LIMIT = 10_000_000
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from .expression import HELPERS
+from lacuna.codegen.emit.expression import HELPERS
 
 _FAIL = """\
 static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double value) {

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from .. import flat
-from ..events import DiscreteEquation
-from ..expr import Expr
-from ..prepared import Prepared
-from ..rewrite import expressions
-from ..structure.causal import expressions_of
-from .asserts import assert_index
-from .continuous import Continuous
-from .discrete import Discrete
-from .equations import EquationTable
-from .expression import number
-from .names import Names
-from .prelude import helpers
-from .tables import Tables, c_string
-from .user_functions import calls, user_functions
+from lacuna.codegen import flat
+from lacuna.codegen.dae.events import DiscreteEquation
+from lacuna.codegen.dae.prepared import Prepared
+from lacuna.codegen.emit.asserts import assert_index
+from lacuna.codegen.emit.continuous import Continuous
+from lacuna.codegen.emit.discrete import Discrete
+from lacuna.codegen.emit.equations import EquationTable
+from lacuna.codegen.emit.expression import number
+from lacuna.codegen.emit.names import Names
+from lacuna.codegen.emit.prelude import helpers
+from lacuna.codegen.emit.tables import Tables, c_string
+from lacuna.codegen.emit.user_functions import calls, user_functions
+from lacuna.codegen.structure.causal import expressions_of
+from lacuna.codegen.symbolic.expr import Expr
+from lacuna.codegen.symbolic.rewrite import expressions
 
 _CALLBACKS = (
     "starts", "parameters", "samples", "initial_system", "rhs", "residual", "jacobian", "roots", "time_relations",

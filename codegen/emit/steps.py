@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from .. import flat
-from ..expr import Expr
-from ..structure.causal import Division, LinearBlock, NonlinearBlock, Step, expressions_of
-from ..structure.system import Row
-from ..structure.tearing import Assignment
-from .body import Body
+from lacuna.codegen import flat
+from lacuna.codegen.emit.body import Body
+from lacuna.codegen.structure.causal import Division, LinearBlock, NonlinearBlock, Step, expressions_of
+from lacuna.codegen.structure.system import Row
+from lacuna.codegen.structure.tearing import Assignment
+from lacuna.codegen.symbolic.expr import Expr
 
 NEWTON_ITERATIONS = 50
 

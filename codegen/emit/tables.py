@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 import json
 
-from .. import flat
-from ..expr import Expr, relation
-from ..leaves import leaves
-from ..prepared import Prepared
-from ..storage import Slot
-from ..structure.system import DeclaredValues
-from .asserts import all_asserts, shown_values
-from .discrete import is_settable
-from .equations import EquationTable
-from .expression import number
+from lacuna.codegen import flat
+from lacuna.codegen.dae.prepared import Prepared
+from lacuna.codegen.dae.storage import Slot
+from lacuna.codegen.emit.asserts import all_asserts, shown_values
+from lacuna.codegen.emit.discrete import is_settable
+from lacuna.codegen.emit.equations import EquationTable
+from lacuna.codegen.emit.expression import number
+from lacuna.codegen.structure.system import DeclaredValues
+from lacuna.codegen.symbolic.expr import Expr, relation
+from lacuna.codegen.symbolic.leaves import leaves
 
 _STORAGE = {"x": "STATE", "v": "ALGEBRAIC", "d": "DISCRETE", "p": "PARAMETER", "u": "INPUT"}
 

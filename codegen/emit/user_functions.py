@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from .. import flat
-from ..expr import BUILTINS, Expr, walk
-from ..function_tangent import by_name
-from ..rewrite import all_statements, expressions
-from .expression import function_name
-from .function_body import FunctionBody, declarations, returns_value
-from .names import Names
+from lacuna.codegen import flat
+from lacuna.codegen.emit.expression import function_name
+from lacuna.codegen.emit.function_body import FunctionBody, declarations, returns_value
+from lacuna.codegen.emit.names import Names
+from lacuna.codegen.symbolic.expr import BUILTINS, Expr, walk
+from lacuna.codegen.symbolic.function_tangent import by_name
+from lacuna.codegen.symbolic.rewrite import all_statements, expressions
 
 
 def user_functions(

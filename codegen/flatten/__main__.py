@@ -1,11 +1,11 @@
-"""python -m codegen.flatten MODEL: print the flat model."""
+"""python -m lacuna.codegen.flatten MODEL: print the flat model."""
 
 import sys
 
-from ..errors import Diagnostic
-from ..flat_text import dump_flat
-from ..library import Library
-from . import flatten
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flat.text import dump_flat
+from lacuna.codegen.flatten import flatten
+from lacuna.codegen.library import Library
 
 if __name__ == "__main__":
     try:

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from .. import expr as ex
-from .. import flat
-from ..errors import Diagnostic, Span
-from ..expr import BOOLEAN, FALSE, TRUE, Expr
-from ..rewrite import assigned
-from ..syntax import ast
-from .constants import variability
-from .equations import Collected, check_target, check_types, origin_of, unroll
-from .lower import lower, lower_results, lower_scalar
-from .scope import Scope
-from .values import scalars, shape_of, shape_text
-from .when import procedure, when_conditions
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.constants import variability
+from lacuna.codegen.flatten.equations import Collected, check_target, check_types, origin_of, unroll
+from lacuna.codegen.flatten.lower import lower, lower_results, lower_scalar
+from lacuna.codegen.flatten.scope import Scope
+from lacuna.codegen.flatten.values import scalars, shape_of, shape_text
+from lacuna.codegen.flatten.when import procedure, when_conditions
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, TRUE, Expr
+from lacuna.codegen.symbolic.rewrite import assigned
+from lacuna.codegen.syntax import ast
 
 
 def flatten_algorithm(section: ast.Section, scope: Scope, out: Collected) -> None:

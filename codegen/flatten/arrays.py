@@ -5,14 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import prod
 
-from .. import expr as ex
-from ..errors import Diagnostic, Span
-from ..expr import BOOLEAN, INTEGER, Expr
-from ..syntax import ast
-from .constants import known
-from .lower import FUNCTIONS, lower, need_numbers
-from .scope import Scope
-from .values import (
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.constants import known
+from lacuna.codegen.flatten.lower import FUNCTIONS, lower, need_numbers
+from lacuna.codegen.flatten.scope import Scope
+from lacuna.codegen.flatten.values import (  # fmt: skip
     Array,
     Value,
     concatenate,
@@ -24,7 +21,10 @@ from .values import (
     shape_of,
     shape_text,
     transpose,
-)  # fmt: skip
+)
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, Expr
+from lacuna.codegen.syntax import ast
 
 
 def _arguments(e: ast.Call, scope: Scope, least: int, most: int) -> list[Value]:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from .. import flat
-from ..errors import Diagnostic
-from ..expr import BOOLEAN
-from ..syntax import ast
-from .equations import origin_of
-from .lower import lower, lower_scalar
-from .scope import Scope
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.equations import origin_of
+from lacuna.codegen.flatten.lower import lower, lower_scalar
+from lacuna.codegen.flatten.scope import Scope
+from lacuna.codegen.symbolic.expr import BOOLEAN
+from lacuna.codegen.syntax import ast
 
 
 def lower_assert(call: ast.Call, scope: Scope) -> flat.Assert:

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from .. import expr as ex
-from ..errors import Diagnostic
-from ..expr import BOOLEAN, INTEGER, REAL, Expr
-from ..suggest import did_you_mean
-from ..syntax import ast
-from .arrays import map_call, size_of_array
-from .constants import is_known, known, variability
-from .derivative import time_derivative
-from .enumerations import as_integer
-from .functions import call_function, construct_record
-from .lower import FUNCTIONS, gives_results, handles, lower, lower_scalar
-from .scope import Scope, enumeration, find_class, visible_classes
-from .values import Value, elementwise
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.arrays import map_call, size_of_array
+from lacuna.codegen.flatten.constants import is_known, known, variability
+from lacuna.codegen.flatten.derivative import time_derivative
+from lacuna.codegen.flatten.enumerations import as_integer
+from lacuna.codegen.flatten.functions import call_function, construct_record
+from lacuna.codegen.flatten.lower import FUNCTIONS, gives_results, handles, lower, lower_scalar
+from lacuna.codegen.flatten.scope import Scope, enumeration, find_class, visible_classes
+from lacuna.codegen.flatten.values import Value, elementwise
+from lacuna.codegen.suggest import did_you_mean
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
+from lacuna.codegen.syntax import ast
 
 _OUTSIDE = {
     "homotopy": "give the actual expression, and start values where the initial problem is hard",

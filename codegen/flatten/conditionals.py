@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from .. import expr as ex
-from .. import flat
-from ..errors import Diagnostic, Span
-from ..expr import BOOLEAN, TRUE, Expr
-from ..syntax import ast
-from .constants import is_known, known
-from .equations import Collected
-from .lower import lower_scalar
-from .scope import Scope
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.constants import is_known, known
+from lacuna.codegen.flatten.equations import Collected
+from lacuna.codegen.flatten.lower import lower_scalar
+from lacuna.codegen.flatten.scope import Scope
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr
+from lacuna.codegen.syntax import ast
 
 Descend = Callable[[ast.Item, Scope, Collected], None]
 

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from .. import expr as ex
-from .. import flat
-from ..errors import Diagnostic, Span
-from ..syntax import ast
-from .context import Context
-from .instance import Absent, ArrayNode, Node
-from .leaf import Leaf
-from .references import apply_subscripts, element_numbers, member, unknown_name
-from .scope import Scope
-from .values import Array, Value, scalars
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.instance import Absent, ArrayNode, Node
+from lacuna.codegen.flatten.leaf import Leaf
+from lacuna.codegen.flatten.references import apply_subscripts, element_numbers, member, unknown_name
+from lacuna.codegen.flatten.scope import Scope
+from lacuna.codegen.flatten.values import Array, Value, scalars
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.syntax import ast
 
 Connector = Node | tuple[Leaf, int]  # the latter: one scalar of a connector that is a variable
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from .. import expr as ex
-from ..errors import Diagnostic, Span
-from ..expr import Expr
-from .context import Context
-from .scope import Scope
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.scope import Scope
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import Expr
 
 
 class AtRunTime(Exception):

@@ -8,15 +8,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..errors import Diagnostic, Span
-from ..expr import Expr
-from ..flat import Function
-from ..library import Library
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flat import Function
+from lacuna.codegen.library import Library
+from lacuna.codegen.symbolic.expr import Expr
 
 if TYPE_CHECKING:
-    from .function_code import Source
-    from .function_locals import Signature
-    from .instance import Instance, Leaf
+    from lacuna.codegen.flatten.function_code import Source
+    from lacuna.codegen.flatten.function_locals import Signature
+    from lacuna.codegen.flatten.instance import Instance, Leaf
 
 MAX_ERRORS = 10
 MAX_ELEMENTS = 300_000

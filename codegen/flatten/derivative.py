@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from .. import expr as ex
-from ..differentiate import Differentiator
-from ..errors import Diagnostic, Span
-from ..expr import Expr
-from .constants import variability
-from .scope import Scope
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.constants import variability
+from lacuna.codegen.flatten.scope import Scope
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.differentiate import Differentiator
+from lacuna.codegen.symbolic.expr import Expr
 
 
 def time_derivative(e: Expr, scope: Scope, span: Span) -> Expr:

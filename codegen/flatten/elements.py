@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from .. import expr as ex
-from ..expr import Expr
-from .values import Array, Value, indices, scalars, shape_of
+from lacuna.codegen.flatten.values import Array, Value, indices, scalars, shape_of
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import Expr
 
 
 def element(name: str, kind: str, index: tuple[Expr, ...]) -> Expr:

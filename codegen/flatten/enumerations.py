@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from .. import expr as ex
-from ..errors import Diagnostic, Span
-from ..expr import INTEGER, Expr
-from ..syntax import ast
-from .context import Context
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import INTEGER, Expr
+from lacuna.codegen.syntax import ast
 
 
 @lru_cache(maxsize=1024)

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from .. import flat
-from ..errors import Diagnostic, Span
-from ..expr import BOOLEAN, INTEGER, REAL, Expr
-from ..syntax import ast
-from .constants import variability
-from .enumerations import require_same
-from .lower import iterate, lower, lower_results
-from .scope import Scope
-from .values import Record, Value, scalars, shape_of, shape_text
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.constants import variability
+from lacuna.codegen.flatten.enumerations import require_same
+from lacuna.codegen.flatten.lower import iterate, lower, lower_results
+from lacuna.codegen.flatten.scope import Scope
+from lacuna.codegen.flatten.values import Record, Value, scalars, shape_of, shape_text
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
+from lacuna.codegen.syntax import ast
 
 
 @dataclass

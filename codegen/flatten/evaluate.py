@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from ..errors import Diagnostic
-from ..expr import BOOLEAN, INTEGER
-from ..syntax import ast
-from .constants import known
-from .lower import lower, modifier_value
-from .modifiers import Modifier
-from .scope import Scope, enumeration
-from .values import Array, Value, shape_of
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.constants import known
+from lacuna.codegen.flatten.lower import lower, modifier_value
+from lacuna.codegen.flatten.modifiers import Modifier
+from lacuna.codegen.flatten.scope import Scope, enumeration
+from lacuna.codegen.flatten.values import Array, Value, shape_of
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER
+from lacuna.codegen.syntax import ast
 
 MAX_SIZE = 100_000
 

@@ -8,12 +8,12 @@ import hashlib
 import math
 from pathlib import Path
 
-from .. import expr as ex
-from ..errors import Diagnostic, Span
-from ..suggest import did_you_mean
-from ..syntax import ast
-from .context import Context
-from .values import Array, Value
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.values import Array, Value
+from lacuna.codegen.suggest import did_you_mean
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.syntax import ast
 
 CSV_COLUMN = "csvColumn"
 

@@ -5,22 +5,22 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from .. import expr as ex
-from .. import flat
-from ..errors import Diagnostic, Span
-from ..expr import BOOLEAN, FALSE, INTEGER, REAL, TRUE, Expr
-from ..rewrite import Rewriter
-from ..syntax import ast
-from .asserts import lower_assert
-from .constants import AtRunTime, evaluate
-from .context import Context
-from .elements import element, local_value
-from .function_locals import Signature, declared_sizes, fit, typed
-from .interpret import unknown_target
-from .lower import iterate, lower, lower_results, lower_scalar
-from .references import apply_subscripts
-from .scope import Scope
-from .values import Array, Record, Value, indices, scalars, shape_of, shape_text
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.asserts import lower_assert
+from lacuna.codegen.flatten.constants import AtRunTime, evaluate
+from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.elements import element, local_value
+from lacuna.codegen.flatten.function_locals import Signature, declared_sizes, fit, typed
+from lacuna.codegen.flatten.interpret import unknown_target
+from lacuna.codegen.flatten.lower import iterate, lower, lower_results, lower_scalar
+from lacuna.codegen.flatten.references import apply_subscripts
+from lacuna.codegen.flatten.scope import Scope
+from lacuna.codegen.flatten.values import Array, Record, Value, indices, scalars, shape_of, shape_text
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, INTEGER, REAL, TRUE, Expr
+from lacuna.codegen.symbolic.rewrite import Rewriter
+from lacuna.codegen.syntax import ast
 
 
 @dataclass

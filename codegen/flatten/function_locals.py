@@ -5,18 +5,18 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from .. import expr as ex
-from ..errors import Diagnostic, Span
-from ..expr import INTEGER, REAL, Expr
-from ..syntax import ast
-from ..units import parse_unit
-from .context import Context
-from .evaluate import evaluate_dimensions
-from .instance import Instance
-from .modifiers import from_tree, merge
-from .scope import Scope
-from .types import Type, resolve_type
-from .values import Array, Record, Value, scalars, shape_of, shape_text
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.evaluate import evaluate_dimensions
+from lacuna.codegen.flatten.instance import Instance
+from lacuna.codegen.flatten.modifiers import from_tree, merge
+from lacuna.codegen.flatten.scope import Scope
+from lacuna.codegen.flatten.types import Type, resolve_type
+from lacuna.codegen.flatten.values import Array, Record, Value, scalars, shape_of, shape_text
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import INTEGER, REAL, Expr
+from lacuna.codegen.syntax import ast
+from lacuna.codegen.units.unit import parse_unit
 
 
 @dataclass

@@ -8,20 +8,20 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from .. import expr as ex
-from ..errors import Diagnostic, Span
-from ..expr import Expr
-from ..suggest import did_you_mean
-from ..syntax import ast
-from .constants import AtRunTime
-from .context import Context
-from .external import call_external
-from .function_code import emitted_call
-from .function_locals import Local, fit, signature_of
-from .interpret import interpret
-from .lower import lower
-from .scope import Scope
-from .values import Array, Record, Value, scalars
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.constants import AtRunTime
+from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.external import call_external
+from lacuna.codegen.flatten.function_code import emitted_call
+from lacuna.codegen.flatten.function_locals import Local, fit, signature_of
+from lacuna.codegen.flatten.interpret import interpret
+from lacuna.codegen.flatten.lower import lower
+from lacuna.codegen.flatten.scope import Scope
+from lacuna.codegen.flatten.values import Array, Record, Value, scalars
+from lacuna.codegen.suggest import did_you_mean
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import Expr
+from lacuna.codegen.syntax import ast
 
 MAX_INLINE_NODES = 250
 MAX_INLINE_DEPTH = 12

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from ..errors import Diagnostic
-from ..suggest import did_you_mean
-from ..syntax import ast
-from .modifiers import Modifier, from_tree, merge
-from .scope import Scope, require_class
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.modifiers import Modifier, from_tree, merge
+from lacuna.codegen.flatten.scope import Scope, require_class
+from lacuna.codegen.suggest import did_you_mean
+from lacuna.codegen.syntax import ast
 
 if TYPE_CHECKING:
-    from .instance import Instance
+    from lacuna.codegen.flatten.instance import Instance
 
 MAX_DEPTH = 40
 

@@ -8,17 +8,17 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from math import prod
 
-from ..errors import Diagnostic, Span
-from ..syntax import ast
-from .context import Context
-from .evaluate import evaluate_boolean, evaluate_dimensions
-from .inheritance import Element, Inheritance
-from .leaf import Leaf
-from .lower import modifier_value
-from .modifiers import Modifier, for_each, from_tree, merge, narrow
-from .scope import Scope, require_class
-from .types import Type, resolve_type
-from .values import Record, Value, indices
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.evaluate import evaluate_boolean, evaluate_dimensions
+from lacuna.codegen.flatten.inheritance import Element, Inheritance
+from lacuna.codegen.flatten.leaf import Leaf
+from lacuna.codegen.flatten.lower import modifier_value
+from lacuna.codegen.flatten.modifiers import Modifier, for_each, from_tree, merge, narrow
+from lacuna.codegen.flatten.scope import Scope, require_class
+from lacuna.codegen.flatten.types import Type, resolve_type
+from lacuna.codegen.flatten.values import Record, Value, indices
+from lacuna.codegen.syntax import ast
 
 
 @dataclass

@@ -6,20 +6,20 @@ from collections.abc import Sequence
 from dataclasses import replace
 from math import prod
 
-from .. import expr as ex
-from ..errors import Diagnostic, Span
-from ..expr import BOOLEAN, TRUE, Expr
-from ..suggest import did_you_mean
-from ..syntax import ast
-from .asserts import lower_assert
-from .constants import AtRunTime
-from .context import Context
-from .function_locals import Local, Signature, declared_sizes, fit, signature_of, typed
-from .instance import package_of
-from .lower import iterate, lower, lower_results, lower_scalar
-from .references import apply_subscripts
-from .scope import Scope
-from .values import Array, Record, Value, elementwise, integers, scalars, shape_of, shape_text
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.asserts import lower_assert
+from lacuna.codegen.flatten.constants import AtRunTime
+from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.function_locals import Local, Signature, declared_sizes, fit, signature_of, typed
+from lacuna.codegen.flatten.instance import package_of
+from lacuna.codegen.flatten.lower import iterate, lower, lower_results, lower_scalar
+from lacuna.codegen.flatten.references import apply_subscripts
+from lacuna.codegen.flatten.scope import Scope
+from lacuna.codegen.flatten.values import Array, Record, Value, elementwise, integers, scalars, shape_of, shape_text
+from lacuna.codegen.suggest import did_you_mean
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr
+from lacuna.codegen.syntax import ast
 
 MAX_STEPS = 50_000
 MAX_SYMBOLIC_STEPS = 400

@@ -5,18 +5,18 @@ from __future__ import annotations
 from math import prod
 from typing import TYPE_CHECKING
 
-from .. import expr as ex
-from ..errors import Diagnostic
-from ..expr import Expr
-from ..suggest import did_you_mean
-from ..syntax import ast
-from .lower import modifier_value
-from .modifiers import Modifier
-from .types import ATTRIBUTES, Type
-from .values import Array, Record, Value, indices, shape_of, shape_text
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.lower import modifier_value
+from lacuna.codegen.flatten.modifiers import Modifier
+from lacuna.codegen.flatten.types import ATTRIBUTES, Type
+from lacuna.codegen.flatten.values import Array, Record, Value, indices, shape_of, shape_text
+from lacuna.codegen.suggest import did_you_mean
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import Expr
+from lacuna.codegen.syntax import ast
 
 if TYPE_CHECKING:
-    from .instance import Instance
+    from lacuna.codegen.flatten.instance import Instance
 
 
 class Leaf:

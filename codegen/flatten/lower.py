@@ -4,15 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from .. import expr as ex
-from ..errors import Diagnostic, Span
-from ..expr import BOOLEAN, INTEGER, REAL, Expr
-from ..syntax import ast
-from .constants import is_known, known
-from .enumerations import literal, require_same
-from .modifiers import Modifier
-from .scope import Scope, enumeration
-from .values import Array, Record, Value, concatenate, elementwise, multiply, promote, shape_of, stack
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.constants import is_known, known
+from lacuna.codegen.flatten.enumerations import literal, require_same
+from lacuna.codegen.flatten.modifiers import Modifier
+from lacuna.codegen.flatten.scope import Scope, enumeration
+from lacuna.codegen.flatten.values import (
+    Array,
+    Record,
+    Value,
+    concatenate,
+    elementwise,
+    multiply,
+    promote,
+    shape_of,
+    stack,
+)
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
+from lacuna.codegen.syntax import ast
 
 Handler = Callable[..., Value]
 HANDLERS: dict[type, Handler] = {}  # by kind of node; names and calls come in from modules of their own

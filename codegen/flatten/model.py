@@ -6,27 +6,27 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-from .. import expr as ex
-from .. import flat
-from ..errors import Diagnostic, Span
-from ..expr import Expr
-from ..library import Library
-from ..rewrite import assigned, expressions
-from ..syntax import ast
-from ..unit_check import check_units
-from .algorithms import flatten_algorithm
-from .connections import connection_equations
-from .constants import evaluate
-from .context import Context
-from .equations import Collected
-from .functions import run
-from .instance import ArrayNode, Instance
-from .leaf import Leaf
-from .lower import lower_scalar
-from .modifiers import Modifier
-from .scope import Scope
-from .sections import flatten_items
-from .variables import add_used_constants, flatten_variables, mark_discrete
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.algorithms import flatten_algorithm
+from lacuna.codegen.flatten.connections import connection_equations
+from lacuna.codegen.flatten.constants import evaluate
+from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.equations import Collected
+from lacuna.codegen.flatten.functions import run
+from lacuna.codegen.flatten.instance import ArrayNode, Instance
+from lacuna.codegen.flatten.leaf import Leaf
+from lacuna.codegen.flatten.lower import lower_scalar
+from lacuna.codegen.flatten.modifiers import Modifier
+from lacuna.codegen.flatten.scope import Scope
+from lacuna.codegen.flatten.sections import flatten_items
+from lacuna.codegen.flatten.variables import add_used_constants, flatten_variables, mark_discrete
+from lacuna.codegen.library import Library
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import Expr
+from lacuna.codegen.symbolic.rewrite import assigned, expressions
+from lacuna.codegen.syntax import ast
+from lacuna.codegen.units.check import check_units
 
 _MODEL_KINDS = ("model", "block", "class")
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from ..errors import Diagnostic, Span
-from ..expr import Expr
-from ..syntax import ast
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.symbolic.expr import Expr
+from lacuna.codegen.syntax import ast
 
 if TYPE_CHECKING:
-    from .scope import Scope
+    from lacuna.codegen.flatten.scope import Scope
 
 
 @dataclass(slots=True)

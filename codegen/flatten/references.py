@@ -5,19 +5,19 @@ from __future__ import annotations
 from dataclasses import replace
 from math import prod
 
-from .. import expr as ex
-from ..errors import Diagnostic
-from ..expr import INTEGER, Expr
-from ..suggest import did_you_mean
-from ..syntax import ast
-from .constants import is_known, known
-from .elements import at_index
-from .enumerations import literal
-from .instance import Absent, ArrayNode, Instance, Node, package_of
-from .leaf import Leaf
-from .lower import FUNCTIONS, handles, lower
-from .scope import Scope, find_class, find_first, own_or_inherited, visible_classes
-from .values import Array, Record, Value, elementwise, scalars, shape_of, stack
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.constants import is_known, known
+from lacuna.codegen.flatten.elements import at_index
+from lacuna.codegen.flatten.enumerations import literal
+from lacuna.codegen.flatten.instance import Absent, ArrayNode, Instance, Node, package_of
+from lacuna.codegen.flatten.leaf import Leaf
+from lacuna.codegen.flatten.lower import FUNCTIONS, handles, lower
+from lacuna.codegen.flatten.scope import Scope, find_class, find_first, own_or_inherited, visible_classes
+from lacuna.codegen.flatten.values import Array, Record, Value, elementwise, scalars, shape_of, stack
+from lacuna.codegen.suggest import did_you_mean
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import INTEGER, Expr
+from lacuna.codegen.syntax import ast
 
 
 @handles(ast.Ref)

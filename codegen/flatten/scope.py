@@ -5,15 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from ..errors import Diagnostic
-from ..library import Library
-from ..suggest import did_you_mean, nearest
-from ..syntax import ast
-from .values import Value
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.values import Value
+from lacuna.codegen.library import Library
+from lacuna.codegen.suggest import did_you_mean, nearest
+from lacuna.codegen.syntax import ast
 
 if TYPE_CHECKING:
-    from .context import Context
-    from .instance import Instance
+    from lacuna.codegen.flatten.context import Context
+    from lacuna.codegen.flatten.instance import Instance
 
 PRIMITIVES = ("Real", "Integer", "Boolean", "String")
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from .. import flat
-from ..errors import Diagnostic
-from ..syntax import ast
-from .asserts import lower_assert
-from .conditionals import flatten_if
-from .equations import Collected, continuous_equalities, unroll
-from .scope import Scope
-from .when import flatten_when
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.asserts import lower_assert
+from lacuna.codegen.flatten.conditionals import flatten_if
+from lacuna.codegen.flatten.equations import Collected, continuous_equalities, unroll
+from lacuna.codegen.flatten.scope import Scope
+from lacuna.codegen.flatten.when import flatten_when
+from lacuna.codegen.syntax import ast
 
 
 def flatten_items(items: list[ast.Item], scope: Scope, out: Collected) -> None:

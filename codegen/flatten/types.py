@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ..errors import Diagnostic
-from ..syntax import ast
-from .evaluate import evaluate_dimensions
-from .modifiers import Modifier, from_tree, merge
-from .scope import PRIMITIVES, Scope, find_class, unknown_class
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.evaluate import evaluate_dimensions
+from lacuna.codegen.flatten.modifiers import Modifier, from_tree, merge
+from lacuna.codegen.flatten.scope import PRIMITIVES, Scope, find_class, unknown_class
+from lacuna.codegen.syntax import ast
 
 ATTRIBUTES = {
     "Real": ("value", "quantity", "unit", "displayUnit", "min", "max", "start", "fixed", "nominal", "stateSelect"),

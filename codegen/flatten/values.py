@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from itertools import product
 from math import prod
 
-from ..errors import Diagnostic, Span
-from ..expr import ZERO, Expr, add, const, mul
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.symbolic.expr import ZERO, Expr, add, const, mul
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from .. import expr as ex
-from .. import flat
-from ..errors import Diagnostic, Span
-from ..expr import BOOLEAN, INTEGER, REAL, Expr
-from .constants import is_known
-from .context import Context
-from .enumerations import require_same
-from .equations import real_or_same
-from .leaf import Leaf
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.constants import is_known
+from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.enumerations import require_same
+from lacuna.codegen.flatten.equations import real_or_same
+from lacuna.codegen.flatten.leaf import Leaf
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
 
 _STATE_SELECT = ("never", "avoid", "default", "prefer", "always")
 _NUMERIC = ("start", "min", "max", "nominal")

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from .. import flat
-from ..errors import Diagnostic, Span
-from ..expr import BOOLEAN, FALSE, TRUE, Expr
-from ..rewrite import assigned
-from ..syntax import ast
-from .asserts import lower_assert
-from .constants import is_known
-from .equations import check_target, check_types, equalities, origin_of, unroll
-from .lower import lower, lower_scalar
-from .scope import Scope
-from .values import scalars, shape_of, shape_text
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.asserts import lower_assert
+from lacuna.codegen.flatten.constants import is_known
+from lacuna.codegen.flatten.equations import check_target, check_types, equalities, origin_of, unroll
+from lacuna.codegen.flatten.lower import lower, lower_scalar
+from lacuna.codegen.flatten.scope import Scope
+from lacuna.codegen.flatten.values import scalars, shape_of, shape_text
+from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, TRUE, Expr
+from lacuna.codegen.symbolic.rewrite import assigned
+from lacuna.codegen.syntax import ast
 
 
 def flatten_when(item: ast.When, scope: Scope) -> flat.When:

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from .. import flat
-from ..errors import Diagnostic
-from ..expr import Expr, const, der, is_const, neg, pre, var
-from ..leaves import leaves
-from ..rewrite import Rewriter, assigned
-from .constants import evaluate_constants, parametric_unknowns
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.structure.constants import evaluate_constants, parametric_unknowns
+from lacuna.codegen.symbolic.expr import Expr, const, der, is_const, neg, pre, var
+from lacuna.codegen.symbolic.leaves import leaves
+from lacuna.codegen.symbolic.rewrite import Rewriter, assigned
 
 STATE_SELECT = ("never", "avoid", "default", "prefer", "always")
 

@@ -8,14 +8,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from ..affine import UNSAFE, isolate
-from ..differentiate import Differentiator
-from ..expr import ONE, ZERO, Expr, neg, substitute
-from ..leaves import leaves
-from .blocks import strong_components
-from .matching import Matching
-from .system import Row
-from .tearing import Assignment, Tearing
+from lacuna.codegen.structure.blocks import strong_components
+from lacuna.codegen.structure.matching import Matching
+from lacuna.codegen.structure.system import Row
+from lacuna.codegen.structure.tearing import Assignment, Tearing
+from lacuna.codegen.symbolic.affine import UNSAFE, isolate
+from lacuna.codegen.symbolic.differentiate import Differentiator
+from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, neg, substitute
+from lacuna.codegen.symbolic.leaves import leaves
 
 
 @dataclass(eq=False)

@@ -6,13 +6,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from .. import flat
-from ..errors import Diagnostic
-from ..expr import BUILTINS, ONE, REAL, Expr, div, mul, to_text, transform, var, walk
-from ..leaves import leaves
-from ..rewrite import Rewriter
-from .causal import Step, rewritten
-from .system import Row, System
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.structure.causal import Step, rewritten
+from lacuna.codegen.structure.system import Row, System
+from lacuna.codegen.symbolic.expr import BUILTINS, ONE, REAL, Expr, div, mul, to_text, transform, var, walk
+from lacuna.codegen.symbolic.leaves import leaves
+from lacuna.codegen.symbolic.rewrite import Rewriter
 
 
 def evaluate_constants(model: flat.FlatModel) -> flat.FlatModel:

@@ -11,14 +11,14 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import reduce
 
-from .. import flat
-from ..differentiate import partial
-from ..errors import Diagnostic
-from ..expr import Expr, add, const, der, mul, relation, var
-from ..rewrite import Rewriter, all_statements
-from .aliases import STATE_SELECT
-from .constants import is_parametric
-from .system import DeclaredValues, Row, System
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.structure.aliases import STATE_SELECT
+from lacuna.codegen.structure.constants import is_parametric
+from lacuna.codegen.structure.system import DeclaredValues, Row, System
+from lacuna.codegen.symbolic.differentiate import partial
+from lacuna.codegen.symbolic.expr import Expr, add, const, der, mul, relation, var
+from lacuna.codegen.symbolic.rewrite import Rewriter, all_statements
 
 PIVOT = 1e-6  # smallest pivot accepted, relative to the largest entry of its equation
 WATCHED = 0.1  # smallest pivot tolerated during a run, relative to those of the states that it stands beside

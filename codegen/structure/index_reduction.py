@@ -6,13 +6,13 @@ C. Pantelides, The consistent initialization of differential-algebraic systems, 
 
 from __future__ import annotations
 
-from .. import flat
-from ..differentiate import Differentiator
-from ..errors import Diagnostic
-from ..expr import ONE, ZERO, Expr, der
-from .dummy_derivatives import choose_states
-from .singular import require_regular
-from .system import Row, System
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.structure.dummy_derivatives import choose_states
+from lacuna.codegen.structure.singular import require_regular
+from lacuna.codegen.structure.system import Row, System
+from lacuna.codegen.symbolic.differentiate import Differentiator
+from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, der
 
 
 def reduce_index(model: flat.FlatModel, equations: list[flat.Equation]) -> System:

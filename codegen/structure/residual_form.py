@@ -6,12 +6,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from ..differentiate import Differentiator
-from ..expr import ONE, ZERO, Expr, is_const, substitute, var
-from ..leaves import leaves
-from .causal import LinearBlock, Step, unknowns_of
-from .system import Row, System
-from .tearing import Assignment, Tearing
+from lacuna.codegen.structure.causal import LinearBlock, Step, unknowns_of
+from lacuna.codegen.structure.system import Row, System
+from lacuna.codegen.structure.tearing import Assignment, Tearing
+from lacuna.codegen.symbolic.differentiate import Differentiator
+from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, is_const, substitute, var
+from lacuna.codegen.symbolic.leaves import leaves
 
 
 @dataclass

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from .. import flat
-from ..errors import Diagnostic
-from .matching import Matching
-from .system import Row
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.structure.matching import Matching
+from lacuna.codegen.structure.system import Row
 
 
 def _occurring(row: Row) -> set[str]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from .. import flat
-from ..evaluate import evaluate
-from ..expr import REAL, Expr, der, sub, var
-from ..leaves import leaves
-from ..rewrite import Rewriter
+from lacuna.codegen import flat
+from lacuna.codegen.symbolic.evaluate import evaluate
+from lacuna.codegen.symbolic.expr import REAL, Expr, der, sub, var
+from lacuna.codegen.symbolic.leaves import leaves
+from lacuna.codegen.symbolic.rewrite import Rewriter
 
 
 @dataclass(eq=False)

@@ -12,10 +12,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
-from ..affine import UNSAFE, division_rank, isolate
-from ..differentiate import partial
-from ..expr import Expr, div
-from .system import DeclaredValues, Row
+from lacuna.codegen.structure.system import DeclaredValues, Row
+from lacuna.codegen.symbolic.affine import UNSAFE, division_rank, isolate
+from lacuna.codegen.symbolic.differentiate import partial
+from lacuna.codegen.symbolic.expr import Expr, div
 
 AMPLIFICATION = 1e5
 

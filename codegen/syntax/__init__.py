@@ -1,5 +1,5 @@
 """Text to syntax tree: `parse(text, file)` gives the classes of one .mo file."""
 
-from .classes import parse
+from lacuna.codegen.syntax.classes import parse
 
 __all__ = ["parse"]

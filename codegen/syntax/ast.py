@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ..errors import Span
+from lacuna.codegen.errors import Span
 
 
 @dataclass(slots=True, eq=False)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from ..errors import Diagnostic
-from . import ast
-from .cursor import first_of
-from .equations import SECTION_STARTS, EquationParser
-from .lexer import tokenize
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.syntax import ast
+from lacuna.codegen.syntax.cursor import first_of
+from lacuna.codegen.syntax.equations import SECTION_STARTS, EquationParser
+from lacuna.codegen.syntax.lexer import tokenize
 
 _KINDS = ("model", "block", "connector", "record", "type", "package", "function", "class")
 _CLASS_STARTS = (*_KINDS, "partial", "encapsulated", "expandable", "operator", "pure", "impure")

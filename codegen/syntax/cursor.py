@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ..errors import Diagnostic, Span
-from ..suggest import did_you_mean
-from .lexer import KEYWORDS, Source
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.suggest import did_you_mean
+from lacuna.codegen.syntax.lexer import KEYWORDS, Source
 
 MAX_DEPTH = 100
 MAX_OPERANDS = 1000

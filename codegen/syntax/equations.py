@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from ..errors import Diagnostic
-from . import ast
-from .cursor import first_of
-from .modifications import ModificationParser
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.syntax import ast
+from lacuna.codegen.syntax.cursor import first_of
+from lacuna.codegen.syntax.modifications import ModificationParser
 
 SECTION_STARTS = ("equation", "algorithm", "initial", "public", "protected", "annotation", "external")
 _BLOCK_ENDS = ("end", "else", "elseif", "elsewhen")

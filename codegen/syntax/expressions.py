@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..errors import Diagnostic
-from . import ast
-from .cursor import Cursor
-from .lexer import string_value
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.syntax import ast
+from lacuna.codegen.syntax.cursor import Cursor
+from lacuna.codegen.syntax.lexer import string_value
 
 _RELATIONS = ("<", "<=", ">", ">=", "==", "<>")
 _ADDITIVE = ("+", "-", ".+", ".-")

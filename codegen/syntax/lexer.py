@@ -6,7 +6,7 @@ from bisect import bisect_right
 from dataclasses import dataclass
 import re
 
-from ..errors import Diagnostic, Span
+from lacuna.codegen.errors import Diagnostic, Span
 
 KEYWORDS = frozenset(
     (

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from ..errors import Diagnostic, Span
-from . import ast
-from .expressions import ExpressionParser
-from .lexer import string_value
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.syntax import ast
+from lacuna.codegen.syntax.expressions import ExpressionParser
+from lacuna.codegen.syntax.lexer import string_value
 
 _GRAPHICS = frozenset(
     (

@@ -15,8 +15,8 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1]))
 
-from codegen.compile import compile_model  # noqa: E402
-import runtime  # noqa: E402
+from lacuna import runtime  # noqa: E402
+from lacuna.codegen.compile import compile_model  # noqa: E402
 
 COLOURS = ("#0b5394", "#b45309", "#3d7a3d", "#8e3b6f")
 

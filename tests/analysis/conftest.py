@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from analysis.maps import build_map
-from analysis.preparation import prepare_assessment
+from lacuna.analysis.map.maps import build_map
+from lacuna.analysis.severity.preparation import prepare_assessment
 from tests.analysis.plants import ReferencePlant, paper_settings
 
 

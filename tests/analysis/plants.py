@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from analysis.plant import Record, SourceEquation
-from analysis.settings import PAPER, Settings, load_settings
+from lacuna.analysis.map.plant import Record, SourceEquation
+from lacuna.analysis.settings import PAPER, Settings, load_settings
 from tests.analysis.reference import declared, simulate
 
 

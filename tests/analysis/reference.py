@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from analysis.library import library_path
+from lacuna.analysis.spectra.library import library_path
 
 
 class Parameters(ctypes.Structure):

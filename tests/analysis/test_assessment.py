@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from scipy.io import savemat
 
-from analysis.assessment import assess, chain_at, low_pass
-from analysis.errors import AnalysisError
-from analysis.library import library_path
-from analysis.recordings import Refusal
-from analysis.settings import load_settings
-from analysis.severity_table import SeverityTable
+from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.recording.recordings import Refusal
+from lacuna.analysis.settings import load_settings
+from lacuna.analysis.severity.assessment import assess, chain_at, low_pass
+from lacuna.analysis.severity.severity_table import SeverityTable
+from lacuna.analysis.spectra.library import library_path
 from tests.analysis.reference import declared, simulate
 
 COLUMNS = ["ia", "ib", "ic"]

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from analysis.assessment import assess
-from analysis.recordings import Refusal
-from codegen.compile import compile_model
-import runtime
+from lacuna import runtime
+from lacuna.analysis.recording.recordings import Refusal
+from lacuna.analysis.severity.assessment import assess
+from lacuna.codegen.compile import compile_model
 
 CURRENTS = [f"filter[{k}].y" for k in (1, 2, 3)]
 STEP = 20 / 2**12  # A, of a 12-bit converter over +-10 A

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 import scipy.signal
 
-from analysis.chain import Chain
-from analysis.errors import AnalysisError
-from analysis.settings import load_settings
+from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.settings import load_settings
+from lacuna.analysis.spectra.chain import Chain
 from tests.analysis.reference import simulate
 
 PAPER = load_settings()

@@ -8,16 +8,16 @@ import json
 import numpy as np
 import pytest
 
-from analysis.combined.assessment import assess_both
-from analysis.combined.estimate import JointEstimator
-from analysis.combined.grid import GRID_FILE, Grid, build_grid, load_grid, other_fault
-from analysis.combined.report import write_studies
-from analysis.combined.study import run_study
-from analysis.errors import AnalysisError
-from analysis.preparation import TABLE_FILE
-from analysis.recordings import Refusal
-from analysis.settings import load_settings
-from analysis.severity_table import SeverityTable
+from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.recording.recordings import Refusal
+from lacuna.analysis.settings import load_settings
+from lacuna.analysis.severity.combined.assessment import assess_both
+from lacuna.analysis.severity.combined.estimate import JointEstimator
+from lacuna.analysis.severity.combined.grid import GRID_FILE, Grid, build_grid, load_grid, other_fault
+from lacuna.analysis.severity.combined.report import write_studies
+from lacuna.analysis.severity.combined.study import run_study
+from lacuna.analysis.severity.preparation import TABLE_FILE
+from lacuna.analysis.severity.severity_table import SeverityTable
 from tests.analysis.plants import ReferencePlant, paper_settings
 from tests.analysis.reference import declared, simulate
 from tests.analysis.test_assessment import COLUMNS, write

@@ -8,9 +8,9 @@ import subprocess
 import numpy as np
 import pytest
 
-from analysis.chain import Chain
-from analysis.library import library_path
-from analysis.settings import PAPER, load_settings
+from lacuna.analysis.settings import PAPER, load_settings
+from lacuna.analysis.spectra.chain import Chain
+from lacuna.analysis.spectra.library import library_path
 from tests.analysis.reference import simulate
 
 PROGRAM = library_path().parents[1] / "bin" / "lacuna-analyse"

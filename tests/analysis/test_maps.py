@@ -8,8 +8,8 @@ import re
 
 import pytest
 
-from analysis.errors import AnalysisError
-from analysis.maps import build_map
+from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.map.maps import build_map
 from tests.analysis.plants import ReferencePlant, paper_settings
 
 COARSE = ("step = 0.01", "step = 0.1")

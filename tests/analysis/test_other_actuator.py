@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from analysis.errors import AnalysisError
-from analysis.maps import build_map
-from analysis.plant import ModelPlant
-from analysis.settings import PAPER, load_settings
-from codegen.compile import compile_model
+from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.map.maps import build_map
+from lacuna.analysis.map.plant import ModelPlant
+from lacuna.analysis.settings import PAPER, load_settings
+from lacuna.codegen.compile import compile_model
 
 SCREW = PAPER.with_name("screw.toml")
 AXES = {

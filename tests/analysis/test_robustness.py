@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from analysis.prepared import Prepared
-from analysis.robustness import Rate, Results, error_shares, roc, run_tests
-from analysis.robustness_report import alarms, write_study
-from analysis.settings import load_settings
+from lacuna.analysis.report.robustness import alarms, write_study
+from lacuna.analysis.settings import load_settings
+from lacuna.analysis.severity.prepared import Prepared
+from lacuna.analysis.severity.robustness import Rate, Results, error_shares, roc, run_tests
 from tests.analysis.plants import ReferencePlant
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from analysis.errors import AnalysisError
-from analysis.settings import load_settings
+from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.settings import load_settings
 from tests.analysis.plants import paper_settings
 
 

@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 import numpy as np
 import pytest
 
-from analysis.chain import Chain, signature
-from analysis.errors import AnalysisError
-from analysis.settings import load_settings
-from analysis.severity_table import SeverityTable, TableContents, table_bytes
+from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.settings import load_settings
+from lacuna.analysis.severity.severity_table import SeverityTable, TableContents, table_bytes
+from lacuna.analysis.spectra.chain import Chain, signature
 from tests.analysis.reference import simulate
 
 SIGMA = 0.01

@@ -14,7 +14,7 @@ from tests.architecture.sources import FOLDERS, ROOT, files
 FILE_LIMIT, FUNCTION_LIMIT = 300, 50
 
 LONG_FILES = {
-    "codegen/expr.py": "one table of node types with their builders, folding rules and printer: they change together",
+    "codegen/symbolic/expr.py": "one table of node types, their builders, rules and printer: they change together",
     "tests/codegen/back/test_hybrid.py": "one test a hybrid phenomenon, each beside the small model that shows it",
 }
 _TABLE = "small makers of concealed effects side by side, which share what the function computes first"

@@ -9,8 +9,8 @@ import pytest
 
 from bench.by_hand import T1, T2, Problem, with_ida, with_rk4
 from bench.generated import ATOL, RTOL, error_against
-from codegen.compile import compile_model
-import runtime
+from lacuna import runtime
+from lacuna.codegen.compile import compile_model
 
 # Ten thousand times finer than the output; halving it changes the states by 1e-8 or less.
 REFERENCE_STEP = {T1: 5e-6, T2: 1e-6}

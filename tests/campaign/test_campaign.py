@@ -14,13 +14,13 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from analysis.campaign.points import chunks, sobol_points
-from analysis.campaign.run import run_campaign
-from analysis.campaign.work import Work
-from analysis.errors import AnalysisError
-from analysis.plant import ModelPlant
-from analysis.settings import PAPER, load_settings
-from codegen.compile import compile_model
+from lacuna.analysis.campaign.points import chunks, sobol_points
+from lacuna.analysis.campaign.run import run_campaign
+from lacuna.analysis.campaign.work import Work
+from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.map.plant import ModelPlant
+from lacuna.analysis.settings import PAPER, load_settings
+from lacuna.codegen.compile import compile_model
 
 ROOT = Path(__file__).resolve().parents[2]
 COUNT, CHUNK = 48, 4  # of the short test; the long one has 2000 points

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from cli.main import app
-import runtime
+from lacuna import runtime
+from lacuna.cli.main import app
 
 ROOT = Path(__file__).parents[2]
 SERVO = str(ROOT / "tests" / "models" / "SquareWaveServo.mo")

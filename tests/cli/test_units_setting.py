@@ -4,7 +4,7 @@ from pathlib import Path
 
 from typer.testing import CliRunner
 
-from cli.main import app
+from lacuna.cli.main import app
 
 MODEL = """model Decay
   Real x(unit="m", start=1, fixed=true);

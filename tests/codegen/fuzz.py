@@ -17,9 +17,9 @@ import tempfile
 import time
 import traceback
 
-from codegen.errors import Diagnostic
-from codegen.flatten import flatten
-from codegen.library import Library
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten import flatten
+from lacuna.codegen.library import Library
 from tests.codegen.grammar import random_model
 
 ROOT = Path(__file__).parents[2]

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from codegen.compile import CompiledModel, compile_model
+from lacuna.codegen.compile import CompiledModel, compile_model
 
 _DOUBLES = POINTER(c_double)
 

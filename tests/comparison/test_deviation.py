@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from analysis.comparison.deviation import (
+from lacuna.analysis.comparison.deviation import (
     event_deviation,
     event_pairs,
     observed_order,

@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analysis.comparison.report import findings, order_text
-from analysis.comparison.scenarios import Scenario, load
-from analysis.comparison.study import Study, run
-from codegen.compile import compile_model
-import runtime
+from lacuna import runtime
+from lacuna.analysis.comparison.report import findings, order_text
+from lacuna.analysis.comparison.scenarios import Scenario, load
+from lacuna.analysis.comparison.study import Study, run
+from lacuna.codegen.compile import compile_model
 
 MODEL = Path(__file__).parents[1] / "models" / "SquareWaveServo.mo"
 

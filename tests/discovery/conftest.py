@@ -7,14 +7,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from codegen.compile import compile_model
-from codegen.library import Library
-from discovery import catalogue
-from discovery.amend import Amendment, Attachment
-from discovery.cases import Case
-from discovery.hypotheses import enumerate_attachments
-from discovery.places import read
-from runtime import Model, RecordedInput, simulate
+from lacuna.codegen.compile import compile_model
+from lacuna.codegen.library import Library
+from lacuna.discovery import catalogue
+from lacuna.discovery.amend import Amendment, Attachment
+from lacuna.discovery.cases import Case
+from lacuna.discovery.hypotheses import enumerate_attachments
+from lacuna.discovery.places import read
+from lacuna.runtime import Model, RecordedInput, simulate
 
 BELIEVED = {"R": 3.5, "L": 3.3e-3, "Ke": 0.03, "J": 7e-6, "b": 2e-5}
 NOISE = {"i": 0.01, "theta": 5e-4}

@@ -7,16 +7,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from codegen.library import Library
-from discovery.amend import Amendment
-from discovery.cases import load
-from discovery.empirical_law import find
-from discovery.experiments import separate
-from discovery.law_terms import Group, evaluate
-from discovery.machine import Machine
-from discovery.places import read
-from discovery.response import Response
-from discovery.steps import fit_believed
+from lacuna.codegen.library import Library
+from lacuna.discovery.amend import Amendment
+from lacuna.discovery.cases import load
+from lacuna.discovery.empirical_law import find
+from lacuna.discovery.experiments import separate
+from lacuna.discovery.law_terms import Group, evaluate
+from lacuna.discovery.machine import Machine
+from lacuna.discovery.places import read
+from lacuna.discovery.response import Response
+from lacuna.discovery.steps import fit_believed
 from tests.discovery.conftest import BELIEVED, write_case, write_model
 
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from discovery.cases import CaseError, load
-from discovery.units import UnitError, to_si
+from lacuna.discovery.cases import CaseError, load
+from lacuna.discovery.units import UnitError, to_si
 
 
 def test_units_lead_to_si() -> None:

@@ -8,19 +8,19 @@ import numpy as np
 import pytest
 from scipy.optimize import nnls
 
-from codegen.compile import compile_model
-from codegen.library import Library
-from discovery import candidate_fit, catalogue
-from discovery.amend import Amendment, Attachment
-from discovery.cases import load
-from discovery.fit import fit
-from discovery.least_squares import bounded_linear
-from discovery.machine import Machine
-from discovery.places import read
-from discovery.screen import Screen, prepare
-from discovery.shapes import limits_of
-from discovery.steps import fit_believed
-import runtime
+from lacuna import runtime
+from lacuna.codegen.compile import compile_model
+from lacuna.codegen.library import Library
+from lacuna.discovery import candidate_fit, catalogue
+from lacuna.discovery.amend import Amendment, Attachment
+from lacuna.discovery.cases import load
+from lacuna.discovery.fit import fit
+from lacuna.discovery.least_squares import bounded_linear
+from lacuna.discovery.machine import Machine
+from lacuna.discovery.places import read
+from lacuna.discovery.screen import Screen, prepare
+from lacuna.discovery.shapes import limits_of
+from lacuna.discovery.steps import fit_believed
 
 from .conftest import BELIEVED, attachment, conceal, write_case
 

@@ -10,23 +10,23 @@ import shutil
 import numpy as np
 import pytest
 
-from codegen.library import Library
-from discovery import catalogue, diagnosis, report
-from discovery.amend import Amendment
-from discovery.cases import load
-from discovery.comparison import confidences
-from discovery.evidence import is_noise
-from discovery.explain import _conclude, explain, judge_written, write_amended
-from discovery.explanation import Explanation
-from discovery.intervals import standard_errors
-from discovery.judge import judge_file
-from discovery.least_squares import Free, Problem, solve
-from discovery.locate import locate
-from discovery.machine import Machine
-from discovery.name import Naming
-from discovery.noise import estimate, quantum
-from discovery.places import read
-from discovery.steps import fit_believed
+from lacuna.codegen.library import Library
+from lacuna.discovery import catalogue, diagnosis, report
+from lacuna.discovery.amend import Amendment
+from lacuna.discovery.cases import load
+from lacuna.discovery.comparison import confidences
+from lacuna.discovery.evidence import is_noise
+from lacuna.discovery.explain import _conclude, explain, judge_written, write_amended
+from lacuna.discovery.explanation import Explanation
+from lacuna.discovery.intervals import standard_errors
+from lacuna.discovery.judge import judge_file
+from lacuna.discovery.least_squares import Free, Problem, solve
+from lacuna.discovery.locate import locate
+from lacuna.discovery.machine import Machine
+from lacuna.discovery.name import Naming
+from lacuna.discovery.noise import estimate, quantum
+from lacuna.discovery.places import read
+from lacuna.discovery.steps import fit_believed
 
 
 def test_least_squares_finds_rosenbrock_within_bounds() -> None:

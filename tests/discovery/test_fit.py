@@ -7,9 +7,9 @@ from collections.abc import Callable, Mapping
 import numpy as np
 import pytest
 
-from discovery import fit as fitting
-from discovery.least_squares import Free, Problem
-from discovery.objective import anneal
+from lacuna.discovery import fit as fitting
+from lacuna.discovery.least_squares import Free, Problem
+from lacuna.discovery.objective import anneal
 
 
 class OneSignal:

@@ -6,17 +6,17 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from codegen.library import Library
-from discovery.amend import Amendment
-from discovery.cases import load
-from discovery.fit import fit
-from discovery.intervals import covariance
-from discovery.least_squares import Free, Problem, solve
-from discovery.machine import Machine
-from discovery.noise import Noise, last_digit, sample_weights
-from discovery.places import read
-from discovery.secants import input_shift
-from discovery.steps import fit_believed
+from lacuna.codegen.library import Library
+from lacuna.discovery.amend import Amendment
+from lacuna.discovery.cases import load
+from lacuna.discovery.fit import fit
+from lacuna.discovery.intervals import covariance
+from lacuna.discovery.least_squares import Free, Problem, solve
+from lacuna.discovery.machine import Machine
+from lacuna.discovery.noise import Noise, last_digit, sample_weights
+from lacuna.discovery.places import read
+from lacuna.discovery.secants import input_shift
+from lacuna.discovery.steps import fit_believed
 
 from .conftest import BELIEVED, write_case
 

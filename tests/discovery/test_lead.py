@@ -7,17 +7,17 @@ from types import SimpleNamespace
 
 import pytest
 
-from codegen.library import Library
-from discovery import lead as leading
-from discovery.amend import Amendment
-from discovery.cases import Case, load
-from discovery.fit import FALLING, believed, falling_bandwidths, fit, linearised, noise_of
-from discovery.lead import BELIEVABLE, HELD, SHARES, Lead
-from discovery.machine import Machine
-from discovery.name import screen_all
-from discovery.places import read
-from discovery.steps import STIFFLY
-from discovery.tracking import trackable
+from lacuna.codegen.library import Library
+from lacuna.discovery import lead as leading
+from lacuna.discovery.amend import Amendment
+from lacuna.discovery.cases import Case, load
+from lacuna.discovery.fit import FALLING, believed, falling_bandwidths, fit, linearised, noise_of
+from lacuna.discovery.lead import BELIEVABLE, HELD, SHARES, Lead
+from lacuna.discovery.machine import Machine
+from lacuna.discovery.name import screen_all
+from lacuna.discovery.places import read
+from lacuna.discovery.steps import STIFFLY
+from lacuna.discovery.tracking import trackable
 
 from .conftest import BELIEVED, attachment, conceal
 

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from codegen.library import Library
-from discovery.amend import Amendment
-from discovery.cases import load
-from discovery.fit import believed, noise_of
-from discovery.machine import LEAST_RTOL, RTOL, Machine
-from discovery.noise import Noise
-from discovery.places import read
+from lacuna.codegen.library import Library
+from lacuna.discovery.amend import Amendment
+from lacuna.discovery.cases import load
+from lacuna.discovery.fit import believed, noise_of
+from lacuna.discovery.machine import LEAST_RTOL, RTOL, Machine
+from lacuna.discovery.noise import Noise
+from lacuna.discovery.places import read
 
 
 @pytest.fixture(scope="module")

@@ -9,20 +9,20 @@ import time
 
 import pytest
 
-from codegen.library import Library
-from discovery import name as naming
-from discovery import restarts
-from discovery.amend import Amendment, Attachment
-from discovery.cases import Case, load
-from discovery.fit import Fit, fit
-from discovery.machine import Machine
-from discovery.name import Naming, compete
-from discovery.places import read
-from discovery.restarts import begin_again
-from discovery.screen import Candidate, Screen, prepare
-from discovery.steps import fit_believed
-from discovery.time_limit import TimeUp, check, within
-from runtime import SimulationError
+from lacuna.codegen.library import Library
+from lacuna.discovery import name as naming
+from lacuna.discovery import restarts
+from lacuna.discovery.amend import Amendment, Attachment
+from lacuna.discovery.cases import Case, load
+from lacuna.discovery.fit import Fit, fit
+from lacuna.discovery.machine import Machine
+from lacuna.discovery.name import Naming, compete
+from lacuna.discovery.places import read
+from lacuna.discovery.restarts import begin_again
+from lacuna.discovery.screen import Candidate, Screen, prepare
+from lacuna.discovery.steps import fit_believed
+from lacuna.discovery.time_limit import TimeUp, check, within
+from lacuna.runtime import SimulationError
 
 from .conftest import BELIEVED, attachment
 

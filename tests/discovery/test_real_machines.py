@@ -5,15 +5,15 @@ from __future__ import annotations
 import pytest
 
 from bench.real_machines import recordings_folder
-from codegen.library import Library
-from discovery import catalogue, places
-from discovery.amend import Amendment
-from discovery.cases import load
-from discovery.fit import believed, fit, noise_of
-from discovery.hypotheses import enumerate_attachments
-from discovery.judge import judge
-from discovery.least_squares import Free
-from discovery.machine import Machine
+from lacuna.codegen.library import Library
+from lacuna.discovery import catalogue, places
+from lacuna.discovery.amend import Amendment
+from lacuna.discovery.cases import load
+from lacuna.discovery.fit import believed, fit, noise_of
+from lacuna.discovery.hypotheses import enumerate_attachments
+from lacuna.discovery.judge import judge
+from lacuna.discovery.least_squares import Free
+from lacuna.discovery.machine import Machine
 
 STARTS = {
     "CoulombFriction": {"tau_c": 3e-3},

@@ -14,15 +14,15 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from codegen.library import Library
-from discovery import semantic_check
-from discovery.amend import Amendment
-from discovery.cases import Case, CaseError, Recording, load
-from discovery.explain import explain
-from discovery.machine import Machine
-from discovery.places import read
-from discovery.recordings_check import Problem, check_case
-from discovery.steps import opened
+from lacuna.codegen.library import Library
+from lacuna.discovery import semantic_check
+from lacuna.discovery.amend import Amendment
+from lacuna.discovery.cases import Case, CaseError, Recording, load
+from lacuna.discovery.explain import explain
+from lacuna.discovery.machine import Machine
+from lacuna.discovery.places import read
+from lacuna.discovery.recordings_check import Problem, check_case
+from lacuna.discovery.steps import opened
 
 Spoil = Callable[[Recording], None]
 

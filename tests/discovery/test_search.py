@@ -9,25 +9,25 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from codegen.library import Library
-from discovery import search as searching
-from discovery.amend import Amendment
-from discovery.cases import Case, load
-from discovery.catalogue import read as read_catalogue
-from discovery.comparison import Ranked
-from discovery.explain import explain
-from discovery.fit import Fit, fit
-from discovery.judge import Judgement, judge, noise_floor
-from discovery.lead import Lead
-from discovery.machine import Machine
-from discovery.name import Naming
-from discovery.places import read
-from discovery.race import _enriched, best_starts, first_round, in_the_race
-from discovery.restarts import _shared
-from discovery.screen import Candidate, Screen, prepare
-from discovery.search import Finding, Search
-from discovery.steps import fit_believed
-from discovery.time_limit import TimeUp
+from lacuna.codegen.library import Library
+from lacuna.discovery import search as searching
+from lacuna.discovery.amend import Amendment
+from lacuna.discovery.cases import Case, load
+from lacuna.discovery.catalogue import read as read_catalogue
+from lacuna.discovery.comparison import Ranked
+from lacuna.discovery.explain import explain
+from lacuna.discovery.fit import Fit, fit
+from lacuna.discovery.judge import Judgement, judge, noise_floor
+from lacuna.discovery.lead import Lead
+from lacuna.discovery.machine import Machine
+from lacuna.discovery.name import Naming
+from lacuna.discovery.places import read
+from lacuna.discovery.race import _enriched, best_starts, first_round, in_the_race
+from lacuna.discovery.restarts import _shared
+from lacuna.discovery.screen import Candidate, Screen, prepare
+from lacuna.discovery.search import Finding, Search
+from lacuna.discovery.steps import fit_believed
+from lacuna.discovery.time_limit import TimeUp
 
 from .conftest import BELIEVED, attachment, conceal
 

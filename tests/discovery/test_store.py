@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from discovery.store import kept, remembered
+from lacuna.discovery.store import kept, remembered
 
 
 def test_an_interrupted_run_computes_nothing_twice(tmp_path: Path) -> None:

@@ -8,14 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from codegen.compile import compile_model
-from codegen.flatten import flatten
-from codegen.library import Library
-from discovery import catalogue, places
-from discovery.amend import Amendment, Attachment
-from discovery.cases import Signal
-from discovery.hypotheses import enumerate_attachments
-from runtime import Model, RecordedInput, simulate
+from lacuna.codegen.compile import compile_model
+from lacuna.codegen.flatten import flatten
+from lacuna.codegen.library import Library
+from lacuna.discovery import catalogue, places
+from lacuna.discovery.amend import Amendment, Attachment
+from lacuna.discovery.cases import Signal
+from lacuna.discovery.hypotheses import enumerate_attachments
+from lacuna.runtime import Model, RecordedInput, simulate
 
 FRICTIONS = {
     f"friction.{law}" for law in ("viscous", "coulomb", "asymmetric", "stribeck", "presliding", "load", "position")

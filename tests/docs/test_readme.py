@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from bench.tolerance import Study
-from codegen.compile import compile_model
-from codegen.errors import Diagnostic
+from lacuna.codegen.compile import compile_model
+from lacuna.codegen.errors import Diagnostic
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-import runtime
+from lacuna import runtime
 
 
 def excitation(seed: int, amplitude: float, stop: float, samples: int = 200) -> runtime.RecordedInput:

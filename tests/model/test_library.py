@@ -7,8 +7,8 @@ import re
 
 import pytest
 
-from codegen.flatten import flatten
-from codegen.library import Library
+from lacuna.codegen.flatten import flatten
+from lacuna.codegen.library import Library
 
 MODEL = Path(__file__).parents[2] / "model"
 FILES = sorted(MODEL.rglob("*.mo"))

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from codegen.compile import compile_model
-import runtime
+from lacuna import runtime
+from lacuna.codegen.compile import compile_model
 
 rumoca = pytest.importorskip("rumoca", reason="rumoca is a test-only dependency; install requirements.lock")
 

@@ -14,7 +14,14 @@ from tests.proof.runner import ROOT, diagnose, finished, generator_hash, run_all
 from tests.proof.score import score_folder
 
 USUAL = (sys.executable, "-m", "tests.proof.baseline")
-EXPLAIN = (sys.executable, "-m", "cli.main", "explain", "--limit", "250")  # the rest of a case's time is for its end
+EXPLAIN = (
+    sys.executable,
+    "-m",
+    "lacuna.cli.main",
+    "explain",
+    "--limit",
+    "250",
+)  # the rest of a case's time is for its end
 
 
 def _arguments() -> argparse.Namespace:

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from codegen.compile import compile_model
-import runtime
+from lacuna import runtime
+from lacuna.codegen.compile import compile_model
 from tests.proof.benches import BENCHES
 from tests.proof.effects import catalogue
 

@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 from scipy.io import loadmat
 
-from codegen.compile import compile_model
-import runtime
-from runtime import files
+from lacuna import runtime
+from lacuna.codegen.compile import compile_model
+from lacuna.runtime import files
 
 MODELS = Path(__file__).parents[1] / "models"
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from codegen.compile import compile_model
-import runtime
+from lacuna import runtime
+from lacuna.codegen.compile import compile_model
 
 MODEL = """model Limits
   parameter Real lo(unit="V") = -1;

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from hypothesis import strategies as st
 
-from codegen import expr as ex
+from lacuna.codegen.symbolic import expr as ex
 
 NAMES = ("a", "b", "c")
 VARIABLES = [ex.var(n) for n in NAMES]

@@ -10,9 +10,9 @@ import threading
 
 import pytest
 
-from codegen import cache
-from codegen.compile import compile_model, translate
-from codegen.emit.source import generate
+from lacuna.codegen import cache
+from lacuna.codegen.compile import compile_model, translate
+from lacuna.codegen.emit.source import generate
 from tests.codegen.generated import write_model
 
 ROOT = Path(__file__).parents[3]
@@ -61,20 +61,21 @@ def test_a_new_generator_makes_models_new(model: str, tmp_path: Path, monkeypatc
 
 def _checkout(folder: Path, gain: int) -> Path:
     """A copy of the generator with a library of its own, in which Decay has this gain."""
-    shutil.copytree(ROOT / "codegen", folder / "codegen", ignore=shutil.ignore_patterns("__pycache__"))
-    shutil.copytree(ROOT / "runtime" / "include", folder / "runtime" / "include")
-    (folder / "model").mkdir()
-    (folder / "model" / "package.mo").write_text("package Lacuna\nend Lacuna;\n")
-    (folder / "model" / "Decay.mo").write_text(f"within Lacuna;\n{MODEL.replace('k = 2', f'k = {gain}')}")
+    package = folder / "lacuna"
+    shutil.copytree(ROOT / "codegen", package / "codegen", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(ROOT / "runtime" / "include", package / "runtime" / "include")
+    (package / "__init__.py").touch()
+    (package / "model").mkdir()
+    (package / "model" / "package.mo").write_text("package Lacuna\nend Lacuna;\n")
+    (package / "model" / "Decay.mo").write_text(f"within Lacuna;\n{MODEL.replace('k = 2', f'k = {gain}')}")
     return folder
 
 
 def _compiled_in(checkout: Path, cache_directory: Path) -> str:
     """Path of the library that this checkout gets for its model Decay."""
-    code = (
-        "import codegen.compile, sys; print(codegen.compile.compile_model('Decay', cache_directory=sys.argv[1]).path)"
-    )
-    command = [sys.executable, "-c", code, str(cache_directory)]
+    call = "compile_model('Decay', cache_directory=sys.argv[1]).path"
+    code = f"import sys; from lacuna.codegen.compile import compile_model; print({call})"
+    command = [sys.executable, "-S", "-c", code, str(cache_directory)]  # -S: not the installed package
     return subprocess.run(command, cwd=checkout, check=True, capture_output=True, text=True).stdout.strip()
 
 
@@ -85,7 +86,7 @@ def test_checkouts_that_share_a_cache_keep_their_own_models(tmp_path: Path) -> N
     assert paths[:2] == paths[2:]
     for path, checkout, other in ((paths[0], one, two), (paths[1], two, one)):
         text = Path(path).with_suffix(".c").read_text()
-        assert f"{checkout}/model/Decay.mo" in text
+        assert f"{checkout}/lacuna/model/Decay.mo" in text
         assert str(other) not in text
     assert paths[0] != paths[1]
 

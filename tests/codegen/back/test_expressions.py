@@ -9,15 +9,15 @@ from pathlib import Path
 from hypothesis import HealthCheck, Phase, assume, given, settings
 from hypothesis import strategies as st
 
-from codegen import expr as ex
-from codegen.affine import affine, isolate
-from codegen.cache import compile_c
-from codegen.differentiate import Differentiator, partial
-from codegen.emit.body import Body
-from codegen.emit.expression import number
-from codegen.emit.names import Names
-from codegen.emit.prelude import helpers
-from codegen.evaluate import evaluate
+from lacuna.codegen.cache import compile_c
+from lacuna.codegen.emit.body import Body
+from lacuna.codegen.emit.expression import number
+from lacuna.codegen.emit.names import Names
+from lacuna.codegen.emit.prelude import helpers
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.affine import affine, isolate
+from lacuna.codegen.symbolic.differentiate import Differentiator, partial
+from lacuna.codegen.symbolic.evaluate import evaluate
 from tests.codegen.back.expressions import EXPRESSIONS, NAMES, POINTS, SMOOTH, VARIABLES
 
 BATCH = 60

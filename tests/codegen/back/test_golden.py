@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from codegen.compile import translate
-from codegen.report import dump
+from lacuna.codegen.compile import translate
+from lacuna.codegen.report import dump
 
 FOLDER = Path(__file__).parent / "golden"
 MODELS = sorted(p.stem for p in FOLDER.glob("*.mo"))

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from codegen.compile import compile_model, translate
-import runtime
+from lacuna import runtime
+from lacuna.codegen.compile import compile_model, translate
 from tests.codegen.generated import write_model
 
 SOLVERS = ("ida", "dopri5")

@@ -8,14 +8,14 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 import numpy as np
 
-from codegen import expr as ex
-from codegen import flat
-from codegen.compile import Report, prepare
-from codegen.errors import Diagnostic, Span
-from codegen.evaluate import evaluate
-from codegen.prepared import Prepared
-from codegen.structure.causal import Assignment, Division
-from codegen.structure.system import DeclaredValues
+from lacuna.codegen import flat
+from lacuna.codegen.compile import Report, prepare
+from lacuna.codegen.dae.prepared import Prepared
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.structure.causal import Assignment, Division
+from lacuna.codegen.structure.system import DeclaredValues
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.evaluate import evaluate
 
 SPAN = Span("random.mo", 1, 1)
 COEFFICIENTS = st.sampled_from([-3.0, -1.0, 1.0, 2.0, 5.0])

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from codegen.compile import translate
-from codegen.emit.source import generate
-from codegen.errors import Diagnostic
+from lacuna.codegen.compile import translate
+from lacuna.codegen.emit.source import generate
+from lacuna.codegen.errors import Diagnostic
 from tests.codegen.generated import write_model
 
 CASES = {

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from codegen.compile import translate
-from codegen.expr import to_text
-from codegen.prepared import Prepared
-from codegen.structure.causal import LinearBlock, NonlinearBlock
+from lacuna.codegen.compile import translate
+from lacuna.codegen.dae.prepared import Prepared
+from lacuna.codegen.structure.causal import LinearBlock, NonlinearBlock
+from lacuna.codegen.symbolic.expr import to_text
 from tests.codegen.generated import Generated, write_model
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from codegen.flat import FlatModel
-from codegen.flat_text import equation_text
-from codegen.flatten import flatten
-from codegen.library import Library
+from lacuna.codegen.flat import FlatModel
+from lacuna.codegen.flat.text import equation_text
+from lacuna.codegen.flatten import flatten
+from lacuna.codegen.library import Library
 
 
 def flatten_text(folder: Path, text: str, **options: object) -> FlatModel:

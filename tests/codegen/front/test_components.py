@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from codegen.errors import Diagnostic
-from codegen.expr import to_text
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.symbolic.expr import to_text
 from tests.codegen.front.helpers import equations, flatten_text
 
 INERTIA = """

@@ -7,11 +7,11 @@ import time
 
 import pytest
 
-from codegen.errors import Diagnostic, Span
-from codegen.flatten import flatten
-from codegen.library import Library
-from codegen.suggest import distance, nearest
-from codegen.syntax import parse
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten import flatten
+from lacuna.codegen.library import Library
+from lacuna.codegen.suggest import distance, nearest
+from lacuna.codegen.syntax import parse
 from tests.codegen.front.helpers import flatten_text
 
 

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from codegen import flat
-from codegen.expr import to_text
-from codegen.flat_text import dump_flat, equation_text
-from codegen.flatten import flatten
-from codegen.library import Library
+from lacuna.codegen import flat
+from lacuna.codegen.flat.text import dump_flat, equation_text
+from lacuna.codegen.flatten import flatten
+from lacuna.codegen.library import Library
+from lacuna.codegen.symbolic.expr import to_text
 from tests.codegen.front.helpers import equations, flatten_text
 
 

@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 import pytest
 
-from codegen.expr import to_text
+from lacuna.codegen.symbolic.expr import to_text
 from tests.codegen.front.helpers import flatten_text
 
 VALUES = [

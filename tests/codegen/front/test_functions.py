@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from codegen.errors import Diagnostic
-from codegen.expr import to_text
-from codegen.flat_text import dump_flat
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flat.text import dump_flat
+from lacuna.codegen.symbolic.expr import to_text
 from tests.codegen.front.helpers import equations, flatten_text
 
 CLIP = """

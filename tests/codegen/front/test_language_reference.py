@@ -7,11 +7,11 @@ import re
 
 import pytest
 
-from codegen.compile import compile_model
-from codegen.flatten import flatten
-from codegen.library import Library
-from codegen.syntax import parse
-import runtime
+from lacuna import runtime
+from lacuna.codegen.compile import compile_model
+from lacuna.codegen.flatten import flatten
+from lacuna.codegen.library import Library
+from lacuna.codegen.syntax import parse
 
 ROOT = Path(__file__).parents[3]
 REFERENCE = (ROOT / "docs/language.md").read_text(encoding="utf-8")

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from codegen.errors import Diagnostic
-from codegen.flatten import flatten
-from codegen.library import Library
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten import flatten
+from lacuna.codegen.library import Library
 from tests.codegen.front.helpers import equations
 
 

@@ -7,8 +7,8 @@ import re
 
 from hypothesis import HealthCheck, assume, given, settings
 
-from codegen import expr as ex
-from codegen.flat_text import dump_flat
+from lacuna.codegen.flat.text import dump_flat
+from lacuna.codegen.symbolic import expr as ex
 from tests.codegen.back.expressions import EXPRESSIONS
 from tests.codegen.front.helpers import flatten_text
 

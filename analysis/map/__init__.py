@@ -1,0 +1,1 @@
+"""Operating maps over fault severity: rows simulated and analysed, kept, summed up."""

@@ -1,0 +1,1 @@
+"""Recordings of pre-flight tests: read, checked, refused."""

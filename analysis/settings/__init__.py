@@ -1,0 +1,153 @@
+"""The settings of a map: what is simulated, how it is sampled and analysed, and what was published.
+
+One TOML file serves the C++ library and Python (settings/paper.toml says what each entry means).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+import tomllib
+from typing import Any
+
+from lacuna.analysis.errors import AnalysisError
+
+PAPER = Path(__file__).with_name("paper.toml")
+
+
+@dataclass(frozen=True)
+class Band:
+    """An operating interval: severities from `first` to `last`, both included."""
+
+    name: str
+    mode: str
+    first: float
+    last: float
+    action: str = ""  # what to do, a sentence
+    published_rise: float | None = None  # A, of the mean RMS
+
+
+@dataclass(frozen=True)
+class Fault:
+    """The axis of a map: a parameter of the model and its values."""
+
+    parameter: str  # of the model
+    symbol: str  # heads the first column of map.csv
+    name: str
+    unit: str  # in which people read it
+    scale: float  # how many of that unit a value of 1 is
+    first: float
+    last: float
+    step: float
+
+    def shown(self, severity):
+        """A severity, or an array of them, in the unit that people read."""
+        return self.scale * severity
+
+    def text(self, severity: float) -> str:
+        return f"{self.shown(severity):.4g} {self.unit}"
+
+    @property
+    def severities(self) -> list[float]:
+        """Rising values, rounded to what their decimal text says."""
+        count = round((self.last - self.first) / self.step)
+        return [round(self.first + k * self.step, 12) for k in range(count + 1)]
+
+
+@dataclass(frozen=True)
+class Settings:
+    """One settings file; `text` is what the C++ library parses."""
+
+    path: Path
+    text: str
+    title: str
+    model: str
+    fault: Fault
+    sampling_rate: float  # Hz
+    duration: float  # s
+    currents: tuple[str, ...]
+    speed: str
+    angle: str
+    speed_after: float  # s
+    solver: str
+    relative_tolerance: float
+    absolute_tolerance: float
+    bands: tuple[Band, ...]
+    published: dict[str, Any]
+    raw: dict[str, Any]
+
+    def table(self, name: str) -> dict[str, Any]:
+        """A table that not every use of the settings needs. Raises AnalysisError where it, or an entry, is missing."""
+        if name not in self.raw:
+            raise AnalysisError(f"{self.path}: table [{name}] is missing")
+        return _Table(f"{self.path}: {name}", self.raw[name])
+
+    @property
+    def own_parameters(self) -> dict[str, float]:
+        """Parameters of the model that every test has, other than declared."""
+        actuator = self.raw["actuator"]
+        return dict(zip(actuator.get("parameters", []), actuator.get("values", []), strict=True))
+
+    def band_of(self, severity: float) -> Band:
+        """In a gap between bands, the nearer one."""
+        return min(self.bands, key=lambda band: max(band.first - severity, severity - band.last))
+
+    @property
+    def disturbed_model(self) -> str:
+        """The model of tests under nuisances: [assessment] may name one that has more of them than the map's."""
+        return self.raw.get("assessment", {}).get("model", self.model)
+
+    @property
+    def samples(self) -> int:
+        return round(self.sampling_rate * self.duration)
+
+
+class _Table(dict):
+    def __init__(self, place: str, entries: dict[str, Any]):
+        super().__init__(entries)
+        self._place = place
+
+    def __missing__(self, key: str) -> None:
+        raise AnalysisError(f"{self._place}.{key} is missing")
+
+
+def load_settings(path: Path | str = PAPER) -> Settings:
+    """Read a settings file. Raises AnalysisError naming the file and the entry that is missing or impossible."""
+    path = Path(path)
+    try:
+        text = path.read_text(encoding="utf-8")
+        raw = tomllib.loads(text)
+    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise AnalysisError(f"{path}: not a settings file: {error}") from None
+    try:
+        settings = _settings(path, text, raw)
+    except KeyError as error:
+        raise AnalysisError(f"{path}: {error.args[0]} is missing") from None
+    except (TypeError, ValueError) as error:
+        raise AnalysisError(f"{path}: {error}") from None
+    if settings.fault.step <= 0 or settings.fault.last < settings.fault.first:
+        raise AnalysisError(f"{path}: [fault] needs first <= last and step above zero")
+    return settings
+
+
+def _settings(path: Path, text: str, raw: dict[str, Any]) -> Settings:
+    signals, recording, solver = raw["signals"], raw["recording"], raw["solver"]
+    return Settings(
+        path=path,
+        text=text,
+        title=raw["title"],
+        model=raw["actuator"]["model"],
+        fault=Fault(**raw["fault"]),
+        sampling_rate=float(recording["sampling_rate"]),
+        duration=float(recording["duration"]),
+        currents=tuple(signals["currents"]),
+        speed=signals["speed"],
+        angle=signals["angle"],
+        speed_after=float(raw["speed"]["after"]),
+        solver=solver["name"],
+        relative_tolerance=float(solver["relative_tolerance"]),
+        absolute_tolerance=float(solver["absolute_tolerance"]),
+        bands=tuple(Band(**band) for band in raw["bands"]),
+        published=raw.get("published", {}),
+        raw=raw,
+    )

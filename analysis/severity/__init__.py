@@ -1,0 +1,1 @@
+"""From features to a severity: tables, nuisances, assessment, robustness."""

@@ -1,0 +1,1 @@
+"""The C++ spectral chain on NumPy arrays."""

@@ -1,0 +1,89 @@
+"""liblacuna_analysis.so through ctypes: its structures and the types of its functions (include/lacuna_analysis.h)."""
+
+from __future__ import annotations
+
+import ctypes
+from functools import lru_cache
+from pathlib import Path
+
+from lacuna.analysis.errors import AnalysisError
+from lacuna.native import native_library
+
+MESSAGE_SIZE = 500
+DOUBLES = ctypes.POINTER(ctypes.c_double)
+
+
+class CChannel(ctypes.Structure):
+    _fields_ = [
+        ("rms", ctypes.c_double),
+        ("peak_hz", ctypes.c_double),
+        ("peak_amplitude", ctypes.c_double),
+        ("peak_bin", ctypes.c_longlong),
+        ("frequency", ctypes.c_double),
+        ("harmonic", ctypes.c_double * 4),
+    ]
+
+
+class CSummary(ctypes.Structure):
+    _fields_ = [("rms_mean", ctypes.c_double), ("speed_mean", ctypes.c_double), ("turns", ctypes.c_int)]
+
+
+class CEstimate(ctypes.Structure):
+    _fields_ = [
+        *((name, ctypes.c_double) for name in ("severity", "low", "high", "misfit", "paper")),
+        ("band", ctypes.c_int),
+        ("covered", ctypes.c_int),
+    ]
+
+
+def library_path() -> Path:
+    """Where liblacuna_analysis.so is (`lacuna.native`)."""
+    return native_library("lacuna_analysis")
+
+
+# Name: (result, arguments).
+_ADDRESS, _SIZE, _TEXT = ctypes.c_void_p, ctypes.c_size_t, ctypes.c_char_p
+_MESSAGE = [_TEXT, _SIZE]
+_FUNCTIONS = {
+    "lacuna_chain_new": (_ADDRESS, [_TEXT, *_MESSAGE]),
+    "lacuna_chain_free": (None, [_ADDRESS]),
+    "lacuna_chain_channels": (_SIZE, [_ADDRESS]),
+    "lacuna_chain_samples": (_SIZE, [_ADDRESS]),
+    "lacuna_chain_sections": (_SIZE, [_ADDRESS]),
+    "lacuna_chain_section_length": (_SIZE, [_ADDRESS]),
+    "lacuna_chain_section_start": (_SIZE, [_ADDRESS, _SIZE]),
+    "lacuna_chain_lines": (_SIZE, [_ADDRESS]),
+    "lacuna_chain_resolution": (ctypes.c_double, [_ADDRESS]),
+    "lacuna_chain_analyse": (
+        ctypes.c_int,
+        [_ADDRESS, ctypes.POINTER(DOUBLES), DOUBLES, _SIZE, ctypes.POINTER(CChannel), ctypes.POINTER(CSummary), DOUBLES]
+        + _MESSAGE,
+    ),
+    "lacuna_chain_section_spectrum": (ctypes.c_int, [_ADDRESS, DOUBLES, DOUBLES, DOUBLES, *_MESSAGE]),
+    "lacuna_signature_size": (_SIZE, [_SIZE]),
+    "lacuna_signature": (ctypes.c_int, [ctypes.POINTER(CChannel), _SIZE, DOUBLES]),
+    "lacuna_table_new": (_ADDRESS, [_TEXT, _SIZE, *_MESSAGE]),
+    "lacuna_table_free": (None, [_ADDRESS]),
+    "lacuna_table_channels": (_SIZE, [_ADDRESS]),
+    "lacuna_table_estimate": (
+        ctypes.c_int,
+        [_ADDRESS, ctypes.POINTER(CChannel), ctypes.c_double, ctypes.POINTER(CEstimate)],
+    ),
+}
+
+
+@lru_cache(maxsize=1)
+def library() -> ctypes.CDLL:
+    path = library_path()
+    if not path.exists():
+        raise AnalysisError(f"{path} is missing: run `make build`")
+    lib = ctypes.CDLL(str(path))
+    for name, (result, arguments) in _FUNCTIONS.items():
+        function = getattr(lib, name)
+        function.restype, function.argtypes = result, arguments
+    return lib
+
+
+def pointer(array):
+    """To the first of an array of doubles."""
+    return array.ctypes.data_as(DOUBLES)

@@ -1,0 +1,1 @@
+"""The hybrid DAE of a flat model: relations, event order, the initial system, and where each variable is kept."""

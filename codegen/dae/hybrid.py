@@ -1,0 +1,279 @@
+"""Hybrid analysis: every relation that can switch a continuous equation becomes a frozen Boolean with a root.
+
+    a > b               rel[k], root g = a - b; a < b, a >= b, a <= b share it by exchange and negation
+    abs sign min max    if-expressions over such relations, so that a fixed-order method never steps over a corner
+    floor ceil integer  a discrete Integer that moves by whole numbers at its two guard relations,
+    mod rem div         and from it the others
+    sample              tick[k]
+    edge change         and / <> with pre
+
+Left as they are (no root): what stands in noEvent or smooth, relations between discrete variables and
+parameters only, bodies of when clauses and functions. New leaves: op "rel" and "tick" with value k.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from lacuna.codegen import flat
+from lacuna.codegen.symbolic.affine import affine
+from lacuna.codegen.symbolic.expr import (  # fmt: skip
+    BOOLEAN,
+    INTEGER,
+    REAL,
+    RELATIONS,
+    TIME,
+    ZERO,
+    Expr,
+    add,
+    call,
+    const,
+    div,
+    if_else,
+    logical_and,
+    logical_not,
+    maximum,
+    minimum,
+    mul,
+    neg,
+    node,
+    pre,
+    relation,
+    special,
+    sub,
+    transform,
+    var,
+)
+from lacuna.codegen.symbolic.leaves import leaves
+from lacuna.codegen.symbolic.rewrite import Rewriter
+
+
+@dataclass
+class Relation:
+    """left > right; `slope` is d(left - right)/dt of a time relation, None of a root."""
+
+    left: Expr
+    right: Expr
+    source: flat.Equation
+    slope: Expr | None = None
+
+
+@dataclass
+class Hybrid:
+    """A flat model whose expressions hold frozen relations, and what they stand for."""
+
+    model: flat.FlatModel
+    relations: list[Relation] = field(default_factory=list)
+    samples: list[tuple[Expr, Expr]] = field(default_factory=list)
+
+
+def analyse(model: flat.FlatModel) -> Hybrid:
+    """Freeze relations and lower the event-generating operators of `model`."""
+    freezer = _Freezer(model.variables)
+    equations = [freezer.equation(e) for e in model.equations]
+    whens = [freezer.when(w) for w in model.whens]
+    algorithms = [freezer.algorithm(a) for a in model.algorithms]
+    freezer.generating = False
+    whens = [replace(w, branches=[(c, freezer.bodies.statements(b)) for c, b in w.branches]) for w in whens]
+    algorithms = [replace(a, statements=[freezer.body(s) for s in a.statements]) for a in algorithms]
+    frozen = replace(
+        model,
+        variables=freezer.variables,
+        equations=equations + freezer.new_equations,
+        initial_equations=[freezer.bodies.equation(e) for e in model.initial_equations],
+        whens=whens,
+        algorithms=algorithms,
+        asserts=[replace(a, condition=strip(a.condition)) for a in model.asserts],
+    )
+    return Hybrid(frozen, freezer.relations, freezer.samples)
+
+
+def rename(relations: list[Relation], rewriter: Rewriter) -> list[Relation]:
+    """The relations with other names of derivatives."""
+    return [replace(r, left=rewriter.expression(r.left), right=rewriter.expression(r.right)) for r in relations]
+
+
+def strip(e: Expr) -> Expr:
+    """`e` without noEvent and smooth."""
+    return transform(e, lambda n: strip(n.args[-1]) if n.op in ("noEvent", "smooth") else None, {})
+
+
+class _Freezer:
+    def __init__(self, variables: dict[str, flat.Variable]):
+        self.variables = dict(variables)
+        self.relations: list[Relation] = []
+        self.samples: list[tuple[Expr, Expr]] = []
+        self.new_equations: list[flat.Equation] = []
+        self.generating = True  # False: relations known already are frozen, others are evaluated where they stand
+        self._source = flat.Equation(ZERO, ZERO, next(iter(variables.values())).span)
+        self._memo: dict[Expr, Expr] = {}
+        self._numbers: dict[tuple[Expr, Expr], int] = {}
+        self._ticks: dict[Expr, int] = {}
+        self._floors: dict[Expr, Expr] = {}
+        self.bodies = Rewriter(self._body_rule)
+
+    # -- where expressions stand ------------------------------------------------------------------------------
+
+    def equation(self, e: flat.Equation) -> flat.Equation:
+        self._source = e
+        return replace(e, lhs=self.freeze(e.lhs), rhs=self.freeze(e.rhs))
+
+    def _condition(self, e: Expr, span: flat.Span, origin: str) -> Expr:
+        self._source = flat.Equation(ZERO, ZERO, span, origin, f"when {e}")
+        return self.freeze(e)
+
+    def when(self, w: flat.When, origin: str | None = None) -> flat.When:
+        origin = w.origin if origin is None else origin
+        return replace(w, branches=[(self._condition(c, w.span, origin), b) for c, b in w.branches])
+
+    def algorithm(self, a: flat.Algorithm) -> flat.Algorithm:
+        """Conditions of when clauses and everything outside them generate events."""
+        outside = Rewriter(self._rule)
+        self._source = flat.Equation(ZERO, ZERO, a.span, a.origin, "algorithm")
+        return replace(
+            a,
+            statements=[
+                self.when(s, a.origin) if isinstance(s, flat.When) else outside.statement(s) for s in a.statements
+            ],
+        )
+
+    def body(self, s: flat.Statement) -> flat.Statement:
+        if isinstance(s, flat.When):
+            return replace(s, branches=[(c, self.bodies.statements(b)) for c, b in s.branches])
+        return s
+
+    def _body_rule(self, n: Expr) -> Expr | None:
+        if n.op in RELATIONS and self._continuous(n):
+            left, right, positive = _canonical(n)
+            number = self._numbers.get((self.freeze(left), self.freeze(right)))
+            if number is not None:
+                return self._frozen(number, positive)
+            return None
+        if n.op in ("noEvent", "smooth"):
+            return strip(n)
+        if n.op in ("edge", "change", "sample", "pre"):
+            return self._rule(n)
+        return None
+
+    # -- rewriting --------------------------------------------------------------------------------------------
+
+    def freeze(self, e: Expr) -> Expr:
+        return transform(e, self._rule, self._memo)
+
+    def _continuous(self, e: Expr) -> bool:
+        return any(self._is_continuous(n) for n in leaves(e))
+
+    def _is_continuous(self, n: Expr) -> bool:
+        if n.op == "var":
+            v = self.variables[str(n.value)]
+            return v.type == REAL and v.variability == flat.CONTINUOUS
+        return n.op in ("der", "time")
+
+    def _rule(self, n: Expr) -> Expr | None:
+        if n.op in ("noEvent", "smooth"):
+            return strip(n)
+        if n.op == "edge":
+            return logical_and(n.args[0], logical_not(pre(n.args[0])))
+        if n.op == "change":
+            return relation("<>", n.args[0], pre(n.args[0]))
+        if n.op == "sample":
+            return self._tick(n)
+        if n.op == "pre":  # of a continuous variable: its value on arrival at the event
+            return n.args[0] if self._is_continuous(n.args[0]) else None
+        if n.op in RELATIONS and n.op not in ("==", "<>") and self._continuous(n):
+            left, right, positive = _canonical(n)
+            return self._relation(self.freeze(left), self.freeze(right), positive)
+        if n.op in ("min", "max") and self._continuous(n):
+            a, b = map(self.freeze, n.args)
+            first = self._relation(b, a, False) if n.op == "max" else self._relation(a, b, False)
+            return if_else(first, a, b)
+        if n.op == "call" and n.value in _LOWER and self._continuous(n):
+            return _LOWER[str(n.value)](self, *map(self.freeze, n.args))
+        return None
+
+    def _relation(self, left: Expr, right: Expr, positive: bool) -> Expr:
+        if left.op == right.op == "const":
+            return const((left.value > right.value) == positive)
+        number = self._numbers.get((left, right))
+        if number is None:
+            if not self.generating:
+                holds = relation(">", left, right)
+                return holds if positive else logical_not(holds)
+            number = self._numbers[left, right] = len(self.relations)
+            self.relations.append(Relation(left, right, self._source, self._slope(left, right)))
+        return self._frozen(number, positive)
+
+    def _frozen(self, number: int, positive: bool) -> Expr:
+        frozen = node("rel", (), number, BOOLEAN)
+        return frozen if positive else logical_not(frozen)
+
+    def _slope(self, left: Expr, right: Expr) -> Expr | None:
+        difference = sub(left, right)
+        if any(self._is_continuous(n) and n is not TIME for n in leaves(difference)):
+            return None
+        parts = affine(difference, TIME)
+        return parts[0] if parts else None
+
+    def _tick(self, n: Expr) -> Expr:
+        if n not in self._ticks:
+            self._ticks[n] = len(self.samples)
+            self.samples.append((n.args[0], n.args[1]))
+        return node("tick", (), self._ticks[n], BOOLEAN)
+
+    # -- operators that jump ----------------------------------------------------------------------------------
+
+    def floor(self, x: Expr) -> Expr:
+        if x in self._floors:
+            return self._floors[x]
+        if not self.generating:
+            return call("floor", x)
+        name = f"$floor{len(self._floors) + 1}"
+        n = var(name, INTEGER)
+        self.variables[name] = flat.Variable(
+            name, self._source.span, INTEGER, flat.DISCRETE, description="whole part kept between events"
+        )
+        above = self._relation(add(pre(n), const(1)), x, False)
+        below = self._relation(pre(n), x, True)
+        whole = call("integer", x)
+        value = if_else(below, minimum(sub(pre(n), const(1)), whole), pre(n))
+        value = if_else(above, maximum(add(pre(n), const(1)), whole), value)
+        value = if_else(special("initial"), whole, value)
+        self.new_equations.append(replace(self._source, lhs=n, rhs=value))
+        self._floors[x] = n
+        return n
+
+    def ceil(self, x: Expr) -> Expr:
+        return neg(self.floor(neg(x)))
+
+    def mod(self, x: Expr, y: Expr) -> Expr:
+        return sub(x, mul(self.floor(div(x, y)), y))
+
+    def quotient(self, x: Expr, y: Expr) -> Expr:
+        ratio = div(x, y)
+        return if_else(self._relation(ZERO, ratio, False), self.floor(ratio), self.ceil(ratio))
+
+    def remainder(self, x: Expr, y: Expr) -> Expr:
+        return sub(x, mul(self.quotient(x, y), y))
+
+    def abs(self, x: Expr) -> Expr:
+        return if_else(self._relation(ZERO, x, False), x, neg(x))
+
+    def sign(self, x: Expr) -> Expr:
+        negative = if_else(self._relation(ZERO, x, True), const(-1), const(0))
+        return if_else(self._relation(x, ZERO, True), const(1), negative)
+
+
+_LOWER = {
+    "floor": _Freezer.floor, "integer": _Freezer.floor, "ceil": _Freezer.ceil, "mod": _Freezer.mod,
+    "rem": _Freezer.remainder, "div": _Freezer.quotient, "abs": _Freezer.abs, "sign": _Freezer.sign,
+}  # fmt: skip
+
+
+def _canonical(n: Expr) -> tuple[Expr, Expr, bool]:
+    """(a, b, positive): the relation is a > b, or its negation where not positive."""
+    a, b = n.args
+    if n.op == ">":
+        return a, b, True
+    if n.op == "<":
+        return b, a, True
+    return (a, b, False) if n.op == "<=" else (b, a, False)

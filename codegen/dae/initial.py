@@ -1,0 +1,152 @@
+"""The initial system: all equations, the initial equations and fixed start values, states unknown too.
+
+Where that leaves unknowns open, start values of further states are used (with a warning that lists them).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.structure.causal import Assignment, Step, causalise, unknowns_of
+from lacuna.codegen.structure.constants import is_parametric
+from lacuna.codegen.structure.matching import Matching
+from lacuna.codegen.structure.system import Row, System
+from lacuna.codegen.structure.tearing import Tearing
+from lacuna.codegen.symbolic.expr import FALSE, Expr, const, var
+
+
+@dataclass
+class InitialSystem:
+    """`steps` compute all unknowns; `from_start` says that the states are simply their start values."""
+
+    steps: list[Step]
+    from_start: bool
+    warnings: list[Diagnostic] = field(default_factory=list)
+
+
+def discrete_starts(model: flat.FlatModel) -> flat.FlatModel:
+    """Initial equations `n = e` and `pre(n) = e` of discrete variables become their start values."""
+    variables, equations = dict(model.variables), []
+    for eq in model.initial_equations:
+        name = next((n for n in map(_discrete_name, (eq.lhs, eq.rhs)) if _is_discrete(variables.get(n))), None)
+        if name is None:
+            equations.append(eq)
+            continue
+        value = eq.rhs if _discrete_name(eq.lhs) == name else eq.lhs
+        if not is_parametric(value, variables):
+            raise Diagnostic(
+                "S024", f"the initial value of the discrete variable {name} does not follow from parameters",
+                eq.span,
+                f"give {name} a start value, or set it in `when initial() then`",
+            )  # fmt: skip
+        variables[name] = replace(variables[name], start=value)
+    _refuse_free_parameters(variables)
+    return replace(model, variables=variables, initial_equations=equations)
+
+
+def _discrete_name(e: Expr) -> str:
+    n = e.args[0] if e.op == "pre" else e
+    return str(n.value) if n.op == "var" else ""
+
+
+def _is_discrete(v: flat.Variable | None) -> bool:
+    return v is not None and v.variability == flat.DISCRETE
+
+
+def _refuse_free_parameters(variables: dict[str, flat.Variable]) -> None:
+    for v in variables.values():
+        if v.variability == flat.PARAMETER and v.fixed is FALSE:
+            raise Diagnostic(
+                "S023", f"the parameter {v.name} has fixed=false; solving for a parameter is not supported", v.span,
+                "give it a value, or declare it as a variable with der(...) = 0",
+            )  # fmt: skip
+
+
+def initial_system(system: System, equations: list[flat.Equation], tearing: Tearing) -> InitialSystem:
+    """Rows for every state, derivative and algebraic variable, in the order in which they are solved."""
+    unknowns = [*map(var, system.states), *system.unknowns]
+    column = {u: k for k, u in enumerate(unknowns)}
+    rows = [*system.rows, *(Row(e.lhs, e.rhs, e) for e in equations)]
+    matching = Matching([_columns(r, column) for r in rows], len(unknowns))
+    unmatched = matching.match_all()
+    if unmatched:
+        _refuse(system, rows, unknowns, matching, unmatched)
+    for name in _fixed(system):
+        row = _start_row(system, name)
+        if not matching.add_row([column[var(name)]]):
+            _refuse_start(system, rows, unknowns, matching, row, column)
+        rows.append(row)
+    assumed = _assume_starts(system, rows, unknowns, matching, column)
+    steps = causalise(rows, unknowns, tearing)
+    own = {*map(var, system.states)}
+    trivial = all(
+        isinstance(s, Assignment) and s.row.source.text.startswith("start of") for s in steps
+        if own & set(unknowns_of(s))
+    )  # fmt: skip
+    return InitialSystem(steps, trivial, _warnings(system, assumed))
+
+
+def _columns(row: Row, column: dict[Expr, int]) -> list[int]:
+    return sorted(column[n] for n in row.leaves if n in column)
+
+
+def _fixed(system: System) -> list[str]:
+    variables = system.model.variables
+    return [
+        name for name in (*system.states, *system.algebraics)
+        if (f := variables[name].fixed) is not None and f.op == "const" and f.value
+    ]  # fmt: skip
+
+
+def _start_row(system: System, name: str) -> Row:
+    v = system.model.variables[name]
+    start = v.start if v.start is not None else const(0.0)
+    return Row(var(name), start, flat.Equation(var(name), start, v.span, "", f"start of {name}"))
+
+
+def _assume_starts(
+    system: System, rows: list[Row], unknowns: list[Expr], matching: Matching, column: dict[Expr, int]
+) -> list[str]:
+    assumed = []
+    if len(rows) < len(unknowns):
+        given = sorted(system.states, key=lambda n: system.model.variables[n].start is None)
+        for name in (*given, *system.algebraics):
+            if len(rows) < len(unknowns) and matching.add_row([column[var(name)]]):
+                rows.append(_start_row(system, name))
+                assumed.append(name)
+    return assumed
+
+
+def _warnings(system: System, assumed: list[str]) -> list[Diagnostic]:
+    variables = system.model.variables
+    return [
+        Diagnostic(
+            "S021", f"the initial value of {name} is not fixed; its start value {variables[name].start or 0.0} is used",
+            variables[name].span, "write fixed=true, or give an initial equation", severity="warning",
+        )
+        for name in assumed
+    ]  # fmt: skip
+
+
+def _refuse(system: System, rows: list[Row], unknowns: list[Expr], matching: Matching, unmatched: list[int]) -> None:
+    over, columns = matching.overdetermined(unmatched)
+    names = ", ".join(str(unknowns[c]) for c in columns[:8])
+    raise Diagnostic(
+        "S020", f"too many initial equations: {len(over)} for {names}", rows[unmatched[0]].source.span,
+        "remove an initial equation, or fixed=true of a start value",
+        [(rows[r].source.span, rows[r].text) for r in over[:12]],
+    )  # fmt: skip
+
+
+def _refuse_start(
+    system: System, rows: list[Row], unknowns: list[Expr], matching: Matching, row: Row, column: dict[Expr, int]
+) -> None:
+    name = str(row.lhs.value)
+    over, _ = matching.overdetermined([matching.row_of[column[row.lhs]]])
+    raise Diagnostic(
+        "S022", f"{name} has a fixed start value, but other initial conditions determine it already", row.source.span,
+        "drop fixed=true here or on one of the variables below",
+        [(rows[r].source.span, rows[r].text) for r in over[:12]],
+    )  # fmt: skip

@@ -1,0 +1,35 @@
+"""Everything that the C of a model is written from: the result of the passes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from lacuna.codegen import flat
+from lacuna.codegen.dae.events import EventStep
+from lacuna.codegen.dae.hybrid import Relation
+from lacuna.codegen.dae.initial import InitialSystem
+from lacuna.codegen.dae.storage import Storage
+from lacuna.codegen.structure.causal import Step
+from lacuna.codegen.structure.residual_form import Jacobian, ResidualForm
+from lacuna.codegen.structure.system import System
+from lacuna.codegen.symbolic.expr import Expr
+
+
+@dataclass
+class Prepared:
+    declared: flat.FlatModel  # as flattened: its variables are the rows of the table
+    aliases: dict[str, tuple[str, int]]
+    system: System
+    storage: Storage
+    relations: list[Relation]
+    samples: list[tuple[Expr, Expr]]
+    events: list[EventStep]
+    explicit: list[Step]
+    residual: ResidualForm
+    jacobian: Jacobian
+    initial: InitialSystem
+    hash: str = ""
+
+    @property
+    def model(self) -> flat.FlatModel:
+        return self.system.model

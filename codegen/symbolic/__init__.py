@@ -1,0 +1,1 @@
+"""Scalar expressions and what is done to them: dependence, values, derivatives, rewriting."""

@@ -1,0 +1,29 @@
+"""What an expression depends on: its leaves, memoised on the hash-consed nodes."""
+
+from __future__ import annotations
+
+from lacuna.codegen.symbolic.expr import Expr
+
+LEAF_OPS = frozenset(("var", "der", "pre", "time", "rel", "tick", "initial", "terminal"))
+
+_memo: dict[Expr, frozenset[Expr]] = {}
+
+
+def leaves(e: Expr) -> frozenset[Expr]:
+    """Variables, derivatives, pre-values, time, frozen relations and ticks that occur in `e`.
+
+    `der(x)` and `pre(d)` are leaves of their own: `x` and `d` do not occur in them.
+    """
+    found = _memo.get(e)
+    if found is None:
+        if e.op in LEAF_OPS:
+            found = frozenset((e,))
+        else:
+            parts = [leaves(a) for a in e.args]
+            found = parts[0] if len(parts) == 1 else frozenset().union(*parts)
+        _memo[e] = found
+    return found
+
+
+def depends(e: Expr, leaf: Expr) -> bool:
+    return leaf in leaves(e)

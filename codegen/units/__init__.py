@@ -1,0 +1,1 @@
+"""Units of measure: their strings, what follows for expressions, and the check of a model."""

@@ -1,0 +1,193 @@
+"""Dimensional check of a flat model: every equation, binding, attribute, assignment and argument."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.symbolic.expr import Expr, to_text, var
+from lacuna.codegen.units.inference import (
+    SECOND,
+    UNKNOWN,
+    Finding,
+    UnitError,
+    UnitInference,
+    disagreement,
+    of_variable,
+    over,
+)
+from lacuna.codegen.units.unit import Unit, parse_unit
+
+MAX_FINDINGS = 10
+Argument = tuple[Expr, str, str, Span]  # value, declared unit, which input of which function, where
+
+
+def check_units(
+    model: flat.FlatModel,
+    arguments: Iterable[Argument] = (),
+    function_units: dict[str, str] | None = None,
+    places: dict[tuple[str, str], Span] | None = None,
+) -> list[Diagnostic]:
+    """Every finding, one a place, in order of the model; at most MAX_FINDINGS. Without any unit there is no check.
+
+    `arguments` are values given to inputs with a unit; `function_units` the units of results by function;
+    `places` says where the binding or an attribute of a variable was written, where not in its declaration.
+    """
+    if not any(v.unit for v in model.variables.values()):
+        return []
+    return _Check(model, function_units or {}, places or {}).run(arguments)
+
+
+class _Check:
+    def __init__(
+        self, model: flat.FlatModel, function_units: dict[str, str], places: dict[tuple[str, str], Span]
+    ) -> None:
+        self.model, self.function_units, self.places = model, function_units, places
+        self.findings: list[Diagnostic] = []
+        self.units: dict[str, Finding] = {}
+        for v in model.variables.values():
+            try:
+                self.units[v.name] = of_variable(v.unit, v.type, v.variability)
+            except ValueError as reason:
+                self.units[v.name] = UNKNOWN
+                self.findings.append(Diagnostic("U005", f"{v.name}: {reason}", v.span, 'such as "N.m.s/rad"'))
+
+    def run(self, arguments: Iterable[Argument]) -> list[Diagnostic]:
+        self._infer_unknown()
+        inference = self._inference()
+        for e in (*self.model.equations, *self.model.initial_equations):
+            self._equation(inference, e)
+        for v in self.model.variables.values():
+            self._variable(inference, v)
+        for w in self.model.whens:
+            self._statements(inference, [w])
+        for a in self.model.algorithms:
+            self._statements(inference, a.statements)
+        self._statements(inference, self.model.asserts)
+        for value, unit, what, span in arguments:
+            self._guarded(span, lambda v=value, u=unit, w=what: inference.require(v, parse_unit(u), w))
+        return self.findings[:MAX_FINDINGS]
+
+    def _inference(self) -> UnitInference:
+        return UnitInference(
+            lambda e: self.units.get(str(e.value), UNKNOWN), lambda name: self.function_units.get(name, "")
+        )
+
+    def _guarded(self, span: Span, action: object, text: str = "") -> None:
+        try:
+            action()
+        except UnitError as reason:
+            message = reason.message + (f"\n    in the equation {text}" if text else "")
+            finding = Diagnostic(reason.code, message, span, reason.hint)
+            seen = any((f.code, f.span) == (finding.code, finding.span) for f in self.findings)
+            if len(self.findings) < MAX_FINDINGS and not seen:
+                self.findings.append(finding)
+        except ValueError as reason:
+            self.findings.append(Diagnostic("U005", str(reason), span, 'such as "N.m.s/rad"'))
+
+    def _equation(self, inference: UnitInference, e: flat.Equation) -> None:
+        text = f"{to_text(e.lhs)} = {to_text(e.rhs)}"
+        text = text if len(text) <= 160 else e.text
+        self._guarded(e.span, lambda: self._sides(inference, e.lhs, e.rhs), text)
+
+    @staticmethod
+    def _sides(inference: UnitInference, lhs: Expr, rhs: Expr) -> None:
+        left, right = inference.of(lhs), inference.of(rhs)
+        if isinstance(left, Unit) and isinstance(right, Unit) and not left.same(right):
+            raise disagreement("U001", "left and right", lhs, left, rhs, right)
+
+    def _variable(self, inference: UnitInference, v: flat.Variable) -> None:
+        own = self.units[v.name]
+        for what in ("binding", "start", "min", "max", "nominal"):
+            value = getattr(v, what)
+            if value is not None and value.op != "const":
+                span = self.places.get((v.name, what), v.span)
+                self._guarded(span, lambda x=value, w=what: self._value(inference, v.name, own, x, w))
+
+    @staticmethod
+    def _value(inference: UnitInference, name: str, own: Finding, value: Expr, what: str) -> None:
+        found = inference.of(value)
+        if isinstance(own, Unit) and isinstance(found, Unit) and not own.same(found):
+            raise disagreement("U001", f"{name} and its {what}", var(name), own, value, found)
+
+    def _statements(self, inference: UnitInference, body: Iterable[flat.Statement]) -> None:
+        for s in body:
+            match s:
+                case flat.Assign() | flat.Reinit():
+                    target = var(s.target)
+                    text = f"{s.target} = {to_text(s.value)}"
+                    self._guarded(s.span, lambda t=target, v=s.value: self._sides(inference, t, v), text)
+                case flat.Assert():
+                    self._guarded(s.span, lambda c=s.condition: inference.of(c))
+                case flat.If() | flat.When():
+                    for condition, inner in s.branches:
+                        self._guarded(s.span, lambda c=condition: inference.of(c))
+                        self._statements(inference, inner)
+
+    def _infer_unknown(self) -> None:
+        """Units of variables that declare none, from equations that leave one choice; to a fixed point."""
+        pending = [e for e in self.model.equations if self._has_unknown(e.lhs) or self._has_unknown(e.rhs)]
+        bindings = [(v.name, v.binding) for v in self.model.variables.values() if v.binding is not None]
+        pairs = [(e.lhs, e.rhs) for e in pending]
+        pairs += [(var(n), b) for n, b in bindings if self.units[n] == UNKNOWN and b.op != "const"]
+        changed = True
+        while changed and pairs:
+            changed = False
+            inference = self._inference()
+            rest = []
+            for lhs, rhs in pairs:
+                try:
+                    left, right = inference.of(lhs), inference.of(rhs)
+                    solved = self._solve(lhs, right, inference) | self._solve(rhs, left, inference)
+                except UnitError:
+                    continue
+                changed = changed or solved
+                if self._has_unknown(lhs) or self._has_unknown(rhs):
+                    rest.append((lhs, rhs))
+            pairs = rest
+
+    def _has_unknown(self, e: Expr) -> bool:
+        stack, seen = [e], set()
+        while stack:
+            n = stack.pop()
+            if n.op == "var" and self.units.get(str(n.value)) == UNKNOWN:
+                return True
+            if n not in seen:
+                seen.add(n)
+                stack.extend(n.args)
+        return False
+
+    def _solve(self, e: Expr, unit: Finding, inference: UnitInference) -> bool:
+        """Give the unknown inside `e` the unit that makes `e` have `unit`, where there is exactly one way."""
+        if not isinstance(unit, Unit):
+            return False
+        if e.op == "var":
+            if self.units.get(str(e.value)) != UNKNOWN:
+                return False
+            self.units[str(e.value)] = unit
+            return True
+        if e.op == "der":
+            return self._solve(e.args[0], unit * SECOND, inference)
+        if e.op in ("neg", "noEvent", "smooth", "pre"):
+            return self._solve(e.args[-1], unit, inference)
+        if e.op in ("+", "-", "if", "min", "max"):
+            parts = e.args[1:] if e.op == "if" else e.args
+            solved = [self._solve(a, unit, inference) for a in parts]
+            return any(solved)
+        if e.op in ("*", "/"):
+            return self._solve_product(e, unit, inference)
+        return False
+
+    def _solve_product(self, e: Expr, unit: Unit, inference: UnitInference) -> bool:
+        a, b = e.args
+        known_a, known_b = inference.of(a), inference.of(b)
+        if known_b != UNKNOWN and known_a == UNKNOWN:
+            inverse = known_b ** Fraction(-1) if isinstance(known_b, Unit) else known_b
+            wanted = over(unit, known_b if e.op == "*" else inverse)
+            return self._solve(a, wanted, inference)
+        if known_a != UNKNOWN and known_b == UNKNOWN:
+            wanted = over(unit, known_a) if e.op == "*" else over(known_a, unit)
+            return self._solve(b, wanted, inference)
+        return False
