@@ -19,7 +19,6 @@ from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
 
 _OUTSIDE = {
-    "homotopy": "give the actual expression, and start values where the initial problem is hard",
     "delay": "model the transport, for example by a chain of first-order lags",
     "spatialDistribution": "divide the length into elements",
     "inStream": "carry the property as a variable of the connector",
@@ -33,10 +32,6 @@ _OUTSIDE = {
     "shiftSample": "use the start of sample(start, interval)",
     "interval": "use the parameter given to sample",
     "getInstanceName": "write the name as a String",
-    "semiLinear": "write smooth(0, if x >= 0 then k1*x else k2*x)",
-    "skew": "write the matrix out",
-    "symmetric": "write the matrix out",
-    "outerProduct": "write the matrix as a comprehension",
     "Subtask": "clocks are left out",
 }
 

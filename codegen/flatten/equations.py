@@ -8,7 +8,8 @@ from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.constants import variability
 from lacuna.codegen.flatten.enumerations import require_same
-from lacuna.codegen.flatten.lower import iterate, lower, lower_results
+from lacuna.codegen.flatten.iterators import iterate
+from lacuna.codegen.flatten.lower import lower, lower_results
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.values import Record, Value, scalars, shape_of, shape_text
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
@@ -30,7 +31,7 @@ def unroll(item: ast.For, scope: Scope) -> list[Scope]:
     """One scope for each pass of a loop, the first iterator being the outermost."""
     scopes = [scope]
     for iterator in item.iterators:
-        scopes = [s.with_locals(**{iterator.name: v}) for s in scopes for v in iterate(iterator, s)]
+        scopes = [s.with_locals(**{iterator.name: v}) for s in scopes for v in iterate(iterator, s, item.body)]
     return scopes
 
 

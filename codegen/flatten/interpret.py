@@ -12,7 +12,8 @@ from lacuna.codegen.flatten.constants import AtRunTime
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.function_locals import Local, Signature, declared_sizes, fit, signature_of, typed
 from lacuna.codegen.flatten.instance import package_of
-from lacuna.codegen.flatten.lower import iterate, lower, lower_results, lower_scalar
+from lacuna.codegen.flatten.iterators import iterate
+from lacuna.codegen.flatten.lower import lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.references import apply_subscripts
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.values import Array, Record, Value, elementwise, integers, scalars, shape_of, shape_text
@@ -143,7 +144,7 @@ class _Run:
     def _for(self, item: ast.For, at: int) -> str:
         iterator = item.iterators[at]
         shadowed = self.locals.get(iterator.name)
-        values = iterate(iterator, self.scope)
+        values = iterate(iterator, self.scope, item.body)
         signal = ""
         for value in values:
             self.locals[iterator.name] = value

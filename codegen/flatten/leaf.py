@@ -16,6 +16,7 @@ from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.syntax import ast
 
 if TYPE_CHECKING:
+    from lacuna.codegen.flatten.enumerations import IndexType
     from lacuna.codegen.flatten.instance import Instance
 
 
@@ -30,9 +31,10 @@ class Leaf:
         found: Type,
         shape: tuple[int, ...],
         modifier: Modifier,
+        index_types: tuple[IndexType, ...] = (),
     ) -> None:
         self.instance, self.declaration, self.name, self.type = instance, declaration, name, found
-        self.shape, self.modifier = shape, modifier
+        self.shape, self.modifier, self.index_types = shape, modifier, index_types
         self.span = declaration.span
         self.primitive = found.primitive
         self.variability = self._variability()

@@ -84,7 +84,7 @@ class Range:
 class Iterator:
     span: Span
     name: str
-    range: Expression
+    range: Expression | None  # None: implied by what it indexes
 
 
 @dataclass(slots=True, eq=False)

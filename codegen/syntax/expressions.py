@@ -243,16 +243,12 @@ class ExpressionParser(Cursor):
         return ast.Comprehension(self.span_from(start), body, iterators)
 
     def iterators(self) -> list[ast.Iterator]:
-        """i in 1:n, j in 1:m"""
+        """i in 1:n, j in 1:m, or k: what k runs over follows from what it indexes"""
         result = []
         while True:
             start = self.at
             name = self.identifier("the loop variable")
-            if self.kind != "in":
-                hint = "say what it runs over: for i in 1:n"
-                raise Diagnostic("P018", f"the loop variable {name} has no range", self.span(start), hint)
-            self.at += 1
-            bounds = self.expression()
+            bounds = self.expression() if self.accept("in") else None
             result.append(ast.Iterator(self.span_from(start), name, bounds))
             if not self.accept(","):
                 return result
