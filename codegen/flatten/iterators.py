@@ -8,7 +8,7 @@ from dataclasses import fields, is_dataclass, replace
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.constants import known
 from lacuna.codegen.flatten.enumerations import enumeration_of, index_type
-from lacuna.codegen.flatten.lower import handles, lower, lower_scalar
+from lacuna.codegen.flatten.lower import lower, lower_scalar
 from lacuna.codegen.flatten.references import node_of
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.values import Array, Value, shape_of, stack
@@ -84,7 +84,6 @@ def _references(tree: object) -> Iterating[ast.Ref]:
                 yield from _references(getattr(tree, f.name))
 
 
-@handles(ast.Range)
 def range_values(e: ast.Range, scope: Scope) -> Array:
     """The values of a range of numbers, of an enumeration or of Booleans; its bounds are known at translation."""
     parts = [e.first, e.step, e.last]
@@ -117,7 +116,6 @@ def _numbers(e: ast.Range, first: float, step: float, last: float, scope: Scope)
     return Array((count,), tuple(ex.const(first + i * step) for i in range(count)))
 
 
-@handles(ast.Comprehension)
 def comprehension(e: ast.Comprehension, scope: Scope) -> Value:
     """{e for i in r}: the values of e in order, a new first dimension for each iterator."""
     first, rest = e.iterators[-1], e.iterators[:-1]
@@ -125,3 +123,6 @@ def comprehension(e: ast.Comprehension, scope: Scope) -> Value:
     rows = [lower(inner, scope.with_locals(**{first.name: v})) for v in iterate(first, scope, e.body)]
     return stack(rows, e.span)
 
+
+
+RANGES = {ast.Range: range_values, ast.Comprehension: comprehension}
