@@ -35,6 +35,15 @@ class Call:
 
 
 @dataclass(slots=True, eq=False)
+class PartialFunction:
+    """function f(a = 1) as an argument: a function with some of its inputs given (Modelica 3.6, 12.4.2.1)."""
+
+    span: Span
+    function: Ref
+    named: dict[str, Expression] = field(default_factory=dict)
+
+
+@dataclass(slots=True, eq=False)
 class Unary:
     span: Span
     op: str  # - + not .- .+
@@ -84,7 +93,7 @@ class Range:
 class Iterator:
     span: Span
     name: str
-    range: Expression | None  # None: implied by what it indexes
+    range: Expression | None  # None: what the name is used as a subscript of decides it (11.2.2.1)
 
 
 @dataclass(slots=True, eq=False)
@@ -116,7 +125,7 @@ class Tuple:
 
 Expression = (
     Literal | Ref | Call | Unary | Binary | IfExpression | ArrayLiteral | MatrixLiteral | Range | Comprehension
-    | Colon | End | Tuple
+    | Colon | End | Tuple | PartialFunction
 )  # fmt: skip
 
 
@@ -209,7 +218,8 @@ class Argument:
     modification: Modification
     each: bool = False
     final: bool = False
-    redeclare: Component | None = None
+    redeclare: Component | Class | None = None
+    replaces: bool = False  # written with `redeclare`; else with `replaceable` only
 
 
 @dataclass(slots=True, eq=False)
@@ -232,8 +242,10 @@ class Component:
     variability: str = ""  # parameter | constant | discrete
     causality: str = ""  # input | output
     flow: bool = False
+    stream: bool = False
     final: bool = False
     protected: bool = False
+    redeclares: bool = False  # an element written with `redeclare`, in place of an inherited one
     inner: bool = False
     outer: bool = False
     replaceable: bool = False
@@ -242,6 +254,8 @@ class Component:
 
 @dataclass(slots=True, eq=False)
 class Import:
+    """import A.B; of a list, import A.{B, C}, one of these for each name."""
+
     span: Span
     path: Ref
     alias: str  # "" for the last name of the path
@@ -253,6 +267,19 @@ class Extends:
     span: Span
     base: Ref
     modification: Modification
+    protected: bool = False
+
+
+@dataclass(slots=True, eq=False)
+class External:
+    """external "C" y = f(x) annotation(...): the language, the call and what the annotation says."""
+
+    span: Span
+    language: str
+    result: Ref | None = None
+    function: str = ""  # "" where the function is called by its Modelica name
+    args: list[Expression] = field(default_factory=list)
+    annotation: Modification | None = None
 
 
 @dataclass(slots=True, eq=False)
@@ -269,9 +296,22 @@ class Alias:
 @dataclass(slots=True, eq=False)
 class Class:
     span: Span
-    kind: str  # model block connector record type package function class
+    kind: str  # model block connector record type package function class operator
     name: str
     partial: bool = False
+    encapsulated: bool = False
+    expandable: bool = False  # expandable connector
+    operator: bool = False  # operator record, operator function
+    impure: bool = False
+    final: bool = False
+    protected: bool = False
+    inner: bool = False
+    outer: bool = False
+    replaceable: bool = False
+    redeclares: bool = False  # written with `redeclare`, in place of an inherited class
+    constraint: Extends | None = None  # constrainedby CLASS(...)
+    extends_same: Modification | None = None  # of `model extends NAME(...)`: how the inherited NAME is modified
+    derivative_of: tuple[Ref, tuple[str, ...]] | None = None  # function f = der(g, x, y)
     description: str = ""
     components: list[Component] = field(default_factory=list)
     extends: list[Extends] = field(default_factory=list)
@@ -280,7 +320,7 @@ class Class:
     sections: list[Section] = field(default_factory=list)
     alias: Alias | None = None
     literals: tuple[tuple[str, str], ...] | None = None  # of an enumeration: name, description
-    external: Span | None = None
+    external: External | None = None
     annotation: Modification | None = None
     parent: Class | None = None
     within: str = ""
