@@ -193,12 +193,23 @@ def _skew(e: ast.Call, scope: Scope) -> Value:
     return Array((3, 3), (zero, ex.neg(x[2]), x[1], x[2], zero, ex.neg(x[0]), ex.neg(x[1]), x[0], zero))
 
 
+_DOMAINS: dict[str, tuple[Callable[[float], bool], str]] = {
+    "sqrt": (lambda x: x >= 0, "numbers from 0"), "log": (lambda x: x > 0, "numbers above 0"),
+    "log10": (lambda x: x > 0, "numbers above 0"), "asin": (lambda x: abs(x) <= 1, "numbers from -1 to 1"),
+    "acos": (lambda x: abs(x) <= 1, "numbers from -1 to 1"),
+}  # fmt: skip
+
+
 def map_call(e: ast.Call, scope: Scope, count: int) -> Value:
     """A scalar built-in, element by element where it is given arrays."""
     arguments = _arguments(e, scope, count, count)
     name = str(e.function)
     for a, written in zip(arguments, e.args, strict=True):
         need_numbers(a, written.span, name)
+        for item in scalars(a):
+            if name in _DOMAINS and item.op == "const" and not _DOMAINS[name][0](item.value) and not scope.conditional:
+                message = f"{name}({ex.to_text(item)}) does not exist"
+                raise Diagnostic("R064", message, written.span, f"{name} takes {_DOMAINS[name][1]}")
     return elementwise(lambda *xs: ex.call(name, *xs), arguments, e.span, f"arguments of {name}")
 
 

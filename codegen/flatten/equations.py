@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.constants import variability
+from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.enumerations import require_same
 from lacuna.codegen.flatten.iterators import iterate
 from lacuna.codegen.flatten.lower import lower, lower_results
@@ -41,14 +42,6 @@ def equalities(item: ast.Equality, scope: Scope) -> list[flat.Equation]:
         return _several(item, scope)
     left, right = lower(item.left, scope), lower(item.right, scope)
     return equate(left, right, item.span, scope, item.text)
-
-
-def continuous_equalities(item: ast.Equality, scope: Scope) -> list[flat.Equation]:
-    """Equations that hold at all times."""
-    result = equalities(item, scope)
-    for equation in result:
-        check_discrete(equation.lhs, equation.rhs, item.span, scope)
-    return result
 
 
 def equate(left: Value, right: Value, span: Span, scope: Scope, text: str) -> list[flat.Equation]:
@@ -91,13 +84,15 @@ def check_target(target: Expr | str, span: Span, scope: Scope) -> None:
         raise Diagnostic("R058", f"the {kind} {target.value} is assigned", span, hint)
 
 
-def check_discrete(left: Expr, right: Expr, span: Span, scope: Scope) -> None:
-    """A discrete variable does not follow what varies between events. Raises R063."""
-    for a, b in ((left, right), (right, left)):
-        varies = b.op != "var" and variability(b, scope.context) == "continuous"
-        if a.op == "var" and varies and variability(a, scope.context) == "discrete":
-            hint = "set it at events: when ... then; or drop 'discrete'"
-            raise Diagnostic("R063", f"the discrete {a.value} equals what varies continuously", span, hint)
+def check_discrete(equations: list[flat.Equation], assigned: set[str], context: Context) -> None:
+    """A discrete variable that no event sets does not follow what varies between events. Raises R063."""
+    for e in equations:
+        for a, b in ((e.lhs, e.rhs), (e.rhs, e.lhs)):
+            alone = a.op == "var" and a.value not in assigned and variability(a, context) == "discrete"
+            if alone and b.op not in ("var", "der") and variability(b, context) == "continuous":
+                hint = "set it at events: when ... then; or drop 'discrete'"
+                message = f"the discrete {a.value} equals what varies continuously"
+                raise Diagnostic("R063", message, e.span, hint)
 
 
 def _several(item: ast.Equality, scope: Scope) -> list[flat.Equation]:

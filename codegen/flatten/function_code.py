@@ -12,7 +12,7 @@ from lacuna.codegen.flatten.constants import AtRunTime, evaluate
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.elements import element, local_value
 from lacuna.codegen.flatten.function_locals import Signature, declared_sizes, fit, typed
-from lacuna.codegen.flatten.interpret import unknown_target
+from lacuna.codegen.flatten.interpret import effect, unknown_target
 from lacuna.codegen.flatten.iterators import iterate
 from lacuna.codegen.flatten.lower import lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.references import apply_subscripts
@@ -173,8 +173,10 @@ class _Writer:
             result.append(flat.Return(item.span))
         elif isinstance(item, ast.Procedure) and str(item.call.function) == "assert":
             result.append(lower_assert(item.call, self.scope))
+        elif isinstance(item, ast.Procedure):
+            result += effect(item, self.scope)
         else:
-            what = str(item.call.function) if isinstance(item, ast.Procedure) else type(item).__name__.lower()
+            what = type(item).__name__.lower()
             raise Diagnostic("R059", f"'{what}' in a function", item.span, "functions compute values only")
 
     def _if(self, item: ast.If, result: list[flat.Statement]) -> None:

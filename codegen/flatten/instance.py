@@ -115,8 +115,9 @@ class Instance:
         index_types = tuple(index_type(d, scope) for d in declaration.dimensions)
         sizes += found.dimensions
         record = self._record_value()
-        if record is not None and (element.modifier is None or element.modifier.value is None):
-            modifier = replace(modifier, value=record.fields.get(declaration.name), index=())
+        given = record is not None and declaration.name in record.fields
+        if given and (element.modifier is None or element.modifier.value is None):
+            modifier = replace(modifier, value=record.fields[declaration.name], index=())
         self.context.spend(prod(sizes), declaration.span)
         name = self.path_of(declaration.name)
         if found.primitive is not None:

@@ -37,7 +37,7 @@ def iterate(iterator: ast.Iterator, scope: Scope, body: object) -> tuple[Value, 
 def _implied(iterator: ast.Iterator, scope: Scope, body: object) -> tuple[Value, ...]:
     """The index set of every dimension that the bare loop variable subscripts; they must be the same."""
     found: tuple[Value, ...] | None = None
-    for reference in _references(body):
+    for reference in references(body):
         for at, subscripts in enumerate(reference.subscripts):
             for position, subscript in enumerate(subscripts or ()):
                 if isinstance(subscript, ast.Ref) and subscript.names == (iterator.name,):
@@ -69,19 +69,19 @@ def _index_set(reference: ast.Ref, at: int, position: int, scope: Scope) -> tupl
     return tuple(map(ex.const, range(1, shape[position] + 1)))
 
 
-def _references(tree: object) -> Iterating[ast.Ref]:
+def references(tree: object) -> Iterating[ast.Ref]:
     """Every name in a part of the syntax tree, those inside subscripts included."""
     if isinstance(tree, ast.Ref):
         yield tree
     if isinstance(tree, list | tuple):
         for part in tree:
-            yield from _references(part)
+            yield from references(part)
     elif isinstance(tree, dict):
-        yield from _references(list(tree.values()))
+        yield from references(list(tree.values()))
     elif is_dataclass(tree):
         for f in fields(tree):
             if f.name != "span":
-                yield from _references(getattr(tree, f.name))
+                yield from references(getattr(tree, f.name))
 
 
 def range_values(e: ast.Range, scope: Scope) -> Array:

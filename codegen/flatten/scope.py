@@ -169,3 +169,12 @@ def boolean_type(ref: ast.Ref, scope: Scope, depth: int = 0) -> bool:
     alias = cls.alias
     return alias is not None and not alias.dimensions and depth < 30 and boolean_type(
         alias.base, replace(scope, cls=cls.parent or scope.context.library.root, instance=None), depth + 1)
+
+
+def literals_of(path: str, scope: Scope) -> list[str]:
+    """Names of the literals of the enumeration with this full name."""
+    names = path.split(".")
+    cls: ast.Class | None = scope.context.library.root
+    for name in names:
+        cls = own_or_inherited(scope.context.library, cls, name) if cls is not None else None
+    return [name for name, _ in cls.literals] if cls is not None and cls.literals else []
