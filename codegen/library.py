@@ -19,6 +19,14 @@ HOME_PACKAGE = "Lacuna"
 MODEL_FOLDER = Path(__file__).resolve().parent.parent / "model"
 
 
+_PREDEFINED = """
+type StateSelect = enumeration(never, avoid, default, prefer, always);
+type AssertionLevel = enumeration(warning, error);
+partial class ExternalObject end ExternalObject;
+"""  # Modelica 3.6, 4.9.8, 8.3.7 and 12.9.7
+PREDEFINED = {cls.name: cls for cls in parse(_PREDEFINED, "")}
+
+
 @lru_cache(maxsize=4096)
 def _parse_cached(file: str, text: str) -> tuple[ast.Class, ...]:
     return tuple(parse(text, file))
@@ -93,7 +101,7 @@ class Library:
             elif (folder / f"{name}.mo").is_file():
                 for cls in self.parse_file(folder / f"{name}.mo"):
                     self.root.classes.setdefault(cls.name, cls)
-        return self.root.classes.get(name)
+        return self.root.classes.get(name) or PREDEFINED.get(name)
 
     def _from_folder(self, cls: ast.Class, folder: Path, name: str) -> ast.Class | None:
         file = folder / f"{name}.mo"
@@ -167,9 +175,19 @@ class Library:
         for cls in classes:
             self.root.classes.setdefault(cls.name, cls)
             if cls.within:
-                cls.parent = self.find(cls.within)
+                cls.parent = self._owner(cls)
         self._loose.append(path.parent)
         return next((cls for cls in classes if cls.name == path.stem), classes[-1])
+
+    def _owner(self, cls: ast.Class) -> ast.Class:
+        """The package that a file's `within` names; it lies neither in the class itself nor in what is inside it."""
+        owner = around = self.find(cls.within)
+        while around is not None:
+            if around is cls:
+                hint = "name the package that the class lies in, or leave 'within' out"
+                raise Diagnostic("F004", f"{cls.name} lies within itself", cls.span, hint)
+            around = around.parent
+        return owner
 
     def all_classes(self, cls: ast.Class | None = None) -> list[ast.Class]:
         """Every class below `cls` (default: everything), packages first; reads all files."""
