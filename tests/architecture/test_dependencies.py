@@ -21,11 +21,15 @@ PYTHON_MAY_IMPORT = {
     "tests/proof": set(),
 }
 PROJECT = {*STAGES, "cli", "bench", "tests"}
-FACE = {"lacuna", "lacuna.native"}  # what every stage may know of the package: its name and where its libraries are
+FACE = {
+    "lacuna",
+    "lacuna.native",
+    "lacuna.extras",
+}  # what every stage may know of the package: its name and where its libraries are
 
 C_MAY_INCLUDE = {
     "runtime": ("runtime", ("ida/", "nvector/", "sunmatrix/", "sunlinsol/", "sundials/")),
-    "analysis": ("analysis", ("Eigen/", "fftw3.h")),
+    "analysis": ("analysis", ("Eigen/", "unsupported/Eigen/", "fftw3.h")),
     "bench": ("bench", ("ida/", "nvector/", "sunmatrix/", "sunlinsol/", "sundials/")),
     "tests/proof": ("tests/proof", ()),
 }
