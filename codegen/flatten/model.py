@@ -13,8 +13,8 @@ from lacuna.codegen.flatten.connections import connection_equations
 from lacuna.codegen.flatten.constants import evaluate
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.equations import Collected
-from lacuna.codegen.flatten.functions import run
 from lacuna.codegen.flatten.instance import ArrayNode, Instance
+from lacuna.codegen.flatten.language import LOWERING
 from lacuna.codegen.flatten.leaf import Leaf
 from lacuna.codegen.flatten.lower import lower_scalar
 from lacuna.codegen.flatten.modifiers import Modifier
@@ -43,7 +43,7 @@ def flatten(
     if cls.kind not in _MODEL_KINDS or cls.partial:
         what = f"partial {cls.kind}" if cls.partial else cls.kind
         raise Diagnostic("F003", f"{cls.path} is a {what}, not a model to simulate", cls.span, "name a complete model")
-    context = Context(library, Path(cls.span.file).resolve().parent, run)
+    context = Context(library, Path(cls.span.file).resolve().parent, LOWERING)
     top = Instance(context, cls, "", None, _outside_modifier(modifications or {}, cls.span))
     leaves, sections = _instantiate(top)
     context.finish()

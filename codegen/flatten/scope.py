@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.component import Component
+from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.values import Value
 from lacuna.codegen.library import Library
 from lacuna.codegen.suggest import did_you_mean, nearest
 from lacuna.codegen.syntax import ast
-
-if TYPE_CHECKING:
-    from lacuna.codegen.flatten.context import Context
-    from lacuna.codegen.flatten.instance import Instance
 
 PRIMITIVES = ("Real", "Integer", "Boolean", "String")
 
@@ -22,7 +19,7 @@ PRIMITIVES = ("Real", "Integer", "Boolean", "String")
 class Scope:
     context: Context
     cls: ast.Class
-    instance: Instance | None = None
+    instance: Component | None = None
     locals: dict[str, Value] = field(default_factory=dict)
     end: int | None = None  # the value of `end` inside subscripts
     in_function: bool = False
