@@ -8,7 +8,7 @@ BUILD ?= build
 OUT ?= out
 PYTHON := .venv/bin/python
 LACUNA := .venv/bin/lacuna
-PYTEST := LACUNA_CACHE=$(abspath $(BUILD))/cache $(PYTHON) -m pytest -q -n 2
+PYTEST := LACUNA_CACHE=$(abspath $(BUILD))/cache $(PYTHON) -m pytest -q -n 2 --dist loadgroup
 # Silent but for ctest's closing lines; where a test fails, everything it printed.
 run_ctest = ctest --test-dir $(1) --output-on-failure -j 2 > $(1)/ctest.log && tail -n 3 $(1)/ctest.log \
   || { cat $(1)/ctest.log; exit 1; }
