@@ -18,7 +18,8 @@ from bench.msl import first_finding
 from lacuna.codegen import cache
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.errors import Diagnostic
-from lacuna.codegen.library import MODEL_FOLDER, Library
+from lacuna.codegen.library import Library
+from lacuna.codegen.search_path import search_path
 from lacuna.runtime.errors import SimulationError
 from lacuna.runtime.model import Model
 from lacuna.runtime.simulation import Session
@@ -50,7 +51,7 @@ def cases(folder: Path) -> dict[str, bool]:
 def judge(name: str, folder: Path) -> dict[str, object]:
     """Translate and run one case: passed, refused (with code and place) or violated (an assertion of its own)."""
     try:
-        compiled = compile_model(name, search_path=[str(MODEL_FOLDER), str(folder)])
+        compiled = compile_model(name, search_path=search_path([folder]))
         result = Session(Model(compiled.path), events=False).run(stop=STOP)
     except Diagnostic as error:
         return {"status": "refused", **first_finding(error)}
@@ -88,7 +89,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     chosen = parser.parse_args(arguments)
     folder = shared_folder()
     cache.COMPILER = tuple(o for o in cache.COMPILER if o != "-O2")
-    Library([MODEL_FOLDER, folder]).all_classes()  # parsed once, before the processes part
+    Library(search_path([folder])).all_classes()  # parsed once, before the processes part
     verdicts = {n: s for n, s in cases(folder).items() if not chosen.names or any(part in n for part in chosen.names)}
     results = isolated.run_all(
         verdicts, lambda n: judge(n, folder), chosen.out, timeout=TIMEOUT, workers=chosen.workers, keep=chosen.keep,
