@@ -14,7 +14,7 @@ import re
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.inheritance import written
 from lacuna.codegen.flatten.instance import Instance
-from lacuna.codegen.flatten.model import run
+from lacuna.codegen.flatten.language import LOWERING
 from lacuna.codegen.library import Library
 from lacuna.codegen.syntax import ast
 
@@ -99,7 +99,7 @@ class Structure:
 def read(library: Library, model: str) -> Structure:
     """The places of class `model` (a name that `Library.find` knows). Raises Diagnostic."""
     cls = library.find(model)
-    top = Instance(Context(library, Path(cls.span.file).resolve().parent, run), cls, "", None, None)
+    top = Instance(Context(library, Path(cls.span.file).resolve().parent, LOWERING), cls, "", None, None)
     structure = Structure(model, cls.path)
     instances: dict[str, Instance] = {}
     for name, element in top.elements.items():

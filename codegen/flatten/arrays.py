@@ -7,7 +7,7 @@ from math import prod
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.constants import known
-from lacuna.codegen.flatten.lower import FUNCTIONS, lower, need_numbers
+from lacuna.codegen.flatten.lower import Handler, lower, need_numbers
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.values import (  # fmt: skip
     Array,
@@ -175,7 +175,7 @@ def map_call(e: ast.Call, scope: Scope, count: int) -> Value:
     return elementwise(lambda *xs: ex.call(name, *xs), arguments, e.span, f"arguments of {name}")
 
 
-FUNCTIONS |= {
+FUNCTIONS: dict[str, Handler] = {
     "size": size_of_array, "ndims": _ndims, "fill": _fill, "zeros": _constant_array(0), "ones": _constant_array(1),
     "identity": _identity, "diagonal": _diagonal, "linspace": _linspace, "transpose": _transpose, "cross": _cross,
     "vector": _vector, "scalar": _scalar, "matrix": _matrix, "cat": _cat,

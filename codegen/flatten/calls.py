@@ -10,7 +10,7 @@ from lacuna.codegen.flatten.constants import is_known, known, variability
 from lacuna.codegen.flatten.derivative import time_derivative
 from lacuna.codegen.flatten.enumerations import as_integer
 from lacuna.codegen.flatten.functions import call_function, construct_record
-from lacuna.codegen.flatten.lower import FUNCTIONS, gives_results, handles, lower, lower_scalar
+from lacuna.codegen.flatten.lower import Handler, lower, lower_scalar
 from lacuna.codegen.flatten.scope import Scope, enumeration, find_class, visible_classes
 from lacuna.codegen.flatten.values import Value, elementwise
 from lacuna.codegen.suggest import did_you_mean
@@ -41,15 +41,13 @@ _OUTSIDE = {
 }
 
 
-@handles(ast.Call)
 def lower_call(e: ast.Call, scope: Scope) -> Value:
     """The value of a call; of several results the first."""
     name = str(e.function)
-    handler = FUNCTIONS.get(name)
+    handler = scope.context.lowering.functions.get(name)
     return handler(e, scope) if handler is not None else call_of_model(e, scope)[0]
 
 
-@gives_results
 def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
     """All results of a function or record constructor declared in a model."""
     name = str(e.function)
@@ -65,7 +63,7 @@ def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
         raise Diagnostic("R091", f"{name} is outside the subset", e.function.span, hint)
     if name in ("reinit", "assert", "terminate"):
         raise Diagnostic("R004", f"{name} has no value", e.function.span, "it stands alone, ended by ';'")
-    known = [*FUNCTIONS, *visible_classes(scope.context.library, scope.cls)]
+    known = [*scope.context.lowering.functions, *visible_classes(scope.context.library, scope.cls)]
     hint = did_you_mean(e.function.names[-1], known, "declare it, or import its package")
     if scope.instance is not None and e.function.names[0] in scope.instance.elements:
         hint = f"{name} is a variable: index it as {name}[i], multiply as {name}*(...)"
@@ -186,8 +184,8 @@ def _scalar_function(count: int) -> Callable[[ast.Call, Scope], Value]:
     return lambda e, scope: map_call(e, scope, count)
 
 
-FUNCTIONS |= {name: _scalar_function(count) for name, count in ex.BUILTINS.items()}
-FUNCTIONS |= {
+SCALAR_FUNCTIONS: dict[str, Handler] = {name: _scalar_function(count) for name, count in ex.BUILTINS.items()}
+OPERATORS: dict[str, Handler] = {
     "der": _der, "pre": _pre, "edge": _edge, "change": _change, "noEvent": _no_event, "smooth": _smooth,
     "sample": _sample, "initial": _phase("initial"), "terminal": _phase("terminal"), "String": _text_of,
     "Integer": _integer_of, "size": _size,

@@ -34,6 +34,10 @@ class Source:
     element: int
 
 
+class Sources(dict[str, Source]):
+    """Of the kept functions, by their names."""
+
+
 def emitted_call(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
     """Calls that give the results of the function, one for each scalar of each result."""
     base = _base(signature, arguments, context, span)
@@ -75,7 +79,7 @@ def _selected(
         {**types, name: kind, "result": kind}, {},
         [flat.AssignCall(targets, call, function.span), flat.Assign("result", picked, function.span)], function.span,
     )  # fmt: skip
-    context.function_sources[selected] = Source(signature, function.inputs, inputs, number, position)
+    context.table(Sources)[selected] = Source(signature, function.inputs, inputs, number, position)
     context.function_units[selected] = unit
     return selected
 
@@ -105,7 +109,7 @@ def _emit(name: str, signature: Signature, shapes: dict[str, tuple[int, ...]], c
     outputs = tuple(d.name for d in signature.outputs)
     function = flat.Function(name, inputs, outputs, {}, {}, {}, [], cls.span)
     context.functions[name] = function
-    context.function_sources[name] = Source(signature, inputs, shapes, 0, 0)
+    context.table(Sources)[name] = Source(signature, inputs, shapes, 0, 0)
     writer = _Writer(function, Scope(context, cls, None, {}, in_function=True))
     try:
         for d in signature.locals:
@@ -122,7 +126,7 @@ def _emit(name: str, signature: Signature, shapes: dict[str, tuple[int, ...]], c
         function.body += writer.block(signature.body)
         function.body = Rewriter(lambda e: _package_constant(e, context, span)).statements(function.body)
     except AtRunTime as reason:
-        del context.functions[name], context.function_sources[name]
+        del context.functions[name], context.table(Sources)[name]
         message = f"in {cls.name}, {reason.args[0]} depends on an argument's value"
         error = Diagnostic("F036", message, span, "sizes may depend on the sizes of arguments, not on their values")
         error.notes.append((reason.args[1], "here"))

@@ -62,9 +62,14 @@ class Signature:
         return [d for d in self.locals if d.declaration.causality == "output"]
 
 
+class _Signatures(dict[int, Signature]):
+    """Of the functions and records called so far, by id of the class."""
+
+
 def signature_of(cls: ast.Class, context: Context) -> Signature:
     """What `cls` declares; a modification in an extends clause or a short definition replaces a default."""
-    found = context.signatures.get(id(cls))
+    signatures = context.table(_Signatures)
+    found = signatures.get(id(cls))
     if found is None:
         instance = Instance(context, cls, cls.path, None, None)
         declared = []
@@ -76,7 +81,7 @@ def signature_of(cls: ast.Class, context: Context) -> Signature:
                 declaration = replace(declaration, modification=changed)
             declared.append(Local(name, declaration, resolve_type(declaration.type, scope), scope))
         body = tuple(item for section, _ in instance.sections for item in section.items)
-        found = context.signatures[id(cls)] = Signature(cls, tuple(declared), body)
+        found = signatures[id(cls)] = Signature(cls, tuple(declared), body)
     return found
 
 

@@ -12,7 +12,7 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.constants import AtRunTime
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.external import call_external
-from lacuna.codegen.flatten.function_code import emitted_call
+from lacuna.codegen.flatten.function_code import Sources, emitted_call
 from lacuna.codegen.flatten.function_locals import Local, fit, signature_of
 from lacuna.codegen.flatten.interpret import interpret
 from lacuna.codegen.flatten.lower import lower
@@ -142,7 +142,7 @@ def construct_record(cls: ast.Class, e: ast.Call, scope: Scope) -> Record:
 
 def run(name: str, arguments: list[Expr], context: Context, span: Span) -> Expr:
     """A kept function on constant arguments: its (first) result as a constant."""
-    source = context.function_sources[name]
+    source = context.table(Sources)[name]
     bound: dict[str, Value] = {}
     for local, value in zip(source.inputs, arguments, strict=True):
         bound[local] = Array(source.shapes[local], value.args) if value.op == "array" else value

@@ -64,7 +64,7 @@ class Instance:
             if above.cls is cls:
                 raise Diagnostic("R011", f"{cls.name} contains itself", self.span, "break the circle of components")
             above = above.parent
-        inherited = Inheritance(self, cls, modifier)
+        inherited = Inheritance(context, self, cls, modifier)
         self.elements, self.sections, self.classes = inherited.elements, inherited.sections, inherited.classes
 
     def child(self, name: str) -> Node | None:
@@ -118,7 +118,9 @@ class Instance:
         name = self.path_of(declaration.name)
         if found.primitive is not None:
             attributes = for_each(found.modifier) if sizes else found.modifier
-            return Leaf(self, declaration, name, found, tuple(sizes), merge(modifier, attributes) or modifier)
+            return Leaf(
+                self.context, self, declaration, name, found, tuple(sizes), merge(modifier, attributes) or modifier
+            )
         self._check_component(declaration, found)
         if not sizes:
             return Instance(self.context, found.cls, name, self, merge(modifier, found.modifier), declaration)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from math import prod
-from typing import TYPE_CHECKING
 
 from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.component import Component
+from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.lower import modifier_value
 from lacuna.codegen.flatten.modifiers import Modifier
 from lacuna.codegen.flatten.types import ATTRIBUTES, Type
@@ -15,16 +16,14 @@ from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.syntax import ast
 
-if TYPE_CHECKING:
-    from lacuna.codegen.flatten.instance import Instance
-
 
 class Leaf:
     """`names` are its scalars in row-major order: x, or x[1], x[2], ... ("A[1,2]" for a matrix)."""
 
     def __init__(
         self,
-        instance: Instance,
+        context: Context,
+        instance: Component,
         declaration: ast.Component,
         name: str,
         found: Type,
@@ -45,7 +44,7 @@ class Leaf:
         self._bound = self._lowering = False
         self._check_attributes()
         for position, scalar in enumerate(self.names):
-            instance.context.scalars[scalar] = (self, position)
+            context.scalars[scalar] = (self, position)
 
     def _variability(self) -> str:
         """The stricter of the declaration's own and the surrounding component's."""

@@ -25,37 +25,18 @@ from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
 
 Handler = Callable[..., Value]
-HANDLERS: dict[type, Handler] = {}  # by kind of node; names and calls come in from modules of their own
-FUNCTIONS: dict[str, Handler] = {}  # built-in functions by name
-_SEVERAL: list[Callable[[ast.Call, Scope], list[Value]]] = []
-
-
-def handles(kind: type) -> Callable[[Handler], Handler]:
-    """Decorator: this function lowers nodes of `kind`."""
-
-    def enter(handler: Handler) -> Handler:
-        HANDLERS[kind] = handler
-        return handler
-
-    return enter
-
-
-def gives_results(function: Callable[[ast.Call, Scope], list[Value]]) -> Callable[[ast.Call, Scope], list[Value]]:
-    """Decorator: this function finds all results of a call."""
-    _SEVERAL.append(function)
-    return function
 
 
 def lower(e: ast.Expression, scope: Scope) -> Value:
     """The value of `e`. Raises R... for names, types and sizes that do not fit."""
-    return HANDLERS[type(e)](e, scope)
+    return scope.context.lowering.nodes[type(e)](e, scope)
 
 
 def lower_results(e: ast.Expression, scope: Scope) -> list[Value]:
     """All results of a call, for a list of variables on the left. Raises R023 for anything but a call."""
     if not isinstance(e, ast.Call):
         raise Diagnostic("R023", "a list on the left needs a call on the right", e.span, "(a, b) = f(x)")
-    return _SEVERAL[0](e, scope)
+    return scope.context.lowering.results(e, scope)
 
 
 def lower_scalar(e: ast.Expression, scope: Scope, kind: str = "") -> Expr:
@@ -286,7 +267,7 @@ def _colon(e: ast.Colon, scope: Scope) -> Value:
     raise Diagnostic("R048", "':' as a value", e.span, "it stands for all elements, inside subscripts only")
 
 
-HANDLERS |= {
+OPERATORS: dict[type, Handler] = {  # names and calls have files of their own
     ast.Literal: _literal, ast.Unary: _unary, ast.Binary: _binary, ast.IfExpression: _if, ast.ArrayLiteral: _array,
     ast.MatrixLiteral: _matrix, ast.Range: range_values, ast.Comprehension: _comprehension, ast.Colon: _colon,
     ast.End: _end, ast.Tuple: _tuple,

@@ -11,7 +11,7 @@ from lacuna.codegen.flatten.elements import at_index
 from lacuna.codegen.flatten.enumerations import literal
 from lacuna.codegen.flatten.instance import Absent, ArrayNode, Instance, Node, package_of
 from lacuna.codegen.flatten.leaf import Leaf
-from lacuna.codegen.flatten.lower import FUNCTIONS, handles, lower
+from lacuna.codegen.flatten.lower import lower
 from lacuna.codegen.flatten.scope import Scope, find_class, find_first, own_or_inherited, visible_classes
 from lacuna.codegen.flatten.values import Array, Record, Value, elementwise, scalars, shape_of, stack
 from lacuna.codegen.suggest import did_you_mean
@@ -20,7 +20,6 @@ from lacuna.codegen.symbolic.expr import INTEGER, Expr
 from lacuna.codegen.syntax import ast
 
 
-@handles(ast.Ref)
 def read(ref: ast.Ref, scope: Scope) -> Value:
     """The value of a name in an expression."""
     first = ref.names[0]
@@ -229,5 +228,5 @@ def unknown_name(ref: ast.Ref, scope: Scope) -> Diagnostic:
     known += visible_classes(scope.context.library, scope.cls)
     hint = did_you_mean(ref.names[0], known)
     if not hint:
-        hint = did_you_mean(ref.names[0], FUNCTIONS, "declare it")
+        hint = did_you_mean(ref.names[0], scope.context.lowering.functions, "declare it")
     return Diagnostic("R002", f"there is no variable {ref.names[0]}", ref.span, hint)
