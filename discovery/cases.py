@@ -6,7 +6,6 @@ from collections.abc import Sequence
 import csv
 from dataclasses import dataclass, field
 import math
-import os
 from pathlib import Path
 import tomllib
 
@@ -14,7 +13,7 @@ import numpy as np
 
 from lacuna.codegen.library import Library
 from lacuna.discovery.case_keys import KeyProblem, check
-from lacuna.discovery.case_model import CaseModel, ModelPlaceError, case_model
+from lacuna.discovery.case_model import CaseModel, case_model
 from lacuna.discovery.units import UnitError, to_si
 
 DEFAULT_UNCERTAINTY = 0.05  # believed relative 1-sigma of a parameter that case.toml does not mention
@@ -113,9 +112,9 @@ class Case:
 
 
 def load(folder: str | Path, libraries: Sequence[str | Path] = ()) -> Case:
-    """Read `folder/case.toml` and its recordings. Raises CaseError; never reads truth.toml.
+    """Read `folder/case.toml` and its recordings. Raises CaseError, Diagnostic for the model; never reads truth.toml.
 
-    `libraries`, then those of MODELICAPATH, are looked up besides the ones that case.toml names.
+    `libraries` are looked up besides the ones that case.toml names.
     """
     folder = Path(folder)
     path = folder / "case.toml"
@@ -133,7 +132,7 @@ def load(folder: str | Path, libraries: Sequence[str | Path] = ()) -> Case:
         uncertainty=_floats(raw.get("uncertainty", {})),
         signals=signals,
         initial=dict(raw.get("initial", {})),
-        found=_found(path, raw, libraries),
+        found=case_model(folder, raw["model"], [*raw.get("libraries", []), *(Path(p).resolve() for p in libraries)]),
         own=_own(path, raw.get("recording", {}), [*names["fit"], *names["validate"]]),
     )
     case.fit = [read_recording(folder / name, signals) for name in names["fit"]]
@@ -150,15 +149,6 @@ def _read(path: Path) -> dict:
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, KeyProblem) as error:
         raise CaseError(f"{path}: {error}") from error
     return raw
-
-
-def _found(path: Path, raw: dict, libraries: Sequence[str | Path]) -> CaseModel:
-    environment = [p for p in os.environ.get("MODELICAPATH", "").split(os.pathsep) if p]
-    named = [*raw.get("libraries", []), *(Path(p).resolve() for p in (*libraries, *environment))]
-    try:
-        return case_model(path.parent, raw["model"], list(dict.fromkeys(named)))
-    except ModelPlaceError as error:
-        raise CaseError(f"{path}: {error}") from error
 
 
 def _floats(values: dict) -> dict[str, float]:

@@ -14,7 +14,6 @@ from lacuna.codegen.compile import compile_model
 from lacuna.codegen.errors import Diagnostic
 from lacuna.discovery import case_keys, diagnosis, report
 from lacuna.discovery.amend import Amendment
-from lacuna.discovery.case_model import ModelPlaceError, case_model
 from lacuna.discovery.cases import CaseError, load
 from lacuna.discovery.explain import explain, judge_written, write_amended
 from lacuna.discovery.fit import believed
@@ -127,10 +126,11 @@ def test_a_model_that_extends_one_of_ours(tmp_path: Path, consistent_case: Path)
         ('fit = ["r1.csv"]', "fit = []", "must be a list of at least one file"),
         ("[recordings]", '[recording."r3.csv"]\nparameters = {k = 1}\n[recordings]', "none of the recordings"),
         ("[recordings]", "[limits.q]\nmaximum = 1\n[recordings]", r"\[limits.q\] there is no key `maximum`"),
-        ('model = "Tank.mo"', 'model = "Tanks.mo"', "Tanks.mo is not there"),
-        ('model = "Tank.mo"', 'model = "Tank.mo"\nlibraries = ["nowhere"]', "nowhere is not there"),
-        ('model = "Tank.mo"', 'model = "Tank.mo"\nlibraries = ["empty"]', "holds no package.mo"),
-        ('model = "Tank.mo"', 'model = "empty.mo"', "is a folder, not a model file"),
+        ('model = "Tank.mo"', 'model = "Tanks.mo"', "cannot read .*Tanks.mo"),
+        ('model = "Tank.mo"', 'model = "Tank.mo"\nlibraries = ["nowhere"]', "no library at .*nowhere"),
+        ('model = "Tank.mo"', 'model = "Tank.mo"\nlibraries = ["empty"]', "empty holds no package"),
+        ('model = "Tank.mo"', 'model = "empty.mo"', "empty.mo is a folder"),
+        ('model = "Tank.mo"', 'model = "Benches.DcServ"', "no class DcServ"),
     ],
 )
 def test_what_case_toml_may_not_say_is_named(tmp_path: Path, old: str, new: str, message: str) -> None:
@@ -141,21 +141,8 @@ def test_what_case_toml_may_not_say_is_named(tmp_path: Path, old: str, new: str,
     text = file.read_text()
     assert old in text
     file.write_text(text.replace(old, new, 1), encoding="utf-8")
-    with pytest.raises(CaseError, match=message):
+    with pytest.raises((CaseError, Diagnostic), match=message):
         load(tmp_path)
-
-
-def test_two_libraries_of_one_name_are_refused(tmp_path: Path) -> None:
-    for n in ("a", "b"):
-        (tmp_path / n / "Plant").mkdir(parents=True)
-        (tmp_path / n / "Plant" / "package.mo").write_text("package Plant\nend Plant;\n")
-    with pytest.raises(ModelPlaceError, match="two libraries are called Plant"):
-        case_model(tmp_path, "Plant.Tank", ["a/Plant", "b/Plant"])
-
-
-def test_a_class_that_is_not_there_is_named_with_the_nearest(tmp_path: Path) -> None:
-    with pytest.raises(Diagnostic, match="DcServ"):
-        load(tank_case(tmp_path, "Benches.DcServ"))
 
 
 def test_what_holds_in_one_recording_only(tmp_path: Path) -> None:
