@@ -17,7 +17,8 @@ from bench import isolated, msl_page
 from bench.trajectories import deviation, read_reference
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.errors import Diagnostic
-from lacuna.codegen.library import MODEL_FOLDER, Library
+from lacuna.codegen.library import Library
+from lacuna.codegen.search_path import search_path
 from lacuna.codegen.syntax import ast
 from lacuna.runtime.errors import SimulationError
 from lacuna.runtime.model import Model
@@ -60,7 +61,7 @@ def first_finding(error: Diagnostic) -> dict[str, object]:
 def measure(name: str, folder: Path, units: str) -> dict[str, object]:
     """Translate, simulate and compare one example."""
     try:
-        compiled = compile_model(name, search_path=[str(MODEL_FOLDER), str(folder)], units=units)
+        compiled = compile_model(name, search_path=search_path([folder]), units=units)
     except Diagnostic as error:
         return {"status": "refused", **first_finding(error), "text": str(error)}
     model = Model(compiled.path)
@@ -98,7 +99,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--page", action="store_true", help="write docs/msl.md")
     chosen = parser.parse_args(arguments)
     folder = shared_folder()
-    library = Library([MODEL_FOLDER, folder])
+    library = Library(search_path([folder]))
     packages = PACKAGES + FURTHER if chosen.further else PACKAGES
     names = {p: [n for n in examples(library, p) if not chosen.names or any(part in n for part in chosen.names)]
              for p in packages}  # fmt: skip

@@ -56,3 +56,13 @@ def to_si(unit: str) -> tuple[float, str]:
             symbols.append(si if power == 1 else f"{si}{power}")
         parts.append(".".join(symbols))
     return factor, parts[0] + (f"/{parts[1]}" if parts[1] else "")
+
+
+def same_unit(model: str, column: str) -> bool:
+    """Whether two SI units agree as text, up to order and the names of one."""
+
+    def parts(unit: str) -> tuple[list[str], list[str]]:
+        top, _, bottom = unit.replace("Ohm", "ohm").replace("(", "").replace(")", "").partition("/")
+        return sorted(t for t in top.split(".") if t not in ("", "1")), sorted(b for b in bottom.split(".") if b)
+
+    return not model or parts(model) == parts(column)

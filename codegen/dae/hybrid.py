@@ -16,6 +16,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from lacuna.codegen import flat
+from lacuna.codegen.errors import Span
 from lacuna.codegen.symbolic.affine import affine
 from lacuna.codegen.symbolic.expr import (  # fmt: skip
     BOOLEAN,
@@ -99,7 +100,7 @@ def strip(e: Expr) -> Expr:
 
 
 class _Freezer:
-    def __init__(self, variables: dict[str, flat.Variable], span: flat.Span):
+    def __init__(self, variables: dict[str, flat.Variable], span: Span):
         self.variables = dict(variables)
         self.relations: list[Relation] = []
         self.samples: list[tuple[Expr, Expr]] = []

@@ -17,7 +17,6 @@ from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, TRUE, Expr
 from lacuna.codegen.symbolic.rewrite import assigned
 from lacuna.codegen.syntax import ast
 
-
 MAX_ROUNDS = 10_000
 
 
@@ -34,7 +33,9 @@ def flatten_algorithm(section: ast.Section, scope: Scope, out: Collected) -> Non
     for target in targets:
         if target in run.values:  # else in a loop of no rounds only
             variable, value = ex.var(target, run.types[target]), run.result(target)
-            out.equations.append(flat.Equation(variable, value, run.where[target], origin_of(scope), f"{target} := ..."))
+            out.equations.append(
+                flat.Equation(variable, value, run.where[target], origin_of(scope), f"{target} := ...")
+            )
     out.asserts += run.asserts
 
 
@@ -199,7 +200,9 @@ class _SymbolicRun:
 
     def _now(self, e: Expr) -> Expr:
         """The value of a condition, with the values that variables have before the first assignment."""
-        names = {str(n.value) for n in ex.walk(e) if n.op == "var" and n.value in self.targets and n.value not in self.values}
+        names = {
+            str(n.value) for n in ex.walk(e) if n.op == "var" and n.value in self.targets and n.value not in self.values
+        }
         if not names:
             return self.read(e)
         return ex.substitute(self.read(e), {ex.var(n, self._type(n)): self.unassigned(n) for n in names})

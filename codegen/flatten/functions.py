@@ -30,9 +30,7 @@ Written = dict[str, tuple[Value, Span]]  # arguments with their places, by the n
 _EVENTFUL = ("abs", "sign", "floor", "ceil", "integer", "mod", "rem", "div")
 
 
-def call_function(
-    cls: ast.Class, e: ast.Call, scope: Scope, given: dict[str, Value] | None = None
-) -> list[Value]:
+def call_function(cls: ast.Class, e: ast.Call, scope: Scope, given: dict[str, Value] | None = None) -> list[Value]:
     """The results of a call, `given` being inputs bound before. Raises R050 and R062 for arguments that do not fit.
 
     Arguments with more dimensions than the inputs have are taken element by element (Modelica 3.6, 12.4.6).
@@ -135,7 +133,9 @@ def written_arguments(
     return result
 
 
-def bind_arguments(cls: ast.Class, inputs: list[Local], written: Written, e: ast.Call, scope: Scope) -> dict[str, Value]:
+def bind_arguments(
+    cls: ast.Class, inputs: list[Local], written: Written, e: ast.Call, scope: Scope
+) -> dict[str, Value]:
     """Values of the inputs by name: the arguments, or the declared defaults, which may use other inputs."""
     bound: dict[str, Value] = {}
     open_, waiting = list(inputs), True

@@ -88,7 +88,9 @@ def range_values(e: ast.Range, scope: Scope) -> Array:
     """The values of a range of numbers, of an enumeration or of Booleans; its bounds are known at translation."""
     parts = [e.first, e.step, e.last]
     lowered = [lower_scalar(p, scope) if p else None for p in parts]
-    values = [known(v, scope, p.span, "a bound of the range") if p else None for v, p in zip(lowered, parts, strict=True)]
+    values = [
+        known(v, scope, p.span, "a bound of the range") if p else None for v, p in zip(lowered, parts, strict=True)
+    ]
     first, step, last = values
     if first.type == BOOLEAN or last.type == BOOLEAN:
         return _booleans(e, first, step, last)
@@ -122,7 +124,6 @@ def comprehension(e: ast.Comprehension, scope: Scope) -> Value:
     inner = ast.Comprehension(e.span, e.body, rest) if rest else e.body
     rows = [lower(inner, scope.with_locals(**{first.name: v})) for v in iterate(first, scope, e.body)]
     return stack(rows, e.span)
-
 
 
 RANGES = {ast.Range: range_values, ast.Comprehension: comprehension}

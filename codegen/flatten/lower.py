@@ -244,7 +244,13 @@ def _colon(e: ast.Colon, scope: Scope) -> Value:
     raise Diagnostic("R048", "':' as a value", e.span, "it stands for all elements, inside subscripts only")
 
 
+def _partial_function(e: ast.PartialFunction, scope: Scope) -> Value:
+    raise Diagnostic("R090", f"the function {e.function} where a value is needed", e.span,
+                     "hand it to an input that is a function, or call it")  # fmt: skip
+
+
 OPERATORS: dict[type, Handler] = {  # names and calls have files of their own
+    ast.PartialFunction: _partial_function,
     ast.Literal: _literal, ast.Unary: _unary, ast.Binary: _binary, ast.IfExpression: _if, ast.ArrayLiteral: _array,
     ast.MatrixLiteral: _matrix, ast.Colon: _colon,
     ast.End: _end, ast.Tuple: _tuple,

@@ -211,7 +211,6 @@ class ClassParser(EquationParser):
             self.recover(error, (*SECTION_STARTS, "end"), start)
 
     def _element(self, cls: ast.Class, protected: bool) -> None:
-        start = self.at
         if self.kind == "import":
             cls.imports += self._import()
         elif self.kind == "extends":
