@@ -15,7 +15,7 @@ run_ctest = ctest --test-dir $(1) --output-on-failure -j 2 > $(1)/ctest.log && t
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*')
 
 .PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined tolerance-study \
-        figures format lint sanitize ctest pytest lock clean
+        figures belts format lint sanitize ctest pytest lock clean
 
 help: ## Print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -106,6 +106,9 @@ sanitize: $(BUILD)/.debian
 
 fuzz: setup ## [FUZZ_SECONDS=180] random and mutated models through the parser, for a traceback
 	@$(PYTHON) -m tests.codegen.fuzz --seconds $(or $(FUZZ_SECONDS),180)
+
+belts: setup ## Stick and slip against closed forms: 200 machines, rtol 1e-4 to 1e-10, all adaptive solvers
+	@$(PYTHON) -m tests.events belts
 
 format: setup ## Format all sources
 	@$(PYTHON) -m ruff format .

@@ -21,14 +21,12 @@ from lacuna.codegen.flatten.modifiers import Modifier
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.sections import flatten_items
 from lacuna.codegen.flatten.variables import add_used_constants, flatten_variables, mark_discrete
-from lacuna.codegen.library import Library
+from lacuna.codegen.library import MODEL_KINDS, Library
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.symbolic.rewrite import assigned, expressions
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.units.check import check_units
-
-_MODEL_KINDS = ("model", "block", "class")
 
 
 def flatten(
@@ -40,9 +38,11 @@ def flatten(
     `FlatModel.warnings`) or "off". Raises Diagnostic; further independent findings are in its `others`.
     """
     cls = library.find(name)
-    if cls.kind not in _MODEL_KINDS or cls.partial:
+    if cls.kind not in MODEL_KINDS or cls.partial:
         what = f"partial {cls.kind}" if cls.partial else cls.kind
-        raise Diagnostic("F003", f"{cls.path} is a {what}, not a model to simulate", cls.span, "name a complete model")
+        inside = library.models(cls)[:5] if cls.kind == "package" else []
+        hint = f"name a model in it, such as {' or '.join(inside)}" if inside else "name a complete model"
+        raise Diagnostic("F003", f"{cls.path} is a {what}, not a model to simulate", cls.span, hint)
     context = Context(library, Path(cls.span.file).resolve().parent, LOWERING)
     top = Instance(context, cls, "", None, _outside_modifier(modifications or {}, cls.span))
     leaves, sections = _instantiate(top)

@@ -8,7 +8,7 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.component import Component
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.values import Value
-from lacuna.codegen.library import Library
+from lacuna.codegen.library import HOME_PACKAGE, Library
 from lacuna.codegen.suggest import did_you_mean, nearest
 from lacuna.codegen.syntax import ast
 
@@ -139,9 +139,9 @@ def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> 
 def _elsewhere(library: Library, ref: ast.Ref) -> str:
     """A hint where a class of this name lies in a package that was not looked in."""
     if ref.names[0] == "Modelica":
-        return "the Modelica Standard Library is not part of this; package Lacuna has types, interfaces and components"
+        return "name the folder of the Modelica Standard Library by --library, or in MODELICAPATH"
     try:
-        classes = library.all_classes()
+        classes = library.all_classes(library.member(library.root, HOME_PACKAGE))
     except Diagnostic:
         classes = []
     names = nearest(ref.names[-1], (c.name for c in classes))
