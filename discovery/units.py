@@ -8,7 +8,7 @@ import re
 
 from lacuna.codegen.units.unit import format_unit, parse_unit
 
-# Symbols whose SI unit keeps the radian or the degree Celsius, which exponents do not show, or that people write otherwise.
+# Symbols whose SI unit keeps the radian or the degree Celsius, which exponents do not show.
 _ATOMS: dict[str, tuple[float, str]] = {
     "deg": (math.pi / 180, "rad"), "rev": (2 * math.pi, "rad"), "rpm": (math.pi / 30, "rad/s"),
     "%": (0.01, "1"), "degC": (1.0, "degC"), "ohm": (1.0, "ohm"),
@@ -33,7 +33,11 @@ def _atom(symbol: str) -> tuple[float, str]:
         unit = parse_unit(symbol)
     except ValueError as error:
         raise UnitError(f'unit "{symbol}" is not known') from error
-    return (1.0, symbol) if unit.factor == 1.0 else (float(unit.factor or 1.0), format_unit(replace(unit, factor=1.0, text="")))
+    return (
+        (1.0, symbol)
+        if unit.factor == 1.0
+        else (float(unit.factor or 1.0), format_unit(replace(unit, factor=1.0, text="")))
+    )
 
 
 def to_si(unit: str) -> tuple[float, str]:

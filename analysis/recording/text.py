@@ -1,7 +1,7 @@
 """Tables of numbers as text, as loggers and spreadsheets write them: separators, decimal commas, encodings, unit rows.
 
-Nothing is guessed where a guess could be wrong: a number is digits with one decimal mark and an exponent, an empty field is a
-missing sample, and anything else ends with file, line and column.
+Nothing is guessed where a guess could be wrong: a number is digits with one decimal mark and an exponent, an empty
+field is a missing sample, and anything else ends with file, line and column.
 """
 
 from __future__ import annotations
@@ -40,7 +40,10 @@ class Dialect:
 
 @dataclass(frozen=True)
 class TextTable:
-    """`header` and `units` [columns] as written ("" where no row of units stands below the header); `values` [columns, rows]."""
+    """`header` and `units` [columns] as written, "" where no row of units stands below the header.
+
+    `values` [columns, rows]; NaN where a sample is missing.
+    """
 
     path: Path
     header: tuple[str, ...]
@@ -60,7 +63,9 @@ def read_text(path: Path) -> TextTable:
     width = len(_fields(lines[first], separator))
     names = [row for row in above if len(row) == width]
     if not names:
-        raise TextTableError(f"{path}:{first + 1}: numbers without a header line; write the names of the columns above them")
+        raise TextTableError(
+            f"{path}:{first + 1}: numbers without a header line; write the names of the columns above them"
+        )
     units = names[-1] if len(names) > 1 and _are_units(names[-1], names[-2]) else None
     header = names[-2] if units else names[-1]
     values = _numbers(path, lines, first, Dialect(separator, decimal, encoding), width)
@@ -121,7 +126,8 @@ def _first_row_of_numbers(lines: list[str], separator: str, decimal: str) -> int
 
 
 def _are_units(row: list[str], above: list[str]) -> bool:
-    return all(above) and any(row) and all(_UNIT.fullmatch(cell) for cell in row) and row != above
+    named = all(name for name, cell in zip(above, row, strict=True) if cell)
+    return named and any(row) and all(_UNIT.fullmatch(cell) for cell in row) and row != above
 
 
 def _numbers(path: Path, lines: list[str], first: int, dialect: Dialect, width: int) -> np.ndarray:

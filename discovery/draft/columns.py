@@ -15,12 +15,17 @@ from lacuna.discovery.units import UnitError, to_si
 # How loggers write units that the language writes otherwise.
 _SPELLINGS = {
     "°C": "degC", "℃": "degC", "C°": "degC", "grad C": "degC", "°": "deg", "Ω": "Ohm", "Nm": "N.m", "mNm": "mN.m",
-    "Nmm": "N.mm", "1/min": "rpm", "min-1": "rpm", "min^-1": "rpm", "U/min": "rpm", "r/min": "rpm", "rev/min": "rpm", "RPM": "rpm",
-    "sec": "s", "secs": "s", "seconds": "s", "ms": "ms", "msec": "ms", "µs": "us", "μs": "us", "-": "1", "": "1", "Volt": "V",
-    "Amp": "A", "Amps": "A", "lpm": "l/min", "ltr/min": "l/min", "hours": "h", "minutes": "min", "mbar": "mbar",
+    "Nmm": "N.mm", "1/min": "rpm", "min-1": "rpm", "min^-1": "rpm", "U/min": "rpm", "r/min": "rpm",
+    "rev/min": "rpm", "RPM": "rpm", "sec": "s", "secs": "s", "seconds": "s", "msec": "ms", "µs": "us", "μs": "us",
+    "-": "1", "": "1", "Volt": "V", "Amp": "A", "Amps": "A", "lpm": "l/min",
+    "ltr/min": "l/min", "hours": "h", "minutes": "min",
 }  # fmt: skip
-_BRACKETS = re.compile(r"^(?P<name>.*?\S)\s*(?:\[(?P<a>[^\]]*)\]|\((?P<b>[^)]*(?:\([^)]*\)[^)]*)?)\)|\{(?P<c>[^}]*)\}|<(?P<d>[^>]*)>)$")
-_TIME = re.compile(r"^(time|t|zeit|temps|tiempo|tempo|timestamp|time[ _]?stamp|elapsed([ _]time)?|seconds|sec)$", re.IGNORECASE)
+_BRACKETS = re.compile(
+    r"^(?P<name>.*?\S)\s*(?:\[(?P<a>[^\]]*)\]|\((?P<b>[^)]*(?:\([^)]*\)[^)]*)?)\)|\{(?P<c>[^}]*)\}|<(?P<d>[^>]*)>)$"
+)
+_TIME = re.compile(
+    r"^(time|t|zeit|temps|tiempo|tempo|timestamp|time[ _]?stamp|elapsed([ _]time)?|seconds|sec)$", re.IGNORECASE
+)
 
 
 @dataclass(frozen=True)
@@ -40,7 +45,14 @@ class Head:
 def known_unit(text: str) -> str | None:
     """`text` as the language writes it, or None where it is no unit."""
     spelt = text.strip()
-    spelt = _SPELLINGS.get(spelt, spelt).replace("µ", "u").replace("μ", "u").replace("²", "2").replace("³", "3").replace("·", ".")
+    spelt = (
+        _SPELLINGS.get(spelt, spelt)
+        .replace("µ", "u")
+        .replace("μ", "u")
+        .replace("²", "2")
+        .replace("³", "3")
+        .replace("·", ".")
+    )
     try:
         to_si(spelt)
     except UnitError:
@@ -58,7 +70,7 @@ def read_head(text: str, unit_row: str = "") -> Head:
         said = next(g for g in (match["a"], match["b"], match["c"], match["d"]) if g is not None)
         if (unit := known_unit(said)) is not None:
             return Head(text, match["name"].strip(), unit)
-    for separator in ("/", ",", " in "):  # I_A/mA, but not a/b of two names: what follows must be a unit
+    for separator in (" in ", "/", ","):  # I_A/mA, but not a/b of two names: what follows must be a unit
         name, found, said = text.partition(separator)
         unit = known_unit(said) if found and said.strip() else None
         if unit is not None and name.strip():

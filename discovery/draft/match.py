@@ -37,17 +37,17 @@ def matched(heads: Sequence[Head], targets: Iterable[Target]) -> list[Match]:
     targets = list(targets)
     scores = [{t: s for t in targets if (s := likeness(head, t)) > 0} for head in heads]
     taken: dict[int, Target] = {}
-    pairs = sorted(((s, -k, t.name, t) for k, row in enumerate(scores) for t, s in row.items()), reverse=True)
-    for _score, k, _name, target in pairs:
-        if -k not in taken and target not in taken.values():
-            taken[-k] = target
+    pairs = [(s, k, t) for k, row in enumerate(scores) for t, s in row.items()]
+    for _score, k, target in sorted(pairs, key=lambda pair: -pair[0]):  # of equal ones the first in the model
+        if k not in taken and target not in taken.values():
+            taken[k] = target
     return [_match(head, scores[k], taken.get(k)) for k, head in enumerate(heads)]
 
 
 def _match(head: Head, scores: dict[Target, float], target: Target | None) -> Match:
     if target is None:
         return Match(head, None)
-    others = sorted((t for t in scores if t != target), key=lambda t: (-scores[t], t.name))
+    others = sorted((t for t in scores if t != target), key=lambda t: -scores[t])
     # Sure: the names say the same and the unit agrees, or nothing else has this dimension.
     sure = head.unit is not None and (scores[target] >= SAME_NAME or not others)
     return Match(head, target, tuple(others[:4]), sure)
@@ -71,11 +71,15 @@ def likeness(head: Head, target: Target) -> float:
 
 
 def _alike(a: str, b: str) -> float:
-    """1 for the same letters and digits, less for each that differs."""
+    """1 for the same letters and digits, less for each that differs; a number at the end counts little: w1 is a w."""
     a, b = (re.sub(r"[^0-9a-z]", "", name.lower()) for name in (a, b))
     if not a or not b:
         return 0.0
-    return 1.0 if a == b else max(0.0, 1 - distance(a, b) / max(len(a), len(b))) if min(len(a), len(b)) > 2 else 0.0
+    if a == b:
+        return 1.0
+    if a.rstrip("0123456789") == b.rstrip("0123456789"):
+        return 0.9
+    return max(0.0, 1 - distance(a, b) / max(len(a), len(b))) if min(len(a), len(b)) > 2 else 0.0
 
 
 def _said(head: Head, target: Target) -> float:
