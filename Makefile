@@ -15,7 +15,7 @@ run_ctest = ctest --test-dir $(1) --output-on-failure -j 2 > $(1)/ctest.log && t
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*')
 
 .PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined tolerance-study \
-        figures belts format lint sanitize ctest pytest lock clean
+        figures belts msl format lint sanitize ctest pytest lock clean
 
 help: ## Print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -75,6 +75,9 @@ real-machines: setup ## Explain the recordings of real machines, writes docs/rea
 
 tolerance-study: setup ## Justify the map's tolerance, writes docs/tolerance.md
 	@$(PYTHON) -m bench.tolerance
+
+msl: setup ## Every example of the Modelica Standard Library, translated, simulated, compared (long), writes docs/msl.md
+	@$(PYTHON) -m bench.msl --page
 
 figures: maps ## Copy the map's figures that the documentation shows into docs/figures/
 	@cp $(OUT)/maps/paper/fig5_mean_rms.svg docs/figures/mean_rms.svg

@@ -20,6 +20,14 @@ HOME_PACKAGE = "Lacuna"
 MODEL_KINDS = ("model", "block", "class")  # what can be simulated
 
 
+_PREDEFINED = """
+type StateSelect = enumeration(never, avoid, default, prefer, always);
+type AssertionLevel = enumeration(warning, error);
+partial class ExternalObject end ExternalObject;
+"""  # Modelica 3.6, 4.9.8, 8.3.7 and 12.9.7
+PREDEFINED = {cls.name: cls for cls in parse(_PREDEFINED, "")}
+
+
 @lru_cache(maxsize=4096)
 def _parse_cached(file: str, text: str) -> tuple[ast.Class, ...]:
     return tuple(parse(text, file))
@@ -82,7 +90,7 @@ class Library:
             found = next((cls for cls in self._classes_at(place, name) if cls.name == name), None)
             if found is not None:
                 return found
-        return None
+        return PREDEFINED.get(name)
 
     def _classes_at(self, place: Path, name: str) -> list[ast.Class]:
         """Top-level classes of a place of the search path, among which `name` is if it is there."""
@@ -176,10 +184,20 @@ class Library:
         classes = self.parse_file(path)
         for cls in classes:
             if cls.within:
-                cls.parent = self._by_name(cls.within)
+                cls.parent = self._owner(cls)
             self.root.classes[cls.name] = cls
         self._look_in(folder)
         return next((cls for cls in classes if cls.name == path.stem), classes[-1])
+
+    def _owner(self, cls: ast.Class) -> ast.Class:
+        """The package that a file's `within` names; it lies neither in the class itself nor in what is inside it."""
+        owner = around = self._by_name(cls.within)
+        while around is not None:
+            if around is cls:
+                hint = "name the package that the class lies in, or leave 'within' out"
+                raise Diagnostic("F004", f"{cls.name} lies within itself", cls.span, hint)
+            around = around.parent
+        return owner
 
     def _in_package(self, top: Path, path: Path) -> ast.Class:
         """The class of a file or folder inside the package at `top`, which is looked up from now on, too."""

@@ -62,3 +62,12 @@ def to_si(unit: str) -> tuple[float, str]:
         parts.append(".".join(symbols))
     below = f"({parts[1]})" if "." in parts[1] else parts[1]
     return factor, (parts[0] or "1") + (f"/{below}" if below else "")
+
+
+def same_unit(model: str, column: str) -> bool:
+    """Whether an SI unit of a column is that of a variable: one dimension, and of temperatures one zero."""
+    if not model:
+        return True
+    if ("degC" in model) != ("degC" in column):
+        return False  # the scales differ by more than a factor, which is all that a column is converted by
+    return parse_unit(model.replace("ohm", "Ohm")).same(parse_unit(column.replace("ohm", "Ohm")))

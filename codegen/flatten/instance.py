@@ -178,6 +178,9 @@ class Instance:
         if cls.kind in ("package", "function"):
             hint = "components are of a model, block, connector, record or type"
             raise Diagnostic("R014", f"{cls.name} is a {cls.kind}, not a component class", declaration.span, hint)
+        if cls.expandable:
+            hint = "declare a connector with the variables it carries"
+            raise Diagnostic("R091", "expandable connectors are outside the subset", declaration.span, hint)
         if cls.partial:
             hint = "use a class that extends it"
             if declaration.replaceable:

@@ -43,6 +43,9 @@ class Leaf:
         self._binding: Value | None = None
         self._bound = self._lowering = False
         self._check_attributes()
+        if declaration.stream:
+            hint = "carry the property as a variable of the connector"
+            raise Diagnostic("R091", "stream connectors are outside the subset", declaration.span, hint)
         for position, scalar in enumerate(self.names):
             context.scalars[scalar] = (self, position)
 

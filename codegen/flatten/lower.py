@@ -235,6 +235,9 @@ def range_values(e: ast.Range, scope: Scope) -> Array:
 
 def iterate(iterator: ast.Iterator, scope: Scope) -> tuple[Value, ...]:
     """The values a loop variable takes, in order."""
+    if iterator.range is None:
+        hint = "say what it runs over: for i in 1:n"
+        raise Diagnostic("P018", f"the loop variable {iterator.name} has no range", iterator.span, hint)
     if isinstance(iterator.range, ast.Ref):
         cls = enumeration(iterator.range, scope)
         if cls is not None:
@@ -267,7 +270,13 @@ def _colon(e: ast.Colon, scope: Scope) -> Value:
     raise Diagnostic("R048", "':' as a value", e.span, "it stands for all elements, inside subscripts only")
 
 
+def _partial_function(e: ast.PartialFunction, scope: Scope) -> Value:
+    hint = "call the function where it is needed"
+    raise Diagnostic("R090", "functions as arguments are outside the subset", e.span, hint)
+
+
 OPERATORS: dict[type, Handler] = {  # names and calls have files of their own
+    ast.PartialFunction: _partial_function,
     ast.Literal: _literal, ast.Unary: _unary, ast.Binary: _binary, ast.IfExpression: _if, ast.ArrayLiteral: _array,
     ast.MatrixLiteral: _matrix, ast.Range: range_values, ast.Comprehension: _comprehension, ast.Colon: _colon,
     ast.End: _end, ast.Tuple: _tuple,

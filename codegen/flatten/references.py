@@ -184,8 +184,6 @@ def _from_class(ref: ast.Ref, scope: Scope) -> Value:
             hint = did_you_mean(name, known, f"{cls.name} has {', '.join(known[:12])}")
             raise Diagnostic("R002", f"{cls.path} has no constant {name}", ref.span, hint)
         cls = inner
-    if ref.names[0] in ("StateSelect", "AssertionLevel") and len(ref.names) == 2:
-        return ref.names[1]
     if cls is not None:
         hint = "use one of its components or constants"
         raise Diagnostic("R018", f"{ref} is a {cls.kind}, not a value", ref.span, hint)
