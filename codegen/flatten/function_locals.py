@@ -11,8 +11,8 @@ from lacuna.codegen.flatten.evaluate import evaluate_dimensions
 from lacuna.codegen.flatten.instance import Instance
 from lacuna.codegen.flatten.modifiers import from_tree, merge
 from lacuna.codegen.flatten.scope import Scope
-from lacuna.codegen.flatten.types import Type, resolve_type
-from lacuna.codegen.flatten.values import Array, Record, Value, scalars, shape_of, shape_text
+from lacuna.codegen.flatten.types import EXTERNAL, Type, resolve_type
+from lacuna.codegen.flatten.values import Array, ExternalValue, Record, Value, scalars, shape_of, shape_text
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
@@ -115,6 +115,10 @@ def _check_function(cls: ast.Class, instance: Instance) -> None:
 
 def fit(local: Local, value: Value, scope: Scope, span: Span) -> Value:
     """`value` for a declared variable: type and size checked, whole numbers made Real where that is declared."""
+    if local.type.primitive == EXTERNAL:
+        if not isinstance(value, ExternalValue) or value.cls is not local.type.cls:
+            raise Diagnostic("R062", f"{local.name} is an external object", span, f"give a {local.declaration.type}")
+        return value
     if local.type.primitive is None:
         if not isinstance(value, Record):
             raise Diagnostic("R062", f"{local.name} is a record", span, f"give a {local.declaration.type}")

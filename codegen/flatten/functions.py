@@ -86,7 +86,7 @@ def _call(signature: Signature, written: Written, e: ast.Call, scope: Scope) -> 
     context, cls = scope.context, signature.cls
     arguments = bind_arguments(cls, signature.inputs, written, e, scope)
     if cls.external is not None:
-        return call_external(cls, arguments, e, context)
+        return call_external(cls, arguments, e, scope)
     items = [a for v in arguments.values() for a in scalars(v)]
     known = all(isinstance(a, str) or a.op == "const" for a in items)
     if known or (context.call_depth < MAX_INLINE_DEPTH and not _has_events(items)):

@@ -10,7 +10,7 @@ from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.enumerations import IndexType
 from lacuna.codegen.flatten.lower import modifier_value
 from lacuna.codegen.flatten.modifiers import Modifier
-from lacuna.codegen.flatten.types import ATTRIBUTES, Type
+from lacuna.codegen.flatten.types import ATTRIBUTES, EXTERNAL, Type
 from lacuna.codegen.flatten.values import Array, Record, Value, indices, shape_of, shape_text
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
@@ -71,7 +71,7 @@ class Leaf:
 
     def value(self) -> Value:
         """The variable(s) as expressions; a String is its text."""
-        if self.primitive == "String":
+        if self.primitive in ("String", EXTERNAL):
             return self.text()
         if not self.shape:
             return ex.var(self.name, self.primitive)
@@ -80,7 +80,8 @@ class Leaf:
     def text(self) -> Value:
         value = self.binding()
         if value is None:
-            raise Diagnostic("F020", f"the String {self.name} has no value", self.span, 'bind it: = "..."')
+            hint = 'bind it: = "..."' if self.primitive == "String" else "bind it to a call of its constructor"
+            raise Diagnostic("F020", f"the {self.primitive} {self.name} has no value", self.span, hint)
         return value
 
     def binding(self) -> Value | None:

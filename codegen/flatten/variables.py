@@ -11,6 +11,7 @@ from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.enumerations import enumeration_of, require_same
 from lacuna.codegen.flatten.equations import real_or_same
 from lacuna.codegen.flatten.leaf import Leaf
+from lacuna.codegen.flatten.types import EXTERNAL
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
 
@@ -20,7 +21,7 @@ _NUMERIC = ("start", "min", "max", "nominal")
 
 def flatten_variables(leaf: Leaf, model: flat.FlatModel) -> None:
     """Add the scalars of one declaration to `model`, and its binding where it is not a parameter."""
-    if leaf.primitive == "String":
+    if leaf.primitive in ("String", EXTERNAL):
         return
     context = leaf.instance.context
     values = {name: leaf.attribute(name) for name in leaf.modifier.children}
