@@ -56,7 +56,7 @@ class Local:
         return text
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Signature:
     """A function (or record) with everything it declares and does, inherited first."""
 
@@ -68,9 +68,38 @@ class Signature:
     def inputs(self) -> list[Local]:
         return [d for d in self.locals if d.declaration.causality == "input"]
 
+    @cached_property
+    def sizing(self) -> frozenset[str]:
+        """Inputs whose values (not sizes) decide the sizes of what is declared."""
+        names = {i.name for i in self.inputs}
+        used: set[str] = set()
+        for local in self.locals:
+            for dimension in local.declaration.dimensions:
+                used |= _values_in(dimension)
+        for local in self.locals:  # through protected constants, such as n = 2*m
+            if local.name in used and local.declaration.modification.value is not None:
+                used |= _values_in(local.declaration.modification.value)
+        return frozenset(used & names)
+
     @property
     def outputs(self) -> list[Local]:
         return [d for d in self.locals if d.declaration.causality == "output"]
+
+
+def _values_in(e: ast.Expression) -> set[str]:
+    """Names that an expression reads the values of, those inside size(...) left out."""
+    if isinstance(e, ast.Call) and str(e.function) == "size":
+        return set().union(*map(_values_in, e.args[1:]))
+    if isinstance(e, ast.Ref):
+        return {e.names[0]}
+    parts = [*e.args, *e.named.values()] if isinstance(e, ast.Call) else []
+    if isinstance(e, ast.Binary):
+        parts = [e.left, e.right]
+    elif isinstance(e, ast.Unary):
+        parts = [e.operand]
+    elif isinstance(e, ast.IfExpression):
+        parts = [e.otherwise, *(p for branch in e.branches for p in branch)]
+    return set().union(*map(_values_in, parts))
 
 
 class _Signatures(dict[int, Signature]):

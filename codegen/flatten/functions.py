@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.constants import AtRunTime
+from lacuna.codegen.flatten.constants import AtRunTime, evaluate, is_known
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.external import call_external
 from lacuna.codegen.flatten.function_code import Sources, emitted_call
@@ -85,6 +85,8 @@ def _vector_shape(signature: Signature, written: Written, span: Span) -> tuple[i
 def _call(signature: Signature, written: Written, e: ast.Call, scope: Scope) -> list[Value]:
     context, cls = scope.context, signature.cls
     arguments = bind_arguments(cls, signature.inputs, written, e, scope)
+    if not scope.in_function:
+        arguments |= {n: _evaluated(arguments[n], scope, e.span, n) for n in signature.sizing}
     if cls.external is not None:
         return call_external(cls, arguments, e, scope)
     items = [a for v in arguments.values() for a in scalars(v)]
@@ -106,6 +108,16 @@ def _call(signature: Signature, written: Written, e: ast.Call, scope: Scope) -> 
         finally:
             context.call_depth -= 1
     return emitted_call(signature, arguments, context, e.span)
+
+
+def _evaluated(value: Value, scope: Scope, span: Span, name: str) -> Value:
+    """The value of an argument that decides sizes: parameters in it become structural."""
+    if not isinstance(value, Expr | Array) or not all(isinstance(s, Expr) for s in scalars(value)):
+        return value
+    if not all(is_known(s, scope.context) for s in scalars(value)):
+        return value
+    items = tuple(evaluate(s, scope.context, span, f"the argument {name}") for s in scalars(value))
+    return Array(value.shape, items) if isinstance(value, Array) else items[0]
 
 
 def written_arguments(
