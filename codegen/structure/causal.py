@@ -15,8 +15,8 @@ from lacuna.codegen.structure.system import Row
 from lacuna.codegen.structure.tearing import Assignment, Tearing
 from lacuna.codegen.symbolic.affine import UNSAFE, isolate
 from lacuna.codegen.symbolic.differentiate import Differentiator
-from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, neg, substitute
-from lacuna.codegen.symbolic.leaves import leaves
+from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, neg
+from lacuna.codegen.symbolic.leaves import leaves, with_leaves
 
 
 @dataclass(eq=False)
@@ -103,8 +103,8 @@ def _is_linear(rows: list[Row], unknowns: set[Expr]) -> bool:
 def _linear(chain: list[Assignment], tears: list[Expr], residuals: list[Row]) -> LinearBlock:
     at_zero: dict[Expr, Expr] = dict.fromkeys(tears, ZERO)
     for step in chain:
-        at_zero[step.unknown] = substitute(step.value, at_zero)
-    right = [neg(substitute(row.residual, at_zero)) for row in residuals]
+        at_zero[step.unknown] = with_leaves(step.value, at_zero)
+    right = [neg(with_leaves(row.residual, at_zero)) for row in residuals]
     matrix = _jacobian(tears, chain, residuals)
     return LinearBlock(tears, matrix, right, chain, residuals)
 
@@ -115,7 +115,7 @@ def _jacobian(tears: list[Expr], chain: list[Assignment], residuals: list[Row]) 
     users = users_of(leaves(step.value) for step in chain), users_of(row.leaves for row in residuals)
     for column, tear in enumerate(tears):
         seeds = {tear: ONE}
-        differentiate = Differentiator(lambda n, seeds=seeds: seeds.get(n, ZERO))
+        differentiate = Differentiator(lambda n, seeds=seeds: seeds.get(n, ZERO), seeds.keys())
         steps, rows = Reach(users[0], seeds), Reach(users[1], seeds)
         for k in steps:
             unknown = chain[k].unknown

@@ -5,13 +5,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import reduce
+from operator import or_
 
 from lacuna.codegen.structure.causal import LinearBlock, Step, unknowns_of
 from lacuna.codegen.structure.reach import Reach, Users, users_of
 from lacuna.codegen.structure.system import Row, System
-from lacuna.codegen.structure.tearing import Assignment, Tearing
+from lacuna.codegen.structure.tearing import Assignment, Tearing, Torn
 from lacuna.codegen.symbolic.differentiate import Differentiator
-from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, is_const, substitute, var
+from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, der, is_const, substitute, var
 from lacuna.codegen.symbolic.leaves import leaves
 
 
@@ -32,12 +34,28 @@ def residual_form(system: System, explicit: Sequence[Step], tearing: Tearing) ->
     rows = [row if _speed(row, states) else _with_speeds(row, speeds) for row in system.rows]
     rough = [d for d in system.derivatives if d not in speeds]
     algebraics = [var(n) for n in system.algebraics]
-    torn = tearing.tear(rows, algebraics, rough)
+    orders = (tearing.tear(rows, algebraics, rough, values_first=first) for first in (False, True))
+    torn = min(orders, key=lambda torn: nonzeros(torn, system))
     if tearing.amplifies(torn, map(var, system.states)):
         blocks = [unknowns_of(step) for step in explicit if isinstance(step, LinearBlock)]
         torn = tearing.tear(rows, algebraics, rough, [u for block in blocks for u in block if u.op == "var"])
     used = needed(torn.assignments, (row.leaves for row in torn.residuals))
     return ResidualForm(used, torn.tears, torn.residuals)
+
+
+def nonzeros(torn: Torn, system: System) -> int:
+    """Entries of the Jacobian that the integrator would see: a sum of currents carried along a ladder, say, makes each
+    equation depend on all derivatives before it, where differences of voltages know their neighbours only."""
+    columns = {var(name): 1 << k for k, name in enumerate(system.states)}
+    columns |= {der(n): bit for n, bit in columns.items()}
+    columns |= {tear: 1 << k for k, tear in enumerate(torn.tears, len(system.states))}
+
+    def of(used: Iterable[Expr]) -> int:
+        return reduce(or_, (columns.get(n, 0) for n in used), 0)
+
+    for step in torn.assignments:
+        columns[step.unknown] = of(leaves(step.value))
+    return sum(of(row.leaves).bit_count() for row in torn.residuals)
 
 
 def _speed(row: Row, states: set[str]) -> tuple[Expr, Expr] | None:
@@ -92,7 +110,7 @@ def jacobian(form: ResidualForm, system: System) -> Jacobian:
 def _column(
     seeds: dict[Expr, Expr], form: ResidualForm, users: tuple[Users, Users], result: Jacobian, name: str
 ) -> list[tuple[int, Expr]]:
-    differentiate = Differentiator(lambda n: seeds.get(n, ZERO))
+    differentiate = Differentiator(lambda n: seeds.get(n, ZERO), seeds.keys())
     chain, rows = Reach(users[0], seeds), Reach(users[1], seeds)
     for k in chain:
         step = form.assignments[k]

@@ -16,7 +16,7 @@ import heapq
 
 from lacuna.codegen.structure.reach import Reach, Users, users_of
 from lacuna.codegen.structure.system import DeclaredValues, Row
-from lacuna.codegen.symbolic.affine import UNSAFE, division_rank, isolate
+from lacuna.codegen.symbolic.affine import UNSAFE, division_rank, isolate, nonlinear
 from lacuna.codegen.symbolic.differentiate import partial
 from lacuna.codegen.symbolic.expr import Expr, div
 
@@ -45,7 +45,6 @@ class Tearing:
     def __init__(self, values: DeclaredValues):
         self._values = values
         self._explicit: dict[tuple[Row, Expr], tuple[int, Expr | None]] = {}
-        self._linear: dict[tuple[Row, Expr], bool] = {}
 
     def explicit(self, row: Row, unknown: Expr) -> tuple[int, Expr | None]:
         """(rank, value) of `unknown` from `row`; rank UNSAFE and None where it may not be used."""
@@ -57,17 +56,19 @@ class Tearing:
         return self._explicit[key]
 
     def is_linear(self, row: Row, unknown: Expr) -> bool:
-        key = (row, unknown)
-        if key not in self._linear:
-            self._linear[key] = isolate(row.lhs, row.rhs, unknown) is not None
-        return self._linear[key]
+        return unknown not in nonlinear(row.lhs) and unknown not in nonlinear(row.rhs)
 
     def tear(
-        self, rows: Sequence[Row], unknowns: Sequence[Expr], rough: Iterable[Expr] = (), given: Sequence[Expr] = ()
+        self,
+        rows: Sequence[Row],
+        unknowns: Sequence[Expr],
+        rough: Iterable[Expr] = (),
+        given: Sequence[Expr] = (),
+        values_first: bool = False,
     ) -> Torn:
         """Order `rows` for `unknowns`, of which `given` are tears from the start; every leaf that is not among them is
-        known, `rough` leaves only roughly."""
-        return _Order(self, rows, unknowns, rough).run(given)
+        known, `rough` leaves only roughly. `values_first`: rows without derivatives before rows without divisions."""
+        return _Order(self, rows, unknowns, rough, values_first).run(given)
 
     def amplifies(self, torn: Torn, known: Iterable[Expr] = ()) -> bool:
         """Whether the chain of assignments blows up rounding of the tears or of `known` leaves.
@@ -102,8 +103,16 @@ class _Order:
     rows with one unknown left, constants before parameters as divisors, values before derivatives; and unknowns by
     the equations that still use them."""
 
-    def __init__(self, tearing: Tearing, rows: Sequence[Row], unknowns: Sequence[Expr], rough: Iterable[Expr]):
+    def __init__(
+        self,
+        tearing: Tearing,
+        rows: Sequence[Row],
+        unknowns: Sequence[Expr],
+        rough: Iterable[Expr],
+        values_first: bool,
+    ):
         self._tearing, self._rows, self._rough = tearing, rows, set(rough)
+        self._values_first = values_first
         self._open = dict.fromkeys(unknowns)
         self._missing = {row: {u for u in row.leaves if u in self._open} for row in rows}
         self._users: dict[Expr, list[Row]] = {u: [] for u in unknowns}
@@ -115,7 +124,7 @@ class _Order:
         self._uses = {u: len(users) for u, users in self._users.items()}
         self._tears = [(-self._uses[u], k, u) for k, u in enumerate(unknowns)]
         heapq.heapify(self._tears)
-        self._ready: list[tuple[tuple[int, bool, int], Row, Expr, Expr]] = []
+        self._ready: list[tuple[tuple[int, int, int], Row, Expr, Expr]] = []
         self._torn = Torn()
 
     def run(self, given: Sequence[Expr]) -> Torn:
@@ -147,7 +156,9 @@ class _Order:
         (unknown,) = self._missing[row]
         rank, value = self._tearing.explicit(row, unknown)
         if value is not None:
-            key = (rank, any(n.op == "der" for n in row.leaves), self._number[row])
+            derivatives = any(n.op == "der" for n in row.leaves)
+            ranks = (derivatives, rank) if self._values_first else (rank, derivatives)
+            key = (*ranks, self._number[row])
             heapq.heappush(self._ready, (key, row, unknown, value))
 
     def _settle(self, unknown: Expr) -> None:
