@@ -82,7 +82,9 @@ def write_case(folder: Path) -> None:
             grid = ~result.event
             current = result["i"][grid] + random.normal(0, 0.01, len(time))
             speed = result["w"][grid] + random.normal(0, 0.3, len(time))
-            rows = (f"{t:.3f},{u:.3f},{i:.3f},{w:.2f}" for t, u, i, w in zip(time, voltage, current, speed, strict=True))
+            rows = (
+                f"{t:.3f},{u:.3f},{i:.3f},{w:.2f}" for t, u, i, w in zip(time, voltage, current, speed, strict=True)
+            )
             (folder / f"{name}.csv").write_text("time,u,i,w\n" + "\n".join(rows) + "\n", encoding="utf-8")
     (folder / "case.toml").write_text(CASE, encoding="utf-8")
 

@@ -14,7 +14,7 @@ from lacuna.notebook import page, paragraph, table
 class Drafted:
     """A case folder that was written: what each column was taken for, and what a human should look at.
 
-    `columns` holds (column, variable, unit, role) with "" where nothing fits; `unsure` the sentences that case.toml marks.
+    `columns` holds (column, variable, unit, role), "" where nothing fits; `unsure` the sentences marked in case.toml.
     """
 
     folder: Path
