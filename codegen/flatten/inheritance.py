@@ -8,7 +8,7 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.component import Component
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.modifiers import Modifier, from_tree, merge
-from lacuna.codegen.flatten.scope import Scope, require_class
+from lacuna.codegen.flatten.scope import Scope, base_class, base_clauses, own_or_inherited, unknown_class
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.syntax import ast
 
@@ -44,16 +44,20 @@ class Inheritance:
         if depth > MAX_DEPTH:
             raise Diagnostic("R011", f"{cls.name} extends itself", cls.span, "break the circle of extends")
         context = self._context
-        scope = Scope(context, cls, self._instance)
-        clauses = [(e.base, e.modification) for e in cls.extends]
-        if cls.alias is not None:
-            clauses.append((cls.alias.base, cls.alias.modification))
+        scope = cls.written if isinstance(cls.written, Scope) else Scope(context, cls, self._instance)
+        constraint = self._constraint(cls)
+        if cls.alias is None:
+            modifier = merge(modifier, constraint)
         self.classes.append(cls)
-        for reference, tree in clauses:
-            base = require_class(context.library, cls, reference, "class", of_base=True)
+        for reference, tree in base_clauses(cls):
+            base = base_class(context.library, cls, reference, tree)
+            if base is None:
+                raise unknown_class(context.library, cls, reference, "class")
             inner = from_tree(tree, scope)
+            if cls.alias is not None and constraint is not None:
+                inner = merge(inner, constraint)
             before, sections = dict(self.elements), len(self.sections)
-            self._collect(base, merge(modifier, inner) if tree.arguments else modifier, depth + 1)
+            self._collect(base, modifier if inner.empty else merge(modifier, inner), depth + 1)
             if tree.left_out:
                 self._leave_out(tree.left_out, sections, base)
             inherited = {n: e for n, e in self.elements.items() if before.get(n) is not e}
@@ -62,6 +66,13 @@ class Inheritance:
             outer = modifier.children.get(declaration.name) if modifier else None
             self._add(Element(declaration, cls, outer))
         self.sections += [(section, cls) for section in cls.sections]
+
+    def _constraint(self, cls: ast.Class) -> Modifier | None:
+        """The modification of the constraining clause that `cls` was chosen under."""
+        if cls.constrained is None:
+            return None
+        tree, around = cls.constrained
+        return from_tree(tree, Scope(self._context, around, self._instance))
 
     def _leave_out(self, left_out: list[ast.Ref | ast.Connect], first: int, base: ast.Class) -> None:
         """Selective extension (Modelica 3.6, 7.4): drop inherited components with their connections, or connections."""
@@ -100,17 +111,16 @@ class Inheritance:
                 raise error
         self.elements[name] = element
 
-    @staticmethod
-    def _refuse_unknown(modifier: Modifier, elements: dict[str, Element], cls: ast.Class) -> None:
+    def _refuse_unknown(self, modifier: Modifier, elements: dict[str, Element], cls: ast.Class) -> None:
         for name, child in modifier.children.items():
-            if name not in elements:
+            if name not in elements and own_or_inherited(self._context.library, cls, name) is None:
                 hint = did_you_mean(name, elements, f"{cls.name} has {', '.join(list(elements)[:10]) or 'no elements'}")
                 raise Diagnostic("R032", f"{cls.path} has no element {name} to modify", child.span, hint)
 
     def _refuse_protected(self, modifier: Modifier, cls: ast.Class) -> None:
         for name, child in modifier.children.items():
-            declaration = self.elements[name].declaration
-            if declaration.protected:
+            declaration = self.elements[name].declaration if name in self.elements else None
+            if declaration is not None and declaration.protected:
                 hint = "make it public, or modify it in an extends clause"
                 error = Diagnostic("R037", f"{name} is protected in {cls.name}", child.span, hint)
                 error.notes.append((declaration.span, "declared here"))

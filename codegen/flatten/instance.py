@@ -15,9 +15,10 @@ from lacuna.codegen.flatten.inheritance import Element, Inheritance
 from lacuna.codegen.flatten.leaf import Leaf
 from lacuna.codegen.flatten.lower import modifier_value
 from lacuna.codegen.flatten.modifiers import Modifier, for_each, from_tree, merge, narrow
-from lacuna.codegen.flatten.scope import Scope, require_class
+from lacuna.codegen.flatten.scope import Scope, own_or_inherited
 from lacuna.codegen.flatten.types import Type, resolve_type
 from lacuna.codegen.flatten.values import Record, Value, indices
+from lacuna.codegen.flatten.views import modified, view
 from lacuna.codegen.syntax import ast
 
 
@@ -50,6 +51,7 @@ class Instance:
         modifier: Modifier | None,
         declaration: ast.Component | None = None,
     ) -> None:
+        cls = _seen(cls, modifier, context)
         self.context, self.cls, self.name, self.parent = context, cls, name, parent
         self.declaration = declaration
         self.span = declaration.span if declaration else cls.span
@@ -61,7 +63,7 @@ class Instance:
         self._building: list[str] = []
         above = parent
         while above is not None:
-            if above.cls is cls:
+            if (above.cls.origin or above.cls) is (cls.origin or cls) and above.cls.redeclared == cls.redeclared:
                 raise Diagnostic("R011", f"{cls.name} contains itself", self.span, "break the circle of components")
             above = above.parent
         inherited = Inheritance(context, self, cls, modifier)
@@ -95,7 +97,7 @@ class Instance:
     def _build(self, element: Element) -> Node:
         declaration = element.declaration
         scope = Scope(self.context, element.cls, self)
-        redeclared = element.modifier is not None and element.modifier.redeclare is not None
+        redeclared = element.modifier is not None and isinstance(element.modifier.redeclare, ast.Component)
         tree = (
             declaration.constraint.modification if redeclared and declaration.constraint else declaration.modification
         )
@@ -106,7 +108,7 @@ class Instance:
         if declaration.condition is not None and not evaluate_boolean(declaration.condition, scope):
             return Absent(self.path_of(declaration.name), declaration.span)
         reference, type_scope = declaration.type, scope
-        if modifier.redeclare is not None:
+        if redeclared:
             reference, type_scope = self._redeclared(element, modifier)
         found = resolve_type(reference, type_scope)
         sizes = evaluate_dimensions([*declaration.dimensions], scope, modifier, declaration.name)
@@ -149,11 +151,16 @@ class Instance:
             )
             error.notes.append((declaration.span, "declared here"))
             raise error
-        library = self.context.library
-        scope = element.modifier.scope
+        scope = modifier.redeclared_in
         limit = declaration.constraint.base if declaration.constraint else declaration.type
-        bound = require_class(library, element.cls, limit, "class")
-        chosen = require_class(library, scope.cls, new.type, "class")
+        bound_type = resolve_type(limit, Scope(self.context, element.cls, self))
+        chosen_type = resolve_type(new.type, scope)
+        if bound_type.primitive or chosen_type.primitive:
+            if bound_type.primitive != chosen_type.primitive:
+                hint = f"choose a type that is a {bound_type.primitive or limit}"
+                raise Diagnostic("R034", f"{new.type} cannot stand for {limit}", new.span, hint)
+            return new.type, scope
+        bound, chosen = bound_type.cls, chosen_type.cls
         needed = Instance(self.context, bound, "", None, None).elements
         offered = Instance(self.context, chosen, "", None, None).elements
         missing = [n for n, e in needed.items() if n not in offered and not e.declaration.protected]
@@ -186,6 +193,21 @@ class Instance:
             if declaration.replaceable:
                 hint = f"redeclare it: {declaration.name}(redeclare CLASS {declaration.name})"
             raise Diagnostic("R015", f"{cls.name} is partial and cannot be a component", declaration.span, hint)
+
+
+def _seen(cls: ast.Class, modifier: Modifier | None, context: Context) -> ast.Class:
+    """`cls` with the classes that `modifier` redeclares or modifies in it."""
+    library = context.library
+    redeclared: dict[str, ast.Class] = {}
+    for name, child in modifier.children.items() if modifier is not None else ():
+        if isinstance(child.redeclare, ast.Class):
+            scope = child.redeclared_in
+            redeclared[name] = view(library, child.redeclare, scope.cls, written=scope)
+        elif child.redeclare is None and child.children and child.tree is not None:
+            plain = own_or_inherited(library, cls, name)
+            if plain is not None:
+                redeclared[name] = modified(library, plain, child.tree, child.scope, child.scope.cls)
+    return view(library, cls, cls.parent, redeclared, cls.whole) if redeclared else cls
 
 
 Node = Instance | Leaf | ArrayNode | Absent
