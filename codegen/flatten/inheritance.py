@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.component import Component
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.modifiers import Modifier, from_tree, merge
@@ -44,7 +44,11 @@ class Inheritance:
         if depth > MAX_DEPTH:
             raise Diagnostic("R011", f"{cls.name} extends itself", cls.span, "break the circle of extends")
         context = self._context
-        scope = cls.written if isinstance(cls.written, Scope) else Scope(context, cls, self._instance)
+        scope = Scope(context, cls, self._instance)
+        if isinstance(cls.written, Scope):
+            scope = cls.written
+        elif cls.alias is not None and cls.parent is not None:
+            scope = Scope(context, cls.parent, None)
         constraint = self._constraint(cls)
         if cls.alias is None:
             modifier = merge(modifier, constraint)
@@ -103,7 +107,9 @@ class Inheritance:
     def _add(self, element: Element) -> None:
         name = element.declaration.name
         present = self.elements.get(name)
-        if present is not None and present.declaration is not element.declaration:
+        if element.declaration.redeclares:
+            element = _redeclared(element, present)
+        elif present is not None and present.declaration is not element.declaration:
             same_type = str(present.declaration.type) == str(element.declaration.type)
             if present.cls is element.cls or not same_type:
                 error = Diagnostic("R010", f"{name} is declared twice", element.declaration.span, "rename one of them")
@@ -125,6 +131,42 @@ class Inheritance:
                 error = Diagnostic("R037", f"{name} is protected in {cls.name}", child.span, hint)
                 error.notes.append((declaration.span, "declared here"))
                 raise error
+
+
+def _redeclared(element: Element, present: Element | None) -> Element:
+    """An element written with `redeclare`, in place of the inherited one. Raises R032, R033, R037."""
+    new = element.declaration
+    if present is None:
+        hint = "redeclare what a base class declares, or remove 'redeclare'"
+        raise Diagnostic("R032", f"{new.name} redeclares nothing", new.span, hint)
+    old = present.declaration
+    refuse_redeclaration(new, old, new.span)
+    if old.protected != new.protected:
+        hint = "declare both public, or both protected"
+        raise Diagnostic("R037", f"{new.name} and what it redeclares differ in visibility", new.span, hint)
+    if new.constraint is None and old.constraint is not None:
+        new = replace(new, constraint=old.constraint)
+    return replace(element, declaration=inheriting(new, old))
+
+
+def refuse_redeclaration(new: ast.Component, old: ast.Component, span: Span) -> None:
+    """Raises R033 where a component cannot be redeclared: constants, final ones, and those not replaceable."""
+    why = "a constant" if old.variability == "constant" else "final" if old.final else ""
+    if why or not old.replaceable:
+        message = f"{old.name} is {why or 'not replaceable'}" + (" and cannot be redeclared" if why else "")
+        error = Diagnostic("R033", message, span, "declare it with 'replaceable'" if not why else "remove 'redeclare'")
+        error.notes.append((old.span, "declared here"))
+        raise error
+
+
+def inheriting(new: ast.Component, old: ast.Component) -> ast.Component:
+    """A redeclaration with the prefixes and sizes of the original where it has none of its own (7.3)."""
+    return replace(
+        new, variability=new.variability or old.variability, causality=new.causality or old.causality,
+        flow=new.flow or old.flow, stream=new.stream or old.stream, inner=new.inner or old.inner,
+        outer=new.outer or old.outer, dimensions=new.dimensions or old.dimensions,
+        condition=new.condition or old.condition, protected=old.protected, description=new.description or old.description,
+    )  # fmt: skip
 
 
 def written(reference: ast.Ref) -> str:

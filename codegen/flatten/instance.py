@@ -11,11 +11,12 @@ from math import prod
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.evaluate import evaluate_boolean, evaluate_dimensions
-from lacuna.codegen.flatten.inheritance import Element, Inheritance
+from lacuna.codegen.flatten.inheritance import Element, Inheritance, inheriting, refuse_redeclaration
 from lacuna.codegen.flatten.leaf import Leaf
 from lacuna.codegen.flatten.lower import modifier_value
 from lacuna.codegen.flatten.modifiers import Modifier, for_each, from_tree, merge, narrow
 from lacuna.codegen.flatten.scope import Scope, own_or_inherited
+from lacuna.codegen.flatten.subtypes import require_subtype
 from lacuna.codegen.flatten.types import Type, resolve_type
 from lacuna.codegen.flatten.values import Record, Value, indices
 from lacuna.codegen.flatten.views import modified, view
@@ -98,23 +99,20 @@ class Instance:
         declaration = element.declaration
         scope = Scope(self.context, element.cls, self)
         redeclared = element.modifier is not None and isinstance(element.modifier.redeclare, ast.Component)
-        tree = (
-            declaration.constraint.modification if redeclared and declaration.constraint else declaration.modification
-        )
-        own = from_tree(tree, scope, final=declaration.final)
+        own = self._own_modifier(declaration, scope, redeclared)
         modifier = merge(element.modifier, own) or own
         if declaration.outer and not declaration.inner:
             return self._outer(declaration)
         if declaration.condition is not None and not evaluate_boolean(declaration.condition, scope):
             return Absent(self.path_of(declaration.name), declaration.span)
-        reference, type_scope = declaration.type, scope
+        type_scope = scope
         if redeclared:
-            reference, type_scope = self._redeclared(element, modifier)
-        found = resolve_type(reference, type_scope)
-        sizes = evaluate_dimensions([*declaration.dimensions], scope, modifier, declaration.name)
+            declaration, type_scope = self._redeclared(element, modifier)
+        found = resolve_type(declaration.type, type_scope)
+        sizes = evaluate_dimensions([*declaration.dimensions], type_scope, modifier, declaration.name)
         sizes += found.dimensions
         record = self._record_value()
-        if record is not None and (element.modifier is None or element.modifier.value is None):
+        if record is not None and (element.modifier is None or element.modifier.value is None or element.modifier.weak):
             modifier = replace(modifier, value=record.fields.get(declaration.name), index=())
         self.context.spend(prod(sizes), declaration.span)
         name = self.path_of(declaration.name)
@@ -133,6 +131,15 @@ class Instance:
             items.append(Instance(self.context, found.cls, name + text, self, inner, declaration))
         return ArrayNode(name, tuple(sizes), items)
 
+    @staticmethod
+    def _own_modifier(declaration: ast.Component, scope: Scope, redeclared: bool) -> Modifier:
+        """What the declaration says, and its constraining clause: that holds whatever stands there (7.3.2)."""
+        own = from_tree(declaration.modification, scope, final=declaration.final)
+        if declaration.constraint is None:
+            return own
+        constraint = from_tree(declaration.constraint.modification, scope, final=declaration.final)
+        return constraint if redeclared else merge(own, constraint) or own
+
     def _record_value(self) -> Record | None:
         """The record this component is bound to, as in `Data data = other`."""
         if self._record is None and self._modifier is not None and self._modifier.value is not None:
@@ -143,31 +150,22 @@ class Instance:
             self._record = value
         return self._record
 
-    def _redeclared(self, element: Element, modifier: Modifier) -> tuple[ast.Ref, Scope]:
-        declaration, new = element.declaration, modifier.redeclare
-        if not declaration.replaceable:
-            error = Diagnostic(
-                "R033", f"{declaration.name} is not replaceable", modifier.span, "declare it with 'replaceable'"
-            )
-            error.notes.append((declaration.span, "declared here"))
-            raise error
-        scope = modifier.redeclared_in
-        limit = declaration.constraint.base if declaration.constraint else declaration.type
-        bound_type = resolve_type(limit, Scope(self.context, element.cls, self))
-        chosen_type = resolve_type(new.type, scope)
-        if bound_type.primitive or chosen_type.primitive:
-            if bound_type.primitive != chosen_type.primitive:
-                hint = f"choose a type that is a {bound_type.primitive or limit}"
-                raise Diagnostic("R034", f"{new.type} cannot stand for {limit}", new.span, hint)
-            return new.type, scope
-        bound, chosen = bound_type.cls, chosen_type.cls
-        needed = Instance(self.context, bound, "", None, None).elements
-        offered = Instance(self.context, chosen, "", None, None).elements
-        missing = [n for n, e in needed.items() if n not in offered and not e.declaration.protected]
-        if missing:
-            hint = f"choose a class that has what {bound.name} has"
-            raise Diagnostic("R034", f"{chosen.name} lacks {', '.join(missing)} of {bound.name}", new.span, hint)
-        return new.type, scope
+    def _redeclared(self, element: Element, modifier: Modifier) -> tuple[ast.Component, Scope]:
+        """The declaration that stands in place of a replaceable one, and the scope of its type. Raises R033, R034."""
+        old, new, scope = element.declaration, modifier.redeclare, modifier.redeclared_in
+        own = Scope(self.context, element.cls, self)
+        chosen = resolve_type(new.type, scope)
+        if not old.replaceable and new.dimensions:
+            declared = resolve_type(old.type, own)
+            if (declared.primitive, declared.cls) == (chosen.primitive, chosen.cls):
+                return inheriting(new, old), scope  # sizes may be redeclared anyway
+        refuse_redeclaration(new, old, modifier.span)
+        bound = resolve_type(old.constraint.base if old.constraint else old.type, own)
+        require_subtype(chosen, bound, self.context, self._elements_of, f"{new.type} for {old.name}", new.span)
+        return inheriting(new, old), scope
+
+    def _elements_of(self, cls: ast.Class) -> dict[str, Element]:
+        return Instance(self.context, cls, "", None, None).elements
 
     def _outer(self, declaration: ast.Component) -> Node:
         above = self.parent

@@ -23,6 +23,7 @@ class Modifier:
     redeclare: ast.Component | ast.Class | None = None
     redeclared_in: Scope | None = None  # the scope a redeclaration is written in
     tree: ast.Modification | None = None  # as written
+    weak: bool = False  # of a part of a component that is bound as a whole from further outside
     index: tuple[int, ...] = ()
 
     @property
@@ -64,13 +65,24 @@ def merge(outer: Modifier | None, inner: Modifier | None) -> Modifier | None:
         error = Diagnostic("R033", "this was redeclared and is not replaceable any more", outer.span, hint)
         error.notes.append((inner.span, "redeclared here"))
         raise error
-    result = replace(source, children={} if again else dict(inner.children), final=outer.final or inner.final)
+    result = replace(source, children=_inner_children(outer, inner, again), final=outer.final or inner.final)
     chosen = outer if outer.redeclare is not None else inner
     result.redeclare, result.redeclared_in = chosen.redeclare, chosen.redeclared_in
     result.span = outer.span
     for name, child in outer.children.items():
         result.children[name] = merge(child, result.children.get(name))
     return result
+
+
+def _inner_children(outer: Modifier, inner: Modifier, again: bool) -> dict[str, Modifier]:
+    """What is left of the parts of `inner`: of a component redeclared again what its constraining clause says; of one
+    bound as a whole by `outer` attributes only."""
+    if again:
+        clause = inner.redeclare.constraint
+        return from_tree(clause.modification, inner.redeclared_in).children if clause is not None else {}
+    if outer.value is not None:
+        return {name: replace(child, weak=True) for name, child in inner.children.items()}
+    return dict(inner.children)
 
 
 def narrow(modifier: Modifier | None, index: tuple[int, ...]) -> Modifier | None:

@@ -54,7 +54,7 @@ def member(library: Library, cls: ast.Class, name: str) -> ast.Class | None:
 
 def is_specialised(cls: ast.Class) -> bool:
     """Does `cls` decide about classes or constants of what it inherits?"""
-    own = any(c.redeclares or c.extends_same is not None for c in cls.classes.values())
+    own = any(c.redeclares for c in cls.classes.values())
     return own or cls.origin is not None or any(c.redeclares for c in cls.components)
 
 
@@ -67,7 +67,7 @@ def redeclarations(library: Library, cls: ast.Class, tree: ast.Modification) -> 
         if isinstance(argument.redeclare, ast.Class):
             found[argument.name] = (view(library, argument.redeclare, scope, written=cls.written), False)
     for name, nested in cls.classes.items():
-        if nested.redeclares or nested.extends_same is not None:
+        if nested.redeclares:
             found[name] = (member(library, cls, name), True)
     return found
 
@@ -87,15 +87,18 @@ def modified(library: Library, cls: ast.Class, tree: ast.Modification, written: 
 def constrain(library: Library, new: ast.Class, old: ast.Class, by_element: bool) -> ast.Class:
     """`new` in place of the replaceable class `old`: the modifications of the constraining clause hold for it.
 
-    Raises R033 where `old` is not replaceable.
+    Raises R033 where `old` is not replaceable, R037 where one of them only is protected.
     """
     if new.alias is not None and new.alias.target is not None:
         return new
-    if not old.replaceable:
+    if not old.replaceable or old.final:
         hint = "declare it with 'replaceable'"
         error = Diagnostic("R033", f"{old.name} is not replaceable", new.span, hint)
         error.notes.append((old.span, "declared here"))
         raise error
+    if by_element and new.protected != old.protected:
+        hint = "declare both public, or both protected"
+        raise Diagnostic("R037", f"{old.name} and what stands for it differ in visibility", new.span, hint)
     if by_element and new.extends_same is not None:
         return new
     if old.constraint is None or not old.constraint.modification.arguments:
