@@ -165,7 +165,8 @@ def inheriting(new: ast.Component, old: ast.Component) -> ast.Component:
         new, variability=new.variability or old.variability, causality=new.causality or old.causality,
         flow=new.flow or old.flow, stream=new.stream or old.stream, inner=new.inner or old.inner,
         outer=new.outer or old.outer, dimensions=new.dimensions or old.dimensions,
-        condition=new.condition or old.condition, protected=old.protected, description=new.description or old.description,
+        condition=new.condition or old.condition, protected=old.protected,
+        description=new.description or old.description,
     )  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""May one class stand in place of another? (Modelica 3.6, 6.4 plug-compatibility as far as translation needs it, 7.3)"""
+"""May one class stand in place of another? (Modelica 3.6, 6.4 and 7.3, as far as translation needs it)"""
 
 from __future__ import annotations
 
