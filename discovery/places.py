@@ -75,6 +75,11 @@ class Structure:
     devices: list[Device] = field(default_factory=list)
     driven: set[str] = field(default_factory=set)  # parts that an input of the model drives: what they do changes none
 
+    @property
+    def open(self) -> bool:
+        """Whether there is a place besides the sensors."""
+        return bool(self.shafts or self.lines or self.devices)
+
     def shaft_of(self, flange: str) -> Shaft | None:
         return next((s for s in self.shafts if flange in s.members), None)
 

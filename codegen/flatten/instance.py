@@ -6,10 +6,12 @@ So `parameter Integer n = 3; Real x[n];` needs no ordering: asking for x asks fo
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import prod
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.enumerations import IndexType, index_type
 from lacuna.codegen.flatten.evaluate import evaluate_boolean, evaluate_dimensions
 from lacuna.codegen.flatten.inheritance import Element, Inheritance, inheriting, refuse_redeclaration
 from lacuna.codegen.flatten.leaf import Leaf
@@ -18,8 +20,9 @@ from lacuna.codegen.flatten.modifiers import Modifier, for_each, from_tree, merg
 from lacuna.codegen.flatten.scope import Scope, own_or_inherited
 from lacuna.codegen.flatten.subtypes import require_subtype
 from lacuna.codegen.flatten.types import Type, resolve_type
-from lacuna.codegen.flatten.values import Record, Value, indices
+from lacuna.codegen.flatten.values import Array, Record, Value, indices
 from lacuna.codegen.flatten.views import modified, view
+from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.syntax import ast
 
 
@@ -30,6 +33,12 @@ class ArrayNode:
     name: str
     shape: tuple[int, ...]
     items: list[Instance]
+    index_types: tuple[IndexType, ...] = ()
+
+    @cached_property
+    def numbers(self) -> Array:
+        """The numbers of its elements, from 1, in its shape: subscripts are applied to them."""
+        return Array(self.shape, tuple(ex.const(i + 1) for i in range(prod(self.shape))))
 
 
 @dataclass
@@ -110,17 +119,18 @@ class Instance:
             declaration, type_scope = self._redeclared(element, modifier)
         found = resolve_type(declaration.type, type_scope)
         sizes = evaluate_dimensions([*declaration.dimensions], type_scope, modifier, declaration.name)
+        index_types = tuple(index_type(d, type_scope) for d in declaration.dimensions)
         sizes += found.dimensions
-        record = self._record_value()
-        if record is not None and (element.modifier is None or element.modifier.value is None or element.modifier.weak):
-            modifier = replace(modifier, value=record.fields.get(declaration.name), index=())
+        record, outside = self._record_value(), element.modifier
+        given = record is not None and declaration.name in record.fields
+        if given and (outside is None or outside.value is None or outside.weak):
+            modifier = replace(modifier, value=record.fields[declaration.name], index=())
         self.context.spend(prod(sizes), declaration.span)
         name = self.path_of(declaration.name)
         if found.primitive is not None:
             attributes = for_each(found.modifier) if sizes else found.modifier
-            return Leaf(
-                self.context, self, declaration, name, found, tuple(sizes), merge(modifier, attributes) or modifier
-            )
+            complete = merge(modifier, attributes) or modifier
+            return Leaf(self.context, self, declaration, name, found, tuple(sizes), complete, index_types)
         self._check_component(declaration, found)
         if not sizes:
             return Instance(self.context, found.cls, name, self, merge(modifier, found.modifier), declaration)
@@ -129,7 +139,7 @@ class Instance:
             text = "[" + ",".join(map(str, index)) + "]"
             inner = merge(narrow(modifier, index), found.modifier)
             items.append(Instance(self.context, found.cls, name + text, self, inner, declaration))
-        return ArrayNode(name, tuple(sizes), items)
+        return ArrayNode(name, tuple(sizes), items, index_types)
 
     @staticmethod
     def _own_modifier(declaration: ast.Component, scope: Scope, redeclared: bool) -> Modifier:
