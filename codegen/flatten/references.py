@@ -227,7 +227,7 @@ def _constant_around(ref: ast.Ref, scope: Scope) -> Node | None:
                 if owner is not None and name in (package := package_of(scope.context, owner)).elements:
                     return package.child(name)
         if current is not scope.cls or scope.instance is None:
-            package = package_of(scope.context, current)
+            package = package_of(scope.context, current.whole or current)
             if name in package.elements and package.elements[name].declaration.variability == "constant":
                 return package.child(name)
         current = current.parent
