@@ -55,7 +55,7 @@ def _value_of(name: str, context: Context, span: Span, what: str) -> Expr:
         context.evaluated.add(name)
         return known
     leaf, position = context.scalars[name]
-    if not leaf.is_structural:
+    if not leaf.is_structural or leaf.is_free:
         hint = "only parameters and constants are known then"
         raise Diagnostic("F021", f"{what} depends on {name}, which varies in time", span, hint)
     if name in context.evaluating:
@@ -92,7 +92,7 @@ def variability(e: Expr, context: Context) -> str:
 def _variability(e: Expr, context: Context) -> str:
     if e.op == "var":
         entry = context.scalars.get(str(e.value))
-        return entry[0].variability if entry else "continuous"
+        return ("discrete" if entry[0].is_free else entry[0].variability) if entry else "continuous"
     if e.op in ("time", "der"):
         return "continuous"
     if e.op in ("pre", "sample", "initial", "terminal", "edge", "change"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from math import prod
 
 from lacuna.codegen.errors import Diagnostic
@@ -69,12 +70,26 @@ class Leaf:
     def is_structural(self) -> bool:
         return self.variability in ("constant", "parameter")
 
+    @cached_property
+    def is_free(self) -> bool:
+        """A parameter that initial equations determine."""
+        return self.variability == "parameter" and self._is_false(self.modifier.children.get("fixed"))
+
+    @staticmethod
+    def _is_false(fixed: Modifier | None) -> bool:
+        value = fixed.value if fixed is not None else None
+        return value is ex.FALSE or (isinstance(value, ast.Literal) and value.value is False)
+
     def value(self) -> Value:
         """The variable(s) as expressions; a String is its text."""
         if self.primitive in ("String", EXTERNAL):
             return self.text()
         if not self.shape:
             return ex.var(self.name, self.primitive)
+        return self._elements
+
+    @cached_property
+    def _elements(self) -> Array:
         return Array(self.shape, tuple(ex.var(n, self.primitive) for n in self.names))
 
     def text(self) -> Value:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 import hashlib
+import itertools
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.constants import known
@@ -76,7 +77,7 @@ class Table:
         x = self.abscissa
         found = sorted(set(x)) if self.events == ALWAYS else []
         if self.events == AT_JUMPS:
-            found = [a for a, b in zip(x, x[1:], strict=False) if a == b]
+            found = [a for a, b in itertools.pairwise(x) if a == b]
         if self.period and self.events != NO_EVENTS:
             found = sorted({t for t in found if t < x[-1]} | {x[0]})
         return found

@@ -11,6 +11,7 @@ Stat. Comput. 5 (1984) 300-304; Steffen, Astron. Astrophys. 239 (1990) 443-450; 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+import itertools
 import math
 
 Row = tuple[float, float, float, float, float]
@@ -48,7 +49,7 @@ def check_abscissa(x: Sequence[float], smoothness: int) -> None:
         raise TableError("the table is empty")
     if not all(map(math.isfinite, x)):
         raise TableError("the abscissa is not finite")
-    for a, b in zip(x, x[1:], strict=False):
+    for a, b in itertools.pairwise(x):
         if b < a or (b == a and smoothness not in (LINEAR, CONSTANT)):
             raise TableError(f"the abscissa {b:g} does not come after {a:g}")
 
@@ -69,7 +70,7 @@ def _segment(x: Sequence[float], y: Sequence[float], slopes: Sequence[float] | N
 
 
 def _slopes(x: Sequence[float], y: Sequence[float], smoothness: int, periodic: bool) -> list[float]:
-    h = [b - a for a, b in zip(x, x[1:], strict=False)]
+    h = [b - a for a, b in itertools.pairwise(x)]
     d = [(b - a) / w for a, b, w in zip(y, y[1:], h, strict=False)]
     if smoothness in (AKIMA, MODIFIED_AKIMA):
         return _akima(d, smoothness == MODIFIED_AKIMA, periodic)
