@@ -1,6 +1,6 @@
 """Parameters with fixed = false: what the initial equations determine (Modelica 3.6, 8.6).
 
-    p = e, e of parameters only     p is a dependent parameter
+    p = e, e of parameters and time p is a dependent parameter (time being that of the start)
     p = e, any other                p is discrete and takes its value at the start
     p in an implicit equation       p is a Real that does not move, der(p) = 0, an unknown of the initial system
 
@@ -13,8 +13,9 @@ from dataclasses import replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
-from lacuna.codegen.symbolic.expr import FALSE, REAL, ZERO, Expr, der, var
-from lacuna.codegen.symbolic.leaves import leaves
+from lacuna.codegen.symbolic.expr import FALSE, REAL, START_TIME, TIME, ZERO, Expr, der, var, walk
+from lacuna.codegen.symbolic.leaves import leaves, with_leaves
+from lacuna.codegen.symbolic.rewrite import expressions
 
 _RANK = {flat.CONSTANT: 0, flat.PARAMETER: 0, flat.DISCRETE: 1, flat.CONTINUOUS: 2}
 
@@ -29,7 +30,8 @@ def free_parameters(model: flat.FlatModel) -> flat.FlatModel:
     for name in [n for n in variables if n in free]:
         equations += _converted(variables, initial, name)
     equations += _followers(variables)
-    _check_attributes(variables, {n for n in free if variables[n].variability != flat.PARAMETER})
+    _check_attributes(variables)
+    _check_samples(model, variables)
     return replace(model, variables=variables, initial_equations=initial, equations=equations)
 
 
@@ -42,6 +44,7 @@ def _explicit(
             found = next(((n, e) for n, e in _definitions(eq) if n in free and _is_known(e, variables, free)), None)
             if found:
                 name, value = found
+                value = with_leaves(value, {TIME: START_TIME})
                 variables[name] = replace(variables[name], binding=value, fixed=None, final=True)
                 free.discard(name)
                 initial = [other for other in initial if other is not eq]
@@ -57,8 +60,8 @@ def _definitions(eq: flat.Equation) -> list[tuple[str, Expr]]:
 
 
 def _is_known(e: Expr, variables: dict[str, flat.Variable], free: set[str]) -> bool:
-    """Does `e` depend on parameters only, and through their bindings on no free one?"""
-    for leaf in leaves(e):
+    """Does `e` depend on parameters and the start time only, and through their bindings on no free parameter?"""
+    for leaf in leaves(e) - {TIME}:
         v = variables.get(str(leaf.value)) if leaf.op == "var" else None
         if v is None or v.name in free or v.variability not in (flat.CONSTANT, flat.PARAMETER):
             return False
@@ -103,7 +106,20 @@ def _followers(variables: dict[str, flat.Variable]) -> list[flat.Equation]:
     return equations
 
 
-def _check_attributes(variables: dict[str, flat.Variable], free: set[str]) -> None:
+def _check_samples(model: flat.FlatModel, variables: dict[str, flat.Variable]) -> None:
+    """The times of sample() must be known before the start is."""
+    conditions = [*((e.lhs, e.rhs, e.span) for e in model.equations)]
+    conditions += [(e, e, w.span) for w in model.whens for e in expressions([w])]
+    conditions += [(e, e, a.span) for a in model.algorithms for e in expressions(a.statements)]
+    for *parts, span in conditions:
+        for n in (n for e in parts for n in walk(e) if n.op == "sample"):
+            for leaf in (leaf for argument in n.args for leaf in leaves(argument) if leaf.op == "var"):
+                if variables[str(leaf.value)].variability not in (flat.CONSTANT, flat.PARAMETER):
+                    message = f"sample at times that depend on {leaf.value}, which the initial equations determine"
+                    raise Diagnostic("S023", message, span, "give it a value of its own")
+
+
+def _check_attributes(variables: dict[str, flat.Variable]) -> None:
     moved = {n for n, v in variables.items() if v.variability in (flat.DISCRETE, flat.CONTINUOUS)}
     for v in variables.values():
         for attribute in (v.start, v.min, v.max, v.nominal):

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.arrays import map_call, size_of_array
-from lacuna.codegen.flatten.constants import is_known, known, variability
+from lacuna.codegen.flatten.constants import is_parameter, known, variability
 from lacuna.codegen.flatten.derivative import time_derivative
 from lacuna.codegen.flatten.enumerations import as_integer
 from lacuna.codegen.flatten.functions import call_function, construct_record
@@ -181,7 +181,7 @@ def _instance_name(e: ast.Call, scope: Scope) -> Value:
 def _sample(e: ast.Call, scope: Scope) -> Value:
     parts = [lower_scalar(a, scope, REAL) for a in _take(e, 2)]
     for value, written in zip(parts, e.args, strict=True):
-        if not is_known(value, scope.context):
+        if not is_parameter(value, scope.context):
             hint = "start and interval are parameters or constants"
             raise Diagnostic("R053", "sample at times that vary", written.span, hint)
     return ex.special("sample", *parts)

@@ -17,6 +17,7 @@ from lacuna.codegen.flatten.function_locals import Local, Signature, fit, signat
 from lacuna.codegen.flatten.interpret import interpret
 from lacuna.codegen.flatten.iterators import references
 from lacuna.codegen.flatten.lower import lower
+from lacuna.codegen.flatten.random_numbers import GENERATORS
 from lacuna.codegen.flatten.scope import Scope, find_class
 from lacuna.codegen.flatten.values import Array, FunctionValue, Record, Value, scalars, shape_of, shape_text, stack
 from lacuna.codegen.suggest import did_you_mean
@@ -87,7 +88,7 @@ def _call(signature: Signature, written: Written, e: ast.Call, scope: Scope) -> 
     arguments = bind_arguments(cls, signature.inputs, written, e, scope)
     if not scope.in_function:
         arguments |= {n: _evaluated(arguments[n], scope, e.span, n) for n in signature.sizing}
-    if cls.external is not None:
+    if cls.external is not None and cls.external.function not in GENERATORS:
         return call_external(cls, arguments, e, scope)
     items = [a for v in arguments.values() for a in scalars(v)]
     known = all(isinstance(a, str) or a.op == "const" for a in items)
@@ -103,7 +104,7 @@ def _call(signature: Signature, written: Written, e: ast.Call, scope: Scope) -> 
         except AtRunTime:
             pass
         except Diagnostic as error:
-            if error.code != "F035" or not scope.conditional:
+            if error.code != "F035" or not scope.conditional or any(isinstance(a, str) for a in items):
                 raise
         finally:
             context.call_depth -= 1

@@ -261,7 +261,8 @@ def _edge(last: bool, call_2d: bool = False) -> Handler:
 
 _P = "ModelicaStandardTables_"
 TABLES: dict[str, Handler] = {
-    f"{_P}CombiTable1D_init3": _table_1d, f"{_P}CombiTimeTable_init3": _time_table, f"{_P}CombiTable2D_init3": _table_2d,
+    f"{_P}CombiTable1D_init3": _table_1d, f"{_P}CombiTimeTable_init3": _time_table,
+    f"{_P}CombiTable2D_init3": _table_2d,
     f"{_P}CombiTable1D_getValue": _value_1d, f"{_P}CombiTimeTable_getValue": _value_timed,
     f"{_P}CombiTable2D_getValue": _value_2d, f"{_P}CombiTimeTable_nextTimeEvent": _next_event,
     f"{_P}CombiTable1D_minimumAbscissa": _edge(False), f"{_P}CombiTable1D_maximumAbscissa": _edge(True),

@@ -67,8 +67,8 @@ def _scan_real(text: str, start: int, unsigned: bool) -> tuple[int, float]:
 
 def _scan_integer(text: str, start: int, unsigned: bool) -> tuple[int, int]:
     after, found = _scan(_NUMBERS["unsigned whole" if unsigned else "whole"], text, start)
-    return (after, int(found)) if (found and text[after - 1 : after] not in ".eE") or (found and after > len(text)) else (
-        start, 0)  # fmt: skip
+    whole = found and (after > len(text) or text[after - 1] not in ".eE")
+    return (after, int(found)) if whole else (start, 0)
 
 
 def _compare(a: str, b: str, case: bool) -> int:
@@ -92,11 +92,19 @@ def hash_string(text: str) -> int:
     return value - (1 << 32) if value >= 1 << 31 else value
 
 
+def _seed(values: list[Value], call: ExternalCall) -> list[Value]:
+    """A seed that is the same at every run of a model, so that runs can be repeated."""
+    return [ex.const(hash_string(call.scope.context.model))]
+
+
 STRINGS: dict[str, Handler] = {
     "ModelicaStrings_length": _on_texts(len), "ModelicaStrings_substring": _on_texts(_substring),
     "ModelicaStrings_skipWhiteSpace": _on_texts(_skip), "ModelicaStrings_compare": _compared,
     "ModelicaStrings_hashString": _on_texts(hash_string),
     "ModelicaStrings_scanReal": _on_texts(_scan_real), "ModelicaStrings_scanInteger": _on_texts(_scan_integer),
     "ModelicaStrings_scanIdentifier": _on_texts(lambda text, start: _scan(_IDENTIFIER, text, start)),
+    "ModelicaRandom_automaticGlobalSeed": _seed,
+    # of impureRandom, which is refused itself: nobody reads the state that is set
+    "ModelicaRandom_setInternalState_xorshift1024star": lambda values, call: [],
     "ModelicaInternal_fullPathName": _on_texts(lambda name: name), "strlen": _on_texts(len),
 }  # fmt: skip

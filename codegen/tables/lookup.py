@@ -1,9 +1,9 @@
 """Looking up tables at run time: functions of the language, which are emitted and differentiated as any other.
 
 `piecewise` evaluates the rows of `polynomials.piecewise`, `x` being their first column and `c` the others. `timed` does
-so over time, with the side of a jump decided by the events of the table: while `next` is pending (the event has come but
-is not handled yet) the value from before it holds. `nextEvent` gives the instants. Times are those of the table, scaled
-and shifted; comparisons of them allow for the rounding of t/scale and t - shift.
+so over time, with the side of a jump decided by the events of the table: while `next` is pending (the event has come
+but is not handled yet) the value from before it holds. `nextEvent` gives the instants. Times are those of the table,
+scaled and shifted; comparisons of them allow for the rounding of t/scale and t - shift.
 """
 
 from __future__ import annotations
