@@ -51,12 +51,16 @@ def _digest(*parts: str | bytes) -> str:
 @lru_cache(maxsize=1)
 def generator_version() -> str:
     """Digest of the generator's own source, the ABI and the compiler's command: any change makes all models new."""
-    files = [*sorted(_HERE.rglob("*.py")), INCLUDE / "mdl_abi.h"]
+    files = [*sorted(_HERE.rglob("*.py")), INCLUDE / "mdl_abi.h", INCLUDE / "mdl_tangent.h"]
     return _digest(" ".join(COMPILER), *(f.read_bytes() for f in files))
 
 
 def request_key(
-    name: str, search_path: Sequence[str] | None, modifications: Mapping[str, object] | None, units: str
+    name: str,
+    search_path: Sequence[str] | None,
+    modifications: Mapping[str, object] | None,
+    units: str,
+    sensitivities: bool = False,
 ) -> str:
     """Digest of what was asked for, and where it is looked up: `search_path`, else this checkout's library.
 
@@ -66,7 +70,7 @@ def request_key(
     paths = [str(Path(p).resolve()) for p in search_path or (MODEL_FOLDER,)]
     model = str(Path(name).resolve()) if name.endswith(".mo") else name
     changes = sorted((k, repr(v)) for k, v in (modifications or {}).items())
-    return _digest(json.dumps([model, paths, changes, units]))
+    return _digest(json.dumps([model, paths, changes, units, sensitivities]))
 
 
 def content_hash(files: Mapping[str, str], request: str) -> str:

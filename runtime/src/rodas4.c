@@ -152,8 +152,7 @@ static int attempt(rt_session *s, rt_onestep *o, double h) {
 }
 
 /* x0 (1 - s) + s (x1 + (1 - s) (r2 + s r3)), expanded in powers of s. */
-static void dense(const rt_session *s, const rt_onestep *o, rt_dense *out) {
-  int n = s->d->n_x;
+static void dense(int n, const rt_onestep *o, rt_dense *out) {
   out->degree = 3;
   for (int i = 0; i < n; i++) {
     double r2 = 0, r3 = 0;
