@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.component import Component
+from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.modifiers import Modifier, from_tree, merge
 from lacuna.codegen.flatten.scope import Scope, require_class
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.syntax import ast
-
-if TYPE_CHECKING:
-    from lacuna.codegen.flatten.instance import Instance
 
 MAX_DEPTH = 40
 
@@ -32,8 +30,8 @@ class Inheritance:
     `elements` are in order of declaration. Raises R010, R011, R030 to R032 and R037 for what does not fit.
     """
 
-    def __init__(self, instance: Instance, cls: ast.Class, modifier: Modifier | None) -> None:
-        self._instance = instance
+    def __init__(self, context: Context, instance: Component, cls: ast.Class, modifier: Modifier | None) -> None:
+        self._context, self._instance = context, instance
         self.elements: dict[str, Element] = {}
         self.sections: list[tuple[ast.Section, ast.Class]] = []
         self.classes: list[ast.Class] = []  # own class and bases
@@ -45,7 +43,7 @@ class Inheritance:
     def _collect(self, cls: ast.Class, modifier: Modifier | None, depth: int = 0) -> None:
         if depth > MAX_DEPTH:
             raise Diagnostic("R011", f"{cls.name} extends itself", cls.span, "break the circle of extends")
-        context = self._instance.context
+        context = self._context
         scope = Scope(context, cls, self._instance)
         clauses = [(e.base, e.modification) for e in cls.extends]
         if cls.alias is not None:

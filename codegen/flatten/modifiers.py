@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.syntax import ast
-
-if TYPE_CHECKING:
-    from lacuna.codegen.flatten.scope import Scope
 
 
 @dataclass(slots=True)

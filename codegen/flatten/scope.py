@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
 
 from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.component import Component
+from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.values import Value
-from lacuna.codegen.library import Library
+from lacuna.codegen.library import HOME_PACKAGE, Library
 from lacuna.codegen.suggest import did_you_mean, nearest
 from lacuna.codegen.syntax import ast
-
-if TYPE_CHECKING:
-    from lacuna.codegen.flatten.context import Context
-    from lacuna.codegen.flatten.instance import Instance
 
 PRIMITIVES = ("Real", "Integer", "Boolean", "String")
 
@@ -22,11 +19,13 @@ PRIMITIVES = ("Real", "Integer", "Boolean", "String")
 class Scope:
     context: Context
     cls: ast.Class
-    instance: Instance | None = None
+    instance: Component | None = None
     locals: dict[str, Value] = field(default_factory=dict)
     end: int | None = None  # the value of `end` inside subscripts
     in_function: bool = False
     initial: bool = False  # in an initial section
+    conditional: bool = False  # under a condition not known yet: what cannot be computed may never be asked for
+    message: bool = False  # in the text of an assert
 
     def with_locals(self, **values: Value) -> Scope:
         return replace(self, locals={**self.locals, **values})
@@ -142,9 +141,9 @@ def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> 
 def _elsewhere(library: Library, ref: ast.Ref) -> str:
     """A hint where a class of this name lies in a package that was not looked in."""
     if ref.names[0] == "Modelica":
-        return "the Modelica Standard Library is not part of this; package Lacuna has types, interfaces and components"
+        return "name the folder of the Modelica Standard Library by --library, or in MODELICAPATH"
     try:
-        classes = library.all_classes()
+        classes = library.all_classes(library.member(library.root, HOME_PACKAGE))
     except Diagnostic:
         classes = []
     names = nearest(ref.names[-1], (c.name for c in classes))
@@ -158,3 +157,30 @@ def enumeration(ref: ast.Ref, scope: Scope) -> ast.Class | None:
         return None
     cls = find_class(scope.context.library, scope.cls, ref)
     return cls if cls is not None and cls.literals is not None else None
+
+
+def boolean_type(ref: ast.Ref, scope: Scope, depth: int = 0) -> bool:
+    """Does `ref` name the type Boolean, or one declared as it?"""
+    if scope.instance is not None and ref.names[0] in scope.instance.elements:
+        return False
+    cls = find_class(scope.context.library, scope.cls, ref)
+    if cls is None:
+        return str(ref) == "Boolean"
+    alias = cls.alias
+    return (
+        alias is not None
+        and not alias.dimensions
+        and depth < 30
+        and boolean_type(
+            alias.base, replace(scope, cls=cls.parent or scope.context.library.root, instance=None), depth + 1
+        )
+    )
+
+
+def literals_of(path: str, scope: Scope) -> list[str]:
+    """Names of the literals of the enumeration with this full name."""
+    names = path.split(".")
+    cls: ast.Class | None = scope.context.library.root
+    for name in names:
+        cls = own_or_inherited(scope.context.library, cls, name) if cls is not None else None
+    return [name for name, _ in cls.literals] if cls is not None and cls.literals else []

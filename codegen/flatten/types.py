@@ -36,8 +36,6 @@ def resolve_type(reference: ast.Ref, scope: Scope, depth: int = 0) -> Type:
         raise Diagnostic("R011", f"the type {reference} is defined by itself", reference.span, "break the circle")
     if str(reference) in PRIMITIVES:
         return Type(str(reference))
-    if str(reference) == "StateSelect":
-        return Type("Integer")
     library = scope.context.library
     cls = find_class(library, scope.cls, reference, of_base=depth > 0)
     if cls is None:

@@ -14,8 +14,8 @@ from lacuna.codegen.structure.system import Row
 from lacuna.codegen.structure.tearing import Assignment, Tearing
 from lacuna.codegen.symbolic.affine import UNSAFE, isolate
 from lacuna.codegen.symbolic.differentiate import Differentiator
-from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, neg, substitute
-from lacuna.codegen.symbolic.leaves import leaves
+from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, neg
+from lacuna.codegen.symbolic.leaves import leaves, with_leaves
 
 
 @dataclass(eq=False)
@@ -102,8 +102,8 @@ def _is_linear(rows: list[Row], unknowns: set[Expr]) -> bool:
 def _linear(chain: list[Assignment], tears: list[Expr], residuals: list[Row]) -> LinearBlock:
     at_zero: dict[Expr, Expr] = dict.fromkeys(tears, ZERO)
     for step in chain:
-        at_zero[step.unknown] = substitute(step.value, at_zero)
-    right = [neg(substitute(row.residual, at_zero)) for row in residuals]
+        at_zero[step.unknown] = with_leaves(step.value, at_zero)
+    right = [neg(with_leaves(row.residual, at_zero)) for row in residuals]
     columns = [_column(tear, chain, residuals) for tear in tears]
     matrix = [[column[k] for column in columns] for k in range(len(residuals))]
     return LinearBlock(tears, matrix, right, chain, residuals)

@@ -72,16 +72,15 @@ static void *create(rt_session *s) {
   return rt_onestep_create(s, &scheme);
 }
 
-const rt_method rt_method_dopri5 = {"dopri5",
-                                    false,
-                                    false,
-                                    create,
-                                    rt_onestep_destroy,
-                                    rt_onestep_begin,
-                                    rt_onestep_restart,
-                                    rt_onestep_step,
-                                    rt_onestep_dense,
-                                    NULL,
-                                    rt_onestep_count,
-                                    rt_onestep_sensitivities,
-                                    rt_onestep_dense_tangent};
+const rt_method rt_method_dopri5 = {
+    .name = "dopri5",
+    .create = create,
+    .destroy = rt_onestep_destroy,
+    .begin = rt_onestep_begin,
+    .restart = rt_onestep_restart,
+    .step = rt_onestep_step,
+    .dense = rt_onestep_dense,
+    .count = rt_onestep_count,
+    .sensitivities = rt_onestep_sensitivities,
+    .dense_tangent = rt_onestep_dense_tangent,
+};

@@ -45,25 +45,25 @@ static void *create_rk4(rt_session *s) {
   return rt_onestep_create(s, &rk4);
 }
 
-const rt_method rt_method_euler = {"euler",
-                                   true,
-                                   false,
-                                   create_euler,
-                                   rt_onestep_destroy,
-                                   rt_onestep_begin,
-                                   rt_onestep_restart,
-                                   rt_onestep_step,
-                                   rt_onestep_dense,
-                                   NULL,
-                                   rt_onestep_count};
-const rt_method rt_method_rk4 = {"rk4",
-                                 true,
-                                 false,
-                                 create_rk4,
-                                 rt_onestep_destroy,
-                                 rt_onestep_begin,
-                                 rt_onestep_restart,
-                                 rt_onestep_step,
-                                 rt_onestep_dense,
-                                 NULL,
-                                 rt_onestep_count};
+const rt_method rt_method_euler = {
+    .name = "euler",
+    .needs_step = true,
+    .create = create_euler,
+    .destroy = rt_onestep_destroy,
+    .begin = rt_onestep_begin,
+    .restart = rt_onestep_restart,
+    .step = rt_onestep_step,
+    .dense = rt_onestep_dense,
+    .count = rt_onestep_count,
+};
+const rt_method rt_method_rk4 = {
+    .name = "rk4",
+    .needs_step = true,
+    .create = create_rk4,
+    .destroy = rt_onestep_destroy,
+    .begin = rt_onestep_begin,
+    .restart = rt_onestep_restart,
+    .step = rt_onestep_step,
+    .dense = rt_onestep_dense,
+    .count = rt_onestep_count,
+};

@@ -6,8 +6,6 @@
 #include "onestep.h"
 #include "sensitivity.h"
 
-enum { MAX_STAGES = 7 };
-
 void rt_onestep_tangent_free(rt_onestep *o) {
   if (!o->tangent) return;
   free(o->tangent->x0);
@@ -117,9 +115,12 @@ int rt_onestep_tangent_step(rt_session *s, rt_onestep *o, double h, double *squa
     s->result->counters.tangents++;
   }
   if (!square) return 0;
-  for (int i = 0; i < n; i++)
-    t->error[i] = 0;
-  add_up(n, t->error, t->error, t->k, h, MAX_STAGES, scheme->error_weights);
+  for (int i = 0; i < n; i++) {
+    double sum = 0;
+    for (int j = 0; j < stages; j++)
+      sum += scheme->error_weights[j] * t->k[j * n + i];
+    t->error[i] = h * sum;
+  }
   double own = worst_column(s, t);
   if (own > *square) *square = own;
   return 0;

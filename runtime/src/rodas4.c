@@ -186,5 +186,12 @@ static rt_status begin(rt_session *s, void *memory) {
 }
 
 const rt_method rt_method_rodas4 = {
-    "rodas4",         false, false,           create, rt_onestep_destroy, begin, rt_onestep_restart, rt_onestep_step,
-    rt_onestep_dense, NULL,  rt_onestep_count};
+    .name = "rodas4",
+    .create = create,
+    .destroy = rt_onestep_destroy,
+    .begin = begin,
+    .restart = rt_onestep_restart,
+    .step = rt_onestep_step,
+    .dense = rt_onestep_dense,
+    .count = rt_onestep_count,
+};
