@@ -105,8 +105,8 @@ def compile_model(
     """Translate and compile a model, or take it from the cache where nothing that it was made from has changed.
 
     `units`: what an inconsistent unit is, "error" or "warn" (a warning in the report). `sensitivities`: with the
-    derivatives that a run with sensitivities needs (its C is twice as long, and a model of its own in the cache). Raises Diagnostic (a finding
-    about the model) or cache.CompilerError (the C compiler failed).
+    derivatives that a run with sensitivities needs (its C is twice as long, and a model of its own in the cache).
+    Raises Diagnostic (a finding about the model) or cache.CompilerError (the C compiler failed).
     """
     store = cache.Cache(cache_directory)
     request = cache.request_key(name, search_path, modifications, units, sensitivities)

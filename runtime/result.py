@@ -172,7 +172,7 @@ class Result:
 
     @cached_property
     def flags(self) -> list[Flag]:
-        """Where the order of events is about to change, so that sensitivities after it hold on one side or not at all."""
+        """Where the order of events is about to change: sensitivities after it hold on one side, or not at all."""
         count = ctypes.c_size_t()
         entries = self._lib.rt_result_flags(self._handle, ctypes.byref(count))
         return [self._flag(entries[i]) for i in range(count.value)]

@@ -153,7 +153,9 @@ class Session:
         )
         if not handle:
             raise MemoryError("no memory for the result of a simulation")
-        return Result(model, handle, self._columns, self.settings, partial(lib.rt_result_free, handle), self._sensitivities)
+        return Result(
+            model, handle, self._columns, self.settings, partial(lib.rt_result_free, handle), self._sensitivities
+        )
 
 
 def simulate(

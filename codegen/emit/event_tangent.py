@@ -1,7 +1,7 @@
 """The derivative of an event: its statements once more, each Real assignment after its own tangent.
 
-A when clause is imperative: a value may change several times. So the tangents of the discrete variables are kept in their
-rows of the bundle, and each is written just before its variable is.
+A when clause is imperative: a value may change several times. So the tangents of the discrete variables are kept in
+their rows of the bundle, and each is written just before its variable is.
 """
 
 from __future__ import annotations

@@ -53,7 +53,7 @@ def generate(prepared: Prepared, sensitivities: bool = False) -> str:
         "n_v": len(storage.algebraics), "n_d": len(storage.discretes), "n_sample": len(prepared.samples),
         "n_when": discrete.when_count,
     }  # fmt: skip
-    descriptor = _descriptor(prepared, counts, "&mdl_model_tangents" if tangents else "NULL")
+    descriptor = _descriptor(prepared, counts, tangents is not None)
     parts = [_header(prepared, sensitivities), *arrays, tables_text, helpers(code), code, descriptor]
     return "\n\n".join(part for part in parts if part) + "\n"
 
@@ -83,7 +83,8 @@ def _header(prepared: Prepared, sensitivities: bool) -> str:
     files = "".join(f"\n *   {name.rsplit('/', 1)[-1]}  sha256 {digest}" for name, digest in _files(prepared))
     return (
         f"/* {prepared.declared.name}: generated from{files}\n * Do not edit: edit the model. */\n"
-        f'#include "mdl_{"tangent" if sensitivities else "abi"}.h"\n\n#include <math.h>\n#include <stddef.h>\n#include <string.h>'
+        f'#include "mdl_{"tangent" if sensitivities else "abi"}.h"\n\n'
+        "#include <math.h>\n#include <stddef.h>\n#include <string.h>"
     )
 
 
@@ -111,7 +112,7 @@ def _arrays(tables: Tables, messages: list[str]) -> tuple[list[str], dict[str, i
     return arrays, counts
 
 
-def _descriptor(prepared: Prepared, counts: dict[str, int], tangents: str) -> str:
+def _descriptor(prepared: Prepared, counts: dict[str, int], tangents: bool) -> str:
     experiment: flat.Experiment = prepared.declared.experiment
     fields = {
         "abi_version": "MDL_ABI_VERSION",
@@ -133,7 +134,7 @@ def _descriptor(prepared: Prepared, counts: dict[str, int], tangents: str) -> st
         "jac_colptr": "mdl_jac_colptr",
         "jac_rowidx": _pointer("mdl_jac_rowidx", counts["jac_nnz"]),
         **{name: f"mdl_{name}" for name in _CALLBACKS},
-        "tangents": tangents,
+        **({"tangents": "&mdl_model_tangents"} if tangents else {}),
     }
     rows = "\n".join(f"  .{key} = {value}," for key, value in fields.items())
     return (

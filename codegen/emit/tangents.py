@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from lacuna.codegen import flat
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.emit.body import Access, Body
 from lacuna.codegen.emit.continuous import function
@@ -157,7 +156,7 @@ class Tangents:
         return self._of_steps(RHS, self._p.explicit, lambda unknown: True)
 
     def _residual(self) -> str:
-        form, tears, n_x = self._p.residual, self._p.residual.tears, len(self._storage.states)
+        form, tears, _n_x = self._p.residual, self._p.residual.tears, len(self._storage.states)
         point = rows_of(self._storage)
 
         def place(leaf: Expr) -> str | None:

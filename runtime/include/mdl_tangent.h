@@ -1,5 +1,5 @@
-/* Derivatives of a generated model, written on request (codegen: `sensitivities`): each function of mdl_abi.h once more,
- * as the derivative of its results in any number of directions at once.
+/* Derivatives of a generated model, written on request (codegen: `sensitivities`): each function of mdl_abi.h once
+ * more, as the derivative of its results in any number of directions at once.
  *
  * A bundle of directions has one row for each variable; entry k of a row is the derivative of that variable in
  * direction k. Rows are whole vectors of MDL_LANES directions, so that a row is `lanes` vectors long. Relations, ticks,
@@ -21,16 +21,17 @@ typedef double mdl_lanes __attribute__((vector_size(MDL_LANES * sizeof(double)),
 
 typedef struct mdl_tangent {
   int lanes;
-  mdl_lanes *t;                         /* [lanes] time */
+  mdl_lanes *t;                                /* [lanes] time */
   mdl_lanes *p, *u, *x, *xdot, *v, *d, *pre_d; /* [n_p * lanes] ... as in mdl_data */
-  mdl_lanes *x_after;                   /* [n_x * lanes] of event(): the states as reinit leaves them */
+  mdl_lanes *x_after;                          /* [n_x * lanes] of event(): the states as reinit leaves them */
 } mdl_tangent;
 
 typedef int (*mdl_point_tangent)(mdl_data *m, double t, const double *x, const double *xdot, const double *v,
                                  mdl_tangent *tangent);
 
 struct mdl_tangents {
-  /* [n_p] 0: a settable parameter that enters conditions and discrete equations alone; nothing depends on it smoothly */
+  /* [n_p] 0: a settable parameter that enters conditions and discrete equations alone; nothing depends on it smoothly
+   */
   const unsigned char *differentiable;
 
   /* p of the dependent parameters from p of the settable ones. */
@@ -44,8 +45,8 @@ struct mdl_tangents {
   mdl_point_tangent rhs;            /* xdot and v from t, p, u, x, d */
 
   /* Rows of F [(n_x + n_z) * lanes] from those of y [(n_x + n_z) * lanes], y' [n_x * lanes] and t, p, u, d. */
-  int (*residual)(mdl_data *m, double t, const double *y, const double *yp, mdl_tangent *tangent, const mdl_lanes *y_rows,
-                  const mdl_lanes *yp_rows, mdl_lanes *r);
+  int (*residual)(mdl_data *m, double t, const double *y, const double *yp, mdl_tangent *tangent,
+                  const mdl_lanes *y_rows, const mdl_lanes *yp_rows, mdl_lanes *r);
 
   /* Rows of g [n_rel * lanes], of time relations too. */
   int (*roots)(mdl_data *m, double t, const double *x, const double *xdot, const double *v, mdl_tangent *tangent,

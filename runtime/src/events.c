@@ -197,7 +197,8 @@ rt_status rt_event(rt_session *s) {
   if (s->pending & RT_PENDING_STATE) switch_relations(s);
   if (s->pending & (RT_PENDING_TIME | RT_PENDING_SAMPLE)) rt_clock_tick(s);
   rt_jump_begin(s);
-  if ((status = rt_iterate_event(s)) || (status = rt_jump_end(s)) || (status = check_chattering(s, since))) return status;
+  if ((status = rt_iterate_event(s)) || (status = rt_jump_end(s)) || (status = check_chattering(s, since)))
+    return status;
   memset(s->flip, 0, (size_t)s->d->n_rel);
   if (record && (status = rt_record_event_row(s))) return status;
   if (s->data.terminated) rt_result_log(s->result, s->t, RT_EVENT_TERMINATE, s->data.terminated - 1, 1);

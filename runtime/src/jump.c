@@ -8,20 +8,23 @@
  *
  *     s+ = h_x s- + h_p + (h_t + h_x f- - f+) dt/dp
  *
- * (I. A. Hiskens, M. A. Pai, IEEE Trans. Circuits Syst. I 47 (2000) 204-220). This is computed in three moves: the total
- * derivative along the moving instant X = s- + f- dt/dp; the event's own derivative applied to it, pass by pass as the
- * event is iterated, with time moving by dt/dp; and back to fixed time, s+ = h(X) - f+ dt/dp. Instants of time events and
- * samples move with the parameters in them, those of inputs do not.
+ * (I. A. Hiskens, M. A. Pai, IEEE Trans. Circuits Syst. I 47 (2000) 204-220). This is computed in three moves: the
+ * total derivative along the moving instant X = s- + f- dt/dp; the event's own derivative applied to it, pass by pass
+ * as the event is iterated, with time moving by dt/dp; and back to fixed time, s+ = h(X) - f+ dt/dp. Instants of time
+ * events and samples move with the parameters in them, those of inputs do not.
  *
  * That holds while the events keep their order. A guard that is grazed (its slope is lost in its terms, or within the
- * tolerance it need not have been passed) ends the sensitivities with a flag; two events within the uncertainty of their
- * instants that move differently get one; and `margin` is how far each parameter may go before two instants meet. */
+ * tolerance it need not have been passed) ends the sensitivities with a flag; two events within the uncertainty of
+ * their instants that move differently get one; and `margin` is how far each parameter may go before two instants meet.
+ */
+
 #include <string.h>
 
 #include "sensitivity.h"
 
 /* Relative accuracy of dt/dp that may be expected of a run with the relative tolerance rtol. */
 static const double ACCURACY = 100;
+static const double INVISIBLE = 1e-3; /* of the tolerance */
 
 static int guards_of(rt_session *s, mdl_tangent *bundle, double *rows) {
   const struct mdl_tangents *f = s->d->tangents;
@@ -88,18 +91,13 @@ static spread measure_spread(rt_session *s, int r) {
  * at the start of the step. */
 static bool is_grazed(const rt_session *s, int r, spread known) {
   double slope = s->sensitivities->slopes[r], back = s->t - s->t_previous;
-  double curvature = back > 0 ? 2 * fabs(s->g_previous[r] + slope * back) / (back * back) : 0;
-  return !(fabs(slope) > 0) || fabs(slope) < s->options.rtol * known.terms || slope * slope < 2 * curvature * known.noise;
+  double curvature = back > 0 ? 2 * fabs(s->g_previous[r] - s->g[r] + slope * back) / (back * back) : 0;
+  return !(fabs(slope) > 0) || fabs(slope) < s->options.rtol * known.terms ||
+         slope * slope < 2 * curvature * known.noise;
 }
 
-typedef struct {
-  bool any;
-  double uncertain; /* of the instant (s) */
-  int relation;     /* the first that switched, -1 if none */
-} instant;
-
 /* dt/dp of one cause of the event, against that of the others: at one instant all have to move alike. */
-static void add_cause(rt_session *s, instant *at, const double *guard, double slope, int relation) {
+static void add_cause(rt_session *s, rt_instant *at, const double *guard, double slope, int relation) {
   rt_sensitivities *f = s->sensitivities;
   bool disagree = false;
   for (int k = 0; k < f->n; k++) {
@@ -108,12 +106,15 @@ static void add_cause(rt_session *s, instant *at, const double *guard, double sl
     double apart = at->any ? fabs(moved - known) : 0, size = fabs(moved) + fabs(known);
     disagree |= apart > ACCURACY * s->options.rtol * size && apart * f->scale[k] > s->clock.tolerance;
   }
-  if (disagree) rt_result_flag(s->result, s->t, RT_FLAG_ORDER, at->relation, relation);
+  if (disagree) {
+    at->disagree = true;
+    at->other = relation;
+  }
   if (!at->any) at->relation = relation;
   at->any = true;
 }
 
-static void relation_cause(rt_session *s, instant *at, int r) {
+static void relation_cause(rt_session *s, rt_instant *at, int r) {
   rt_sensitivities *f = s->sensitivities;
   if (!s->d->relations[r].is_time) {
     memcpy(s->rel_trial, s->data.rel, (size_t)s->d->n_rel);
@@ -121,7 +122,8 @@ static void relation_cause(rt_session *s, instant *at, int r) {
     spread known = measure_spread(s, r);
     memcpy(s->data.rel, s->rel_trial, (size_t)s->d->n_rel);
     if (is_grazed(s, r, known)) {
-      rt_tangent_lose(s, RT_FLAG_GRAZING, r);
+      at->grazed = true;
+      at->relation = r;
       return;
     }
     at->uncertain = rt_max(at->uncertain, known.noise / fabs(f->slopes[r]));
@@ -130,7 +132,7 @@ static void relation_cause(rt_session *s, instant *at, int r) {
 }
 
 /* A sample ticks at first + n interval; the clock has moved on to the next tick. */
-static void sample_cause(rt_session *s, instant *at, int i) {
+static void sample_cause(rt_session *s, rt_instant *at, int i) {
   rt_sensitivities *f = s->sensitivities;
   double n = (double)(s->clock.next[i] - 1);
   for (int k = 0; k < f->columns; k++)
@@ -138,15 +140,17 @@ static void sample_cause(rt_session *s, instant *at, int i) {
   add_cause(s, at, f->tick, -1, -1);
 }
 
-/* How far each parameter may go until this event and the last one meet; closer than their instants are known is flagged.
+/* How far each parameter may go until this event and the last one meet; closer than their instants are known is
+ * flagged.
  */
-static void compare_with_last(rt_session *s, const instant *at) {
+static void compare_with_last(rt_session *s) {
   rt_sensitivities *f = s->sensitivities;
+  const rt_instant *at = &f->instant;
   double between = s->t - f->t_before, known = at->uncertain + f->t_uncertain;
   bool close = false;
   for (int k = 0; k < f->n && isfinite(between); k++) {
-    double apart = fabs(f->event_time[k] - f->event_time_before[k]);
-    if (!(apart > 0)) continue;
+    double now = f->event_time[k], before = f->event_time_before[k], apart = fabs(now - before);
+    if (!(apart > 16 * DBL_EPSILON * (fabs(now) + fabs(before)))) continue;
     f->margin[k] = rt_min(f->margin[k], between / apart);
     close |= between <= known;
   }
@@ -162,15 +166,17 @@ void rt_jump_begin(rt_session *s) {
   const mdl_descriptor *d = s->d;
   rt_sensitivities *f = s->sensitivities;
   if (!f || f->lost) return;
-  instant at = {.relation = -1};
+  rt_instant *at = &f->instant;
+  *at = (rt_instant){.relation = -1, .other = -1};
   memset(f->event_time, 0, (size_t)f->columns * sizeof(double));
-  for (int r = 0; r < d->n_rel && !f->lost; r++)
-    if (s->data.rel[r] != s->rel_before[r]) relation_cause(s, &at, r);
+  for (int r = 0; r < d->n_rel && !at->grazed; r++)
+    if (s->data.rel[r] != s->rel_before[r]) relation_cause(s, at, r);
   for (int i = 0; i < d->n_sample; i++)
-    if (s->data.tick[i]) sample_cause(s, &at, i);
-  if (s->pending & RT_PENDING_JUMP) add_cause(s, &at, NULL, 1, -1);
-  if (f->lost) return;
-  if (at.any) compare_with_last(s, &at);
+    if (s->data.tick[i]) sample_cause(s, at, i);
+  if (s->pending & RT_PENDING_JUMP) add_cause(s, at, NULL, 1, -1);
+  if (at->grazed) memset(f->event_time, 0, (size_t)f->columns * sizeof(double));
+  memcpy(f->x_before, f->at.x, (size_t)(d->n_x * f->columns) * sizeof(double));
+  memcpy(s->d_before, s->data.d, (size_t)d->n_d * sizeof(double));
   double *x = rt_rows(f->at.x), *t = rt_rows(f->at.t), *u = rt_rows(f->at.u);
   for (int k = 0; k < f->columns; k++) {
     t[k] = f->event_time[k];
@@ -209,15 +215,37 @@ void rt_jump_accept(rt_session *s) {
   if (f && !f->lost) memcpy(f->at.x, f->at.x_after, (size_t)(s->d->n_x * f->columns) * sizeof(double));
 }
 
+/* Whether the event has changed anything: a state, what is kept, or a slope by more than no error test would see over a
+ * mean step. Where it has not, nothing jumps whenever it was: a kink that is rounding may have any instant. */
+static bool has_consequences(const rt_session *s) {
+  const mdl_data *m = &s->data;
+  if (memcmp(m->x, s->x_before, (size_t)s->d->n_x * sizeof(double)) ||
+      memcmp(m->d, s->d_before, (size_t)s->d->n_d * sizeof(double)))
+    return true;
+  double step = (s->t - s->start) / (double)(s->steps_taken + 1);
+  for (int i = 0; i < s->d->n_x; i++) {
+    double bend = fabs(m->xdot[i] - s->xdot_before[i]) * step;
+    if (bend > INVISIBLE * (s->atol[i] + s->options.rtol * fabs(m->x[i]))) return true;
+  }
+  return false;
+}
+
 /* Back to fixed time, with the derivatives after the event. */
 rt_status rt_jump_end(rt_session *s) {
   const mdl_descriptor *d = s->d;
   rt_sensitivities *f = s->sensitivities;
   if (!f || f->lost) return RT_OK;
   double *x = rt_rows(f->at.x);
-  for (int i = 0; i < d->n_x; i++)
-    for (int k = 0; k < f->columns; k++)
-      x[i * f->columns + k] -= s->data.xdot[i] * f->event_time[k];
+  if (has_consequences(s)) {
+    if (f->instant.grazed) rt_tangent_lose(s, RT_FLAG_GRAZING, f->instant.relation);
+    if (f->instant.disagree) rt_result_flag(s->result, s->t, RT_FLAG_ORDER, f->instant.relation, f->instant.other);
+    if (f->instant.any) compare_with_last(s);
+    for (int i = 0; i < d->n_x; i++)
+      for (int k = 0; k < f->columns; k++)
+        x[i * f->columns + k] -= s->data.xdot[i] * f->event_time[k];
+  } else {
+    memcpy(x, f->x_before, (size_t)(d->n_x * f->columns) * sizeof(double));
+  }
   memset(f->at.t, 0, (size_t)f->columns * sizeof(double));
   memset(f->at.u, 0, (size_t)(d->n_u * f->columns) * sizeof(double));
   memset(f->event_time, 0, (size_t)f->columns * sizeof(double));

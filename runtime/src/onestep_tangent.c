@@ -1,6 +1,6 @@
 /* The variational equations of an explicit one-step method: the same scheme applied to s' = f_x s + f_p, all columns at
- * once, at the points that the stages of the run itself have been at. So a step's tangents are exactly the derivative of
- * what the step computes. They come after the run's own error test, and may reject the step too. */
+ * once, at the points that the stages of the run itself have been at. So a step's tangents are exactly the derivative
+ * of what the step computes. They come after the run's own error test, and may reject the step too. */
 #include <stdlib.h>
 
 #include "onestep.h"
@@ -30,8 +30,7 @@ bool rt_onestep_sensitivities(rt_session *s, void *memory) {
     return false;
   }
   o->stage_v = o->stage_x + stages * (size_t)s->d->n_x;
-  *t = (rt_onestep){
-      .scheme = o->scheme, .x0 = block, .x1 = block + n, .error = block + 2 * n, .k = block + 3 * n};
+  *t = (rt_onestep){.scheme = o->scheme, .x0 = block, .x1 = block + n, .error = block + 2 * n, .k = block + 3 * n};
   t->f0 = t->k;
   t->f1 = t->k + (stages - 1) * n;
   return true;
@@ -109,8 +108,8 @@ int rt_onestep_tangent_step(rt_session *s, rt_onestep *o, double h, double *squa
     point.x = (mdl_lanes *)t->x1;
     point.xdot = (mdl_lanes *)(t->k + j * n);
     if (s->d->n_u) rt_inputs_at(s, time);
-    int status = s->d->tangents->rhs(&s->data, time, o->stage_x + j * n_x, o->k + j * n_x,
-                                     o->stage_v + j * s->d->n_v, &point);
+    int status =
+        s->d->tangents->rhs(&s->data, time, o->stage_x + j * n_x, o->k + j * n_x, o->stage_v + j * s->d->n_v, &point);
     if (status) return status;
     s->result->counters.tangents++;
   }

@@ -19,7 +19,8 @@ static double *take(double **next, size_t count) {
   return slice;
 }
 
-/* Rows of a bundle; without `shared` all of them, else those that differ from point to point, the rest being shared's. */
+/* Rows of a bundle; without `shared` all of them, else those that differ from point to point, the rest being shared's.
+ */
 static void slice_bundle(const mdl_descriptor *d, mdl_tangent *b, int columns, const mdl_tangent *shared,
                          double **next) {
   size_t n = (size_t)columns;
@@ -41,9 +42,9 @@ static void slice_bundle(const mdl_descriptor *d, mdl_tangent *b, int columns, c
 
 static bool allocate(const mdl_descriptor *d, rt_sensitivities *f) {
   size_t n = (size_t)f->columns, n_x = (size_t)d->n_x, n_rel = (size_t)d->n_rel, n_sample = (size_t)d->n_sample;
-  size_t size = bundle_size(d, f->columns, true) + bundle_size(d, f->columns, false) +
-                bundle_size(d, MDL_LANES, true) + n * (6 + n_rel + 2 * n_sample + (RT_DENSE_DEGREE + 1) * n_x) +
-                n_rel * (1 + MDL_LANES) + (size_t)d->n_u + 1;
+  size_t size = bundle_size(d, f->columns, true) + bundle_size(d, f->columns, false) + bundle_size(d, MDL_LANES, true) +
+                n * (6 + n_x + n_rel + 2 * n_sample + (RT_DENSE_DEGREE + 1) * n_x) + n_rel * (1 + MDL_LANES) +
+                (size_t)d->n_u + 1;
   double *next = f->numbers = calloc(size, sizeof *next);
   if (!next) return false;
   slice_bundle(d, &f->at, f->columns, NULL, &next);
@@ -55,6 +56,7 @@ static bool allocate(const mdl_descriptor *d, rt_sensitivities *f) {
   f->event_time_before = take(&next, n);
   f->margin = take(&next, n);
   f->tick = take(&next, n);
+  f->x_before = take(&next, n * n_x);
   f->guards = take(&next, n * n_rel);
   f->first = take(&next, n * n_sample);
   f->interval = take(&next, n * n_sample);
@@ -124,7 +126,8 @@ rt_status rt_session_sensitivities(rt_session *s, int n, const int *variables) {
   return rt_fail(s, RT_MEMORY, 0, -1, NULL, "solver %s: out of memory for sensitivities", s->method->name);
 }
 
-/* The size of a change of a parameter or initial value: what the model calls nominal, else its value, else its range. */
+/* The size of a change of a parameter or initial value: what the model calls nominal, else its value, else its range.
+ */
 static double scale_of(const rt_session *s, const mdl_variable *v) {
   double value = v->storage == MDL_STATE ? s->data.x[v->index] : s->data.p[v->index];
   if (v->nominal > 0) return v->nominal;
@@ -167,7 +170,8 @@ static void override_states(rt_session *s) {
   }
 }
 
-/* During initialisation: the states, where the initial equations have just been `solved`; then what follows from them. */
+/* During initialisation: the states, where the initial equations have just been `solved`; then what follows from them.
+ */
 rt_status rt_tangent_initial(rt_session *s, bool solved) {
   mdl_data *m = &s->data;
   rt_sensitivities *f = s->sensitivities;
@@ -185,7 +189,8 @@ rt_status rt_tangent_initial_event(rt_session *s) {
   mdl_data *m = &s->data;
   rt_sensitivities *f = s->sensitivities;
   if (!f) return RT_OK;
-  size_t x_size = (size_t)(s->d->n_x * f->columns) * sizeof(double), d_size = (size_t)(s->d->n_d * f->columns) * sizeof(double);
+  size_t x_size = (size_t)(s->d->n_x * f->columns) * sizeof(double),
+         d_size = (size_t)(s->d->n_d * f->columns) * sizeof(double);
   memcpy(m->when, s->when_before, (size_t)s->d->n_when);
   memcpy(f->at.x_after, f->at.x, x_size);
   int status = s->d->tangents->event(m, s->t, s->x_swept, m->xdot, m->v, &f->at);

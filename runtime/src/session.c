@@ -29,7 +29,8 @@ static bool allocate_numbers(rt_session *s) {
   const mdl_descriptor *d = s->d;
   mdl_data *m = &s->data;
   rt_recorder *r = &s->recorder;
-  double **parameters[] = {&m->p, &s->p_run}, **inputs[] = {&m->u}, **discrete[] = {&m->d, &m->pre_d, &s->d_swept, &s->d_after};
+  double **parameters[] = {&m->p, &s->p_run}, **inputs[] = {&m->u},
+         **discrete[] = {&m->d, &m->pre_d, &s->d_swept, &s->d_before, &s->d_after};
   double **unknowns[] = {&s->atol, &s->y, &s->yp}, **samples[] = {&s->clock.first, &s->clock.interval};
   double **algebraic[] = {&m->v, &s->v_trial, &s->v_before, &s->v_end, &r->v}, **dense[] = {&s->dense.c};
   double **states[] = {&m->x,           &m->xdot,  &s->initial_value, &s->x_trial, &s->xdot_trial, &s->x_before,

@@ -70,8 +70,8 @@ typedef struct {
   rt_status (*step)(struct rt_session *, void *memory, double limit);
   void (*dense)(struct rt_session *, void *memory, rt_dense *dense);
   void (*point)(struct rt_session *, void *memory, double t,
-                double *x);                         /* cheaper than dense for one point; may be NULL */
-  void (*count)(struct rt_session *, void *memory); /* add the method's own counters to the result */
+                double *x);                                 /* cheaper than dense for one point; may be NULL */
+  void (*count)(struct rt_session *, void *memory);         /* add the method's own counters to the result */
   bool (*sensitivities)(struct rt_session *, void *memory); /* get ready for those of the session, or for none */
   void (*dense_tangent)(struct rt_session *, void *memory, rt_dense *dense); /* as dense, of the states' tangents */
 } rt_method;
@@ -122,7 +122,7 @@ struct rt_session {
   double *g_span, *g_travel;  /* [n_rel] largest |g| of the run, and since the relation last switched */
   double *x_trial, *xdot_trial, *v_trial;
   double *x_before, *xdot_before, *v_before;
-  double *d_after;                        /* discrete variables after it, while what was before it is differentiated */
+  double *d_before, *d_after;             /* discrete variables before an event; and aside while it is differentiated */
   double *x_swept, *d_swept;              /* states after a sweep of an event, discrete variables before it */
   unsigned char *rel_swept, *when_before; /* relations before a sweep, when conditions before its pass */
   double *g_lowest;                       /* [n_rel] furthest on the other side since it switched, where rebound */

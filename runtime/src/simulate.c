@@ -31,7 +31,7 @@ static rt_status move_on(rt_session *s) {
     rt_resume_step(s);
     return RT_OK;
   }
-  if (s->options.max_steps > 0 && s->steps_taken++ >= s->options.max_steps)
+  if (s->steps_taken++ >= s->options.max_steps && s->options.max_steps > 0)
     return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "more than %ld steps up to time %.9g s", s->options.max_steps,
                    s->t);
   s->dense.valid = false;
