@@ -18,6 +18,7 @@ import shutil
 import subprocess
 import tempfile
 
+from lacuna.codegen import flat
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.emit.c_text import SourceNames
 from lacuna.codegen.errors import Diagnostic, Span
@@ -55,12 +56,17 @@ def _digest(*parts: str | bytes) -> str:
 @lru_cache(maxsize=1)
 def generator_version() -> str:
     """Digest of the generator's own source, the ABI and the compiler's command: any change makes all models new."""
-    files = [*sorted(_HERE.rglob("*.py")), Path(lacuna.units.__file__), INCLUDE / "mdl_abi.h"]
+    headers = [INCLUDE / "mdl_abi.h", INCLUDE / "mdl_tangent.h"]
+    files = [*sorted(_HERE.rglob("*.py")), Path(lacuna.units.__file__), *headers]
     return _digest(" ".join(COMPILER), *(f.read_bytes() for f in files))
 
 
 def request_key(
-    name: str, search_path: Sequence[str] | None, modifications: Mapping[str, object] | None, units: str
+    name: str,
+    search_path: Sequence[str] | None,
+    modifications: Mapping[str, object] | None,
+    units: str,
+    sensitivities: bool = False,
 ) -> str:
     """Digest of what was asked for, and where it is looked up: `search_path`, else MODELICAPATH and package Lacuna.
 
@@ -70,14 +76,18 @@ def request_key(
     paths = [str(Path(p).resolve()) for p in (default_path() if search_path is None else search_path)]
     file, inner = split_name(name)
     changes = sorted((k, repr(v)) for k, v in (modifications or {}).items())
-    return _digest(json.dumps([str(file.resolve()) if file else "", inner, paths, changes, units]))
+    return _digest(json.dumps([str(file.resolve()) if file else "", inner, paths, changes, units, sensitivities]))
 
 
-def content_hash(name: str, files: Mapping[str, str], modifications: Mapping[str, object] | None, units: str) -> str:
-    """Digest of what decides the C of the model `name`: the generator, the text of every file read, and the
-    modifications. It is the same wherever the files lie."""
+def content_hash(
+    model: flat.FlatModel, modifications: Mapping[str, object] | None, units: str, sensitivities: bool = False
+) -> str:
+    """Digest of what decides the C of a model: the generator, the text of every file read, that of its own file among
+    them, and what was asked for. It is the same wherever the files lie."""
     changes = sorted((k, repr(v)) for k, v in (modifications or {}).items())
-    return _digest(generator_version(), json.dumps([name, SourceNames().digests(files.items()), changes, units]))
+    files = SourceNames().digests(model.files.items())
+    own = model.files.get(model.span.file, "")
+    return _digest(generator_version(), json.dumps([model.name, own, files, changes, units, sensitivities]))
 
 
 @lru_cache(maxsize=1)
