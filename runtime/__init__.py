@@ -1,7 +1,8 @@
 """Run generated models: load one, simulate it, read and write results."""
 
 from lacuna.runtime.errors import SimulationError, UnknownNameError
-from lacuna.runtime.files import read_csv, write_csv, write_mat
+from lacuna.runtime.files import metadata, read_csv, write_csv, write_parquet
+from lacuna.runtime.modelica_mat import write_mat
 from lacuna.runtime.model import Equation, Model, Variable
 from lacuna.runtime.result import EventEntry, Failure, Result
 from lacuna.runtime.simulation import SOLVERS, RecordedInput, Session, simulate
@@ -19,8 +20,10 @@ __all__ = [
     "SimulationError",
     "UnknownNameError",
     "Variable",
+    "metadata",
     "read_csv",
     "simulate",
     "write_csv",
     "write_mat",
+    "write_parquet",
 ]

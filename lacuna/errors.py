@@ -1,0 +1,43 @@
+"""What a user can put right is said in a sentence; every stage marks such exceptions with `user_error = True`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from lacuna.results import Result
+
+
+class UserError(Exception):
+    """Something that the caller can put right; the message says what and how."""
+
+    user_error = True
+
+
+class IncompleteRun(UserError):
+    """A simulation that ended before its stop time; `result` has the rows until then, the message says why."""
+
+    def __init__(self, result: Result) -> None:
+        super().__init__(str(result.failure))
+        self.result = result
+
+
+def is_user_error(error: BaseException) -> bool:
+    """Whether the message of an exception is all that a user needs: refusals of any stage, files that cannot be read."""
+    return isinstance(error, OSError) or bool(getattr(error, "user_error", False))
+
+
+def message_of(error: BaseException) -> str:
+    """The message of a user's error; a finding about a model has its place, code and hint."""
+    if isinstance(error, OSError) and error.filename:
+        return f"error: {error.filename}: {error.strerror}"
+    text = str(error)
+    return text if "error[" in text.splitlines()[0] or text.startswith("error") else f"error: {text}"
+
+
+def nearest(name: str, valid: Iterable[str]) -> str:
+    """The end of a refusal of `name`: the valid names that may be meant, or else some that there are."""
+    from lacuna.runtime.errors import suggestion
+
+    return suggestion(name, valid)
