@@ -10,6 +10,7 @@ from math import prod
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.enumerations import IndexType, index_type
 from lacuna.codegen.flatten.evaluate import evaluate_boolean, evaluate_dimensions
 from lacuna.codegen.flatten.inheritance import Element, Inheritance
 from lacuna.codegen.flatten.leaf import Leaf
@@ -28,6 +29,7 @@ class ArrayNode:
     name: str
     shape: tuple[int, ...]
     items: list[Instance]
+    index_types: tuple[IndexType, ...] = ()
 
 
 @dataclass
@@ -110,17 +112,18 @@ class Instance:
             reference, type_scope = self._redeclared(element, modifier)
         found = resolve_type(reference, type_scope)
         sizes = evaluate_dimensions([*declaration.dimensions], scope, modifier, declaration.name)
+        index_types = tuple(index_type(d, scope) for d in declaration.dimensions)
         sizes += found.dimensions
         record = self._record_value()
-        if record is not None and (element.modifier is None or element.modifier.value is None):
-            modifier = replace(modifier, value=record.fields.get(declaration.name), index=())
+        given = record is not None and declaration.name in record.fields
+        if given and (element.modifier is None or element.modifier.value is None):
+            modifier = replace(modifier, value=record.fields[declaration.name], index=())
         self.context.spend(prod(sizes), declaration.span)
         name = self.path_of(declaration.name)
         if found.primitive is not None:
             attributes = for_each(found.modifier) if sizes else found.modifier
-            return Leaf(
-                self.context, self, declaration, name, found, tuple(sizes), merge(modifier, attributes) or modifier
-            )
+            complete = merge(modifier, attributes) or modifier
+            return Leaf(self.context, self, declaration, name, found, tuple(sizes), complete, index_types)
         self._check_component(declaration, found)
         if not sizes:
             return Instance(self.context, found.cls, name, self, merge(modifier, found.modifier), declaration)
@@ -129,7 +132,7 @@ class Instance:
             text = "[" + ",".join(map(str, index)) + "]"
             inner = merge(narrow(modifier, index), found.modifier)
             items.append(Instance(self.context, found.cls, name + text, self, inner, declaration))
-        return ArrayNode(name, tuple(sizes), items)
+        return ArrayNode(name, tuple(sizes), items, index_types)
 
     def _record_value(self) -> Record | None:
         """The record this component is bound to, as in `Data data = other`."""

@@ -7,6 +7,7 @@ from math import prod
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.component import Component
 from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.enumerations import IndexType
 from lacuna.codegen.flatten.lower import modifier_value
 from lacuna.codegen.flatten.modifiers import Modifier
 from lacuna.codegen.flatten.types import ATTRIBUTES, Type
@@ -29,9 +30,10 @@ class Leaf:
         found: Type,
         shape: tuple[int, ...],
         modifier: Modifier,
+        index_types: tuple[IndexType, ...] = (),
     ) -> None:
         self.instance, self.declaration, self.name, self.type = instance, declaration, name, found
-        self.shape, self.modifier = shape, modifier
+        self.shape, self.modifier, self.index_types = shape, modifier, index_types
         self.span = declaration.span
         self.primitive = found.primitive
         self.variability = self._variability()

@@ -24,6 +24,8 @@ class Scope:
     end: int | None = None  # the value of `end` inside subscripts
     in_function: bool = False
     initial: bool = False  # in an initial section
+    conditional: bool = False  # under a condition not known yet: what cannot be computed may never be asked for
+    message: bool = False  # in the text of an assert
 
     def with_locals(self, **values: Value) -> Scope:
         return replace(self, locals={**self.locals, **values})
@@ -155,3 +157,30 @@ def enumeration(ref: ast.Ref, scope: Scope) -> ast.Class | None:
         return None
     cls = find_class(scope.context.library, scope.cls, ref)
     return cls if cls is not None and cls.literals is not None else None
+
+
+def boolean_type(ref: ast.Ref, scope: Scope, depth: int = 0) -> bool:
+    """Does `ref` name the type Boolean, or one declared as it?"""
+    if scope.instance is not None and ref.names[0] in scope.instance.elements:
+        return False
+    cls = find_class(scope.context.library, scope.cls, ref)
+    if cls is None:
+        return str(ref) == "Boolean"
+    alias = cls.alias
+    return (
+        alias is not None
+        and not alias.dimensions
+        and depth < 30
+        and boolean_type(
+            alias.base, replace(scope, cls=cls.parent or scope.context.library.root, instance=None), depth + 1
+        )
+    )
+
+
+def literals_of(path: str, scope: Scope) -> list[str]:
+    """Names of the literals of the enumeration with this full name."""
+    names = path.split(".")
+    cls: ast.Class | None = scope.context.library.root
+    for name in names:
+        cls = own_or_inherited(scope.context.library, cls, name) if cls is not None else None
+    return [name for name, _ in cls.literals] if cls is not None and cls.literals else []
