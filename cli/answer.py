@@ -59,7 +59,10 @@ def answered(command: Callable[..., Answer]) -> Callable[..., None]:
 
     hints = get_type_hints(command, include_extras=True) | _EVERYWHERE | {"return": None}
     own = [p.replace(annotation=hints[n]) for n, p in inspect.signature(command).parameters.items()]
-    more = [inspect.Parameter(n, inspect.Parameter.KEYWORD_ONLY, default=False, annotation=a) for n, a in _EVERYWHERE.items()]
+    more = [
+        inspect.Parameter(n, inspect.Parameter.KEYWORD_ONLY, default=False, annotation=a)
+        for n, a in _EVERYWHERE.items()
+    ]
     run.__signature__ = inspect.Signature([*own, *more])  # type: ignore[attr-defined]
     run.__annotations__ = hints
     return run

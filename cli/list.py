@@ -11,7 +11,9 @@ import lacuna
 from lacuna.cli.answer import Answer, answered
 from lacuna.cli.options import ClassName, Libraries, Model
 
-app = typer.Typer(no_args_is_help=True, help="List models, effects, solvers, or the parameters and variables of a model.")
+app = typer.Typer(
+    no_args_is_help=True, help="List models, effects, solvers, or the parameters and variables of a model."
+)
 
 
 @app.command()
@@ -44,7 +46,12 @@ def parameters(model: Model, class_name: ClassName = "", library: Libraries = No
     """Parameters of MODEL with their declared values, for -p; and its inputs, for -u."""
     loaded = lacuna.load(model, class_name=class_name, libraries=library or [])
     rows = [
-        {"name": n, "value": v.start if v.kind == "parameter" else "input", "unit": v.unit, "description": v.description}
+        {
+            "name": n,
+            "value": v.start if v.kind == "parameter" else "input",
+            "unit": v.unit,
+            "description": v.description,
+        }
         for n, v in (loaded.parameters | loaded.inputs).items()
     ]
     return _rows("parameters", rows, loaded.warnings)

@@ -75,18 +75,22 @@ def simulate(
         result, failure = ended.result, str(ended)
         if not len(result):  # refused before its first row
             raise
-    path = (out or default_folder("simulate", class_name or model)) / f"{result.model.rsplit('.', 1)[-1]}.{format}"
-    written = result.save(path)
-    if plot:
-        written += result.save_plot(path.with_suffix(".svg"), *(signal or []))
-    covered = float(result.time[-1] - result.time[0])
-    data = {"model": result.model, "complete": result.complete, "seconds": result.seconds, "rows": len(result),
-            "counters": result.counters, "last": {n: float(result[n][-1]) for n in ("time", *result)}}  # fmt: skip
-    return Answer(data, [_table(result, covered, solver)], written, loaded.warnings, failure)
+    folder = out or default_folder("simulate", class_name or model)
+    written = result.save(folder / f"{result.model.rsplit('.', 1)[-1]}.{format}")
+    written += result.save_plot(written[0].with_suffix(".svg"), *(signal or [])) if plot else []
+    return Answer(_data(result), [_table(result, solver)], written, loaded.warnings, failure)
 
 
-def _table(result: lacuna.Result, covered: float, solver: str) -> Table:
+def _data(result: lacuna.Result) -> dict[str, object]:
+    return {
+        "model": result.model, "complete": result.complete, "seconds": result.seconds, "rows": len(result),
+        "counters": result.counters, "last": {name: float(result[name][-1]) for name in ("time", *result)},
+    }  # fmt: skip
+
+
+def _table(result: lacuna.Result, solver: str) -> Table:
     table = Table(show_header=False)
+    covered = float(result.time[-1] - result.time[0])
     table.add_row("time covered", f"{covered:g} s in {result.seconds:.3f} s of computing with {solver}")
     for name, count in result.counters.items():
         table.add_row(name.replace("_", " "), f"{count}")

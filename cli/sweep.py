@@ -17,9 +17,7 @@ from lacuna.cli.options import ClassName, Libraries
 def sweep(
     model: Annotated[
         str | None,
-        typer.Argument(
-            metavar="[ACTUATOR]", help="Model; default: that of the settings' tests", autocompletion=models
-        ),
+        typer.Argument(metavar="[ACTUATOR]", help="Model; default: that of the settings' tests", autocompletion=models),
     ] = None,
     class_name: ClassName = "",
     library: Libraries = None,

@@ -17,25 +17,25 @@ if TYPE_CHECKING:
     from lacuna.campaigns import Sweep, sweep
     from lacuna.comparisons import Agreement, Comparison, compare, compare_with_file
     from lacuna.diagnoses import Case, Explanation, Verdict, explain, open_case
-    from lacuna.errors import IncompleteRun, UserError, is_user_error, message_of, nearest
+    from lacuna.errors import UserError, is_user_error, message_of, nearest
     from lacuna.faults import Assessment, CombinedMap, OperatingMap, assess, combined_maps, maps
     from lacuna.inputs import Input, recorded
     from lacuna.listings import Entry, list_effects, list_models, list_solvers
     from lacuna.models import Finding, Model, check, dump, load
     from lacuna.progress import Progress
-    from lacuna.results import Result
+    from lacuna.results import IncompleteRun, Result
 
 _HOMES = {
     "campaigns": ("Sweep", "sweep"),
     "comparisons": ("Agreement", "Comparison", "compare", "compare_with_file"),
     "diagnoses": ("Case", "Explanation", "Verdict", "explain", "open_case"),
-    "errors": ("IncompleteRun", "UserError", "is_user_error", "message_of", "nearest"),
+    "errors": ("UserError", "is_user_error", "message_of", "nearest"),
     "faults": ("Assessment", "CombinedMap", "OperatingMap", "assess", "combined_maps", "maps"),
     "inputs": ("Input", "recorded"),
     "listings": ("Entry", "list_effects", "list_models", "list_solvers"),
     "models": ("Finding", "Model", "check", "dump", "load"),
     "progress": ("Progress",),
-    "results": ("Result",),
+    "results": ("IncompleteRun", "Result"),
 }
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 

@@ -15,9 +15,9 @@ from lacuna.notebook import page, paragraph, table
 from lacuna.progress import Progress, silent
 
 if TYPE_CHECKING:
-    from lacuna import runtime
     from lacuna.analysis.comparison.scenarios import Scenario
     from lacuna.analysis.comparison.study import Study
+    import lacuna.runtime as runtime
 
 OWN_REFERENCE = 1e-10  # relative tolerance of the reference run of a user's model; tighter may be below its rounding
 Row = tuple[str, ...]
@@ -99,7 +99,8 @@ def compare(
 
 
 def _chosen(file: str | Path | None, names: Sequence[str] | None) -> list[Scenario]:
-    from lacuna.analysis.comparison.scenarios import DEFAULT_FILE, load as read
+    from lacuna.analysis.comparison.scenarios import DEFAULT_FILE
+    from lacuna.analysis.comparison.scenarios import load as read
 
     known = {scenario.name: scenario for scenario in read(Path(file) if file else DEFAULT_FILE)}
     for name in names or []:
@@ -154,7 +155,8 @@ def compare_with_file(
     `tolerance`: the largest deviation that agrees, of a signal's magnitude. Raises AnalysisError where the file is no
     such table or the run ends early.
     """
-    from lacuna.analysis.comparison.compare import compare_with_file as compared, read_columns
+    from lacuna.analysis.comparison.compare import compare_with_file as compared
+    from lacuna.analysis.comparison.compare import read_columns
 
     time, columns = read_columns(Path(file))
     loaded = load(model, class_name=class_name, libraries=libraries, parameters=parameters)

@@ -215,7 +215,9 @@ class Case:
 
         path = Path(model)
         path.open().close()  # an unreadable file is said before anything is simulated
-        found: Judgement = judge_file(self._case, Amendment(places.read(self._case.library(), self._case.base)), path, {})
+        found: Judgement = judge_file(
+            self._case, Amendment(places.read(self._case.library(), self._case.base)), path, {}
+        )
         report = write_judgement(self._case, found, self._out("judge", out), path.name)
         return Judged(found.fit, found.validate, report)
 
@@ -241,5 +243,3 @@ class Case:
     def _repr_html_(self) -> str:
         signals = [(s.column, s.role, s.variable, s.unit) for s in self._case.signals.values()]
         return page(f"{self.title}: {self.model}", table(("column", "role", "variable", "unit"), signals))
-
-

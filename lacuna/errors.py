@@ -3,10 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from lacuna.results import Result
 
 
 class UserError(Exception):
@@ -15,16 +11,8 @@ class UserError(Exception):
     user_error = True
 
 
-class IncompleteRun(UserError):
-    """A simulation that ended before its stop time; `result` has the rows until then, the message says why."""
-
-    def __init__(self, result: Result) -> None:
-        super().__init__(str(result.failure))
-        self.result = result
-
-
 def is_user_error(error: BaseException) -> bool:
-    """Whether the message of an exception is all that a user needs: refusals of any stage, files that cannot be read."""
+    """Whether the message is all that a user needs: refusals of any stage, files that cannot be read."""
     return isinstance(error, OSError) or bool(getattr(error, "user_error", False))
 
 

@@ -28,7 +28,9 @@ def list_models(inside: str | Path = "", *, libraries: Iterable[str | Path] = ()
     if inside:
         roots = [library.find(str(inside))]
     else:
-        names = {name for place in [*path[:given], path[-1]] for name in Library([place]).members(Library([place]).root)}
+        names = {
+            name for place in [*path[:given], path[-1]] for name in Library([place]).members(Library([place]).root)
+        }
         roots = [library.find(name) for name in sorted(names)]
     classes = [cls for root in roots for cls in (root, *library.all_classes(root))]
     return [Entry(c.path, c.description) for c in classes if c.kind in MODEL_KINDS and not c.partial and not c.alias]
@@ -36,7 +38,7 @@ def list_models(inside: str | Path = "", *, libraries: Iterable[str | Path] = ()
 
 @names_missing_packages
 def list_effects(*, libraries: Iterable[str | Path] = ()) -> list[Entry]:
-    """The catalogue that an explanation chooses from: identifier and title of each effect. Needs the extra `explain`."""
+    """The catalogue that an explanation chooses from, identifier and title. Needs the extra `explain`."""
     from lacuna.discovery.catalogue import read
 
     return [Entry(effect.identifier, effect.title) for effect in read(Library(search_path(libraries)))]

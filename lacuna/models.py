@@ -10,7 +10,6 @@ from typing import Literal
 
 import numpy as np
 
-from lacuna import runtime
 from lacuna.codegen.compile import CompiledModel, compile_model, translate
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flat.text import dump_flat
@@ -18,10 +17,11 @@ from lacuna.codegen.flatten import flatten
 from lacuna.codegen.library import Library
 from lacuna.codegen.report import dump as dump_structure
 from lacuna.codegen.search_path import search_path
-from lacuna.errors import IncompleteRun, UserError
+from lacuna.errors import UserError
 from lacuna.inputs import Input, as_inputs
 from lacuna.notebook import page, table
-from lacuna.results import Result
+from lacuna.results import IncompleteRun, Result
+import lacuna.runtime as runtime
 
 Units = Literal["error", "warn"]
 Solver = Literal["ida", "dopri5", "rodas4", "rk4", "euler"]
@@ -261,11 +261,11 @@ class Model:
                 raise UserError(f"{name} is a parameter of {self.name}, not an input: set it by parameters, or -p")
 
     def __repr__(self) -> str:
-        return f"<Model {self.name}: {len(self.states)} states, {len(self.variables)} variables>"
+        return f"<Model {self.name}: {self._model.n_states} states, {len(self.variables)} variables>"
 
     def _repr_html_(self) -> str:
         head = ("parameter", "value", "unit", "")
         rows = [(n, self._values.get(n, v.start), v.unit, v.description) for n, v in self.parameters.items()]
         driven = [(n, v.unit, v.description) for n, v in self.inputs.items()]
-        size = f"{self.name}: {len(self.states)} states, {len(self.variables)} variables"
+        size = f"{self.name}: {self._model.n_states} states, {len(self.variables)} variables"
         return page(size, table(head, rows), *([table(("input", "unit", ""), driven)] if driven else []))

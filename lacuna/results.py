@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from lacuna import runtime
 from lacuna.errors import UserError
 from lacuna.extras import names_missing_packages
 from lacuna.notebook import drawing, page, paragraph, table
+import lacuna.runtime as runtime
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -19,6 +19,14 @@ if TYPE_CHECKING:
 
 Format = Literal["csv", "parquet", "mat"]
 SHOWN = 4  # signals of the figure in a notebook
+
+
+class IncompleteRun(UserError):
+    """A simulation that ended before its stop time; `result` has the rows until then, the message says why."""
+
+    def __init__(self, result: Result) -> None:
+        super().__init__(str(result.failure))
+        self.result = result
 
 
 class Result:
@@ -64,8 +72,7 @@ class Result:
     @property
     def units(self) -> dict[str, str]:
         """Of every column, "" where neither the declaration nor the equations give one."""
-        variables = self._run.model.variables
-        return {"time": "s"} | {name: variables[name].unit for name in self.names}
+        return {"time": "s"} | {name: v.unit for name, v in self._run.model.variables.items() if name in self}
 
     @property
     def events(self) -> list[runtime.EventEntry]:
@@ -114,7 +121,7 @@ class Result:
         extra `plot`."""
         from lacuna.figures import trajectories
 
-        return trajectories(self, list(names) or self._own())
+        return trajectories(self.time, {name: self[name] for name in names or self._own()}, self.units)
 
     def _own(self) -> list[str]:
         """Real variables of the model itself; those of its components where it declares none."""

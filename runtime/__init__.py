@@ -2,12 +2,11 @@
 
 from lacuna.runtime.errors import SimulationError, UnknownNameError
 from lacuna.runtime.files import metadata, read_csv, write_csv, write_parquet
-from lacuna.runtime.modelica_mat import write_mat
 from lacuna.runtime.model import Equation, Model, Variable
+from lacuna.runtime.modelica_mat import write_mat
 from lacuna.runtime.result import EventEntry, Failure, Result
 from lacuna.runtime.simulation import SOLVERS, RecordedInput, Session, simulate
 
-__version__ = "0.1.0"
 __all__ = [
     "SOLVERS",
     "Equation",

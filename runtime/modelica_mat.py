@@ -32,8 +32,8 @@ def write_mat(result: Result, path: str | Path, names: Sequence[str] | None = No
         table.add(name)
     content = {
         "Aclass": _characters(_HEADER),
-        "name": _characters(table.names).T,
-        "description": _characters(table.descriptions).T,
+        "name": np.ascontiguousarray(_characters(table.names).T),  # scipy writes the characters as they lie in memory
+        "description": np.ascontiguousarray(_characters(table.descriptions).T),
         "dataInfo": np.array(table.info, dtype=np.int32).T,
         "data_1": np.array(table.constant, dtype=float),
         "data_2": np.array(table.varying, dtype=float),
