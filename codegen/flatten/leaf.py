@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from math import prod
 
 from lacuna.codegen.errors import Diagnostic
@@ -75,6 +76,10 @@ class Leaf:
             return self.text()
         if not self.shape:
             return ex.var(self.name, self.primitive)
+        return self._elements
+
+    @cached_property
+    def _elements(self) -> Array:
         return Array(self.shape, tuple(ex.var(n, self.primitive) for n in self.names))
 
     def text(self) -> Value:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import prod
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.constants import is_known, known
@@ -90,7 +89,7 @@ def _field(node: Node, ref: ast.Ref, scope: Scope) -> Value:
 def _walk_array(node: Node, ref: ast.Ref, at: int, scope: Scope) -> Value:
     subscripts = ref.subscripts[at]
     part = replace(ref, names=ref.names[: at + 1])
-    picked = apply_subscripts(element_numbers(node), subscripts, scope, part, node.index_types)
+    picked = apply_subscripts(node.numbers, subscripts, scope, part, node.index_types)
     inner = ref.subscripts[:at] + (None,) + ref.subscripts[at + 1 :]
     plain = replace(ref, subscripts=inner)
     if isinstance(picked, Expr):
@@ -107,10 +106,6 @@ def _numbered(node: ArrayNode, number: Expr, ref: ast.Ref, at: int, scope: Scope
     condition, *numbers = number.args
     values = [_numbered(node, n, ref, at, scope) for n in numbers]
     return elementwise(lambda a, b: ex.if_else(condition, a, b), values, ref.span, "elements")
-
-
-def element_numbers(node: Node) -> Array:
-    return Array(node.shape, tuple(ex.const(i + 1) for i in range(prod(node.shape))))
 
 
 def apply_subscripts(
@@ -132,20 +127,19 @@ def apply_subscripts(
         return value
     first, rest = subscripts[0], subscripts[1:]
     later = kinds[1:] if kinds is not None else None
-    rows = value.rows()
     if isinstance(first, ast.Colon):
-        return _stacked([apply_subscripts(r, rest, scope, ref, later) for r in rows], value, ref, len(rest))
-    index = _index(first, kinds, replace(scope, end=len(rows)), ref)
+        return _stacked([apply_subscripts(r, rest, scope, ref, later) for r in value.rows()], value, ref, len(rest))
+    index = _index(first, kinds, replace(scope, end=shape[0]), ref)
     if isinstance(index, Array):
-        picked = [_row(rows, i, scope, ref, first) for i in index.items]
+        picked = [_row(value, i, scope, ref, first) for i in index.items]
         return _stacked([apply_subscripts(r, rest, scope, ref, later) for r in picked], value, ref, len(rest))
     if index.op == "const" or (is_known(index, scope.context) and not scope.in_function):
-        return apply_subscripts(_row(rows, index, scope, ref, first), rest, scope, ref, later)
+        return apply_subscripts(_row(value, index, scope, ref, first), rest, scope, ref, later)
     if scope.in_function:
-        moved = at_index(rows[0], index) if rows else None
+        moved = at_index(value.row(0), index) if shape[0] else None
         if moved is not None:
             return apply_subscripts(moved, rest, scope, ref, later)
-    return _choose([apply_subscripts(r, rest, scope, ref, later) for r in rows], index, first, scope)
+    return _choose([apply_subscripts(r, rest, scope, ref, later) for r in value.rows()], index, first, scope)
 
 
 def _index(written: ast.Expression, kinds: tuple[IndexType, ...] | None, scope: Scope, ref: ast.Ref) -> Value:
@@ -171,11 +165,11 @@ def _stacked(rows: list[Value], value: Array, ref: ast.Ref, subscripts_left: int
     return Array((0, *value.shape[1 + subscripts_left :]), ())
 
 
-def _row(rows: list[Value], index: Expr, scope: Scope, ref: ast.Ref, written: ast.Expression) -> Value:
+def _row(array: Array, index: Expr, scope: Scope, ref: ast.Ref, written: ast.Expression) -> Value:
     number = known(index, scope, written.span, "the subscript").value
-    if not 1 <= number <= len(rows):
-        raise Diagnostic("R045", f"{ref}[{number}] is outside 1..{len(rows)}", written.span, "arrays start at 1")
-    return rows[number - 1]
+    if not 1 <= number <= array.shape[0]:
+        raise Diagnostic("R045", f"{ref}[{number}] is outside 1..{array.shape[0]}", written.span, "arrays start at 1")
+    return array.row(number - 1)
 
 
 def _choose(rows: list[Value], index: Expr, written: ast.Expression, scope: Scope) -> Value:
@@ -233,7 +227,7 @@ def _constant_around(ref: ast.Ref, scope: Scope) -> Node | None:
                 if owner is not None and name in (package := package_of(scope.context, owner)).elements:
                     return package.child(name)
         if current is not scope.cls or scope.instance is None:
-            package = package_of(scope.context, current)
+            package = package_of(scope.context, current.whole or current)
             if name in package.elements and package.elements[name].declaration.variability == "constant":
                 return package.child(name)
         current = current.parent

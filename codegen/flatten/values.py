@@ -22,8 +22,14 @@ class Array:
         """Along the first dimension."""
         if len(self.shape) == 1:
             return list(self.items)
+        return [self.row(i) for i in range(self.shape[0])]
+
+    def row(self, i: int) -> Value:
+        """Number `i`, from 0, along the first dimension."""
+        if len(self.shape) == 1:
+            return self.items[i]
         step = prod(self.shape[1:])
-        return [Array(self.shape[1:], self.items[i * step : (i + 1) * step]) for i in range(self.shape[0])]
+        return Array(self.shape[1:], self.items[i * step : (i + 1) * step])
 
 
 @dataclass(frozen=True, slots=True)
