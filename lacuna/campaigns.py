@@ -49,7 +49,7 @@ class Sweep:
 
     @names_missing_packages
     def to_pandas(self) -> pd.DataFrame:
-        """One row a test. Needs the extra `pandas`."""
+        """One row a test. Needs the extra `results`."""
         import pandas as pd
 
         return pd.DataFrame(self.table.to_pydict())

@@ -69,7 +69,7 @@ class OperatingMap:
 
     @names_missing_packages
     def to_pandas(self) -> pd.DataFrame:
-        """One column a feature, the index is the severity. Needs the extra `pandas`."""
+        """One column a feature, the index is the severity. Needs the extra `results`."""
         import pandas as pd
 
         return pd.DataFrame(self._features, index=pd.Index(self.severities, name=self._settings.fault.symbol))

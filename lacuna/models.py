@@ -151,19 +151,19 @@ class Model:
     @property
     def start_time(self) -> float:
         """s, of the model's experiment; so are `stop_time` (s), `tolerance` and `interval` (s, 0 where not given)."""
-        return self._model.start_time
+        return float(self._model.start_time)
 
     @property
     def stop_time(self) -> float:
-        return self._model.stop_time
+        return float(self._model.stop_time)
 
     @property
     def tolerance(self) -> float:
-        return self._model.tolerance
+        return float(self._model.tolerance)
 
     @property
     def interval(self) -> float:
-        return self._model.interval
+        return float(self._model.interval)
 
     @property
     def warnings(self) -> list[str]:

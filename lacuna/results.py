@@ -110,7 +110,7 @@ class Result:
 
     @names_missing_packages
     def to_pandas(self) -> pd.DataFrame:
-        """One column a variable, the index is time in s. Needs the extra `pandas`."""
+        """One column a variable, the index is time in s. Needs the extra `results`."""
         import pandas as pd
 
         return pd.DataFrame({name: self[name] for name in self.names}, index=pd.Index(self.time, name="time"))
@@ -131,8 +131,8 @@ class Result:
 
     @names_missing_packages
     def save(self, path: str | Path, format: Format | None = None) -> list[Path]:
-        """Write the run by the ending of `path`, or as `format`: csv; parquet (needs the extra `parquet`); mat (MATLAB,
-        and the layout that Modelica tools read). Beside it stands a .meta.json with units, parameters, solver, events.
+        """Write the run by the ending of `path`, or as `format`: csv; parquet; mat (MATLAB,
+        and the layout that Modelica tools read). Beside it stands a .meta.json with units, parameters, solver, events. All but csv need the extra `results`.
 
         Returns the files. Nobody ever sees half a file.
         """
