@@ -21,6 +21,7 @@ from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.search_path import search_path as default_path
 from lacuna.codegen.search_path import split_name
+import lacuna.units
 
 COMPILER = (
     "cc", "-std=c11", "-O2", "-fPIC", "-shared", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic", "-Werror",
@@ -54,7 +55,7 @@ def _digest(*parts: str | bytes) -> str:
 @lru_cache(maxsize=1)
 def generator_version() -> str:
     """Digest of the generator's own source, the ABI and the compiler's command: any change makes all models new."""
-    files = [*sorted(_HERE.rglob("*.py")), INCLUDE / "mdl_abi.h"]
+    files = [*sorted(_HERE.rglob("*.py")), Path(lacuna.units.__file__), INCLUDE / "mdl_abi.h"]
     return _digest(" ".join(COMPILER), *(f.read_bytes() for f in files))
 
 
