@@ -131,9 +131,9 @@ class Result:
 
     @names_missing_packages
     def save(self, path: str | Path, format: Format | None = None) -> list[Path]:
-        """Write the run by the ending of `path`, or as `format`: csv; parquet; mat (MATLAB, and the layout that Modelica
-        tools read). Beside it stands a .meta.json with units, parameters, solver, events. All but csv need the extra
-        `results`.
+        """Write the run by the ending of `path`, or as `format`: csv; parquet; mat (MATLAB, and the layout that
+        Modelica tools read). Beside it stands a .meta.json with units, parameters, solver, events. All but csv need the
+        extra `results`.
 
         Returns the files. Nobody ever sees half a file.
         """
