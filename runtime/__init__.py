@@ -3,12 +3,8 @@
 from lacuna.runtime.errors import SimulationError, UnknownNameError
 from lacuna.runtime.files import metadata, read_csv, write_csv, write_parquet
 from lacuna.runtime.model import Equation, Model, Variable
-<<<<<<< HEAD
 from lacuna.runtime.modelica_mat import write_mat
-from lacuna.runtime.result import EventEntry, Failure, Result
-=======
 from lacuna.runtime.result import EventEntry, Failure, Flag, Result
->>>>>>> main
 from lacuna.runtime.simulation import SOLVERS, RecordedInput, Session, simulate
 
 __all__ = [
