@@ -36,6 +36,8 @@ INCLUDE = _HERE.parent / "runtime" / "include"
 class CompilerError(RuntimeError):
     """The C compiler is missing or refused generated code (which is a fault of the generator)."""
 
+    user_error = True
+
 
 @dataclass
 class Found:
