@@ -115,8 +115,8 @@ def compile_model(
         return CompiledModel(found.name, found.library, found.hash, Report(cached=True, warnings=found.warnings))
     with _translating:
         prepared, report = translate(name, search_path=search_path, modifications=modifications, units=units)
-        prepared.hash = cache.content_hash(prepared.declared.files, request)
+        prepared.hash = cache.content_hash(prepared.declared, modifications, units, sensitivities)
         source = report.run("C", generate, prepared, sensitivities)
     library = report.run("compile", store.build, prepared.hash, source)
-    store.remember(request, prepared, library, report.warnings)
+    store.remember(request, prepared, library, report.warnings, search_path)
     return CompiledModel(prepared.declared.name, library, prepared.hash, report)
