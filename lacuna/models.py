@@ -43,10 +43,12 @@ class Source:
         name = f"{model}:{class_name}" if class_name else str(model)
         return cls(name, tuple(search_path(libraries)), units)
 
-    def compiled(self, modifications: Mapping[str, float] | None = None) -> CompiledModel:
+    def compiled(self, fixed: Mapping[str, float] | None = None, sensitivities: bool = False) -> CompiledModel:
+        """With values of parameters that decide the structure, and the derivatives that sensitivities need."""
         return compile_model(
-            self.name, search_path=list(self.path), modifications=dict(modifications or {}), units=self.units
-        )
+            self.name, search_path=list(self.path), modifications=dict(fixed or {}), units=self.units,
+            sensitivities=sensitivities,
+        )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -225,6 +227,7 @@ class Model:
         outputs: Sequence[str] | None = None,
         event_rows: bool = False,
         locate_events: bool = True,
+        sensitivities: Sequence[str] = (),
     ) -> Result:
         """Simulate from `start` to `stop` (s; default: the model's experiment).
 
@@ -233,7 +236,8 @@ class Model:
         default the model's own, else 500 over the run), with `event_rows` also before and after each event. `outputs`
         restricts what is recorded. `rtol`: relative tolerance (default: the model's, else 1e-6); `atol`: absolute, for
         each unit of a variable's nominal value (default 0.01 rtol). `step` (s) is that of the fixed-step solvers;
-        without `locate_events` they take events at its end.
+        without `locate_events` they take events at its end. `sensitivities` names parameters, and states for their
+        initial values, by which every output is differentiated (`Result.sensitivity`; by dopri5 or ida).
 
         Raises UserError or SimulationError for what cannot be used, IncompleteRun (with what there is) where the run
         ends early.
@@ -246,14 +250,19 @@ class Model:
         model._refuse_parameters(inputs or {})
         clock = time.perf_counter()
         run = runtime.simulate(
-            model._model, parameters=model._values, inputs=as_inputs(inputs or {}), initial=initial, start=begin,
+            model._differentiated() if sensitivities else model._model, parameters=model._values, inputs=as_inputs(inputs or {}), initial=initial, start=begin,
             stop=end, solver=solver, rtol=rtol, atol=atol, step=step, locate_events=locate_events, outputs=outputs,
             interval=interval if interval is not None else model.interval or (end - begin) / POINTS, events=event_rows,
+            sensitivities=sensitivities,
         )  # fmt: skip
         result = Result(run, None if outputs is None else list(outputs), time.perf_counter() - clock)
         if not result.complete:
             raise IncompleteRun(result)
         return result
+
+    def _differentiated(self) -> runtime.Model:
+        """The same model with its derivatives, translated when it is first asked for (then from the cache)."""
+        return runtime.Model(self._source.compiled(self._fixed, sensitivities=True).path)
 
     def _refuse_parameters(self, inputs: Iterable[str]) -> None:
         for name in inputs:

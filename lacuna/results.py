@@ -72,7 +72,7 @@ class Result:
     @property
     def units(self) -> dict[str, str]:
         """Of every column, "" where neither the declaration nor the equations give one."""
-        return {"time": "s"} | {name: v.unit for name, v in self._run.model.variables.items() if name in self}
+        return {"time": "s"} | {name: v.shown_unit for name, v in self._run.model.variables.items() if name in self}
 
     @property
     def events(self) -> list[runtime.EventEntry]:
@@ -103,6 +103,21 @@ class Result:
     def terminated(self) -> str | None:
         """The message of the terminate() that ended the run."""
         return self._run.terminated
+
+    def sensitivity(self, output: str, parameter: str) -> np.ndarray:
+        """[rows], the derivative of an output by a parameter that the run was asked for (a state: by its initial value)
+        at fixed time, SI units; not a number where there is none, and then `flags` says why."""
+        return self._run.sensitivity(output, parameter)
+
+    @property
+    def margins(self) -> dict[str, float]:
+        """How far each parameter of `sensitivities` may be changed before two events change their order, SI units."""
+        return self._run.margins
+
+    @property
+    def flags(self) -> list[runtime.Flag]:
+        """Where sensitivities hold on one side only, or not at all: a sentence each, as text."""
+        return self._run.flags
 
     def metadata(self) -> dict[str, Any]:
         """What `.meta.json` beside a file says: units, parameters, solver with its tolerances, counters, events."""
