@@ -21,6 +21,7 @@ from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.search_path import search_path as default_path
 from lacuna.codegen.search_path import split_name
+import lacuna.units
 
 COMPILER = (
     "cc", "-std=c11", "-O2", "-fPIC", "-shared", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic", "-Werror",
@@ -52,12 +53,17 @@ def _digest(*parts: str | bytes) -> str:
 @lru_cache(maxsize=1)
 def generator_version() -> str:
     """Digest of the generator's own source, the ABI and the compiler's command: any change makes all models new."""
-    files = [*sorted(_HERE.rglob("*.py")), INCLUDE / "mdl_abi.h"]
+    headers = [INCLUDE / "mdl_abi.h", INCLUDE / "mdl_tangent.h"]
+    files = [*sorted(_HERE.rglob("*.py")), Path(lacuna.units.__file__), *headers]
     return _digest(" ".join(COMPILER), *(f.read_bytes() for f in files))
 
 
 def request_key(
-    name: str, search_path: Sequence[str] | None, modifications: Mapping[str, object] | None, units: str
+    name: str,
+    search_path: Sequence[str] | None,
+    modifications: Mapping[str, object] | None,
+    units: str,
+    sensitivities: bool = False,
 ) -> str:
     """Digest of what was asked for, and where it is looked up: `search_path`, else MODELICAPATH and package Lacuna.
 
@@ -67,7 +73,7 @@ def request_key(
     paths = [str(Path(p).resolve()) for p in (default_path() if search_path is None else search_path)]
     file, inner = split_name(name)
     changes = sorted((k, repr(v)) for k, v in (modifications or {}).items())
-    return _digest(json.dumps([str(file.resolve()) if file else "", inner, paths, changes, units]))
+    return _digest(json.dumps([str(file.resolve()) if file else "", inner, paths, changes, units, sensitivities]))
 
 
 def content_hash(files: Mapping[str, str], request: str) -> str:

@@ -3,7 +3,7 @@
 from lacuna.runtime.errors import SimulationError, UnknownNameError
 from lacuna.runtime.files import read_csv, write_csv, write_mat
 from lacuna.runtime.model import Equation, Model, Variable
-from lacuna.runtime.result import EventEntry, Failure, Result
+from lacuna.runtime.result import EventEntry, Failure, Flag, Result
 from lacuna.runtime.simulation import SOLVERS, RecordedInput, Session, simulate
 
 __version__ = "0.1.0"
@@ -12,6 +12,7 @@ __all__ = [
     "Equation",
     "EventEntry",
     "Failure",
+    "Flag",
     "Model",
     "RecordedInput",
     "Result",

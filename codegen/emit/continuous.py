@@ -33,7 +33,7 @@ def function(signature: str, body: Body) -> str:
     text = body.text()
     arguments = signature[signature.index("(") + 1 : -1].replace("*", " ").split(",")
     names = [a.split()[-1] for a in arguments]
-    words = set(re.findall(r"[A-Za-z_]\w*", re.sub(r"/\*.*?\*/", "", text)))
+    words = set(re.findall(r"(?<!->)\b[A-Za-z_]\w*", re.sub(r"/\*.*?\*/", "", text)))
     unused = [f"  (void){n};" for n in names if n not in words]
     parts = [f"{signature} {{", *unused]
     result = "0"

@@ -28,6 +28,8 @@ PARAMETERS = "static int mdl_parameters(mdl_data *m)"
 class Discrete:
     """Writes the callbacks for events of one model."""
 
+    signature = EVENT
+
     def __init__(self, prepared: Prepared, names: Names, rows: dict[str, int]):
         self._p, self._names, self._rows = prepared, names, rows
         self._storage = prepared.storage
@@ -45,8 +47,7 @@ class Discrete:
             match step:
                 case DiscreteEquation():
                     body.line(comment(step.source))
-                    body.plan([step.value])
-                    body.let(var(step.target, self._type(step.target)), step.value)
+                    self._equation(step)
                 case flat.When():
                     self._declare(step, step.span)
                     self._when(step)
@@ -56,7 +57,11 @@ class Discrete:
         for step in self._p.events:
             for name in targets(step):
                 body.line(f"m->d[{self._storage.slot(name).index}] = {self._names.identifier(name)};")
-        return function(EVENT, body)
+        return function(self.signature, body)
+
+    def _equation(self, step: DiscreteEquation) -> None:
+        self._body.plan([step.value])
+        self._body.let(var(step.target, self._type(step.target)), step.value)
 
     def _has_moving_time_relations(self) -> bool:
         """Whether the instant of a time relation depends on discrete variables: it follows them from pass to pass."""

@@ -21,8 +21,8 @@ PYTHON_MAY_IMPORT = {
     "tests/proof": set(),
 }
 PROJECT = {*STAGES, "cli", "bench", "tests"}
-# What every stage may know of the package: its name, where its libraries are, what an extra brings.
-FACE = {"lacuna", "lacuna.native", "lacuna.extras"}
+# What every stage may know of the package: its name, where its libraries are, what an extra brings, units of measure.
+FACE = {"lacuna", "lacuna.native", "lacuna.extras", "lacuna.units", "lacuna.recorded_units"}
 
 C_MAY_INCLUDE = {
     "runtime": ("runtime", ("ida/", "nvector/", "sunmatrix/", "sunlinsol/", "sundials/")),
