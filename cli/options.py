@@ -13,7 +13,8 @@ MODEL_HELP = "Qualified name (Lacuna.Actuators.X or Actuators.X) or a .mo file"
 
 Model = Annotated[str, typer.Argument(metavar="MODEL", help=MODEL_HELP)]
 Units = Annotated[
-    Literal["error", "warn"], typer.Option(help="What a dimensionally inconsistent equation is: an error or a warning")
+    Literal["error", "warn", "all"],
+    typer.Option(help="An inconsistent equation is an error, a warning, or (all) an error in libraries, too"),
 ]
 Assignments = Annotated[
     list[str] | None,
