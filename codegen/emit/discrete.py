@@ -12,7 +12,7 @@ from lacuna.codegen.emit.asserts import assert_index, of_parameters, write_asser
 from lacuna.codegen.emit.body import Body
 from lacuna.codegen.emit.continuous import function
 from lacuna.codegen.emit.names import Names
-from lacuna.codegen.emit.steps import comment
+from lacuna.codegen.emit.steps import comment, place
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.constants import dependency_order
 from lacuna.codegen.symbolic.expr import relation, sub, var, walk
@@ -73,7 +73,7 @@ class Discrete:
 
     def _declare(self, step: flat.When | flat.Algorithm, span: flat.Span) -> None:
         """Discrete targets keep their value from before the event until something assigns them."""
-        self._body.line(f"/* {span.file.rsplit('/', 1)[-1]}:{span.line}  {type(step).__name__.lower()} */")
+        self._body.line(f"/* {place(span)}  {type(step).__name__.lower()} */")
         for name in targets(step):
             slot = self._storage.slot(name)
             if slot is None or slot.array != "d":
@@ -182,7 +182,7 @@ class Discrete:
         for name in storage.parameters:
             self._bounds(body, model.variables[name])
         for row, a in of_parameters(self._p):
-            body.line(f"/* {a.span.file.rsplit('/', 1)[-1]}:{a.span.line}  assert */")
+            body.line(f"/* {place(a.span)}  assert */")
             write_assert(body, a.condition, row)
         return function(PARAMETERS, body)
 

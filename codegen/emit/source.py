@@ -6,13 +6,14 @@ from lacuna.codegen import flat
 from lacuna.codegen.dae.events import DiscreteEquation
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.emit.asserts import assert_index
+from lacuna.codegen.emit.c_text import SourceNames, c_comment, c_string
 from lacuna.codegen.emit.continuous import Continuous
 from lacuna.codegen.emit.discrete import Discrete
 from lacuna.codegen.emit.equations import EquationTable
 from lacuna.codegen.emit.expression import number
 from lacuna.codegen.emit.names import Names
 from lacuna.codegen.emit.prelude import helpers
-from lacuna.codegen.emit.tables import Tables, c_string
+from lacuna.codegen.emit.tables import Tables
 from lacuna.codegen.emit.tangents import Tangents
 from lacuna.codegen.emit.user_functions import calls, user_functions
 from lacuna.codegen.structure.causal import expressions_of
@@ -80,16 +81,16 @@ def constant_table(name: str, e: Expr) -> str:
 
 
 def _header(prepared: Prepared, sensitivities: bool) -> str:
-    files = "".join(f"\n *   {name.rsplit('/', 1)[-1]}  sha256 {digest}" for name, digest in _files(prepared))
+    files = "".join(f"\n *   {c_comment(name)}  sha256 {digest}" for name, digest in _files(prepared))
     return (
-        f"/* {prepared.declared.name}: generated from{files}\n * Do not edit: edit the model. */\n"
+        f"/* {c_comment(prepared.declared.name)}: generated from{files}\n * Do not edit: edit the model. */\n"
         f'#include "mdl_{"tangent" if sensitivities else "abi"}.h"\n\n'
         "#include <math.h>\n#include <stddef.h>\n#include <string.h>"
     )
 
 
 def _files(prepared: Prepared) -> list[tuple[str, str]]:
-    return sorted(prepared.declared.files.items())
+    return SourceNames().digests(prepared.declared.files.items())
 
 
 def _arrays(tables: Tables, messages: list[str]) -> tuple[list[str], dict[str, int]]:
