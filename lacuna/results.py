@@ -89,6 +89,27 @@ class Result:
         """Steps, residuals, Jacobians, events, restarts, ... of the run."""
         return self._run.counters
 
+    def sensitivity(self, output: str, parameter: str) -> np.ndarray:
+        """d output / d parameter, [rows], SI units, at fixed time; by its initial value for a state in the place of a
+        parameter. Not a number where it does not exist: `flags` says why. Raises SimulationError for what the run was
+        not asked for."""
+        return self._run.sensitivity(output, parameter)
+
+    @property
+    def sensitivities(self) -> tuple[str, ...]:
+        """What the outputs were differentiated by."""
+        return self._run.sensitivities
+
+    @property
+    def flags(self) -> list[runtime.Flag]:
+        """Instants after which sensitivities hold on one side only, or not at all: events about to change order."""
+        return self._run.flags
+
+    @property
+    def margins(self) -> dict[str, float]:
+        """How far each parameter may go, to first order, before two events of the run change their order."""
+        return self._run.margins
+
     @property
     def complete(self) -> bool:
         """The run reached its stop time, or terminate()."""
@@ -103,21 +124,6 @@ class Result:
     def terminated(self) -> str | None:
         """The message of the terminate() that ended the run."""
         return self._run.terminated
-
-    def sensitivity(self, output: str, parameter: str) -> np.ndarray:
-        """[rows], the derivative of an output by a parameter that the run was asked for (a state: by its initial value)
-        at fixed time, SI units; not a number where there is none, and then `flags` says why."""
-        return self._run.sensitivity(output, parameter)
-
-    @property
-    def margins(self) -> dict[str, float]:
-        """How far each parameter of `sensitivities` may be changed before two events change their order, SI units."""
-        return self._run.margins
-
-    @property
-    def flags(self) -> list[runtime.Flag]:
-        """Where sensitivities hold on one side only, or not at all: a sentence each, as text."""
-        return self._run.flags
 
     def metadata(self) -> dict[str, Any]:
         """What `.meta.json` beside a file says: units, parameters, solver with its tolerances, counters, events."""
