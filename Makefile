@@ -8,14 +8,14 @@ BUILD ?= build
 OUT ?= out
 PYTHON := .venv/bin/python
 LACUNA := .venv/bin/lacuna
-PYTEST := LACUNA_CACHE=$(abspath $(BUILD))/cache $(PYTHON) -m pytest -q -n 2
+PYTEST := LACUNA_CACHE=$(abspath $(BUILD))/cache $(PYTHON) -m pytest -q -n 2 --dist loadgroup
 # Silent but for ctest's closing lines; where a test fails, everything it printed.
 run_ctest = ctest --test-dir $(1) --output-on-failure -j 2 > $(1)/ctest.log && tail -n 3 $(1)/ctest.log \
   || { cat $(1)/ctest.log; exit 1; }
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*')
 
 .PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined tolerance-study \
-        figures format lint sanitize ctest pytest lock clean
+        figures belts msl format lint sanitize ctest pytest lock clean
 
 help: ## Print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -76,6 +76,9 @@ real-machines: setup ## Explain the recordings of real machines, writes docs/rea
 tolerance-study: setup ## Justify the map's tolerance, writes docs/tolerance.md
 	@$(PYTHON) -m bench.tolerance
 
+msl: setup ## Every example of the Modelica Standard Library, translated, simulated, compared (long), writes docs/msl.md
+	@$(PYTHON) -m bench.msl --page
+
 figures: maps ## Copy the map's figures that the documentation shows into docs/figures/
 	@cp $(OUT)/maps/paper/fig5_mean_rms.svg docs/figures/mean_rms.svg
 
@@ -106,6 +109,9 @@ sanitize: $(BUILD)/.debian
 
 fuzz: setup ## [FUZZ_SECONDS=180] random and mutated models through the parser, for a traceback
 	@$(PYTHON) -m tests.codegen.fuzz --seconds $(or $(FUZZ_SECONDS),180)
+
+belts: setup ## Stick and slip against closed forms: 200 machines, rtol 1e-4 to 1e-10, all adaptive solvers
+	@$(PYTHON) -m tests.events belts
 
 format: setup ## Format all sources
 	@$(PYTHON) -m ruff format .

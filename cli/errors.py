@@ -10,6 +10,8 @@ from typing import ParamSpec, TypeVar
 
 import typer
 
+from lacuna.extras import named
+
 P = ParamSpec("P")
 T = TypeVar("T")
 
@@ -29,6 +31,8 @@ def reported(command: Callable[P, T]) -> Callable[P, T]:
             typer.echo("interrupted", err=True)
             raise typer.Exit(130) from None
         except Exception as error:
+            if isinstance(error, ModuleNotFoundError):
+                error = named(error) or error
             if os.environ.get("LACUNA_DEBUG") or not is_user_error(error):
                 raise
             typer.echo(message_of(error), err=True)

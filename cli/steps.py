@@ -55,13 +55,13 @@ def locate(case: Case, out: Out = None) -> None:
 @reported
 def name(case: Case, out: Out = None) -> None:
     """Which physics is it? Attach the catalogue's effects, simulate and fit again, and rank them by the evidence."""
-    from lacuna.codegen.library import Library
     from lacuna.discovery.cases import load
     from lacuna.discovery.steps import add_naming, fitted
 
     with Console(stderr=True).status("reading the recordings") as status:
-        library = Library()
-        result = fitted(load(case), status.update, library)
+        loaded = load(case)
+        library = loaded.library()
+        result = fitted(loaded, status.update, library)
         add_naming(result, library, status.update)
     table = Table("hypothesis", "evidence against none", "confidence")
     for ranked in result.namings[0].ranked[:SHOWN]:
@@ -77,14 +77,14 @@ def amend(
     out: Out = None,
 ) -> None:
     """Write the model amended by one effect of the catalogue, fitted, and judge the file as it is written."""
-    from lacuna.codegen.library import Library
     from lacuna.discovery.cases import load
     from lacuna.discovery.explain import judge_written, write_amended
     from lacuna.discovery.steps import add_amendment, add_scatter, fitted
 
     with Console(stderr=True).status("reading the recordings") as status:
-        library = Library()
-        result = fitted(load(case), status.update, library)
+        loaded = load(case)
+        library = loaded.library()
+        result = fitted(loaded, status.update, library)
         add_amendment(result, library, effect, status.update)
         add_scatter(result, status.update)
     folder = _folder("amend", case, out)
@@ -102,7 +102,6 @@ def judge(
     out: Out = None,
 ) -> None:
     """How well does a model file, as written, simulate the recordings that nothing was fitted to?"""
-    from lacuna.codegen.library import Library
     from lacuna.discovery import places
     from lacuna.discovery.amend import Amendment
     from lacuna.discovery.cases import load
@@ -112,7 +111,7 @@ def judge(
     loaded = load(case)
     if not model.is_file():
         raise UserError(f"{model}: there is no such file")
-    found = judge_file(loaded, Amendment(places.read(Library(), loaded.model)), model, {})
+    found = judge_file(loaded, Amendment(places.read(loaded.library(), loaded.base)), model, {})
     _errors(found.validate, None)
     typer.echo(f"written: {write_judgement(loaded, found, _folder('judge', case, out), model.name)}")
 

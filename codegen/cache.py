@@ -19,7 +19,8 @@ import tempfile
 
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.library import MODEL_FOLDER
+from lacuna.codegen.search_path import search_path as default_path
+from lacuna.codegen.search_path import split_name
 
 COMPILER = (
     "cc", "-std=c11", "-O2", "-fPIC", "-shared", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic", "-Werror",
@@ -58,15 +59,15 @@ def generator_version() -> str:
 def request_key(
     name: str, search_path: Sequence[str] | None, modifications: Mapping[str, object] | None, units: str
 ) -> str:
-    """Digest of what was asked for, and where it is looked up: `search_path`, else this checkout's library.
+    """Digest of what was asked for, and where it is looked up: `search_path`, else MODELICAPATH and package Lacuna.
 
     The text of the files is not part of it: the index holds that of each file read, so that an edit makes only those
     models new that read the edited file. The folder is, because a compiled model names its source lines by file.
     """
-    paths = [str(Path(p).resolve()) for p in search_path or (MODEL_FOLDER,)]
-    model = str(Path(name).resolve()) if name.endswith(".mo") else name
+    paths = [str(Path(p).resolve()) for p in (default_path() if search_path is None else search_path)]
+    file, inner = split_name(name)
     changes = sorted((k, repr(v)) for k, v in (modifications or {}).items())
-    return _digest(json.dumps([model, paths, changes, units]))
+    return _digest(json.dumps([str(file.resolve()) if file else "", inner, paths, changes, units]))
 
 
 def content_hash(files: Mapping[str, str], request: str) -> str:

@@ -88,7 +88,7 @@ def translate(
 ) -> tuple[Prepared, Report]:
     """All passes up to, not including, C: for `--dump` and for tests. `units`: see `flatten`."""
     report = Report()
-    library = report.run("library", Library, *([search_path] if search_path else []))
+    library = report.run("library", Library, search_path)
     model = report.run("flatten", flatten, library, name, dict(modifications or {}), units)
     return prepare(model, report), report
 

@@ -12,11 +12,20 @@ import hashlib
 from pathlib import Path
 
 from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.search_path import PACKAGE_FILE, names_in, outermost, package_in, search_path, split_name
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.syntax import ast, parse
 
 HOME_PACKAGE = "Lacuna"
-MODEL_FOLDER = Path(__file__).resolve().parent.parent / "model"
+MODEL_KINDS = ("model", "block", "class")  # what can be simulated
+
+
+_PREDEFINED = """
+type StateSelect = enumeration(never, avoid, default, prefer, always);
+type AssertionLevel = enumeration(warning, error);
+partial class ExternalObject end ExternalObject;
+"""  # Modelica 3.6, 4.9.8, 8.3.7 and 12.9.7
+PREDEFINED = {cls.name: cls for cls in parse(_PREDEFINED, "")}
 
 
 @lru_cache(maxsize=4096)
@@ -25,33 +34,27 @@ def _parse_cached(file: str, text: str) -> tuple[ast.Class, ...]:
 
 
 class Library:
-    """Classes under `paths`: package folders, folders of .mo files, or single .mo files.
+    """Classes under `paths`: package folders, folders of packages and .mo files, or single .mo files; the first that
+    has a name counts. By default those of `search_path()`: MODELICAPATH and the package Lacuna.
 
     `files` lists every file read so far with the SHA-256 of its text.
     """
 
-    def __init__(self, paths: Iterable[str | Path] = (MODEL_FOLDER,)) -> None:
+    def __init__(self, paths: Iterable[str | Path] | None = None) -> None:
+        self.paths = [str(path) for path in (search_path() if paths is None else paths)]
         self.files: dict[str, str] = {}
-        self.root = ast.Class(Span("", 0, 0), "package", "")
+        self.root = ast.Class(Span("", 0, 0), "package", "")  # its classes: those of a model's own file
+        self._places = [Path(path).resolve() for path in self.paths]  # where top-level classes are looked up, in order
         self._folders: dict[int, Path] = {}  # id of a package class -> its folder
-        self._loose: list[Path] = []
         self._parsed: dict[Path, list[ast.Class]] = {}
         self._members: dict[tuple[int, str], ast.Class | None] = {}  # None where there is no file
-        for path in map(Path, paths):
-            self._add(path)
-
-    def _add(self, path: Path) -> None:
-        if path.is_file():
-            for cls in self.parse_file(path):
-                self.root.classes[cls.name] = cls
-        elif (path / "package.mo").is_file():
-            cls = self._package(path)
-            self.root.classes[cls.name] = cls
-        elif path.is_dir():
-            self._loose.append(path)
+        self.views: dict[tuple[object, ...], ast.Class] = {}  # see flatten/views.py
+        self.bases: dict[int, list[ast.Class]] = {}  # of classes that were asked for, by identity
+        self.resolving: set[int] = set()  # classes whose bases are being looked up, by identity
+        self.kept: list[object] = []  # whose identities are keys of the two above
 
     def _package(self, folder: Path) -> ast.Class:
-        classes = self.parse_file(folder / "package.mo")
+        classes = self.parse_file(folder / PACKAGE_FILE)
         self._folders[id(classes[0])] = folder
         return classes[0]
 
@@ -77,23 +80,32 @@ class Library:
     def member(self, cls: ast.Class, name: str) -> ast.Class | None:
         """The class `name` declared directly in `cls`: nested in the text, or a file or folder of its package."""
         found = cls.classes.get(name)
-        if found is None and cls is self.root:
-            found = self._loose_class(name)
-        elif found is None and id(cls) in self._folders:
+        if found is None and (cls is self.root or id(cls) in self._folders):
             key = id(cls), name
             if key not in self._members:
-                self._members[key] = self._from_folder(cls, self._folders[id(cls)], name)
+                top = cls is self.root
+                found = self._top_level(name) if top else self._from_folder(cls, self._folders[id(cls)], name)
+                self._members[key] = found
             found = self._members[key]
         return found
 
-    def _loose_class(self, name: str) -> ast.Class | None:
-        for folder in self._loose:
-            if (folder / name / "package.mo").is_file():
-                self.root.classes[name] = self._package(folder / name)
-            elif (folder / f"{name}.mo").is_file():
-                for cls in self.parse_file(folder / f"{name}.mo"):
-                    self.root.classes.setdefault(cls.name, cls)
-        return self.root.classes.get(name)
+    def _top_level(self, name: str) -> ast.Class | None:
+        for place in self._places:
+            found = next((cls for cls in self._classes_at(place, name) if cls.name == name), None)
+            if found is not None:
+                return found
+        return PREDEFINED.get(name)
+
+    def _classes_at(self, place: Path, name: str) -> list[ast.Class]:
+        """Top-level classes of a place of the search path, among which `name` is if it is there."""
+        if place.is_file():
+            return self.parse_file(place)
+        if (place / PACKAGE_FILE).is_file():
+            return [self._package(place)]
+        found = package_in(place, name)
+        if found is None:
+            return []
+        return self.parse_file(found) if found.is_file() else [self._package(found)]
 
     def _from_folder(self, cls: ast.Class, folder: Path, name: str) -> ast.Class | None:
         file = folder / f"{name}.mo"
@@ -120,56 +132,90 @@ class Library:
     def members(self, cls: ast.Class) -> list[str]:
         """Names of the classes declared directly in `cls`, for listings and hints."""
         names = set(cls.classes)
-        for folder in self._loose if cls is self.root else [self._folders[id(cls)]] if id(cls) in self._folders else []:
-            for entry in folder.iterdir():
-                if entry.suffix == ".mo" and entry.stem != "package":
-                    names.add(entry.stem)
-                elif (entry / "package.mo").is_file():
-                    names.add(entry.name)
+        if cls is self.root:
+            for place in self._places:
+                names.update(
+                    names_in(place) if _holds_packages(place) else [c.name for c in self._classes_at(place, "")]
+                )
+        elif id(cls) in self._folders:
+            names.update(names_in(self._folders[id(cls)]))
         return sorted(names)
 
     def find(self, name: str) -> ast.Class:
-        """The class called `name`: a full name, a name inside package Lacuna, or a path to a .mo file.
+        """The class called `name`: a full name, a name inside package Lacuna, a path to a .mo file or to the folder of
+        a package, or either of these with a class in it, as `file.mo:Pkg.Class`.
 
-        Of a file it is the class named like the file, else the last one; it sees the files beside it, and the
-        package that its `within` names.
-        Raises R001 with the nearest names when there is none.
+        Of a file it is the class named like the file, else the last one; it sees the package that the file lies in,
+        or else the files beside it and the package that its `within` names.
+        Raises R001 with the nearest names when there is none, F007 where a folder is no package.
         """
-        if name.endswith(".mo"):
-            return self._of_file(Path(name))
-        parts = name.split(".")
-        start = self.root
+        place, inner = split_name(name)
+        if place is None:
+            return self._by_name(inner)
+        cls = self._of_file(place)
+        if not inner:
+            return cls
+        inside = self.member(self.root, inner.split(".")[0]) is None and self.member(cls, inner.split(".")[0])
+        return self._below(cls, inner) if inside else self._by_name(inner)
+
+    def _by_name(self, name: str) -> ast.Class:
         home = self.member(self.root, HOME_PACKAGE)
-        if self.member(self.root, parts[0]) is None and home is not None:
-            start = home
-        cls = start
-        for part in parts:
+        if home is None or self.member(self.root, name.split(".")[0]) is not None:
+            return self._below(self.root, name)
+        return self._below(home, name, self.members(self.root))
+
+    def _below(self, cls: ast.Class, name: str, others: Iterable[str] = ()) -> ast.Class:
+        """The class `name` inside `cls`. Raises R001, with the nearest names among those there and `others`."""
+        for part in name.split("."):
             found = self.member(cls, part)
             if found is None:
-                known = self.members(cls) + (self.members(self.root) if cls is home and start is home else [])
+                known = [*self.members(cls), *others]
                 where = f" in package {cls.path}" if cls.name else ""
                 hint = did_you_mean(part, known, f"there is {', '.join(known[:12])}" if known else "")
                 raise Diagnostic("R001", f"there is no class {part}{where}", hint=hint)
-            cls = found
+            cls, others = found, ()
         return cls
 
     def _of_file(self, path: Path) -> ast.Class:
         resolved = path.resolve()
-        for folder in self._folders.values():
-            if resolved.is_relative_to(folder.resolve()):
-                relative = resolved.relative_to(folder.resolve()).with_suffix("")
-                names = [p for p in relative.parts if p != "package"]
-                cls = next(c for c in self.root.classes.values() if self._folders.get(id(c)) == folder)
-                for name in names:
-                    cls = self.member(cls, name)
-                return cls
+        folder = resolved if resolved.is_dir() else resolved.parent
+        top = outermost(folder)
+        if top is not None:
+            return self._in_package(top, resolved)
+        if resolved.is_dir():
+            hint = "name a .mo file, or a folder with package.mo; the folder of a library goes to --library"
+            raise Diagnostic("F007", f"{path} is a folder and holds no package.mo", hint=hint)
         classes = self.parse_file(path)
         for cls in classes:
-            self.root.classes.setdefault(cls.name, cls)
             if cls.within:
-                cls.parent = self.find(cls.within)
-        self._loose.append(path.parent)
+                cls.parent = self._owner(cls)
+            self.root.classes[cls.name] = cls
+        self._look_in(folder)
         return next((cls for cls in classes if cls.name == path.stem), classes[-1])
+
+    def _owner(self, cls: ast.Class) -> ast.Class:
+        """The package that a file's `within` names; it lies neither in the class itself nor in what is inside it."""
+        owner = around = self._by_name(cls.within)
+        while around is not None:
+            if around is cls:
+                hint = "name the package that the class lies in, or leave 'within' out"
+                raise Diagnostic("F004", f"{cls.name} lies within itself", cls.span, hint)
+            around = around.parent
+        return owner
+
+    def _in_package(self, top: Path, path: Path) -> ast.Class:
+        """The class of a file or folder inside the package at `top`, which is looked up from now on, too."""
+        cls = self._package(top)
+        if self.member(self.root, cls.name) is not cls:
+            self._look_in(top, first=True)
+        names = path.with_suffix("").relative_to(top).parts if path.is_file() else path.relative_to(top).parts
+        inner = [part for part in names if part != "package"]
+        return self._below(cls, ".".join(inner)) if inner else cls
+
+    def _look_in(self, place: Path, first: bool = False) -> None:
+        if place not in self._places:
+            self._places.insert(0 if first else len(self._places), place)
+        self._members = {key: found for key, found in self._members.items() if key[0] != id(self.root)}
 
     def all_classes(self, cls: ast.Class | None = None) -> list[ast.Class]:
         """Every class below `cls` (default: everything), packages first; reads all files."""
@@ -181,3 +227,12 @@ class Library:
                 result.append(found)
                 result += self.all_classes(found)
         return result
+
+    def models(self, cls: ast.Class | None = None) -> list[str]:
+        """Full names of the models below `cls` (default: everywhere) that can be simulated by themselves as far as
+        their kind tells: no functions, connectors, records, nothing partial. Reads all files."""
+        return [c.path for c in self.all_classes(cls) if c.kind in MODEL_KINDS and not c.partial and not c.alias]
+
+
+def _holds_packages(place: Path) -> bool:
+    return place.is_dir() and not (place / PACKAGE_FILE).is_file()

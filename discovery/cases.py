@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 import csv
 from dataclasses import dataclass, field
 import math
@@ -10,6 +11,9 @@ import tomllib
 
 import numpy as np
 
+from lacuna.codegen.library import Library
+from lacuna.discovery.case_keys import KeyProblem, check
+from lacuna.discovery.case_model import CaseModel, case_model
 from lacuna.discovery.units import UnitError, to_si
 
 DEFAULT_UNCERTAINTY = 0.05  # believed relative 1-sigma of a parameter that case.toml does not mention
@@ -52,6 +56,15 @@ class Recording:
         return int(np.searchsorted(self.time, time))
 
 
+@dataclass(frozen=True)
+class Own:
+    """What holds in one recording only: believed values, their relative sigmas, states at the first sample."""
+
+    parameters: dict[str, float] = field(default_factory=dict)
+    uncertainty: dict[str, float] = field(default_factory=dict)
+    initial: dict[str, float | str] = field(default_factory=dict)
+
+
 @dataclass
 class Case:
     folder: Path
@@ -64,6 +77,21 @@ class Case:
     initial: dict[str, float | str] = field(default_factory=dict)
     fit: list[Recording] = field(default_factory=list)
     validate: list[Recording] = field(default_factory=list)
+    found: CaseModel | None = None  # where the class `model` is
+    own: dict[str, Own] = field(default_factory=dict)  # what holds in one recording only, by its file
+
+    @property
+    def base(self) -> str:
+        """Full name of the believed class."""
+        return self.found.name if self.found else self.model
+
+    @property
+    def search_path(self) -> list[str] | None:
+        """Where the classes are looked up; None: in this package's library alone."""
+        return list(self.found.search_path) if self.found else None
+
+    def library(self) -> Library:
+        return self.found.library() if self.found else Library()
 
     @property
     def inputs(self) -> list[Signal]:
@@ -83,71 +111,69 @@ class Case:
         return abs(value) * self.uncertainty.get(name, DEFAULT_UNCERTAINTY)
 
 
-def load(folder: str | Path) -> Case:
-    """Read `folder/case.toml` and its recordings. Raises CaseError; never reads truth.toml."""
+def load(folder: str | Path, libraries: Sequence[str | Path] = ()) -> Case:
+    """Read `folder/case.toml` and its recordings. Raises CaseError, Diagnostic for the model; never reads truth.toml.
+
+    `libraries` are looked up besides the ones that case.toml names.
+    """
     folder = Path(folder)
     path = folder / "case.toml"
-    try:
-        raw = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise CaseError(f"{path}: cannot be read ({error.strerror})") from error
-    except tomllib.TOMLDecodeError as error:
-        raise CaseError(f"{path}: {error}") from error
-    for key in ("model", "signals", "recordings"):
-        if key not in raw:
-            raise CaseError(f"{path}: `{key}` is missing")
+    raw = _read(path)
     signals = {column: _signal(path, column, table) for column, table in raw["signals"].items()}
     if not any(s.role == "output" for s in signals.values()):
         raise CaseError(f'{path}: no signal has role = "output", so there is nothing to compare with')
+    names = {key: raw["recordings"][key] for key in ("fit", "validate")}
     case = Case(
         folder=folder,
-        title=str(raw.get("title", folder.name)),
-        model=str(raw["model"]),
-        source=str(raw.get("source", "")),
-        parameters=_numbers(path, "parameters", raw.get("parameters", {})),
-        uncertainty=_numbers(path, "uncertainty", raw.get("uncertainty", {})),
+        title=raw.get("title", folder.name),
+        model=raw["model"],
+        source=raw.get("source", ""),
+        parameters=_floats(raw.get("parameters", {})),
+        uncertainty=_floats(raw.get("uncertainty", {})),
         signals=signals,
         initial=dict(raw.get("initial", {})),
+        found=case_model(folder, raw["model"], [*raw.get("libraries", []), *(Path(p).resolve() for p in libraries)]),
+        own=_own(path, raw.get("recording", {}), [*names["fit"], *names["validate"]]),
     )
-    case.fit = [read_recording(folder / name, signals) for name in _names(path, raw["recordings"], "fit")]
-    case.validate = [read_recording(folder / name, signals) for name in _names(path, raw["recordings"], "validate")]
+    case.fit = [read_recording(folder / name, signals) for name in names["fit"]]
+    case.validate = [read_recording(folder / name, signals) for name in names["validate"]]
     return case
 
 
-def _numbers(path: Path, table: str, values: dict) -> dict[str, float]:
-    for name, value in values.items():
-        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-            raise CaseError(f"{path}: [{table}] {name} = {value!r} is not a finite number")
+def _read(path: Path) -> dict:
+    try:
+        raw = tomllib.loads(path.read_text(encoding="utf-8"))
+        check(raw)
+    except OSError as error:
+        raise CaseError(f"{path}: cannot be read ({error.strerror})") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, KeyProblem) as error:
+        raise CaseError(f"{path}: {error}") from error
+    return raw
+
+
+def _floats(values: dict) -> dict[str, float]:
     return {name: float(value) for name, value in values.items()}
 
 
-def _names(path: Path, table: dict, key: str) -> list[str]:
-    names = table.get(key)
-    if not isinstance(names, list) or not names:
-        raise CaseError(f"{path}: [recordings] {key} must list at least one file")
-    return names
+def _own(path: Path, tables: dict, files: list[str]) -> dict[str, Own]:
+    for name in tables:
+        if name not in files:
+            raise CaseError(f'{path}: [recording."{name}"] is none of the recordings ({", ".join(files)})')
+    return {
+        name: Own(_floats(t.get("parameters", {})), _floats(t.get("uncertainty", {})), dict(t.get("initial", {})))
+        for name, t in tables.items()
+    }
 
 
 def _signal(path: Path, column: str, table: dict) -> Signal:
-    where = f"{path}: [signals.{column}]"
-    role = table.get("role")
-    if role not in ("input", "output"):
-        raise CaseError(f'{where} role = {role!r}; it must be "input" or "output"')
-    if "unit" not in table:
-        raise CaseError(f'{where} has no unit; give one, such as unit = "rad/s"')
     try:
-        scale, si_unit = to_si(str(table["unit"]))
+        scale, si_unit = to_si(table["unit"])
     except UnitError as error:
-        raise CaseError(f"{where} {error}") from error
-    interpolation = table.get("interpolation", "linear")
-    if interpolation not in ("linear", "hold"):
-        raise CaseError(f'{where} interpolation = {interpolation!r}; it must be "linear" or "hold"')
+        raise CaseError(f"{path}: [signals.{column}] {error}") from error
     noise = table.get("noise_std")
-    if noise is not None and not (isinstance(noise, int | float) and math.isfinite(noise) and noise > 0):
-        raise CaseError(f"{where} noise_std = {noise!r} is not a positive number")
     return Signal(
-        column, role, str(table.get("variable", column)), str(table["unit"]), si_unit, scale, interpolation,
-        None if noise is None else float(noise) * scale,
+        column, table["role"], table.get("variable", column), table["unit"], si_unit, scale,
+        table.get("interpolation", "linear"), None if noise is None else float(noise) * scale,
     )  # fmt: skip
 
 

@@ -182,9 +182,10 @@ def _parameters(result: Explanation, errors: dict[str, float]) -> dict[str, Any]
     for f in result.base.estimate.free:
         if f.name.startswith("start:"):
             continue
+        unit = variables[f.name.partition("@")[0]].unit or "1"
         value = result.final.point[f.name]
         table[f.name] = {
-            "believed": f.centre, "value": value, "std": errors.get(f.name, 0.0), "unit": variables[f.name].unit or "1",
+            "believed": f.centre, "value": value, "std": errors.get(f.name, 0.0), "unit": unit,
             "outside_belief": _outside(f, value),
         }  # fmt: skip
     return table

@@ -16,6 +16,7 @@ from lacuna.discovery.explanation import Clock, Explanation
 from lacuna.discovery.judge import judge_file
 from lacuna.discovery.steps import add_findings, add_fit, add_location, add_scatter, opened
 from lacuna.discovery.time_limit import within
+from lacuna.discovery.values import is_parameter
 
 LEAST_TAKEN = 0.2  # of the NRMSE on unseen recordings, that findings which leave far more than noise must take away
 
@@ -30,7 +31,7 @@ def explain(
     Raises CaseError where model and case do not fit, Diagnostic where the model is wrong.
     """
     begun = time.monotonic()
-    library = library or Library()
+    library = library or case.library()
     result, machine = opened(case, library)
     if machine is None:
         return result
@@ -67,6 +68,9 @@ def _conclude(result: Explanation) -> None:
 def _conclude_from_findings(result: Explanation) -> None:
     """Physics is missing, unless every finding is tied with another place or nearly all of what is missing is left."""
     first = result.findings[0]
+    if not result.amendment.structure.open and all(f.ranked.attachment.variable for f in result.findings):
+        _withdraw(result, first.ranked)
+        return
     taken = 1.0 - result.after.validate[""] / result.before.validate[""]
     if taken < LEAST_TAKEN and astray(result.final):
         result.verdict = "undetermined"
@@ -87,6 +91,18 @@ def _conclude_from_findings(result: Explanation) -> None:
         result.verdict = "missing_physics"
 
 
+def _withdraw(result: Explanation, best: Ranked) -> None:
+    """A sensor is not accused where nothing else could be: the believed model stands, and the reason says so."""
+    result.verdict = "undetermined"
+    result.reason = (
+        f"{best.attachment.label} fits best, but no place in the equations of {result.case.model} was open to this "
+        "search, so that it may as well be physics"
+    )
+    result.experiment = "record the same motion with the quantities that are not recorded now"
+    result.findings, result.final, result.after = [], result.base, result.before
+    result.amendment = replace(result.amendment, attachments=[])
+
+
 def _quiet(result: Explanation) -> bool:
     """Whether what is left, though some of it is not white, is no more than the noise: by its size or by its colour."""
     final = result.final
@@ -103,28 +119,39 @@ def experiment_for(best: Ranked, rivals: list[Ranked]) -> str:
 
 
 def amended_name(case: Case) -> str:
-    return case.model.rsplit(".", 1)[-1].removesuffix(".mo") + "Amended"
+    return case.base.rsplit(".", 1)[-1] + "Amended"
 
 
 def write_amended(result: Explanation, folder: Path) -> Path | None:
-    """The amended model as a readable file; None where nothing is amended."""
-    if not result.findings:
+    """The amended model as a readable file: the believed one as fitted where nothing is missing; None without a fit."""
+    if result.final is None:
         return None
     believed_names = {f.name for f in result.base.estimate.free} | set(result.base.fixed)
     point = result.final.point
-    parameters = {n: point[n] for n in believed_names if n in point and not n.startswith("start:")}
+    parameters = {n: point[n] for n in believed_names if n in point and is_parameter(n)}
     amendment = replace(result.amendment, parameters=dict(sorted(parameters.items())), trackers=[])
     name = amended_name(result.case)
     effects = {k: v for k, v in point.items() if k not in believed_names}
     titles = ", ".join(f.ranked.attachment.effect.title.lower() for f in result.findings)
     path = folder / f"{name}.mo"
     partial = path.with_suffix(".tmp")
-    partial.write_text(amendment.text(name, effects, f"{result.case.model} with {titles}"), encoding="utf-8")
+    comment = f"{result.case.model} with {titles or 'fitted parameters'}"
+    partial.write_text(amendment.text(name, effects, comment), encoding="utf-8")
     partial.replace(path)
+    _beside(result.case, folder)
     return path
+
+
+def _beside(case: Case, folder: Path) -> None:
+    """The file that holds the believed model, put beside the amended one, so that both open together."""
+    file = case.found.file if case.found else None
+    if file is not None and file.parent != folder.resolve():
+        (folder / file.name).write_bytes(file.read_bytes())
 
 
 def judge_written(result: Explanation, path: Path) -> None:
     """Judge the amended file as it is written: its own numbers are those that are reported."""
-    starts = {n: v for n, v in result.final.point.items() if n.startswith("start:")}
+    if not result.findings:
+        return
+    starts = {n: v for n, v in result.final.point.items() if not is_parameter(n)}
     result.rejudge(judge_file(result.case, result.amendment, path, starts))

@@ -13,13 +13,15 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from lacuna.discovery.cases import Case, Recording
+from lacuna.discovery.cases import DEFAULT_UNCERTAINTY, Case, Recording
 from lacuna.discovery.least_squares import Estimate, Free, Problem, clipped
 from lacuna.discovery.machine import Machine
 from lacuna.discovery.noise import Noise, correlation_time, estimate, sample_weights
 from lacuna.discovery.objective import STAGES, Objective, anneal
 from lacuna.discovery.store import remembered
 from lacuna.discovery.tracking import noise_bandwidth
+from lacuna.discovery.values import own_name
+from lacuna.runtime import Variable
 
 FALLING = (1.0, 1 / 8, 1 / 16, 1 / 50, 0.0)  # bandwidths of trackers, of the largest that noise allows
 LOWER_SHARE = 0.02  # of its believed value, below which no positive parameter is tried
@@ -106,30 +108,41 @@ def noise_of(case: Case) -> dict[str, Noise]:
 def believed(case: Case, machine: Machine) -> tuple[list[Free], dict[str, float]]:
     """(free parameters, exact ones) of the believed model: what case.toml names and the model's own defaults."""
     free, fixed = [], {}
+    named = set(case.parameters) | set(case.uncertainty)
     for name, variable in machine.model.parameters.items():
-        if "." in name or "[" in name or variable.type != "Real":
+        if (("." in name or "[" in name) and name not in named) or variable.type != "Real":
             continue
         value = case.parameters.get(name, variable.start)
-        sigma = case.sigma(name, value)
-        if sigma <= 0:
-            fixed[name] = value
-            continue
-        low, high = (LOWER_SHARE * value, np.inf) if value > 0 else (-np.inf, np.inf)
-        free.append(
-            Free(
-                name,
-                value,
-                sigma,
-                max(low, variable.min),
-                min(high, variable.max),
-                sigma,
-                step=min(1e-2, 3e-4 * abs(value) / sigma),
-            )
-        )
+        _believe(name, value, case.sigma(name, value), variable, free, fixed)
     fixed |= {n: v for n, v in case.parameters.items() if n not in fixed and n not in [f.name for f in free]}
+    _believe_own(case, machine, free, fixed)
     for name in machine.unknown_states():
         free.append(Free(f"start:{name}", 0.0, 1.0, step=1e-3))
     return free, fixed
+
+
+def _believe(
+    name: str, value: float, sigma: float, variable: Variable, free: list[Free], fixed: dict[str, float]
+) -> None:  # fmt: skip
+    """Add a parameter with its belief to the free ones, or to the exact ones."""
+    if sigma <= 0:
+        fixed[name] = value
+        return
+    low, high = (LOWER_SHARE * value, np.inf) if value > 0 else (-np.inf, np.inf)
+    step = min(1e-2, 3e-4 * abs(value) / sigma)
+    free.append(Free(name, value, sigma, max(low, variable.min), min(high, variable.max), sigma, step=step))
+
+
+def _believe_own(case: Case, machine: Machine, free: list[Free], fixed: dict[str, float]) -> None:
+    """Parameters with a value of their own in one recording; what only validates keeps what is believed of it."""
+    fitted = {r.name for r in case.fit}
+    for recording, own in case.own.items():
+        for name in dict.fromkeys([*own.parameters, *own.uncertainty]):
+            variable = machine.model.variables[name]
+            value = own.parameters.get(name, case.parameters.get(name, variable.start))
+            share = own.uncertainty.get(name, case.uncertainty.get(name, DEFAULT_UNCERTAINTY))
+            sigma = share * abs(value) if recording in fitted else 0.0
+            _believe(own_name(name, recording), value, sigma, variable, free, fixed)
 
 
 def fit(

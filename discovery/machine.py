@@ -14,10 +14,13 @@ import numpy as np
 from lacuna.codegen.cache import CompilerError
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.suggest import did_you_mean
 from lacuna.discovery.amend import Amendment, probe_name, tracker_name
 from lacuna.discovery.cases import Case, CaseError, Recording, Signal
 from lacuna.discovery.noise import Noise
 from lacuna.discovery.tracking import Motion, recorded_column, recorded_motion
+from lacuna.discovery.units import same_unit
+from lacuna.discovery.values import values_in
 from lacuna.runtime import Model, RecordedInput, Session, SimulationError
 
 RTOL, LEAST_RTOL, FINER = 1e-6, 1e-9, 0.1  # of the solver: usual, least, and the step from one to the next finer one
@@ -37,7 +40,7 @@ class Machine:
         self.step_limits = step_limits or {}
         self.steps: dict[str, int] = {}
         self.path = source or write_source(amendment)
-        self.compiled = compile_model(str(self.path))
+        self.compiled = compile_model(str(self.path), search_path=case.search_path)
         self.model = Model(self.compiled.path)
         self.columns = {s.column: amendment.output(s.variable) for s in case.outputs}
         self._check_signals()
@@ -55,18 +58,29 @@ class Machine:
             if variable is None:
                 kind = "input" if signal.role == "input" else "variable"
                 raise CaseError(f"{where} model {self.case.model} has no {kind} `{signal.variable}`")
-            if not _same_unit(variable.unit, signal.si_unit):
+            if not same_unit(variable.unit, signal.si_unit):
                 raise CaseError(
                     f"{where} unit {signal.unit} does not fit {signal.variable}, which is in {variable.unit}"
                 )
-        for name in self.case.parameters:
-            if name not in self.model.variables:
-                raise CaseError(f"{self.case.folder / 'case.toml'}: [parameters] the model has no parameter `{name}`")
+        tables = [("parameters", self.case.parameters), ("uncertainty", self.case.uncertainty)]
+        tables += [(f'recording."{n}".parameters', own.parameters) for n, own in self.case.own.items()]
+        tables += [(f'recording."{n}".uncertainty', own.uncertainty) for n, own in self.case.own.items()]
+        for table, values in tables:
+            for name in values:
+                self._check_parameter(table, name)
         driven = {self.model.inputs[s.variable].index for s in self.case.inputs}
         for name, variable in self.model.inputs.items():  # aliases of an input share its index
             if variable.index not in driven and not name.startswith(("tracker_", "probe_")):
                 raise CaseError(f"{self.case.folder / 'case.toml'}: input `{name}` of the model is not recorded")
             driven.add(variable.index)
+
+    def _check_parameter(self, table: str, name: str) -> None:
+        if name not in self.model.variables:
+            hint = did_you_mean(name, self.model.parameters)
+            raise CaseError(
+                f"{self.case.folder / 'case.toml'}: [{table}] the model has no parameter `{name}`"
+                + (f"; {hint}" if hint else "")
+            )
 
     def amended(self, amendment: Amendment, case: Case | None = None) -> Machine:
         """The believed model with another amendment, or bound to another case, simulated in the same way."""
@@ -97,7 +111,8 @@ class Machine:
 
     def unknown_states(self) -> list[str]:
         """States whose value at the first sample has to be fitted, by the variable that case.toml names."""
-        return [name for name, value in self.case.initial.items() if value == "unknown"]
+        tables = [self.case.initial, *(own.initial for own in self.case.own.values())]
+        return list(dict.fromkeys(name for table in tables for name, value in table.items() if value == "unknown"))
 
     def simulate(
         self, parameters: Mapping[str, float], recording: Recording, efforts: Mapping[str, RecordedInput] | None = None
@@ -106,10 +121,8 @@ class Machine:
 
         `parameters` may hold `start:<variable>` for states with unknown start values; `efforts` drive probes.
         """
-        values = _plain(parameters)
-        initial = self._initial_of(recording) | {
-            self._state(k.removeprefix("start:")): v for k, v in parameters.items() if k.startswith("start:")
-        }
+        values = values_in(parameters, recording)
+        initial = self._initial_of(recording) | self._fitted_starts(parameters, recording)
         session = self._session(recording)
         try:
             time = recording.time
@@ -134,9 +147,11 @@ class Machine:
             inputs=self._inputs_of(recording), max_steps=self._step_limit(recording),
         )  # fmt: skip
         time = recording.time
-        values = _plain(parameters)
         result = session.run(
-            parameters=values, initial=self._initial_of(recording), start=float(time[0]), stop=float(time[-1])
+            parameters=values_in(parameters, recording),
+            initial=self._initial_of(recording),
+            start=float(time[0]),
+            stop=float(time[-1]),
         )
         if not result.complete:
             raise SimulationError(str(result.failure))
@@ -146,7 +161,7 @@ class Machine:
         session = self._session(recording)
         time = recording.time
         result = session.run(
-            parameters=_plain(parameters),
+            parameters=values_in(parameters, recording),
             initial=self._initial_of(recording),
             start=float(time[0]),
             stop=float(time[-1]),
@@ -159,7 +174,7 @@ class Machine:
         recording = self.case.fit[0]
         session = self._session(recording)
         begin = float(recording.time[0])
-        result = session.run(parameters=_plain(parameters), start=begin, stop=begin + recording.interval)
+        result = session.run(parameters=values_in(parameters, recording), start=begin, stop=begin + recording.interval)
         self._sessions[recording.name].put(session)
         return result.parameters
 
@@ -199,13 +214,21 @@ class Machine:
         found = self._initial.get(recording.name)
         if found is None:
             found = {}
-            for name, value in self.case.initial.items():
+            own = self.case.own.get(recording.name)
+            for name, value in (self.case.initial | (own.initial if own else {})).items():
                 if value == "recorded":
                     found[self._state(name)] = self._first_sample(recording, name)
                 elif value != "unknown":
                     found[self._state(name)] = float(value)
             self._initial[recording.name] = found
         return found
+
+    def _fitted_starts(self, parameters: Mapping[str, float], recording: Recording) -> dict[str, float]:
+        """Start values among the fitted parameters, of states that this recording leaves unknown."""
+        own = self.case.own.get(recording.name)
+        table = self.case.initial | (own.initial if own else {})
+        unknown = [n for n, v in table.items() if v == "unknown" and f"start:{n}" in parameters]
+        return {self._state(n): parameters[f"start:{n}"] for n in unknown}
 
     def _first_sample(self, recording: Recording, name: str) -> float:
         for signal in self.case.signals.values():
@@ -229,25 +252,10 @@ def _differ(
     return max(float(np.sqrt(np.mean(p**2))) for p in pairs)
 
 
-def _plain(parameters: Mapping[str, float]) -> dict[str, float]:
-    """Without the start values of states."""
-    return {k: v for k, v in parameters.items() if not k.startswith("start:")}
-
-
 def _recorded(signal: Signal, recording: Recording) -> RecordedInput:
     values = recording.columns[signal.column]
     good = np.isfinite(values)
     return RecordedInput(recording.time[good], values[good], signal.interpolation)
-
-
-def _same_unit(model: str, column: str) -> bool:
-    """Whether two SI units agree as text, up to order and the names of one."""
-
-    def parts(unit: str) -> tuple[list[str], list[str]]:
-        top, _, bottom = unit.replace("Ohm", "ohm").replace("(", "").replace(")", "").partition("/")
-        return sorted(t for t in top.split(".") if t not in ("", "1")), sorted(b for b in bottom.split(".") if b)
-
-    return not model or parts(model) == parts(column)
 
 
 def write_source(amendment: Amendment) -> Path:

@@ -14,7 +14,7 @@ import re
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.inheritance import written
 from lacuna.codegen.flatten.instance import Instance
-from lacuna.codegen.flatten.model import run
+from lacuna.codegen.flatten.language import LOWERING
 from lacuna.codegen.library import Library
 from lacuna.codegen.syntax import ast
 
@@ -75,6 +75,11 @@ class Structure:
     devices: list[Device] = field(default_factory=list)
     driven: set[str] = field(default_factory=set)  # parts that an input of the model drives: what they do changes none
 
+    @property
+    def open(self) -> bool:
+        """Whether there is a place besides the sensors."""
+        return bool(self.shafts or self.lines or self.devices)
+
     def shaft_of(self, flange: str) -> Shaft | None:
         return next((s for s in self.shafts if flange in s.members), None)
 
@@ -94,7 +99,7 @@ class Structure:
 def read(library: Library, model: str) -> Structure:
     """The places of class `model` (a name that `Library.find` knows). Raises Diagnostic."""
     cls = library.find(model)
-    top = Instance(Context(library, Path(cls.span.file).resolve().parent, run), cls, "", None, None)
+    top = Instance(Context(library, Path(cls.span.file).resolve().parent, LOWERING), cls, "", None, None)
     structure = Structure(model, cls.path)
     instances: dict[str, Instance] = {}
     for name, element in top.elements.items():

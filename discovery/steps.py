@@ -39,7 +39,7 @@ def opened(case: Case, library: Library) -> tuple[Explanation, Machine | None]:
     result = Explanation(case, check_case(case))
     if not _trusted(result, "the recordings cannot be trusted"):
         return result, None
-    machine = _believed_machine(case, places.read(library, case.model))
+    machine = _believed_machine(case, places.read(library, case.base))
     result.problems += check_against_model(machine, believed(case, machine))
     return result, machine if _trusted(result, "the recordings contradict themselves") else None
 
@@ -53,7 +53,7 @@ def _trusted(result: Explanation, otherwise: str) -> bool:
 
 def fitted(case: Case, progress: Progress, library: Library | None = None) -> Explanation:
     """The believed model fitted and judged. Raises CaseError on recordings that are of no use."""
-    result, machine = opened(case, library or Library())
+    result, machine = opened(case, library or case.library())
     if machine is None:
         raise CaseError(result.reason)
     add_fit(result, machine, progress)

@@ -60,6 +60,7 @@ _FUNCTIONS = {
         + _MESSAGE,
     ),
     "lacuna_chain_section_spectrum": (ctypes.c_int, [_ADDRESS, DOUBLES, DOUBLES, DOUBLES, *_MESSAGE]),
+    "lacuna_transform_name": (_TEXT, []),
     "lacuna_signature_size": (_SIZE, [_SIZE]),
     "lacuna_signature": (ctypes.c_int, [ctypes.POINTER(CChannel), _SIZE, DOUBLES]),
     "lacuna_table_new": (_ADDRESS, [_TEXT, _SIZE, *_MESSAGE]),

@@ -16,6 +16,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from lacuna.codegen import flat
+from lacuna.codegen.errors import Span
 from lacuna.codegen.symbolic.affine import affine
 from lacuna.codegen.symbolic.expr import (  # fmt: skip
     BOOLEAN,
@@ -69,7 +70,7 @@ class Hybrid:
 
 def analyse(model: flat.FlatModel) -> Hybrid:
     """Freeze relations and lower the event-generating operators of `model`."""
-    freezer = _Freezer(model.variables)
+    freezer = _Freezer(model.variables, model.span)
     equations = [freezer.equation(e) for e in model.equations]
     whens = [freezer.when(w) for w in model.whens]
     algorithms = [freezer.algorithm(a) for a in model.algorithms]
@@ -99,13 +100,13 @@ def strip(e: Expr) -> Expr:
 
 
 class _Freezer:
-    def __init__(self, variables: dict[str, flat.Variable]):
+    def __init__(self, variables: dict[str, flat.Variable], span: Span):
         self.variables = dict(variables)
         self.relations: list[Relation] = []
         self.samples: list[tuple[Expr, Expr]] = []
         self.new_equations: list[flat.Equation] = []
         self.generating = True  # False: relations known already are frozen, others are evaluated where they stand
-        self._source = flat.Equation(ZERO, ZERO, next(iter(variables.values())).span)
+        self._source = flat.Equation(ZERO, ZERO, span)
         self._memo: dict[Expr, Expr] = {}
         self._numbers: dict[tuple[Expr, Expr], int] = {}
         self._ticks: dict[Expr, int] = {}

@@ -39,7 +39,7 @@ def _constant(n: Expr, context: Context, span: Span, what: str) -> Expr | None:
         return _value_of(str(n.value), context, span, what)
     if n.op == "call" and n.value in context.functions:
         arguments = [evaluate_argument(a, context, span, what) for a in n.args]
-        return context.run_function(str(n.value), arguments, context, span)
+        return context.lowering.run(str(n.value), arguments, context, span)
     return None
 
 

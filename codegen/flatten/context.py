@@ -2,40 +2,47 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any, TypeVar
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flat import Function
+from lacuna.codegen.flatten.component import Component, Variable
+from lacuna.codegen.flatten.values import Value
 from lacuna.codegen.library import Library
 from lacuna.codegen.symbolic.expr import Expr
 
-if TYPE_CHECKING:
-    from lacuna.codegen.flatten.function_code import Source
-    from lacuna.codegen.flatten.function_locals import Signature
-    from lacuna.codegen.flatten.instance import Instance, Leaf
-
+T = TypeVar("T")
 MAX_ERRORS = 10
 MAX_ELEMENTS = 300_000
+
+
+@dataclass(frozen=True)
+class Lowering:
+    """How each kind of expression becomes a value (see `lower`); the parts stand in files of their own."""
+
+    nodes: Mapping[type, Callable[..., Value]]  # by kind of node
+    functions: Mapping[str, Callable[..., Value]]  # built-in functions by name
+    results: Callable[..., list[Value]]  # all results of the call of a function of the model
+    run: Callable[[str, list[Expr], Context, Span], Expr]  # a kept function on constants
 
 
 @dataclass
 class Context:
     library: Library
     folder: Path  # of the model's file: data files are looked for here
-    run_function: Callable[[str, list[Expr], Context, Span], Expr]  # a kept function on constants
-    scalars: dict[str, tuple[Leaf, int]] = field(default_factory=dict)
-    packages: dict[int, Instance] = field(default_factory=dict)
+    lowering: Lowering
+    model: str = ""  # the name of the class that is flattened
+    scalars: dict[str, tuple[Variable, int]] = field(default_factory=dict)
+    packages: dict[int, Component] = field(default_factory=dict)
     functions: dict[str, Function] = field(default_factory=dict)
     evaluated: set[str] = field(default_factory=set)  # structural parameters: names of scalars
     evaluating: list[str] = field(default_factory=list)
     constants: dict[str, Expr] = field(default_factory=dict)  # values of those
     variabilities: dict[Expr, str] = field(default_factory=dict)
-    signatures: dict[int, Signature] = field(default_factory=dict)  # of functions, by id of the class
-    function_sources: dict[str, Source] = field(default_factory=dict)  # name -> function_code.Source
     places: dict[tuple[str, str], Span] = field(default_factory=dict)  # of bindings and attributes: (variable, which)
     argument_units: list[tuple[Expr, str, str, Span]] = field(default_factory=list)  # value, unit, what, where
     function_units: dict[str, str] = field(default_factory=dict)  # of the result, by name of a kept function
@@ -44,6 +51,14 @@ class Context:
     files: dict[str, str] = field(default_factory=dict)
     errors: list[Diagnostic] = field(default_factory=list)
     warnings: list[Diagnostic] = field(default_factory=list)
+    tables: dict[type, Any] = field(default_factory=dict)
+
+    def table(self, kind: type[T]) -> T:
+        """The one `kind` of this run, made when first asked for: what a pass keeps for itself."""
+        found = self.tables.get(kind)
+        if found is None:
+            found = self.tables[kind] = kind()
+        return found
 
     @contextmanager
     def attempt(self) -> Iterator[None]:

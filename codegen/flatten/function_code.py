@@ -12,8 +12,9 @@ from lacuna.codegen.flatten.constants import AtRunTime, evaluate
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.elements import element, local_value
 from lacuna.codegen.flatten.function_locals import Signature, declared_sizes, fit, typed
-from lacuna.codegen.flatten.interpret import unknown_target
-from lacuna.codegen.flatten.lower import iterate, lower, lower_results, lower_scalar
+from lacuna.codegen.flatten.interpret import effect, unknown_target
+from lacuna.codegen.flatten.iterators import iterate
+from lacuna.codegen.flatten.lower import lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.references import apply_subscripts
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.values import Array, Record, Value, indices, scalars, shape_of, shape_text
@@ -32,6 +33,10 @@ class Source:
     shapes: dict[str, tuple[int, ...]]
     output: int
     element: int
+
+
+class Sources(dict[str, Source]):
+    """Of the kept functions, by their names."""
 
 
 def emitted_call(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
@@ -75,7 +80,7 @@ def _selected(
         {**types, name: kind, "result": kind}, {},
         [flat.AssignCall(targets, call, function.span), flat.Assign("result", picked, function.span)], function.span,
     )  # fmt: skip
-    context.function_sources[selected] = Source(signature, function.inputs, inputs, number, position)
+    context.table(Sources)[selected] = Source(signature, function.inputs, inputs, number, position)
     context.function_units[selected] = unit
     return selected
 
@@ -105,7 +110,7 @@ def _emit(name: str, signature: Signature, shapes: dict[str, tuple[int, ...]], c
     outputs = tuple(d.name for d in signature.outputs)
     function = flat.Function(name, inputs, outputs, {}, {}, {}, [], cls.span)
     context.functions[name] = function
-    context.function_sources[name] = Source(signature, inputs, shapes, 0, 0)
+    context.table(Sources)[name] = Source(signature, inputs, shapes, 0, 0)
     writer = _Writer(function, Scope(context, cls, None, {}, in_function=True))
     try:
         for d in signature.locals:
@@ -122,7 +127,7 @@ def _emit(name: str, signature: Signature, shapes: dict[str, tuple[int, ...]], c
         function.body += writer.block(signature.body)
         function.body = Rewriter(lambda e: _package_constant(e, context, span)).statements(function.body)
     except AtRunTime as reason:
-        del context.functions[name], context.function_sources[name]
+        del context.functions[name], context.table(Sources)[name]
         message = f"in {cls.name}, {reason.args[0]} depends on an argument's value"
         error = Diagnostic("F036", message, span, "sizes may depend on the sizes of arguments, not on their values")
         error.notes.append((reason.args[1], "here"))
@@ -168,8 +173,10 @@ class _Writer:
             result.append(flat.Return(item.span))
         elif isinstance(item, ast.Procedure) and str(item.call.function) == "assert":
             result.append(lower_assert(item.call, self.scope))
+        elif isinstance(item, ast.Procedure):
+            result += effect(item, self.scope)
         else:
-            what = str(item.call.function) if isinstance(item, ast.Procedure) else type(item).__name__.lower()
+            what = type(item).__name__.lower()
             raise Diagnostic("R059", f"'{what}' in a function", item.span, "functions compute values only")
 
     def _if(self, item: ast.If, result: list[flat.Statement]) -> None:
@@ -202,7 +209,7 @@ class _Writer:
             self._for(item, rest, body)
             result.append(flat.For(name, low, step, high, body, item.span))
         else:
-            for value in iterate(first, outer):
+            for value in iterate(first, outer, item.body):
                 self.scope = outer.with_locals(**{first.name: value})
                 self._for(item, rest, result)
         self.scope = outer

@@ -28,6 +28,17 @@ class Local:
     type: Type
     scope: Scope  # of the class it is declared in
 
+    @property
+    def is_flexible(self) -> bool:
+        """A vector that is no input, declared with `:`: empty at first, then of the size of what is assigned."""
+        dimensions = self.declaration.dimensions
+        return self.declaration.causality != "input" and len(dimensions) == 1 and isinstance(dimensions[0], ast.Colon)
+
+    @property
+    def nothing(self) -> Value | None:
+        """What a flexible vector holds before anything is assigned."""
+        return Array((0,), ()) if self.is_flexible else None
+
     @cached_property
     def unit(self) -> str:
         """The declared unit, "" where there is none. Raises U005 for what is no unit."""
@@ -62,9 +73,14 @@ class Signature:
         return [d for d in self.locals if d.declaration.causality == "output"]
 
 
+class _Signatures(dict[int, Signature]):
+    """Of the functions and records called so far, by id of the class."""
+
+
 def signature_of(cls: ast.Class, context: Context) -> Signature:
     """What `cls` declares; a modification in an extends clause or a short definition replaces a default."""
-    found = context.signatures.get(id(cls))
+    signatures = context.table(_Signatures)
+    found = signatures.get(id(cls))
     if found is None:
         instance = Instance(context, cls, cls.path, None, None)
         declared = []
@@ -75,9 +91,26 @@ def signature_of(cls: ast.Class, context: Context) -> Signature:
                 changed = replace(declaration.modification, value=outer.value)
                 declaration = replace(declaration, modification=changed)
             declared.append(Local(name, declaration, resolve_type(declaration.type, scope), scope))
+        if cls.kind == "function":
+            _check_function(cls, instance)
         body = tuple(item for section, _ in instance.sections for item in section.items)
-        found = context.signatures[id(cls)] = Signature(cls, tuple(declared), body)
+        found = signatures[id(cls)] = Signature(cls, tuple(declared), body)
     return found
+
+
+def _check_function(cls: ast.Class, instance: Instance) -> None:
+    """What a function must not hold (Modelica 3.6, 12.2)."""
+    sections = [section for section, _ in instance.sections]
+    wrong = next((s for s in sections if s.initial or not s.algorithm), None) or next(iter(sections[1:]), None)
+    if wrong is not None:
+        what = "an initial section" if wrong.initial else "a second algorithm" if wrong.algorithm else "equations"
+        hint = "a function has one algorithm section, or is external"
+        raise Diagnostic("R066", f"the function {cls.name} has {what}", wrong.span, hint)
+    for name, element in instance.elements.items():
+        d = element.declaration
+        if not (d.causality or d.protected or d.variability):
+            hint = "declare it input or output, or under 'protected'"
+            raise Diagnostic("R066", f"{name} of the function {cls.name} is public", d.span, hint)
 
 
 def fit(local: Local, value: Value, scope: Scope, span: Span) -> Value:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from math import prod
-from typing import TYPE_CHECKING
 
 from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.component import Component
+from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.enumerations import IndexType
 from lacuna.codegen.flatten.lower import modifier_value
 from lacuna.codegen.flatten.modifiers import Modifier
 from lacuna.codegen.flatten.types import ATTRIBUTES, Type
@@ -15,24 +18,23 @@ from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.syntax import ast
 
-if TYPE_CHECKING:
-    from lacuna.codegen.flatten.instance import Instance
-
 
 class Leaf:
     """`names` are its scalars in row-major order: x, or x[1], x[2], ... ("A[1,2]" for a matrix)."""
 
     def __init__(
         self,
-        instance: Instance,
+        context: Context,
+        instance: Component,
         declaration: ast.Component,
         name: str,
         found: Type,
         shape: tuple[int, ...],
         modifier: Modifier,
+        index_types: tuple[IndexType, ...] = (),
     ) -> None:
         self.instance, self.declaration, self.name, self.type = instance, declaration, name, found
-        self.shape, self.modifier = shape, modifier
+        self.shape, self.modifier, self.index_types = shape, modifier, index_types
         self.span = declaration.span
         self.primitive = found.primitive
         self.variability = self._variability()
@@ -44,8 +46,11 @@ class Leaf:
         self._binding: Value | None = None
         self._bound = self._lowering = False
         self._check_attributes()
+        if declaration.stream:
+            hint = "carry the property as a variable of the connector"
+            raise Diagnostic("R091", "stream connectors are outside the subset", declaration.span, hint)
         for position, scalar in enumerate(self.names):
-            instance.context.scalars[scalar] = (self, position)
+            context.scalars[scalar] = (self, position)
 
     def _variability(self) -> str:
         """The stricter of the declaration's own and the surrounding component's."""
@@ -71,6 +76,10 @@ class Leaf:
             return self.text()
         if not self.shape:
             return ex.var(self.name, self.primitive)
+        return self._elements
+
+    @cached_property
+    def _elements(self) -> Array:
         return Array(self.shape, tuple(ex.var(n, self.primitive) for n in self.names))
 
     def text(self) -> Value:

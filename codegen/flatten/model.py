@@ -12,23 +12,21 @@ from lacuna.codegen.flatten.algorithms import flatten_algorithm
 from lacuna.codegen.flatten.connections import connection_equations
 from lacuna.codegen.flatten.constants import evaluate
 from lacuna.codegen.flatten.context import Context
-from lacuna.codegen.flatten.equations import Collected
-from lacuna.codegen.flatten.functions import run
+from lacuna.codegen.flatten.equations import Collected, check_discrete
 from lacuna.codegen.flatten.instance import ArrayNode, Instance
+from lacuna.codegen.flatten.language import LOWERING
 from lacuna.codegen.flatten.leaf import Leaf
 from lacuna.codegen.flatten.lower import lower_scalar
 from lacuna.codegen.flatten.modifiers import Modifier
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.sections import flatten_items
 from lacuna.codegen.flatten.variables import add_used_constants, flatten_variables, mark_discrete
-from lacuna.codegen.library import Library
+from lacuna.codegen.library import MODEL_KINDS, Library
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.symbolic.rewrite import assigned, expressions
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.units.check import check_units
-
-_MODEL_KINDS = ("model", "block", "class")
 
 
 def flatten(
@@ -40,10 +38,12 @@ def flatten(
     `FlatModel.warnings`) or "off". Raises Diagnostic; further independent findings are in its `others`.
     """
     cls = library.find(name)
-    if cls.kind not in _MODEL_KINDS or cls.partial:
+    if cls.kind not in MODEL_KINDS or cls.partial:
         what = f"partial {cls.kind}" if cls.partial else cls.kind
-        raise Diagnostic("F003", f"{cls.path} is a {what}, not a model to simulate", cls.span, "name a complete model")
-    context = Context(library, Path(cls.span.file).resolve().parent, run)
+        inside = library.models(cls)[:5] if cls.kind == "package" else []
+        hint = f"name a model in it, such as {' or '.join(inside)}" if inside else "name a complete model"
+        raise Diagnostic("F003", f"{cls.path} is a {what}, not a model to simulate", cls.span, hint)
+    context = Context(library, Path(cls.span.file).resolve().parent, LOWERING, cls.path)
     top = Instance(context, cls, "", None, _outside_modifier(modifications or {}, cls.span))
     leaves, sections = _instantiate(top)
     context.finish()
@@ -58,7 +58,10 @@ def flatten(
     model.initial_equations = initial.equations
     model.asserts += initial.asserts
     model.functions = context.functions
-    mark_discrete(model, assigned([*model.whens, *(s for a in model.algorithms for s in a.statements)]))
+    at_events = assigned([*model.whens, *(s for a in model.algorithms for s in a.statements)])
+    with context.attempt():
+        check_discrete(body.equations, set(at_events), context)
+    mark_discrete(model, at_events)
     add_used_constants(model, context, list(_all_expressions(model)))
     for scalar in context.evaluated & model.variables.keys():
         model.variables[scalar].evaluated = True

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.constants import is_known
+from lacuna.codegen.flatten.constants import evaluate, is_known
 from lacuna.codegen.flatten.context import Context
-from lacuna.codegen.flatten.enumerations import require_same
+from lacuna.codegen.flatten.enumerations import enumeration_of, require_same
 from lacuna.codegen.flatten.equations import real_or_same
 from lacuna.codegen.flatten.leaf import Leaf
 from lacuna.codegen.symbolic import expr as ex
@@ -71,20 +71,24 @@ def _variable(leaf: Leaf, name: str, attributes: dict[str, Expr | str]) -> flat.
         if key in attributes:
             setattr(result, key, _text(attributes[key], key, leaf))
     if "stateSelect" in attributes:
-        choice = _text(attributes["stateSelect"], "stateSelect", leaf)
-        if choice not in _STATE_SELECT:
-            hint = f"one of {', '.join(_STATE_SELECT)}"
-            raise Diagnostic("R019", f"StateSelect has no {choice}", leaf.modifier.children["stateSelect"].span, hint)
-        result.state_select = choice
+        result.state_select = _state_select(attributes["stateSelect"], leaf)
     result.enumeration = leaf.type.literals
     if leaf.instance.parent is None and leaf.instance.name == "" and leaf.causality:
         result.causality = leaf.causality
     return result
 
 
+def _state_select(value: Expr | str, leaf: Leaf) -> str:
+    context, span = leaf.instance.context, leaf.modifier.children["stateSelect"].span
+    if isinstance(value, str) or enumeration_of(value, context) != "StateSelect":
+        hint = "StateSelect.prefer and the like"
+        raise Diagnostic("R020", f"stateSelect of {leaf.name} is no StateSelect", span, hint)
+    return _STATE_SELECT[int(evaluate(value, context, span, "stateSelect").value) - 1]
+
+
 def _text(value: Expr | str, key: str, leaf: Leaf) -> str:
     if not isinstance(value, str):
-        hint = "StateSelect.prefer and the like" if key == "stateSelect" else f'{key} = "..."'
+        hint = f'{key} = "..."'
         raise Diagnostic("R020", f"{key} of {leaf.name} is not a String", leaf.modifier.children[key].span, hint)
     return value
 

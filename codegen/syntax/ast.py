@@ -5,119 +5,54 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from lacuna.codegen.errors import Span
-
-
-@dataclass(slots=True, eq=False)
-class Literal:
-    span: Span
-    value: float | int | bool | str
-
-
-@dataclass(slots=True, eq=False)
-class Ref:
-    """A name such as motor.phase[2].i: identifiers, each with its subscripts (None where there are none)."""
-
-    span: Span
-    names: tuple[str, ...]
-    subscripts: tuple[tuple[Expression, ...] | None, ...]
-    absolute: bool = False  # written with a leading dot
-
-    def __str__(self) -> str:
-        return ".".join(self.names)
-
-
-@dataclass(slots=True, eq=False)
-class Call:
-    span: Span
-    function: Ref
-    args: list[Expression]
-    named: dict[str, Expression] = field(default_factory=dict)
-
-
-@dataclass(slots=True, eq=False)
-class Unary:
-    span: Span
-    op: str  # - + not .- .+
-    operand: Expression
-
-
-@dataclass(slots=True, eq=False)
-class Binary:
-    span: Span  # of the operator
-    op: str
-    left: Expression
-    right: Expression
-
-
-@dataclass(slots=True, eq=False)
-class IfExpression:
-    span: Span
-    branches: list[tuple[Expression, Expression]]
-    otherwise: Expression
-
-
-@dataclass(slots=True, eq=False)
-class ArrayLiteral:
-    """{a, b, c}"""
-
-    span: Span
-    elements: list[Expression]
-
-
-@dataclass(slots=True, eq=False)
-class MatrixLiteral:
-    """[a, b; c, d]"""
-
-    span: Span
-    rows: list[list[Expression]]
-
-
-@dataclass(slots=True, eq=False)
-class Range:
-    span: Span
-    first: Expression
-    step: Expression | None
-    last: Expression
-
-
-@dataclass(slots=True, eq=False)
-class Iterator:
-    span: Span
-    name: str
-    range: Expression
-
-
-@dataclass(slots=True, eq=False)
-class Comprehension:
-    """e for i in a:b, j in c:d (the argument of a reduction, or the inside of braces)."""
-
-    span: Span
-    body: Expression
-    iterators: list[Iterator]
-
-
-@dataclass(slots=True, eq=False)
-class Colon:
-    span: Span
-
-
-@dataclass(slots=True, eq=False)
-class End:
-    span: Span
-
-
-@dataclass(slots=True, eq=False)
-class Tuple:
-    """(a, , c) on the left of a call with several results; None skips one."""
-
-    span: Span
-    items: list[Expression | None]
-
-
-Expression = (
-    Literal | Ref | Call | Unary | Binary | IfExpression | ArrayLiteral | MatrixLiteral | Range | Comprehension
-    | Colon | End | Tuple
-)  # fmt: skip
+from lacuna.codegen.syntax.expression_nodes import (
+    ArrayLiteral as ArrayLiteral,
+)
+from lacuna.codegen.syntax.expression_nodes import (
+    Binary as Binary,
+)
+from lacuna.codegen.syntax.expression_nodes import (
+    Call as Call,
+)
+from lacuna.codegen.syntax.expression_nodes import (
+    Colon as Colon,
+)
+from lacuna.codegen.syntax.expression_nodes import (
+    Comprehension as Comprehension,
+)
+from lacuna.codegen.syntax.expression_nodes import (
+    End as End,
+)
+from lacuna.codegen.syntax.expression_nodes import (
+    Expression as Expression,
+)
+from lacuna.codegen.syntax.expression_nodes import (
+    IfExpression as IfExpression,
+)
+from lacuna.codegen.syntax.expression_nodes import (
+    Iterator as Iterator,
+)
+from lacuna.codegen.syntax.expression_nodes import (
+    Literal as Literal,
+)
+from lacuna.codegen.syntax.expression_nodes import (
+    MatrixLiteral as MatrixLiteral,
+)
+from lacuna.codegen.syntax.expression_nodes import (
+    PartialFunction as PartialFunction,
+)
+from lacuna.codegen.syntax.expression_nodes import (
+    Range as Range,
+)
+from lacuna.codegen.syntax.expression_nodes import (
+    Ref as Ref,
+)
+from lacuna.codegen.syntax.expression_nodes import (
+    Tuple as Tuple,
+)
+from lacuna.codegen.syntax.expression_nodes import (
+    Unary as Unary,
+)
 
 
 @dataclass(slots=True, eq=False)
@@ -209,7 +144,8 @@ class Argument:
     modification: Modification
     each: bool = False
     final: bool = False
-    redeclare: Component | None = None
+    redeclare: Component | Class | None = None
+    replaces: bool = False  # written with `redeclare`; else with `replaceable` only
 
 
 @dataclass(slots=True, eq=False)
@@ -232,8 +168,10 @@ class Component:
     variability: str = ""  # parameter | constant | discrete
     causality: str = ""  # input | output
     flow: bool = False
+    stream: bool = False
     final: bool = False
     protected: bool = False
+    redeclares: bool = False  # an element written with `redeclare`, in place of an inherited one
     inner: bool = False
     outer: bool = False
     replaceable: bool = False
@@ -242,6 +180,8 @@ class Component:
 
 @dataclass(slots=True, eq=False)
 class Import:
+    """import A.B; of a list, import A.{B, C}, one of these for each name."""
+
     span: Span
     path: Ref
     alias: str  # "" for the last name of the path
@@ -253,6 +193,19 @@ class Extends:
     span: Span
     base: Ref
     modification: Modification
+    protected: bool = False
+
+
+@dataclass(slots=True, eq=False)
+class External:
+    """external "C" y = f(x) annotation(...): the language, the call and what the annotation says."""
+
+    span: Span
+    language: str
+    result: Ref | None = None
+    function: str = ""  # "" where the function is called by its Modelica name
+    args: list[Expression] = field(default_factory=list)
+    annotation: Modification | None = None
 
 
 @dataclass(slots=True, eq=False)
@@ -264,14 +217,28 @@ class Alias:
     dimensions: list[Expression]
     modification: Modification
     causality: str = ""
+    target: Class | None = None  # the class meant, where no name was written
 
 
 @dataclass(slots=True, eq=False)
 class Class:
     span: Span
-    kind: str  # model block connector record type package function class
+    kind: str  # model block connector record type package function class operator
     name: str
     partial: bool = False
+    encapsulated: bool = False
+    expandable: bool = False  # expandable connector
+    operator: bool = False  # operator record, operator function
+    impure: bool = False
+    final: bool = False
+    protected: bool = False
+    inner: bool = False
+    outer: bool = False
+    replaceable: bool = False
+    redeclares: bool = False  # written with `redeclare`, in place of an inherited class
+    constraint: Extends | None = None  # constrainedby CLASS(...)
+    extends_same: Modification | None = None  # of `model extends NAME(...)`: how the inherited NAME is modified
+    derivative_of: tuple[Ref, tuple[str, ...]] | None = None  # function f = der(g, x, y)
     description: str = ""
     components: list[Component] = field(default_factory=list)
     extends: list[Extends] = field(default_factory=list)
@@ -280,10 +247,16 @@ class Class:
     sections: list[Section] = field(default_factory=list)
     alias: Alias | None = None
     literals: tuple[tuple[str, str], ...] | None = None  # of an enumeration: name, description
-    external: Span | None = None
+    external: External | None = None
     annotation: Modification | None = None
     parent: Class | None = None
     within: str = ""
+    # Of a class as seen from another (flatten/views.py):
+    origin: Class | None = None
+    redeclared: dict[str, Class] = field(default_factory=dict)
+    whole: Class | None = None
+    written: object = None  # the scope of its modifications
+    constrained: tuple[Modification, Class] | None = None  # of a constraining clause, and where that stands
 
     @property
     def path(self) -> str:

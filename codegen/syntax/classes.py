@@ -6,10 +6,10 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.cursor import first_of
 from lacuna.codegen.syntax.equations import SECTION_STARTS, EquationParser
-from lacuna.codegen.syntax.lexer import tokenize
+from lacuna.codegen.syntax.lexer import string_value, tokenize
+from lacuna.codegen.syntax.modifications import CLASS_STARTS, KINDS
 
-_KINDS = ("model", "block", "connector", "record", "type", "package", "function", "class")
-_CLASS_STARTS = (*_KINDS, "partial", "encapsulated", "expandable", "operator", "pure", "impure")
+_PREFIXES = ("partial", "encapsulated", "pure", "impure", "expandable", "operator")
 
 
 def parse(text: str, file: str) -> list[ast.Class]:
@@ -27,7 +27,7 @@ class ClassParser(EquationParser):
         classes = []
         while self.kind != "eof":
             self.accept("final")
-            if self.kind not in _CLASS_STARTS:
+            if self.kind not in CLASS_STARTS:
                 raise first_of([*self.errors, self._no_class()])
             start = self.at
             try:
@@ -38,7 +38,7 @@ class ClassParser(EquationParser):
             except Diagnostic as error:
                 if error in self.errors:
                     raise
-                self.recover(error, _CLASS_STARTS, start)
+                self.recover(error, CLASS_STARTS, start)
         if self.errors:
             raise first_of(self.errors)
         if not classes:
@@ -57,26 +57,42 @@ class ClassParser(EquationParser):
         """[partial] model NAME ... end NAME (without the semicolon)."""
         self.enter()
         start = self.at
-        partial = False
-        while self.kind in ("partial", "encapsulated", "pure", "impure", "expandable", "operator"):
-            if self.kind in ("expandable", "operator"):
-                raise _outside(self, self.kind)
-            partial = partial or self.kind == "partial"
-            self.at += 1
-        if self.kind not in _KINDS:
-            raise self.unexpected("'model', 'block', 'connector', 'record', 'type', 'package' or 'function'")
-        kind = self.kind
-        self.at += 1
-        if self.kind == "extends":
-            hint = "write a class of its own with 'extends' inside"
-            raise Diagnostic("R091", "'class extends' is outside the subset", self.span(), hint)
-        span = self.span()
-        cls = ast.Class(span, kind, self.identifier("the name of the class"), partial)
-        if self.accept("="):
+        kind, prefixes = self._class_prefixes()
+        same = self.accept("extends")
+        cls = ast.Class(self.span(), kind, self.identifier("the name of the class"), **prefixes)
+        if same:
+            cls.extends_same = self.modification() if self.kind == "(" else ast.Modification(cls.span)
+            self._long_definition(cls, start)
+        elif self.accept("="):
             self._short_definition(cls)
         else:
             self._long_definition(cls, start)
         self.leave()
+        return cls
+
+    def _class_prefixes(self) -> tuple[str, dict[str, bool]]:
+        """The kind of a class definition, and what stands before it."""
+        found: dict[str, bool] = {}
+        while self.kind in _PREFIXES:
+            found[self.kind] = True
+            self.at += 1
+        found.pop("pure", None)
+        if self.kind not in KINDS:
+            if found.get("operator"):
+                return "operator", found
+            raise self.unexpected("'model', 'block', 'connector', 'record', 'type', 'package' or 'function'")
+        self.at += 1
+        return self.words[self.at - 1], found
+
+    def short_class(self) -> ast.Class:
+        kind, prefixes = self._class_prefixes()
+        cls = ast.Class(self.span(), kind, self.identifier("the name of the class"), **prefixes)
+        self.expect("=")
+        self._short_definition(cls)
+        cls.constraint = self.constraining_clause()
+        cls.description = cls.description or self.description()
+        if self.kind == "annotation":
+            self.annotation()
         return cls
 
     def _short_definition(self, cls: ast.Class) -> None:
@@ -84,7 +100,7 @@ class ClassParser(EquationParser):
         if self.accept("enumeration"):
             cls.literals = self._enumeration()
         elif self.kind == "der":
-            raise _outside(self, "a function as the derivative of another")
+            cls.derivative_of = self._derivative_of()
         else:
             causality = self.word if self.accept("input", "output") else ""
             base = self.reference()
@@ -97,14 +113,26 @@ class ClassParser(EquationParser):
         if self.kind == "annotation":
             cls.annotation = self.annotation()
 
+    def _derivative_of(self) -> tuple[ast.Ref, tuple[str, ...]]:
+        """der(f, x, y): the partial derivative of a function by its inputs."""
+        self.at += 1
+        self.expect("(")
+        function, inputs = self.reference(), []
+        while self.accept(","):
+            inputs.append(self.identifier("an input of the function"))
+        self.expect(")", "')' or ','")
+        return function, tuple(inputs)
+
     def _enumeration(self) -> tuple[tuple[str, str], ...]:
         self.expect("(")
         literals = []
         while True:
-            if self.kind == ":":
-                raise _outside(self, "an enumeration without literals")
+            if not literals and self.accept(":"):
+                break
             name = self.identifier("a literal of the enumeration")
             literals.append((name, self.description()))
+            if self.kind == "annotation":
+                self.annotation()
             if not self.accept(","):
                 break
         self.expect(")", "')' or ','")
@@ -150,12 +178,25 @@ class ClassParser(EquationParser):
         self.at += 1
 
     def _external(self, cls: ast.Class) -> None:
-        cls.external = self.span()
-        while self.kind not in (";", "eof"):
-            if self.kind == "annotation":
-                self.annotation()
-            else:
-                self.at += 1
+        """external "C" y = f(x, y) annotation(...);"""
+        span = self.span()
+        self.at += 1
+        language = "C"
+        if self.kind == "str":
+            language = string_value(self.word)
+            self.at += 1
+        cls.external = ast.External(span, language)
+        if self.kind in ("id", "."):
+            called = self.primary()
+            if self.accept("="):
+                if not isinstance(called, ast.Ref):
+                    raise Diagnostic("P003", "expected a variable before '='", called.span, "y = f(x)")
+                cls.external.result, called = called, self.primary()
+            if not isinstance(called, ast.Call):
+                raise Diagnostic("P003", "expected a call of the external function", called.span, "write f(x)")
+            cls.external.function, cls.external.args = str(called.function), called.args
+        if self.kind == "annotation":
+            cls.external.annotation = self.annotation()
         self.semicolon()
 
     def _element_into(self, cls: ast.Class, protected: bool) -> None:
@@ -170,38 +211,43 @@ class ClassParser(EquationParser):
             self.recover(error, (*SECTION_STARTS, "end"), start)
 
     def _element(self, cls: ast.Class, protected: bool) -> None:
-        start = self.at
         if self.kind == "import":
-            cls.imports.append(self._import())
+            cls.imports += self._import()
         elif self.kind == "extends":
             self.at += 1
             base = self.reference()
             modification = self.modification(selective=True) if self.kind == "(" else ast.Modification(base.span)
             if self.kind == "annotation":
                 self.annotation()
-            cls.extends.append(ast.Extends(base.span, base, modification))
+            cls.extends.append(ast.Extends(base.span, base, modification, protected))
         else:
             prefixes = self.element_prefixes()
             prefixes["protected"] = protected
-            if self.kind in _CLASS_STARTS:
-                self._nested_class(cls, prefixes, start)
+            if self.kind in CLASS_STARTS:
+                self._nested_class(cls, prefixes)
             else:
                 cls.components.extend(self.component_clause(prefixes))
         self.semicolon()
 
-    def _nested_class(self, cls: ast.Class, prefixes: dict[str, object], start: int) -> None:
-        if prefixes["replaceable"] or prefixes["redeclare"]:
-            hint = "replaceable components are supported: replaceable CLASS name"
-            raise Diagnostic("R092", "replaceable classes are outside the subset", self.span(start), hint)
+    def _nested_class(self, cls: ast.Class, prefixes: dict[str, object]) -> None:
         nested = self.class_definition()
         nested.parent = cls
+        nested.redeclares = bool(prefixes.pop("redeclare"))
+        for name, written in prefixes.items():
+            setattr(nested, name, written)
+        nested.constraint = self.constraining_clause()
+        if nested.constraint is not None:
+            nested.description = nested.description or self.description()
+            if self.kind == "annotation":
+                self.annotation()
         if nested.name in cls.classes:
             error = Diagnostic("R010", f"{nested.name} is declared twice", nested.span, "rename one of them")
             error.notes.append((cls.classes[nested.name].span, "the other declaration"))
             raise error
         cls.classes[nested.name] = nested
 
-    def _import(self) -> ast.Import:
+    def _import(self) -> list[ast.Import]:
+        """import A.B; import C = A.B; import A.*; import A.{B, C};"""
         start = self.at
         self.at += 1
         alias = ""
@@ -209,25 +255,27 @@ class ClassParser(EquationParser):
             alias = self.word
             self.at += 2
         names = [self.identifier()]
-        every = False
+        every, listed = False, [""]
         while self.kind in (".", ".*"):
             if self.accept(".*"):
                 every = True
                 break
             self.at += 1
             if self.kind == "{":
-                raise Diagnostic("R093", "a list of imports is outside the subset", self.span(), "one import a line")
+                listed = self._import_list()
+                break
             names.append(self.identifier())
         span = self.span_from(start)
         self.description()
         if self.kind == "annotation":
             self.annotation()
-        return ast.Import(span, ast.Ref(span, tuple(names), (None,) * len(names)), alias, every)
+        paths = [(*names, name) if name else tuple(names) for name in listed]
+        return [ast.Import(span, ast.Ref(span, path, (None,) * len(path)), alias, every) for path in paths]
 
-
-def _outside(parser: ClassParser, what: str) -> Diagnostic:
-    hint = {
-        "expandable": "declare a connector with the variables it carries",
-        "operator": "write functions with names of their own",
-    }.get(what, "see docs/language.md for what to write instead")
-    return Diagnostic("R091", f"{what} is outside the subset", parser.span(), hint)
+    def _import_list(self) -> list[str]:
+        self.at += 1
+        names = [self.identifier()]
+        while self.accept(","):
+            names.append(self.identifier())
+        self.expect("}", "'}' or ','")
+        return names

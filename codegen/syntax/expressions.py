@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.syntax import ast
-from lacuna.codegen.syntax.cursor import Cursor
+from lacuna.codegen.syntax.arguments import ArgumentParser
 from lacuna.codegen.syntax.lexer import string_value
 
 _RELATIONS = ("<", "<=", ">", ">=", "==", "<>")
@@ -17,7 +17,7 @@ _POWER = ("^", ".^")
 Operand = Callable[[], ast.Expression]
 
 
-class ExpressionParser(Cursor):
+class ExpressionParser(ArgumentParser):
     def expression(self) -> ast.Expression:
         """Any expression, ranges and if-expressions included."""
         self.enter()
@@ -145,7 +145,7 @@ class ExpressionParser(Cursor):
             return self._reference_or_call()
         if kind in ("der", "initial", "pure"):
             self.at += 1
-            return self._call(ast.Ref(self.span(start), (kind,), (None,)), start)
+            return self.call(ast.Ref(self.span(start), (kind,), (None,)), start)
         if kind == "(":
             return self._parenthesised()
         if kind == "{":
@@ -202,38 +202,9 @@ class ExpressionParser(Cursor):
     def _reference_or_call(self) -> ast.Expression:
         start = self.at
         reference = self.reference()
-        return self._call(reference, start) if self.kind == "(" else reference
+        return self.call(reference, start) if self.kind == "(" else reference
 
-    def _call(self, function: ast.Ref, start: int) -> ast.Call:
-        self.expect("(")
-        call = ast.Call(function.span, function, [])
-        if not self.accept(")"):
-            self._arguments(call)
-        call.span = self.span_from(start)
-        return call
-
-    def _arguments(self, call: ast.Call) -> None:
-        while True:
-            if self.kind == "id" and self.kinds[self.at + 1] == "=":
-                name, span = self.word, self.span()
-                self.at += 2
-                if name in call.named:
-                    raise Diagnostic("P017", f"the argument {name} is given twice", span, "keep one of them")
-                call.named[name] = self.expression()
-            elif call.named:
-                hint = "arguments by position come before those by name"
-                raise Diagnostic("P017", "an argument by position after one by name", self.span(), hint)
-            elif self.kind == "function":
-                hint = "call the function where it is needed"
-                raise Diagnostic("R090", "functions as arguments are outside the subset", self.span(), hint)
-            else:
-                call.args.append(self._maybe_comprehension())
-            if self.accept(")"):
-                return
-            if not self.accept(","):
-                raise self.unexpected("')' or ','")
-
-    def _maybe_comprehension(self) -> ast.Expression:
+    def maybe_comprehension(self) -> ast.Expression:
         start = self.at
         body = self.expression()
         if self.kind != "for":
@@ -243,16 +214,12 @@ class ExpressionParser(Cursor):
         return ast.Comprehension(self.span_from(start), body, iterators)
 
     def iterators(self) -> list[ast.Iterator]:
-        """i in 1:n, j in 1:m"""
+        """i in 1:n, j in 1:m, or k: what k runs over follows from what it indexes"""
         result = []
         while True:
             start = self.at
             name = self.identifier("the loop variable")
-            if self.kind != "in":
-                hint = "say what it runs over: for i in 1:n"
-                raise Diagnostic("P018", f"the loop variable {name} has no range", self.span(start), hint)
-            self.at += 1
-            bounds = self.expression()
+            bounds = self.expression() if self.accept("in") else None
             result.append(ast.Iterator(self.span_from(start), name, bounds))
             if not self.accept(","):
                 return result
@@ -276,9 +243,9 @@ class ExpressionParser(Cursor):
         if self.kind == "}":
             hint = "for an empty array write zeros(0)"
             raise Diagnostic("P007", "an array needs at least one element", self.span(), hint)
-        elements = [self._maybe_comprehension()]
+        elements = [self.maybe_comprehension()]
         while self.accept(","):
-            elements.append(self._maybe_comprehension())
+            elements.append(self.maybe_comprehension())
         self.expect("}", "'}' or ','")
         if isinstance(elements[0], ast.Comprehension) and len(elements) == 1:
             return elements[0]

@@ -22,7 +22,7 @@ KEYWORDS = frozenset(
 _TOKEN = re.compile(
     r"""
       (?P<skip>[ \t\r\n\f\ufeff]+ | //[^\n]* | /\*(?:[^*]|\*(?!/))*\*/)
-    | (?P<id>[A-Za-z_][A-Za-z_0-9]*)
+    | (?P<id>[A-Za-z_][A-Za-z_0-9]*|'(?:[^'\\\n]|\\.)+')
     | (?P<num>[0-9]+(?:\.[0-9]*)?(?:[eE][+-]?[0-9]+)?)
     | (?P<str>"(?:[^"\\]|\\.)*")
     | (?P<wrong>!=|&&|\|\||\*\*|\+\+|--|[-+*/]=|[!&|%~@#$?`\\])
@@ -105,8 +105,7 @@ def _unreadable(source: Source, position: int) -> Diagnostic:
     if text.startswith("/*", position):
         return Diagnostic("P002", "this comment has no end", source.span(position, 2), "close it with */")
     if text[position] == "'":
-        hint = "use letters, digits and _ in names"
-        return Diagnostic("P001", "quoted names are outside the subset", source.span(position), hint)
+        return Diagnostic("P002", "this quoted name has no end", source.span(position), "close it with '")
     hint = "names and operators use plain ASCII; other letters belong in strings and comments"
     return Diagnostic("P001", f"the character {text[position]!r} has no meaning here", source.span(position), hint)
 

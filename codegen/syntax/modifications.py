@@ -14,6 +14,8 @@ _GRAPHICS = frozenset(
     )
 )  # fmt: skip
 _VARIABILITIES = ("parameter", "constant", "discrete")
+KINDS = ("model", "block", "connector", "record", "type", "package", "function", "class")
+CLASS_STARTS = (*KINDS, "partial", "encapsulated", "expandable", "operator", "pure", "impure")
 
 
 class ModificationParser(ExpressionParser):
@@ -38,7 +40,7 @@ class ModificationParser(ExpressionParser):
 
     def component_clause(self, prefixes: dict[str, object], single: bool = False) -> list[ast.Component]:
         """flow parameter input TYPE[dims] a(...) = 1 "text", b ...; `single` allows only one component."""
-        options = {k: v for k, v in prefixes.items() if k != "redeclare"}
+        options = {("redeclares" if k == "redeclare" else k): v for k, v in prefixes.items()}
         self._type_prefixes(options)
         if self.kind != "id" and self.kind != ".":
             raise self.unexpected("a declaration, 'equation', 'algorithm' or 'end'")
@@ -50,21 +52,28 @@ class ModificationParser(ExpressionParser):
             result.append(self._component(kind, shared, options))
             if single or not self.accept(","):
                 break
-        if self.accept("constrainedby"):
-            bound = self.reference()
-            modification = self.modification() if self.kind == "(" else ast.Modification(bound.span)
+        constraint = self.constraining_clause()
+        if constraint is not None:
+            description = self.description()
             for component in result:
-                component.constraint = ast.Extends(bound.span, bound, modification)
-                component.description = component.description or self.description()
+                component.constraint = constraint
+                component.description = component.description or description
+            if self.kind == "annotation":
+                self.annotation()
         return result
+
+    def constraining_clause(self) -> ast.Extends | None:
+        """constrainedby CLASS(...), where it stands here."""
+        if not self.accept("constrainedby"):
+            return None
+        bound = self.reference()
+        modification = self.modification() if self.kind == "(" else ast.Modification(bound.span)
+        return ast.Extends(bound.span, bound, modification)
 
     def _type_prefixes(self, options: dict[str, object]) -> None:
         while True:
-            if self.kind == "stream":
-                hint = "carry the property as a variable of the connector"
-                raise Diagnostic("R091", "stream connectors are outside the subset", self.span(), hint)
-            if self.kind == "flow":
-                options["flow"] = True
+            if self.kind in ("flow", "stream"):
+                options[self.kind] = True
             elif self.kind in _VARIABILITIES:
                 options["variability"] = self.kind
             elif self.kind in ("input", "output"):
@@ -140,13 +149,23 @@ class ModificationParser(ExpressionParser):
         return ast.Argument(span, names[0], inner, flags["each"], flags["final"])
 
     def _redeclaration(self, start: int, flags: dict[str, bool]) -> ast.Argument:
-        if self.kind in ("model", "package", "function", "record", "type", "block", "connector", "class"):
-            hint = "redeclare the component instead"
-            raise Diagnostic("R092", "redeclaring a class is outside the subset", self.span(start), hint)
+        if self.kind in CLASS_STARTS:
+            new = self.short_class()
+            new.replaceable, new.final = flags["replaceable"], flags["final"]
+            modification = ast.Modification(new.span)
+            return ast.Argument(
+                new.span, new.name, modification, flags["each"], flags["final"], new, flags["redeclare"]
+            )
         prefixes: dict[str, object] = {"final": flags["final"], "replaceable": flags["replaceable"]}
         component = self.component_clause(prefixes, single=True)[0]
         span: Span = component.span
-        return ast.Argument(span, component.name, component.modification, flags["each"], flags["final"], component)
+        return ast.Argument(
+            span, component.name, component.modification, flags["each"], flags["final"], component, flags["redeclare"]
+        )
+
+    def short_class(self) -> ast.Class:
+        """The class definition of a redeclaration: model NAME = OTHER(...) constrainedby BOUND."""
+        raise NotImplementedError
 
     def annotation(self) -> ast.Modification:
         """annotation(...): graphical entries are dropped, the others are kept as a modification."""

@@ -78,7 +78,8 @@ static void start_again(rt_session *s) {
 
 /* One pass: point, relations, discrete equations, by up to so many sweeps with the values before the event (pre) as
  * they are, until they agree. One sweep is enough where modes depend on pre-values; more are made where events get
- * nowhere, and what does not settle one way is iterated the other way. 1 something changed, 0 nothing did, -1 failed. */
+ * nowhere, and what does not settle one way is iterated the other way. 1 something changed, 0 nothing did, -1 failed.
+ */
 static int pass(rt_session *s, int sweeps) {
   mdl_data *m = &s->data;
   bool changed = false, settled = false;
@@ -97,7 +98,7 @@ static int pass(rt_session *s, int sweeps) {
   }
   memcpy(m->x, s->x_swept, (size_t)s->d->n_x * sizeof *m->x);
   s->reinitialised |= m->reinitialised != 0;
-  return changed || m->reinitialised || !same(m->d, m->pre_d, s->d->n_d);
+  return changed || !settled || m->reinitialised || !same(m->d, m->pre_d, s->d->n_d);
 }
 
 /* Repeat passes at the present instant until relations, discrete variables and states agree. Ticks last until then. */

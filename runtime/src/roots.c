@@ -104,36 +104,45 @@ static int find_dip(rt_session *s, double *inside) {
   return status;
 }
 
+/* The interval in which the first crossing lies: no guard has crossed at a, one has at b. g_low and g belong to a, b.
+ */
+typedef struct {
+  double a, b, wa, wb; /* wa, wb: weights of the end values in the secant */
+  int side;            /* the end that moved last: 1 b, -1 a */
+} bracket;
+
+/* Look at t and move the end that belongs there; the value at an end that stays put twice is halved. */
+static int narrow(rt_session *s, bracket *k, double t) {
+  int status = guards_at(s, t, s->g_trial);
+  if (status) return status;
+  bool crossed = any_negative(s, s->g_trial);
+  memcpy(crossed ? s->g : s->g_low, s->g_trial, (size_t)s->d->n_rel * sizeof *s->g);
+  *(crossed ? &k->b : &k->a) = t;
+  k->wa = crossed && k->side == 1 ? 0.5 * k->wa : 1;
+  k->wb = !crossed && k->side == -1 ? 0.5 * k->wb : 1;
+  k->side = crossed ? 1 : -1;
+  return 0;
+}
+
 /* Shrink the interval from the start of the step to `end` to the first crossing: Illinois variant of regula falsi on
  * the earliest crossing (Dowell & Jarratt 1971), with steps no closer to an end than half the tolerance, so that both
- * ends move in. s->g belongs to *crossing, the end of the interval on entry and the crossing on return. */
+ * ends move in. A guard at the level of rounding gives secants that say nothing: where two of them have not halved the
+ * interval, the third look is at its middle, so that 3 log2(length / tolerance) looks are always enough. s->g belongs
+ * to *crossing, the end of the interval on entry and the crossing on return. */
 static int locate(rt_session *s, double *crossing) {
-  double a = s->t_previous, b = *crossing, wa = 1, wb = 1;
-  double tolerance = 1e-12 * (b - a) + 4 * DBL_EPSILON * fabs(b);
-  int side = 0;
-  size_t bytes = (size_t)s->d->n_rel * sizeof *s->g;
-  memcpy(s->g_low, s->g_previous, bytes);
+  bracket k = {s->t_previous, *crossing, 1, 1, 0};
+  double tolerance = 1e-12 * (k.b - k.a) + 4 * DBL_EPSILON * fabs(k.b), length = k.b - k.a;
+  memcpy(s->g_low, s->g_previous, (size_t)s->d->n_rel * sizeof *s->g);
   memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
-  for (int i = 0; i < 100 && b - a > tolerance; i++) {
-    double t = a + (b - a) * first_secant(s, s->g_low, wa, s->g, wb);
-    t = rt_min(rt_max(t, a + 0.5 * tolerance), b - 0.5 * tolerance);
-    int status = guards_at(s, t, s->g_trial);
+  for (int i = 1; k.b - k.a > tolerance; i++) {
+    bool creeps = i % 3 == 0 && k.b - k.a > 0.5 * length;
+    double t = k.a + (k.b - k.a) * (creeps ? 0.5 : first_secant(s, s->g_low, k.wa, s->g, k.wb));
+    t = rt_min(rt_max(t, k.a + 0.5 * tolerance), k.b - 0.5 * tolerance);
+    int status = narrow(s, &k, t);
     if (status) return status;
-    bool crossed = any_negative(s, s->g_trial);
-    if (crossed) {
-      b = t;
-      memcpy(s->g, s->g_trial, bytes);
-      wa = side == 1 ? 0.5 * wa : 1;
-      wb = 1;
-    } else {
-      a = t;
-      memcpy(s->g_low, s->g_trial, bytes);
-      wb = side == -1 ? 0.5 * wb : 1;
-      wa = 1;
-    }
-    side = crossed ? 1 : -1;
+    if (i % 3 == 0) length = k.b - k.a;
   }
-  *crossing = b;
+  *crossing = k.b;
   return 0;
 }
 

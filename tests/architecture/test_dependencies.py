@@ -21,11 +21,12 @@ PYTHON_MAY_IMPORT = {
     "tests/proof": set(),
 }
 PROJECT = {*STAGES, "cli", "bench", "tests"}
-FACE = {"lacuna", "lacuna.native"}  # what every stage may know of the package: its name and where its libraries are
+# What every stage may know of the package: its name, where its libraries are, what an extra brings.
+FACE = {"lacuna", "lacuna.native", "lacuna.extras"}
 
 C_MAY_INCLUDE = {
     "runtime": ("runtime", ("ida/", "nvector/", "sunmatrix/", "sunlinsol/", "sundials/")),
-    "analysis": ("analysis", ("Eigen/", "fftw3.h")),
+    "analysis": ("analysis", ("Eigen/", "unsupported/Eigen/", "fftw3.h")),
     "bench": ("bench", ("ida/", "nvector/", "sunmatrix/", "sunlinsol/", "sundials/")),
     "tests/proof": ("tests/proof", ()),
 }

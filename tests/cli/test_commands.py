@@ -56,8 +56,9 @@ def test_every_command_has_help() -> None:
 
 
 def test_help_loads_no_stage() -> None:
-    code = "import sys, cli.main; sys.exit(any(m in sys.modules for m in ('numpy', 'codegen', 'runtime', 'analysis')))"
-    assert subprocess.run([sys.executable, "-c", code], cwd=ROOT, check=False).returncode == 0
+    stages = ("numpy", "lacuna.codegen", "lacuna.runtime", "lacuna.analysis", "lacuna.discovery")
+    code = f"import sys, lacuna.cli.main; sys.exit(any(m in sys.modules for m in {stages}))"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
 def test_check_accepts_a_model() -> None:

@@ -1,5 +1,5 @@
 // code: R091
-// line: 4
+// line: 7
 // hint: variables it carries
 expandable connector Bus
 end Bus;

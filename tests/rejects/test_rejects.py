@@ -15,8 +15,8 @@ FOLDER = Path(__file__).parent
 MODELS = sorted(FOLDER.glob("*.mo"))
 FRONT_END = FOLDER.parents[1] / "codegen"
 
-# Codes that need more than one file; tests/codegen/front/test_library.py has them.
-WITH_FOLDERS = {"F001", "F002", "F003", "F004"}
+# Codes that need more than one file; test_library.py and test_search_path.py in tests/codegen/front/ have them.
+WITH_FOLDERS = {"F001", "F002", "F003", "F004", "F005", "F006", "F007"}
 
 
 def expectation(path: Path) -> dict[str, str]:
@@ -40,7 +40,7 @@ def test_is_refused_with_code_line_and_hint(path: Path) -> None:
 
 def test_every_code_of_the_front_end_is_covered() -> None:
     sources = [*FRONT_END.glob("syntax/*.py"), *FRONT_END.glob("flatten/*.py"), *FRONT_END.glob("units/*.py")]
-    sources.append(FRONT_END / "library.py")
+    sources += [FRONT_END / "library.py", FRONT_END / "search_path.py"]
     raised = {code for path in sources for code in re.findall(r'"([PRFU]\d{3})"', path.read_text(encoding="utf-8"))}
     covered = {expectation(path)["code"] for path in MODELS} | WITH_FOLDERS
     assert raised - covered == set()

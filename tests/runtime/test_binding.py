@@ -246,7 +246,7 @@ def test_tables_that_are_no_results_are_refused(text: str, words: str, tmp_path:
 
 
 def test_missing_library_and_wrong_models_are_named(tmp_path: Path):
-    code = "import runtime; runtime.Model('x.so')"
+    code = "from lacuna import runtime; runtime.Model('x.so')"
     environment = {**os.environ, "LACUNA_BUILD": str(tmp_path), "PYTHONPATH": str(MODELS.parents[1])}
     failed = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=False)
     assert failed.returncode and "run `make build`" in failed.stderr

@@ -72,6 +72,9 @@ size_t lacuna_table_channels(const lacuna_table *table);
 int lacuna_table_estimate(const lacuna_table *table, const lacuna_channel *channels, double rms_mean,
                           lacuna_estimate *estimate);
 
+/* The implementation of the Fourier transform that this library was built with: "FFTW" or "Eigen". */
+const char *lacuna_transform_name(void);
+
 #ifdef __cplusplus
 }
 #endif

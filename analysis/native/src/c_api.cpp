@@ -7,6 +7,7 @@
 #include "lacuna/chain.hpp"
 #include "lacuna/severity_table.hpp"
 #include "lacuna/signature.hpp"
+#include "lacuna/transform.hpp"
 
 struct lacuna_table {
   lacuna::SeverityTable table;
@@ -149,4 +150,8 @@ int lacuna_table_estimate(const lacuna_table *table, const lacuna_channel *chann
   const lacuna::Estimate e = table->table.estimate(signature, rms_mean);
   *estimate = {e.severity, e.low, e.high, e.misfit, e.paper, static_cast<int>(e.band), e.covered ? 1 : 0};
   return 0;
+}
+
+const char *lacuna_transform_name(void) {
+  return lacuna::RealTransform::implementation();
 }

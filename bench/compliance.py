@@ -1,0 +1,109 @@
+"""The Modelica Association's compliance library: every case passes or is refused, as its annotation says it should.
+
+`python -m bench.compliance [NAME ...]` runs the cases whose name contains NAME and prints a table by chapter, and with
+a NAME what became of each.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections import Counter
+from collections.abc import Sequence
+import os
+from pathlib import Path
+import re
+
+from bench import isolated
+from bench.msl import first_finding
+from lacuna.codegen import cache
+from lacuna.codegen.compile import compile_model
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.library import Library
+from lacuna.codegen.search_path import search_path
+from lacuna.runtime.errors import SimulationError
+from lacuna.runtime.model import Model
+from lacuna.runtime.simulation import Session
+
+ROOT = Path(__file__).parents[1]
+STOP = 0.01  # s, what nearly all cases ask for
+TIMEOUT = 60  # s for one case
+_VERDICT = re.compile(r"shouldPass\s*=\s*(true|false)")
+
+
+def shared_folder() -> Path:
+    """The folder of the cases, beside this repository or in $LACUNA_SHARED. Raises FileNotFoundError."""
+    folder = Path(os.environ.get("LACUNA_SHARED", ROOT.parent / "shared")) / "compliance"
+    if not folder.is_dir():
+        raise FileNotFoundError(f"{folder} is not there: the compliance library is no part of this repository")
+    return folder
+
+
+def cases(folder: Path) -> dict[str, bool]:
+    """Full name of every case, and whether it should pass; one case a file."""
+    found = {}
+    for path in sorted((folder / "ModelicaCompliance").rglob("*.mo")):
+        verdict = _VERDICT.search(path.read_text(encoding="utf-8-sig"))
+        if verdict:
+            found[".".join(path.relative_to(folder).with_suffix("").parts)] = verdict.group(1) == "true"
+    return found
+
+
+def judge(name: str, folder: Path) -> dict[str, object]:
+    """Translate and run one case: passed, refused (with code and place) or violated (an assertion of its own)."""
+    try:
+        compiled = compile_model(name, search_path=search_path([folder]))
+        result = Session(Model(compiled.path), events=False).run(stop=STOP)
+    except Diagnostic as error:
+        return {"status": "refused", **first_finding(error)}
+    except SimulationError as error:
+        return {"status": "violated", "message": str(error)}
+    return {"status": "passed"} if result.complete else {"status": "violated", "message": str(result.failure)}
+
+
+def table(verdicts: dict[str, bool], results: dict[str, dict[str, object]]) -> str:
+    """Counts by chapter of the specification's subjects."""
+    chapters: dict[str, Counter[str]] = {}
+    for name, should in verdicts.items():
+        right = results[name]["status"] == ("passed" if should else "refused")
+        if not should and results[name]["status"] == "violated":
+            right = True  # refused by its own assertion, or at run time: it did not pass
+        count = chapters.setdefault(name.split(".")[1], Counter())
+        count[f"{should} of"] += 1
+        count[f"{should} right"] += right
+        count["crash"] += results[name]["status"] in ("crash", "timeout")
+    total = sum(chapters.values(), Counter())
+    lines = ["| chapter | should pass: do | should fail: refused | crashes |", "| --- | ---: | ---: | ---: |"]
+    for chapter, c in [*chapters.items(), ("all", total)]:
+        pairs = (f"{c[f'{kind} right']}/{c[f'{kind} of']}" for kind in (True, False))
+        lines.append(f"| {chapter} | {' | '.join(pairs)} | {c['crash']} |")
+    return "\n".join(lines)
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("names", nargs="*", help="parts of names of cases (default: all)")
+    parser.add_argument("--out", type=Path, default=ROOT / "out" / "compliance")
+    parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--keep", action="store_true", help="keep results of an earlier generator")
+    parser.add_argument("--wrong", action="store_true", help="print only what came out otherwise than it should")
+    chosen = parser.parse_args(arguments)
+    folder = shared_folder()
+    cache.COMPILER = tuple(o for o in cache.COMPILER if o != "-O2")
+    Library(search_path([folder])).all_classes()  # parsed once, before the processes part
+    verdicts = {n: s for n, s in cases(folder).items() if not chosen.names or any(part in n for part in chosen.names)}
+    results = isolated.run_all(
+        verdicts, lambda n: judge(n, folder), chosen.out, timeout=TIMEOUT, workers=chosen.workers, keep=chosen.keep,
+        progress=False,
+    )  # fmt: skip
+    for name, should in verdicts.items():
+        status = str(results[name]["status"])
+        right = status == "passed" if should else status in ("refused", "violated")
+        if (chosen.wrong and not right) or (chosen.names and not chosen.wrong):
+            r = results[name]
+            what = " ".join(str(r.get(k, "")) for k in ("code", "place", "message"))[-300:]
+            print(f"{'should pass' if should else 'should fail'} {status:8s} {name.split('.', 1)[1]}: {what}")
+    print(table(verdicts, results))
+
+
+if __name__ == "__main__":
+    main()

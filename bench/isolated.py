@@ -1,0 +1,97 @@
+"""Many independent jobs, each in a process of its own: a crash, a loop without end or a lack of memory costs one job.
+
+Results are JSON files in one folder, named by job; a job whose result is there and was made by the same generator is
+not run again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+import json
+import os
+from pathlib import Path
+import resource
+import signal
+import sys
+import time
+import traceback
+
+from lacuna.codegen.cache import generator_version
+
+Outcome = dict[str, object]
+MEMORY = 4 << 30  # bytes of address space for one job
+
+
+def run_all(
+    jobs: Iterable[str],
+    work: Callable[[str], Outcome],
+    folder: Path,
+    *,
+    timeout: float,
+    workers: int = 2,
+    keep: bool = False,
+    progress: bool = True,
+) -> dict[str, Outcome]:
+    """The outcome of every job, by its name. `keep` takes any result that is there, whatever generator made it."""
+    folder.mkdir(parents=True, exist_ok=True)
+    version = generator_version()
+    results: dict[str, Outcome] = {}
+    waiting: list[str] = []
+    for job in jobs:
+        known = _stored(folder, job)
+        if known is not None and (keep or known.get("generator") == version):
+            results[job] = known
+        else:
+            waiting.append(job)
+    running: dict[int, tuple[str, float]] = {}
+    while waiting or running:
+        while waiting and len(running) < workers:
+            job = waiting.pop(0)
+            running[_start(job, work, folder, version)] = (job, time.monotonic())
+        for pid, (job, since) in list(running.items()):
+            finished, status = os.waitpid(pid, os.WNOHANG)
+            if not finished and time.monotonic() - since <= timeout:
+                continue
+            if not finished:
+                os.kill(pid, signal.SIGKILL)
+                os.waitpid(pid, 0)
+                _store(folder, job, {"status": "timeout", "message": f"more than {timeout:g} s", "generator": version})
+            elif status:
+                reason = f"the process ended with signal {os.WTERMSIG(status)}"
+                _store(folder, job, {"status": "crash", "message": reason, "generator": version})
+            del running[pid]
+            results[job] = _stored(folder, job) or {"status": "crash", "message": "no result"}
+            if progress:
+                print(f"{len(results):4d} {results[job]['status']:10s} {job}", file=sys.stderr, flush=True)
+        time.sleep(0.01)
+    return results
+
+
+def _start(job: str, work: Callable[[str], Outcome], folder: Path, version: str) -> int:
+    pid = os.fork()
+    if pid:
+        return pid
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    null = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(null, 1)
+    os.dup2(null, 2)
+    start = time.process_time()
+    try:
+        outcome = work(job)
+    except BaseException:  # whatever it is: a crash of the translator is what this looks for
+        outcome = {"status": "crash", "message": "".join(traceback.format_exc()[-1500:])}
+    _store(folder, job, {**outcome, "seconds": time.process_time() - start, "generator": version})
+    os._exit(0)
+
+
+def _store(folder: Path, job: str, outcome: Outcome) -> None:
+    beside = folder / f"{job}.tmp"
+    beside.write_text(json.dumps(outcome, indent=1))
+    beside.replace(folder / f"{job}.json")
+
+
+def _stored(folder: Path, job: str) -> Outcome | None:
+    try:
+        return json.loads((folder / f"{job}.json").read_text())
+    except (OSError, ValueError):
+        return None

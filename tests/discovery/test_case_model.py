@@ -1,0 +1,184 @@
+"""Cases on models that are not ours: where the class is looked up, what its file may say, and how it ends."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+import shutil
+
+import numpy as np
+import pytest
+
+from lacuna.codegen.compile import compile_model
+from lacuna.codegen.errors import Diagnostic
+from lacuna.discovery import case_keys, diagnosis, report
+from lacuna.discovery.amend import Amendment
+from lacuna.discovery.cases import CaseError, load
+from lacuna.discovery.explain import explain, judge_written, write_amended
+from lacuna.discovery.fit import believed
+from lacuna.discovery.judge import judge_file
+from lacuna.discovery.machine import Machine
+from lacuna.discovery.places import read
+
+ROOT = Path(__file__).resolve().parents[2]
+SHARED = Path(os.environ.get("LACUNA_SHARED", ROOT.parent / "shared"))
+TANK = """model Tank "A tank with an outlet"
+  parameter Real A(unit="m2") = 0.01;
+  parameter Real k(unit="m2/s", min=0) = 3e-4;
+  input Real q(unit="m3/s");
+  Real h(unit="m", start=0.2, fixed=true);
+equation
+  A*der(h) = q - {outflow};
+end Tank;
+"""
+CASE = """title = "Tank"
+model = "{model}"
+{libraries}
+[parameters]
+k = 2.8e-4
+[uncertainty]
+A = 0.02
+k = 0.2
+[signals.q]
+role = "input"
+unit = "m3/s"
+[signals.h]
+role = "output"
+unit = "m"
+noise_std = 0.002
+[recordings]
+fit = ["r1.csv"]
+validate = ["r2.csv"]
+"""
+
+
+def tank_case(folder: Path, model: str = "Tank.mo", libraries: str = "", source: str = TANK, k: float = 3e-4) -> Path:
+    """A case of a linear tank, from its closed form: h relaxes to q/k with the time constant A/k."""
+    folder.mkdir(parents=True, exist_ok=True)
+    random = np.random.default_rng(1)
+    time = np.arange(200) * 1.0
+    for n, q in ((1, 9e-5), (2, 3e-5)):
+        h = q / k + (0.2 - q / k) * np.exp(-time * k / 0.01) + 0.002 * random.normal(size=200)
+        np.savetxt(folder / f"r{n}.csv", np.column_stack([time, np.full(200, q), h]), "%.6g", ",",
+                   header="time,q,h", comments="")  # fmt: skip
+    (folder / "case.toml").write_text(CASE.format(model=model, libraries=libraries), encoding="utf-8")
+    if source:
+        (folder / "Tank.mo").write_text(source.format(outflow="k*h"), encoding="utf-8")
+    return folder
+
+
+def simulated(folder: Path) -> float:
+    """RMS error of the case's believed model, in units of noise, with the true values put in."""
+    case = load(folder)
+    machine = Machine(case, Amendment(read(case.library(), case.base)))
+    residual = case.fit[0].columns["h"] - machine.simulate({"k": 3e-4}, case.fit[0])["h"]
+    return float(np.sqrt(np.mean(residual**2))) / 0.002
+
+
+def test_a_file_beside_the_case(tmp_path: Path) -> None:
+    assert simulated(tank_case(tmp_path / "ä case")) == pytest.approx(1.0, abs=0.15)
+
+
+def test_two_models_of_one_name_in_two_cases_are_two_models(tmp_path: Path) -> None:
+    right, wrong = tank_case(tmp_path / "a"), tank_case(tmp_path / "b")
+    (wrong / "Tank.mo").write_text(TANK.format(outflow="2*k*h"), encoding="utf-8")
+    assert simulated(right) == pytest.approx(1.0, abs=0.15)
+    assert simulated(wrong) > 10
+    assert simulated(right) == pytest.approx(1.0, abs=0.15)
+
+
+def test_a_class_in_a_package_file_and_in_a_package_folder(tmp_path: Path) -> None:
+    one = tank_case(tmp_path / "one", "Plant.mo:Plant.Tank", source="")
+    (one / "Plant.mo").write_text(f"package Plant\n{TANK.format(outflow='k*h')}end Plant;\n", encoding="utf-8")
+    assert simulated(one) == pytest.approx(1.0, abs=0.15)
+    folder = tmp_path / "lib" / "Works"
+    folder.mkdir(parents=True)
+    (folder / "package.mo").write_text("package Works\nend Works;\n", encoding="utf-8")
+    (folder / "Tank.mo").write_text("within Works;\n" + TANK.format(outflow="k*h"), encoding="utf-8")
+    for model, libraries in (("Works.Tank", 'libraries = ["../lib/Works"]'), ("../lib/Works/Tank.mo", "")):
+        case = tank_case(tmp_path / f"case{len(libraries)}", model, libraries, source="")
+        assert load(case).base == "Works.Tank"
+        assert simulated(case) == pytest.approx(1.0, abs=0.15)
+
+
+def test_a_model_that_extends_one_of_ours(tmp_path: Path, consistent_case: Path) -> None:
+    shutil.copytree(consistent_case, tmp_path / "case")
+    (tmp_path / "case" / "Mine.mo").write_text("model Mine\n  extends Lacuna.Benches.DcServo;\nend Mine;\n")
+    file = tmp_path / "case" / "case.toml"
+    file.write_text(file.read_text().replace("Benches.DcServo", "Mine.mo"))
+    result = explain(load(tmp_path / "case"))
+    assert result.verdict == "consistent"
+    path = write_amended(result, tmp_path)
+    assert (tmp_path / "Mine.mo").is_file()  # so that both open together
+    compile_model(str(path))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("[uncertainty]", "[uncertanty]", "no table `uncertanty`; did you mean uncertainty"),
+        ('title = "Tank"', 'titel = "Tank"', "no key `titel`; did you mean title"),
+        ('role = "input"', 'roles = "input"', r"\[signals.q\] has no role"),
+        ('role = "input"', 'role = "input"\nnoise_sd = 1', r"\[signals.q\] there is no key `noise_sd`; did you mean"),
+        ("k = 2.8e-4", 'k = "much"', r"\[parameters\] k = 'much'; it must be a finite number"),
+        ("A = 0.02", "A = -1", "must be a finite number of at least 0"),
+        ('fit = ["r1.csv"]', "fit = []", "must be a list of at least one file"),
+        ("[recordings]", '[recording."r3.csv"]\nparameters = {k = 1}\n[recordings]', "none of the recordings"),
+        ("[recordings]", "[limits.q]\nmaximum = 1\n[recordings]", r"\[limits.q\] there is no key `maximum`"),
+        ('model = "Tank.mo"', 'model = "Tanks.mo"', "cannot read .*Tanks.mo"),
+        ('model = "Tank.mo"', 'model = "Tank.mo"\nlibraries = ["nowhere"]', "no library at .*nowhere"),
+        ('model = "Tank.mo"', 'model = "Tank.mo"\nlibraries = ["empty"]', "empty holds no package"),
+        ('model = "Tank.mo"', 'model = "empty.mo"', "empty.mo is a folder"),
+        ('model = "Tank.mo"', 'model = "Benches.DcServ"', "no class DcServ"),
+    ],
+)
+def test_what_case_toml_may_not_say_is_named(tmp_path: Path, old: str, new: str, message: str) -> None:
+    tank_case(tmp_path)
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "empty.mo").mkdir()
+    file = tmp_path / "case.toml"
+    text = file.read_text()
+    assert old in text
+    file.write_text(text.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises((CaseError, Diagnostic), match=message):
+        load(tmp_path)
+
+
+def test_what_holds_in_one_recording_only(tmp_path: Path) -> None:
+    tank_case(tmp_path)
+    with (tmp_path / "case.toml").open("a", encoding="utf-8") as file:
+        file.write(
+            '[recording."r1.csv"]\nparameters = {A = 0.02}\nuncertainty = {A = 0.0, k = 0.1}\ninitial = {h = 0.4}\n'
+        )
+    case = load(tmp_path)
+    machine = Machine(case, Amendment(read(case.library(), case.base)))
+    free, fixed = believed(case, machine)
+    assert fixed["A@r1.csv"] == 0.02
+    assert {f.name: f.sigma for f in free}["k@r1.csv"] == pytest.approx(2.8e-5)
+    point = fixed | {f.name: f.centre for f in free} | {"k@r1.csv": 4e-4}
+    r1, r2 = case.fit[0], case.validate[0]
+    own = 9e-5 / 4e-4 + (0.4 - 9e-5 / 4e-4) * np.exp(-r1.time * 4e-4 / 0.02)
+    common = 3e-5 / 2.8e-4 + (0.2 - 3e-5 / 2.8e-4) * np.exp(-r2.time * 2.8e-4 / 0.01)
+    np.testing.assert_allclose(machine.simulate(point, r1)["h"], own, rtol=1e-5)
+    np.testing.assert_allclose(machine.simulate(point, r2)["h"], common, rtol=1e-5)
+
+
+def test_the_reference_says_what_the_reader_accepts() -> None:
+    assert (ROOT / "docs" / "guide" / "case-file.md").read_text(encoding="utf-8") == case_keys.reference()
+
+
+@pytest.mark.parametrize("name", ["q04", "q05", "q06"])
+def test_cases_on_machines_of_others_end_honestly(name: str, tmp_path: Path) -> None:
+    folder = SHARED / "recordings" / "own" / name
+    if not folder.is_dir():
+        pytest.skip(f"{folder} is not there; LACUNA_SHARED names the folder of shared data")
+    result = explain(load(folder), limit=60)
+    path = write_amended(result, tmp_path)
+    judge_written(result, path)
+    written = json.loads(diagnosis.write(result, tmp_path, path).read_text())
+    assert report.write(result, tmp_path, path).is_file()
+    assert not any(f["location"].startswith("sensor:") for f in written["findings"])
+    assert (written["verdict"] == "consistent") == (name == "q06")
+    judged = judge_file(result.case, Amendment(read(result.case.library(), result.case.base)), path, {})
+    assert judged.validate[""] <= 1.001 * written["nrmse"]["validate"]["after"]

@@ -1,0 +1,49 @@
+"""Campaigns of hybrid systems with closed-form event times: python -m tests.events belts [--draws N]."""
+
+from __future__ import annotations
+
+import argparse
+from collections import defaultdict
+import sys
+
+import numpy as np
+
+from lacuna import runtime
+from lacuna.codegen.compile import compile_model
+from tests.events import belts
+
+TOLERANCES = tuple(10 ** (-k / 2) for k in range(8, 21))  # 1e-4 to 1e-10 in half decades
+
+
+def run_belts(draws: int) -> int:
+    """Print shares of the error budget by solver and tolerance; the number of wrong runs."""
+    model = runtime.Model(compile_model(str(belts.MODEL)).path)
+    rng, shares, errors, wrong = np.random.default_rng(2026), defaultdict(list), defaultdict(list), 0
+    for n in range(draws):
+        belt = belts.draw(rng)
+        for solver in belts.SOLVERS:
+            for rtol in TOLERANCES:
+                verdict = belts.judge(model, belt, solver, rtol)
+                shares[solver, rtol].append(verdict.share)
+                errors[solver, rtol].append(verdict.error)
+                if verdict.wrong:
+                    wrong += 1
+                    print(f"draw {n}, {solver}, rtol {rtol:.1e}: {verdict.wrong}; {belt}")
+    for (solver, rtol), values in shares.items():
+        error = np.array(errors[solver, rtol])
+        off = f"{np.median(error):.2e} s (median), {error.max():.2e} s (largest)"
+        print(f"{solver:8s} {rtol:8.1e}  event times off by {off}, {max(values):.2f} of the budget")
+    print(f"{wrong} of {sum(map(len, shares.values()))} runs wrong")
+    return wrong
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("campaign", choices=["belts"])
+    parser.add_argument("--draws", type=int, default=200)
+    arguments = parser.parse_args()
+    return 1 if run_belts(arguments.draws) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
