@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from lacuna.cli import assess, check, compare, compile, explain, maps, simulate, steps, sweep
+from lacuna.cli import assess, check, compare, compile, explain, forecast, maps, simulate, steps, sweep
 
 app = typer.Typer(
     name="lacuna",
@@ -37,6 +37,7 @@ app.command("compare", rich_help_panel=MODELS)(compare.compare)
 app.command("maps", rich_help_panel=FAULTS)(maps.maps)
 app.command("sweep", rich_help_panel=FAULTS)(sweep.sweep)
 app.command("assess", rich_help_panel=FAULTS)(assess.assess)
+app.command("forecast", rich_help_panel=FAULTS)(forecast.forecast)
 app.command("explain", rich_help_panel=PHYSICS)(explain.explain)
 app.command("fit", rich_help_panel=PHYSICS)(steps.fit)
 app.command("locate", rich_help_panel=PHYSICS)(steps.locate)

@@ -12,7 +12,7 @@ from lacuna import runtime
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis.law import Law, severities
 from lacuna.codegen.compile import compile_model
-from lacuna.codegen.library import MODEL_FOLDER, Library
+from lacuna.codegen.library import Library
 from lacuna.codegen.syntax import ast
 
 FIELDS = {"law", "rate", "shapes", "wander", "diffusion", "reference"}
@@ -87,7 +87,9 @@ def _shapes(cls: ast.Class, name: str, fields: dict) -> list[Law]:
     where = f"{cls.span.file}: {cls.name}"
     if list(model.states) != ["severity"] or "growth" not in model.variables:
         states = ", ".join(model.states) or "none"
-        raise AnalysisError(f"{where}: a degradation law extends PartialLaw and has one state, severity; here: {states}")
+        raise AnalysisError(
+            f"{where}: a degradation law extends PartialLaw and has one state, severity; here: {states}"
+        )
     for parameter in (fields["rate"], *fields["shapes"]):
         model.variable(parameter, "parameter", model.parameters)
     names = list(fields["shapes"])

@@ -1,7 +1,7 @@
 """The bank of hypotheses: every law with every shape, level of noise, common error and starting rate, in plain arrays.
 
-A hypothesis is a Gaussian over (x, l): x the severity as a share of the limit, l = ln r the logarithm of the law's rate.
-Arrays are [S, B, K]: S laws with their shapes, B histories, K = rates x noises x common errors.
+A hypothesis is a Gaussian over (x, l): x the severity as a share of the limit, l = ln r the logarithm of the law's
+rate. Arrays are [S, B, K]: S laws with their shapes, B histories, K = rates x noises x common errors.
 """
 
 from __future__ import annotations
@@ -13,6 +13,8 @@ import numpy as np
 
 from lacuna.analysis.prognosis.law import Law, prior, tables
 from lacuna.analysis.prognosis.settings import DEFAULT, FilterSettings
+
+LOST = 1e-3  # of the greatest weight
 
 
 class Bank:
@@ -28,19 +30,21 @@ class Bank:
         noises, commons = np.array(settings.noises), np.array(settings.commons)
         self.shape = (count, len(noises), len(commons))  # K unfolded
         law_noise = np.array([[law.wander, law.diffusion] for law in self.laws])
-        wander, diffusion = (law_noise[:, :, None] * noises.T).transpose(1, 0, 2)  # [S, noises]
+        wander, diffusion = (law_noise[:, :, None] * noises[:, 1:3].T).transpose(1, 0, 2)  # [S, noises]
         self.wander2 = self._unfold(wander[:, None, :, None] ** 2)
         self.diffusion2 = self._unfold(diffusion[:, None, :, None] ** 2)
+        self.change = self._unfold(settings.change * noises[None, None, :, None, 3])
         self.common = self._unfold(commons[None, None, None, :])
         self.life = np.array([table.life for table in self.tables])[:, None, None]
         of_life = np.exp(-0.5 * ((self.log_lives - np.log(settings.life)) / settings.life_spread) ** 2)
-        of_life = of_life[None, :, None, None] / (of_life.sum() * len(noises) * len(commons))
-        self.prior = self._unfold(prior(self.laws)[:, None, None, None] * of_life)
+        within = np.multiply.outer(of_life / of_life.sum(), noises[:, 0] / noises[:, 0].sum())
+        self.prior = self._unfold(prior(self.laws)[:, None, None, None] * within[None, :, :, None] / len(commons))
 
     def learn(self, weights: np.ndarray) -> None:
         """Take the prior of a fleet: weights [S, B, K] of its hypotheses, each after its whole history.
 
-        One step of the EM algorithm for a mixture's shares under a Dirichlet prior (empirical Bayes: Robbins 1956), worth
+        One step of the EM algorithm for a mixture's shares under a Dirichlet prior (empirical Bayes: Robbins 1956),
+        worth
         `settings.actuators`.
         """
         own = self.settings.actuators
@@ -91,3 +95,9 @@ class Beliefs:
         """Replace some histories', in place."""
         for name, value in vars(self).items():
             value[:, select] = getattr(others, name)
+
+
+def in_use(w: np.ndarray) -> np.ndarray:
+    """Weights [S, B, K] without hypotheses that lost the part and live by the share that returns to the prior alone."""
+    kept = np.where(w >= LOST * w.max(axis=(0, 2), keepdims=True), w, 0)
+    return kept / kept.sum(axis=(0, 2), keepdims=True)

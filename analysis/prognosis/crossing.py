@@ -4,8 +4,10 @@ Given the severity x and the rate r of a hypothesis, the age has D = U(limit) - 
 
     ln n = ln D - ln r + noise,   variance  wander^2 tau / 3 + diffusion^2 integral(dx / G^2) / D^2
 
-with tau = D / life: the mean of a wandering logarithm over its own span, and the first passage of a Wiener process with drift (its
-inverse Gaussian has this coefficient of variation: Chhikara, Folks 1989), both as a lognormal. Over x, and over the common error that
+with tau = D / life: the mean of a wandering logarithm over its own span, and the first passage of a Wiener process
+with drift (its
+inverse Gaussian has this coefficient of variation, and the mean D/r: Chhikara, Folks 1989), both as a lognormal.
+Over x, and over the common error that
 shifts the limit as the assessments see it, the distribution is summed at Gauss-Hermite nodes.
 """
 
@@ -14,9 +16,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import ndtr, ndtri
+from scipy.special import ndtr
 
-from lacuna.analysis.prognosis.bank import Bank, Beliefs
+from lacuna.analysis.prognosis.bank import LOST, Bank, Beliefs
 
 NODES = 5
 COMMON_NODES = 3
@@ -109,13 +111,14 @@ class Distribution:
 
 
 def remaining(bank: Bank, beliefs: Beliefs, limit: float, error: np.ndarray, interval: np.ndarray) -> Remaining:
-    """Up to severity `limit` (a share of the last limit). `error` [B]: standard deviation of an assessment now, `interval` [B]:
-    usual use between tests, in which abrupt changes of the rate are counted."""
+    """Up to severity `limit` (a share of the last limit). `error` [B]: standard deviation of an assessment now,
+    `interval` [B]: usual use between tests, in which abrupt changes of the rate are counted."""
     s, b, k = beliefs.x.shape
     flat = {name: value.transpose(1, 0, 2).reshape(b, -1) for name, value in vars(beliefs).items()}
     kept = np.argpartition(-flat["w"], min(KEPT, s * k) - 1, axis=1)[:, :KEPT]
     of = {name: np.take_along_axis(value, kept, axis=1) for name, value in flat.items()}
-    weight = of["w"] / of["w"].sum(axis=1, keepdims=True)
+    weight = np.where(of["w"] >= LOST * of["w"].max(axis=1, keepdims=True), of["w"], 0)
+    weight /= weight.sum(axis=1, keepdims=True)
     parts = [_parts(bank, of, weight, kept, error, interval, limit, node) for node in _nodes(bank)]
     mean, sd, weights = (np.concatenate(values, axis=1) for values in zip(*parts, strict=True))
     return Remaining(mean, sd, weights)
@@ -147,8 +150,9 @@ def _parts(bank: Bank, of: dict, weight, kept, error, interval, limit: float, no
     ahead = np.maximum(distance, 1e-12)
     tau = ahead / bank.life[law, 0, 0]
     variance = np.maximum(of["ll"] - slope**2, 1e-12) + bank.wander2[law, 0, place] * np.minimum(tau, 1) / 3
-    variance += bank.diffusion2[law, 0, place] * scatter / ahead**2
-    mean = np.where(distance > 0, np.log(ahead) - of["l"] - z * slope, -np.inf)
+    passage = np.minimum(bank.diffusion2[law, 0, place] * scatter / ahead**2, LARGEST**2)
+    variance += passage
+    mean = np.where(distance > 0, np.log(ahead) - of["l"] - z * slope - passage / 2, -np.inf)
     tests = np.exp(np.clip(mean, -700, 700)) / interval[:, None]
     change = 1 - np.exp(-bank.settings.change * tests)
     if changes:

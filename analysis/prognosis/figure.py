@@ -5,7 +5,8 @@ from __future__ import annotations
 from matplotlib.axes import Axes
 import numpy as np
 
-from lacuna.analysis.prognosis.forecast import FORECAST, Forecast
+from lacuna.analysis.prognosis.forecast import Forecast
+from lacuna.analysis.prognosis.verdict import FORECAST
 from lacuna.analysis.report.figures.style import BAND_FILL, BAND_INK, INK, MUTED
 
 FAN = ((0.025, 0.975, "95 %", "#c9d8e8"), (0.1, 0.9, "80 %", "#8fb1d3"))
@@ -13,8 +14,8 @@ LEVELS = 24  # severities at which the fan is drawn
 
 
 def draw(axes: Axes, f: Forecast, smoothed: tuple[np.ndarray, np.ndarray, np.ndarray] | None, levels) -> None:
-    """`smoothed`: use, mean and standard deviation of the severity over the tests; `levels`: (severities, remaining use at
-    the fan's quantiles and the median [levels, 5]) as `fan` gives them, or None."""
+    """`smoothed`: use, mean and standard deviation of the severity over the tests; `levels`: (severities, remaining
+    use at the fan's quantiles and the median [levels, 5]) as `fan` gives them, or None."""
     h, part = f.history, f.history.lives[-1]
     known = np.isfinite(h.severity)
     strange = np.zeros(len(h.use), bool)
@@ -37,7 +38,9 @@ def draw(axes: Axes, f: Forecast, smoothed: tuple[np.ndarray, np.ndarray, np.nda
         far = f.at + min(1.6 * np.nanmax(np.where(np.isfinite(quantiles), quantiles, np.nan)), 1.2 * f.horizon)
         at = f.at + np.where(np.isfinite(quantiles), quantiles, far)
         for k, (_, _, name, colour) in enumerate(FAN):
-            axes.fill_betweenx(severities, at[:, k], at[:, 4 - k], color=colour, linewidth=0, label=f"{name} of forecasts")
+            axes.fill_betweenx(
+                severities, at[:, k], at[:, 4 - k], color=colour, linewidth=0, label=f"{name} of forecasts"
+            )
         axes.plot(at[:, 2], severities, color="#0b3d6b", linestyle="--", label="median")
         axes.set_xlim(right=max(np.nanmax(at), f.at * 1.02))
         if f.advised is not None:

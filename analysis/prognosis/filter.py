@@ -3,11 +3,12 @@
     x' = U^-1(U(x) + r n) + diffusion,   l' = l + wander,   l = ln r        (law.py)
     y  = x' + e,   e ~ (1 - common) sigma^2, with sigma of that side of the interval on which x' lies
 
-An extended Kalman filter a hypothesis (Jazwinski 1970), with the derivatives in closed form. A test is read in four ways at once:
+An extended Kalman filter a hypothesis (Jazwinski 1970), with the derivatives in closed form. A test is read in four
+ways at once:
 as it is; with a wide error; as an outlier that says nothing; as the first after an abrupt change of the rate. The four
-posteriors are merged by their moments (probabilistic data association: Bar-Shalom, Tse 1975), and their total likelihood is the
-hypothesis' evidence, by which the hypotheses are weighed (Gaussian sums: Sorenson, Alspach 1971; interacting multiple
-models, with a share of the weight returning to the prior: Blom, Bar-Shalom 1988).
+posteriors are merged by their moments (probabilistic data association: Bar-Shalom, Tse 1975), and their total
+likelihood is the hypothesis' evidence, by which the hypotheses are weighed (Gaussian sums: Sorenson,
+Alspach 1971).
 
 Where rate and law are known, the filter is the Kalman filter of a Wiener process with drift, exactly.
 """
@@ -84,11 +85,11 @@ def update(bank: Bank, b: Beliefs, turn: np.ndarray, series: Series, k: int):
     variance = (1 - bank.common) * np.where(miss < 0, above, below) ** 2
     jump = settings.change_size**2
     changed = (b.xx + jump * turn * turn, b.xl + jump * turn, b.ll + jump)
-    usual = 1 - settings.wide - settings.outlier - settings.change
+    usual = 1 - settings.wide - settings.outlier - bank.change
     ways = [
         (usual, b.xx, b.xl, b.ll, variance),
         (settings.wide, b.xx, b.xl, b.ll, settings.wide_scale**2 * variance),
-        (settings.change, *changed, variance),
+        (bank.change, *changed, variance),
     ]
     density = np.full(b.x.shape, settings.outlier / settings.outlier_range)
     total, dx, dl = density.copy(), 0.0, 0.0
@@ -107,7 +108,7 @@ def update(bank: Bank, b: Beliefs, turn: np.ndarray, series: Series, k: int):
     w = b.w * total
     evidence = w.sum(axis=(0, 2))
     outlier = (b.w * density).sum(axis=(0, 2)) / evidence
-    w = (1 - settings.forget) * w / evidence[None, :, None] + settings.forget * bank.prior
+    w = w / evidence[None, :, None]
     after = Beliefs(
         b.x + dx, b.l + dl, xx / total - dx * dx, xl / total - dx * dl, ll / total - dl * dl, w
     )  # fmt: skip

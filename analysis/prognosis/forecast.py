@@ -9,19 +9,15 @@ import math
 import numpy as np
 
 from lacuna.analysis.errors import AnalysisError
-from lacuna.analysis.prognosis.bank import Bank, Beliefs
+from lacuna.analysis.prognosis.bank import Bank, Beliefs, in_use
 from lacuna.analysis.prognosis.crossing import Remaining, remaining
 from lacuna.analysis.prognosis.filter import Series, Step, run
 from lacuna.analysis.prognosis.history import TWO_SIDED_95, History
+from lacuna.analysis.prognosis.verdict import FORECAST, verdict_on
 
-FORECAST, TOO_EARLY, STEADY = "forecast", "too_early", "steady"
 LEVELS = (0.025, 0.1, 0.5, 0.9, 0.975)
 BATCH = 64  # histories a call of the filter: its arrays then stay in the cache
 LONG = 10.0  # the horizon, in the use that was watched: a forecast further ahead than ten times the past is a guess
-DECADE = 10.0  # between the ends of the 80 % interval: wider, no removal can be planned by it
-SETTLED = 0.05  # probability of the limit within as much use again as was watched, below which a part is called steady
-FEWEST = 3  # tests of a part: two give a rate, the third can contradict it
-INCOHERENT = 0.25  # share of outliers beyond which the tests are not one part's
 LISTED = 200  # future tests that are listed
 FLEET = 20  # actuators from which on a fleet has a prior of its own
 
@@ -49,8 +45,8 @@ class Forecast:
     """What is said of one actuator (and fault) after its last test. Uses are in the history's unit.
 
     `quantiles` [limits, LEVELS] of the remaining use, inf beyond `horizon`. `ahead`: uses of future tests, counted like
-    the history's; `risk` [limits, ahead] of having reached each limit by then. `advised` is None where the risk stays below the
-    chosen figure as far as is listed.
+    the history's; `risk` [limits, ahead] of having reached each limit by then. `advised` is None where the risk
+    stays below the chosen figure as far as is listed.
     """
 
     history: History
@@ -71,7 +67,8 @@ class Forecast:
 
 
 def series_of(histories: Sequence[History], limit: float, floor: float) -> Series:
-    """The parts in service, padded, as shares of `limit`. A side of an interval that the map's edge cuts takes the other's width."""
+    """The parts in service, padded, as shares of `limit`. A side of an interval that the map's edge cuts takes the
+    other's width."""
     parts = [(h, h.lives[-1]) for h in histories]
     n = max(1, *(part.stop - part.start for _, part in parts))
     shape = (len(parts), n)
@@ -122,7 +119,8 @@ def forecasts(
     *,
     learn: bool = True,
 ) -> list[Forecast]:
-    """One for each history, in their order; with `learn`, FLEET or more of them tell the prior first (`fleet_prior`)."""
+    """One for each history, in their order; with `learn`, FLEET or more of them tell the prior first
+    (`fleet_prior`)."""
     of = limits if callable(limits) else lambda _: limits
     for history in histories:
         check_range(history, of(history))
@@ -136,7 +134,8 @@ def forecasts(
         outliers = []
         for step in run(bank, series):
             outliers.append(step.outlier)
-        said = _forecasts(batch, bank, scale, options, step, series, np.array(outliers).T)
+            last = step
+        said = _forecasts(batch, bank, scale, options, last, series, np.array(outliers).T)
         result |= dict(zip(rows, said, strict=True))
     return [result[k] for k in range(len(histories))]
 
@@ -147,9 +146,8 @@ def fleet_prior(histories: Sequence[History], bank: Bank, of: Callable[[History]
     weights = []
     for rows in _batches(chosen):
         batch = [chosen[k] for k in rows]
-        for step in run(bank, joined([series_of([h], of(h).removal, bank.settings.floor) for h in batch])):
-            pass
-        weights.append(step.filtered.w)
+        *_, last = run(bank, joined([series_of([h], of(h).removal, bank.settings.floor) for h in batch]))
+        weights.append(last.filtered.w)
     bank.learn(np.concatenate(weights, axis=1))
 
 
@@ -174,7 +172,10 @@ def joined(parts: Sequence[Series]) -> Series:
         return np.pad(values, ((0, 0), (0, n - values.shape[1])), mode=mode)
 
     return Series(
-        *(np.concatenate([padded(getattr(p, name), "edge") for p in parts]) for name in ("use", "value", "below", "above")),
+        *(
+            np.concatenate([padded(getattr(p, name), "edge") for p in parts])
+            for name in ("use", "value", "below", "above")
+        ),
         np.concatenate([padded(p.valid, "constant") for p in parts]),
         np.concatenate([p.interval for p in parts]),
     )
@@ -187,7 +188,7 @@ def _batches(histories: Sequence[History]) -> list[list[int]]:
 
 
 def _forecasts(batch, bank: Bank, scale: list[Limits], options, step: Step, series: Series, outliers) -> list[Forecast]:
-    error = np.array([_last_error(series, b) for b in range(len(batch))])
+    error = np.array([last_error(series, b) for b in range(len(batch))])
     reaching = [_reaching(bank, step.filtered, scale, j, error, series.interval) for j in range(len(scale[0].names))]
     watched = np.array([h.use[h.lives[-1]][-1] - h.use[h.lives[-1]][0] for h in batch])
     watched = np.where(watched > 0, watched, series.interval)
@@ -202,7 +203,7 @@ def _forecasts(batch, bank: Bank, scale: list[Limits], options, step: Step, seri
     result = []
     for b, h in enumerate(batch):
         own = slice(0, count[b] + 1)
-        verdict, reason, warnings = _verdict(h, outliers[b], quantiles[b, -1], again[b], horizon[b])
+        verdict, reason, warnings = verdict_on(h, outliers[b], quantiles[b, -1], again[b], horizon[b])
         at = float(h.use[-1])
         below = np.flatnonzero(np.maximum.accumulate(risk[b, -1, own]) > options.risk)
         advised = None if not len(below) or verdict != FORECAST else at + float(steps[b, max(below[0] - 1, 0)])
@@ -222,7 +223,7 @@ def _row(r: Remaining, b: int) -> Remaining:
     return Remaining(r.mean[b : b + 1], r.sd[b : b + 1], r.weight[b : b + 1])
 
 
-def _last_error(series: Series, b: int) -> float:
+def last_error(series: Series, b: int) -> float:
     """Standard deviation of the assessments now: the median of the last five."""
     known = np.flatnonzero(series.valid[b])[-5:]
     return float(np.median((series.below[b, known] + series.above[b, known]) / 2)) if len(known) else 0.0
@@ -240,30 +241,6 @@ def _reaching(bank, beliefs, scale: list[Limits], j: int, error, interval) -> Re
     return Remaining(*(np.concatenate([getattr(p, name) for p in parts]) for name in ("mean", "sd", "weight")))
 
 
-def _verdict(h: History, outlier: np.ndarray, quantiles: np.ndarray, again: float, horizon: float):
-    """(verdict, reason, warnings)."""
-    part = h.lives[-1]
-    tests = int(np.isfinite(h.severity[part]).sum())
-    strange = outlier[: part.stop - part.start] > 0.5
-    last = strange[np.isfinite(h.severity[part])]
-    if h.doubts:
-        return TOO_EARLY, "the history contradicts itself", ()
-    if tests < FEWEST:
-        return TOO_EARLY, f"{tests} tests of this part; a trend needs {FEWEST}", ()
-    if tests >= 2 * FEWEST and strange.sum() > INCOHERENT * tests:
-        why = f"{strange.sum()} of {tests} tests do not fit the others: are some another actuator's?"
-        return TOO_EARLY, "the tests contradict each other", (why,)
-    if len(last) >= FEWEST and last[-FEWEST:].all():
-        why = f"the last {FEWEST} tests do not fit those before: a replacement that is not recorded, or another actuator?"
-        return TOO_EARLY, "the last tests contradict those before", (why,)
-    _, low, median, high, _ = quantiles
-    if median <= horizon and high <= DECADE * max(low, 1e-12 * horizon) or median == 0:
-        return FORECAST, "", ()
-    if again < SETTLED:
-        return STEADY, "no growth that would reach the limit within as much use again as was watched", ()
-    return TOO_EARLY, "the tests agree with lives that differ tenfold", ()
-
-
 def _law_weights(bank: Bank, beliefs: Beliefs) -> list[dict[str, float]]:
     """Weight of each named law, shapes and noises summed."""
     by_shape = beliefs.w.sum(axis=2)
@@ -277,7 +254,8 @@ def _law_weights(bank: Bank, beliefs: Beliefs) -> list[dict[str, float]]:
 
 
 def _tracked(b: Beliefs) -> tuple[np.ndarray, np.ndarray]:
-    """Mean and standard deviation of the severity over all hypotheses, [B] shares of the limit."""
-    mean = (b.w * b.x).sum(axis=(0, 2))
-    variance = (b.w * (b.xx + (b.x - mean[None, :, None]) ** 2)).sum(axis=(0, 2))
+    """Mean and standard deviation of the severity over the hypotheses in use, [B] shares of the limit."""
+    w = in_use(b.w)
+    mean = (w * b.x).sum(axis=(0, 2))
+    variance = (w * (b.xx + (b.x - mean[None, :, None]) ** 2)).sum(axis=(0, 2))
     return mean, np.sqrt(variance)

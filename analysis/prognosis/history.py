@@ -1,7 +1,9 @@
 """A history: the pre-flight tests of one actuator in order of use, read from a table and checked.
 
-`history.csv` (or Parquet) has the columns `actuator` and `cycles` or `hours`, then `severity, low, high` (fractions, 95 %) or
-`recording` (a file beside it), and `event`: empty or `replaced` (the part was replaced before this row's test). A column
+`history.csv` (or Parquet) has the columns `actuator` and `cycles` or `hours`, then `severity, low, high` (fractions,
+95 %) or
+`recording` (a file beside it), and `event`: empty or `replaced` (the part was replaced before this row's test). A
+column
 `fault` tells several faults of one actuator apart.
 """
 
@@ -52,7 +54,8 @@ class History:
 def read_histories(path: Path | str, assess: Assess | None = None, unit: str | None = None) -> list[History]:
     """Histories of a folder with history.csv or .parquet, or of such a file, in order of actuator.
 
-    `assess` reads the severities of a recording where the table has none; it raises AnalysisError where the recording is
+    `assess` reads the severities of a recording where the table has none; it raises AnalysisError where the
+    recording is
     refused, which is a missing test with a warning. `unit`: the column to count by, where there are both. Raises
     AnalysisError with file, row and reason for what cannot be a history.
     """
@@ -128,7 +131,9 @@ def _unit(file: Path, rows: list[tuple[int, Row]], wanted: str | None) -> str:
         raise AnalysisError(f"{file}: column {wanted} is missing or not complete")
     if not complete:
         line, unit = next((n, u) for n, row in rows for u in present if str(row[u]) == "")
-        raise AnalysisError(f"{file}:{line}: {unit} is empty: cycles and hours are mixed, or a test has no count of use")
+        raise AnalysisError(
+            f"{file}:{line}: {unit} is empty: cycles and hours are mixed, or a test has no count of use"
+        )
     return wanted or complete[0]
 
 

@@ -79,9 +79,13 @@ class LawTable:
         self.life = float(self.u[np.flatnonzero(alive)[-1]] - np.interp(YOUNG, self.x, self.u))
 
     def _integral(self, values: np.ndarray) -> np.ndarray:
-        """Of `values` over x from LOW, by the trapezoidal rule in ln x."""
-        inner, step = values * self.x, np.log(self.x[1] / self.x[0])
-        return np.concatenate([[0.0], np.cumsum((inner[1:] + inner[:-1]) * (step / 2))])
+        """Of `values` over x from LOW, between points as powers of x: exact for linear, exponential and crack-like
+        laws."""
+        ratio = self.x[1] / self.x[0]
+        power = np.log(values[1:] / values[:-1]) / np.log(ratio) + 1
+        flat = np.abs(power) < 1e-9
+        width = np.where(flat, np.log(ratio), np.expm1(power * np.log(ratio)) / np.where(flat, 1, power))
+        return np.concatenate([[0.0], np.cumsum(self.x[:-1] * values[:-1] * width)])
 
     def growth(self, x):
         return np.interp(x, self.x, self.g)

@@ -16,18 +16,22 @@ from lacuna.analysis.prognosis.bank import Bank
 from lacuna.analysis.prognosis.crossing import remaining
 from lacuna.analysis.prognosis.figure import LEVELS, draw
 from lacuna.analysis.prognosis.filter import run
-from lacuna.analysis.prognosis.forecast import FORECAST, LEVELS as PROBABILITIES, Forecast, _last_error, series_of
+from lacuna.analysis.prognosis.forecast import LEVELS as PROBABILITIES
+from lacuna.analysis.prognosis.forecast import Forecast, last_error, series_of
 from lacuna.analysis.prognosis.smoother import tracked
 from lacuna.analysis.prognosis.telling import FORMAT, entry, sentence
+from lacuna.analysis.prognosis.verdict import FORECAST
 
 DRAWN = 40  # actuators that get a figure; of more, those at greatest risk
 
 _PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Forecast</title>
 <style>body{{font:15px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}}
-h2{{font-size:1.05rem;margin:2rem 0 .3rem}}img{{width:100%}}.warn{{color:#b3261e}}td,th{{text-align:right;padding:.1rem .8rem
+h2{{font-size:1.05rem;margin:2rem 0
+.3rem}}img{{width:100%}}.warn{{color:#b3261e}}td,th{{text-align:right;padding:.1rem .8rem
 .1rem 0}}td:first-child,th:first-child{{text-align:left}}small{{color:#666}}</style>
 <h1>Flights that remain</h1><p>{summary}</p>{parts}
-<p><small>lacuna {version}; limits {limits}. Intervals are of remaining use; the fan shows when each severity is reached.</small></p></html>
+<p><small>lacuna {version}; limits {limits}. Intervals are of remaining use; the fan shows when each severity is
+reached.</small></p></html>
 """
 
 
@@ -58,8 +62,9 @@ def publish(said: Sequence[Forecast], bank: Bank, out: Path, risk: float, versio
             name = re.sub(r"[^\w.-]", "_", f"{f.history.actuator}_{f.history.fault}".rstrip("_"))
             figure.axes[0].set_title(f.history.actuator.replace("$", r"\$"))
             figure.savefig(scratch / f"{name}.png")
+            figure.axes[0].set_title("")  # the page has the name, escaped
             picture = io.StringIO()
-            figure.savefig(picture, format="svg", metadata={"Date": None})
+            figure.savefig(picture, format="svg", metadata=dict.fromkeys(("Date", "Creator", "Format", "Type")))
             parts.append(_part(f, picture.getvalue(), risk))
         shown = f"{len(first)} of {len(said)} shown, those at greatest risk first." if len(said) > DRAWN else ""
         limits = ", ".join(f"{n} from {v:g}" for n, v in zip(said[0].limits.names, said[0].limits.values, strict=True))
@@ -106,7 +111,7 @@ def curves(f: Forecast, bank: Bank):
     if f.verdict != FORECAST or mean[-1, 0] >= 1:
         return smoothed, None
     shares = np.linspace(min(mean[-1, 0], 0.99), 1.1, LEVELS)
-    error = np.array([_last_error(series, 0)])
+    error = np.array([last_error(series, 0)])
     last = steps[-1].filtered
     quantiles = [
         remaining(bank, last, s, error, series.interval).quantiles(PROBABILITIES, np.array([10 * f.horizon]))[0]

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from lacuna.analysis.prognosis.bank import Bank, Beliefs
+from lacuna.analysis.prognosis.bank import Bank, Beliefs, in_use
 from lacuna.analysis.prognosis.filter import Step
 
 
@@ -31,7 +31,7 @@ def smooth(bank: Bank, steps: Sequence[Step]) -> tuple[np.ndarray, np.ndarray]:
 def tracked(bank: Bank, steps: Sequence[Step]) -> tuple[np.ndarray, np.ndarray]:
     """Mean and standard deviation [n, B] of the severity (share of the limit) at each test, over all hypotheses."""
     means, covariances = smooth(bank, steps)
-    w = steps[-1].filtered.w
+    w = in_use(steps[-1].filtered.w)
     mean = (w * means[..., 0]).sum(axis=(1, 3))
     spread = covariances[..., 0, 0] + (means[..., 0] - mean[:, None, :, None]) ** 2
     return mean, np.sqrt(np.maximum((w * spread).sum(axis=(1, 3)), 0))

@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from lacuna.analysis.prognosis.forecast import FORECAST, STEADY, Forecast
+from lacuna.analysis.prognosis.forecast import Forecast
+from lacuna.analysis.prognosis.verdict import FORECAST, STEADY
 
 FORMAT = 1  # of forecast.json
 

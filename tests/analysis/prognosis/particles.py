@@ -1,4 +1,5 @@
-"""A long Monte Carlo of the filter's own model: bootstrap particles over every law, shape, noise, common error and rate.
+"""A long Monte Carlo of the filter's own model: bootstrap particles over every law, shape, noise, common error and
+rate.
 
 Slow and plain, and written from the model alone: growth in small steps, no derivative, no Gaussian.
 """
@@ -20,7 +21,8 @@ def posterior(bank, use, value, sd, interval, *, count=200_000, steps=6, seed=0)
     state = [law, place, x, ln_r]
     before = 0.0
     for n, y in zip(use, value, strict=True):
-        changed = random.random(count) < settings.change
+        law, place = state[:2]
+        changed = random.random(count) < bank.change[law, 0, place]
         state[3] = state[3] + changed * settings.change_size * random.standard_normal(count)
         state = grow(bank, state, n - before, steps, random)
         before = n
