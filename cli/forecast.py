@@ -7,10 +7,11 @@ from typing import Annotated, Literal
 
 import typer
 
-from lacuna.cli.errors import reported
+import lacuna
+from lacuna.cli.answer import Answer, answered
 
 
-@reported
+@answered
 def forecast(
     history: Annotated[Path, typer.Argument(help="Folder with history.csv or history.parquet, or such a file")],
     map: Annotated[
@@ -31,30 +32,22 @@ def forecast(
         bool, typer.Option("--unfiltered", help="The currents did not pass the map's filters")
     ] = False,
     out: Annotated[Path | None, typer.Option(help="Folder of the results; default: out/forecast/HISTORY")] = None,
-) -> None:
+) -> Answer:
     """Say when each actuator reaches the bands of its map, how sure that is, and its last advisable test.
 
     history.csv has the columns actuator, cycles (or hours), then severity, low, high (fractions, 95 %) or recording (a
     file beside it), and event (empty or replaced). Writes forecast.json, report.html and fan charts. "Too early to
     say" is an answer; a history that contradicts itself is refused with the row.
     """
-    import lacuna
-
     folder = out or Path("out/forecast") / (history.stem if history.is_file() else history.resolve().name)
-    from lacuna.analysis.prognosis.publish import urgency
-    from lacuna.analysis.prognosis.telling import sentence
-
-    said = lacuna.forecast(
-        history, map, folder, laws=laws or (), risk=risk, horizon=horizon, unit=unit, columns=current or None,
+    found = lacuna.forecast(
+        history, map, folder, laws=laws or (), risk=risk, horizon=horizon, unit=unit, columns=current,
         unfiltered=unfiltered,
     )  # fmt: skip
-    for one in sorted(said, key=urgency)[:SHOWN]:
-        typer.echo(sentence(one, risk))
-        for warning in one.warnings:
-            typer.echo(f"warning: {warning}", err=True)
-    if len(said) > SHOWN:
-        typer.echo(f"... and {len(said) - SHOWN} more actuators in {folder / 'forecast.json'}")
-    typer.echo(f"written: {folder}")
+    sentences = found.sentences
+    more = [f"... and {len(sentences) - SHOWN} more actuators"] if len(sentences) > SHOWN else []
+    parts: list = [*sentences[:SHOWN], *more]
+    return Answer(found.content, parts, [folder], [f"warning: {text}" for text in found.warnings])
 
 
 SHOWN = 20  # sentences that are printed

@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import product
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from lacuna import runtime
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis.law import Law, severities
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.library import Library
 from lacuna.codegen.syntax import ast
+from lacuna.runtime import Model, Session
 
 FIELDS = {"law", "rate", "shapes", "wander", "diffusion", "reference"}
 
@@ -26,7 +27,11 @@ def degradation_laws(folders: Sequence[Path | str] = ()) -> list[Law]:
     """
     library = Library()
     package = library.find("Lacuna.Degradation")
-    members = [(library.member(package, name), f"Lacuna.Degradation.{name}") for name in library.members(package)]
+    members = [
+        (cls, f"Lacuna.Degradation.{name}")
+        for name in library.members(package)
+        if (cls := library.member(package, name)) is not None
+    ]
     for path in (p for folder in folders for p in _files(Path(folder))):
         members += [(cls, str(path)) for cls in library.parse_file(path)]
     found: dict[str, list[Law]] = {}
@@ -49,12 +54,12 @@ def _files(path: Path) -> list[Path]:
     return files
 
 
-def _annotation(cls: ast.Class) -> dict | None:
+def _annotation(cls: ast.Class) -> dict[str, Any] | None:
     """The entries of __Lacuna(...), checked; None where the class is no law."""
     entries = [a.modification for a in (cls.annotation.arguments if cls.annotation else ()) if a.name == "__Lacuna"]
     if not entries:
         return None
-    fields: dict = {"shapes": {}, "reference": "", "wander": 0.15, "diffusion": 0.02}
+    fields: dict[str, Any] = {"shapes": {}, "reference": "", "wander": 0.15, "diffusion": 0.02}
     for argument in entries[0].arguments:
         nested = argument.modification
         if nested.value is not None:
@@ -71,19 +76,19 @@ def _annotation(cls: ast.Class) -> dict | None:
     return fields
 
 
-def _plain(value: ast.Expression):
+def _plain(value: ast.Expression | None) -> Any:
     if isinstance(value, ast.Literal):
         return value.value
     if isinstance(value, ast.Unary) and value.op == "-":
         return -_plain(value.operand)
     if isinstance(value, ast.ArrayLiteral):
         return [_plain(v) for v in value.elements]
-    raise AnalysisError(f"{value.span}: an annotation holds numbers, texts and lists of them")
+    raise AnalysisError(f"{value.span if value else 'a law'}: an annotation holds numbers, texts and lists of them")
 
 
-def _shapes(cls: ast.Class, name: str, fields: dict) -> list[Law]:
+def _shapes(cls: ast.Class, name: str, fields: dict[str, Any]) -> list[Law]:
     compiled = compile_model(name)
-    model = runtime.Model(compiled.path)
+    model = Model(compiled.path)
     where = f"{cls.span.file}: {cls.name}"
     if list(model.states) != ["severity"] or "growth" not in model.variables:
         states = ", ".join(model.states) or "none"
@@ -106,9 +111,9 @@ def _shapes(cls: ast.Class, name: str, fields: dict) -> list[Law]:
     return laws
 
 
-def _growth(model: runtime.Model, rate: str, shape: dict[str, float], value: float) -> np.ndarray:
+def _growth(model: Model, rate: str, shape: dict[str, float], value: float) -> np.ndarray:
     """The growth at `severities()`, from the generated code: each the first row of a run."""
-    session = runtime.Session(model, solver="euler", step=1e-9, outputs=["growth"], output_times=np.zeros(1))
+    session = Session(model, solver="euler", step=1e-9, outputs=["growth"], output_times=np.zeros(1))
     growth = []
     for x in severities():
         result = session.run(shape | {rate: value}, initial={"severity": float(x)}, start=0.0, stop=1e-9)

@@ -3,20 +3,60 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from html import escape
+from importlib.metadata import version
 from pathlib import Path
-
-import numpy as np
+from typing import Any
 
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis.bank import Bank
 from lacuna.analysis.prognosis.forecast import Forecast, Limits, Options, forecasts
 from lacuna.analysis.prognosis.history import Assess, History, read_histories
+from lacuna.analysis.prognosis.telling import counted_verdicts, forecast_json, sentence, urgency
 from lacuna.analysis.settings import PAPER, Settings, load_settings
 from lacuna.degradation import degradation_laws
+from lacuna.extras import names_missing_packages
 
 OPTIONS = Options()
+SHOWN = 20  # sentences that a notebook shows
 
 
+class Prognosis:
+    """What is said of every actuator of a history, most urgent first.
+
+    `content` is that of forecast.json. `prognosis["A17"]` is one actuator's part of it.
+    """
+
+    def __init__(self, said: list[Forecast], risk: float) -> None:
+        self.forecasts = sorted(said, key=urgency)
+        self._risk = risk
+        self.content: dict[str, Any] = forecast_json(self.forecasts, risk, version("lacuna"))
+
+    def __getitem__(self, actuator: str) -> dict[str, Any]:
+        known: dict[str, Any] = self.content["actuators"]
+        if actuator not in known:
+            raise KeyError(f"there is no actuator {actuator}; there are {', '.join(list(known)[:10])}")
+        return dict(known[actuator])
+
+    def __len__(self) -> int:
+        return len(self.forecasts)
+
+    @property
+    def sentences(self) -> list[str]:
+        return [sentence(f, self._risk) for f in self.forecasts]
+
+    @property
+    def warnings(self) -> list[str]:
+        return [f"{f.history.actuator}: {text}" for f in self.forecasts for text in f.warnings]
+
+    def __repr__(self) -> str:
+        return f"<Prognosis of {len(self)} histories: {counted_verdicts(self.forecasts)}>"
+
+    def _repr_html_(self) -> str:
+        return "".join(f"<p>{escape(text)}</p>" for text in self.sentences[:SHOWN])
+
+
+@names_missing_packages
 def forecast(
     history: Path | str | Sequence[History],
     map: Path | str | None = None,
@@ -28,8 +68,8 @@ def forecast(
     unit: str | None = None,
     columns: Sequence[str] | None = None,
     unfiltered: bool = False,
-) -> list[Forecast]:
-    """When each actuator of `history` reaches the bands of `map`: one Forecast for each actuator and fault.
+) -> Prognosis:
+    """When each actuator of `history` reaches the bands of `map`, how sure that is, and its last advisable test.
 
     `history` is a folder with history.csv (or .parquet), or such a file, or what `read_histories` gave. `map` is the
     folder of the actuator's map, which gives the bands and assesses recordings that have no severity yet; without it
@@ -50,11 +90,10 @@ def forecast(
     limits = {fault: limits_of(settings, fault) for fault in {h.fault for h in history}}
     said = forecasts(history, bank, lambda h: limits[h.fault], options)
     if out is not None:
-        from lacuna import __version__
         from lacuna.analysis.prognosis.publish import publish
 
-        publish(said, bank, Path(out), risk, __version__)
-    return said
+        publish(said, bank, Path(out), risk, version("lacuna"))
+    return Prognosis(said, risk)
 
 
 def map_settings(map: Path | str | None) -> Settings:
@@ -80,14 +119,14 @@ def limits_of(settings: Settings, fault: str = "") -> Limits:
         raise AnalysisError(f"{settings.path}: no fault {fault!r}; known: {', '.join([own.symbol, *others])}")
     if len(entry.get("limits", ())) != len(bands):
         raise AnalysisError(f"{settings.path}: fault {fault} needs as many `limits` as there are bands after the first")
-    return Limits(names, tuple(map_float(entry["limits"])), float(entry["first"]), float(entry["last"]))
+    return Limits(names, tuple(floats(entry["limits"])), float(entry["first"]), float(entry["last"]))
 
 
-def map_float(values: Sequence[float]) -> list[float]:
-    return np.asarray(values, dtype=float).tolist()
+def floats(values: Sequence[float]) -> list[float]:
+    return [float(v) for v in values]
 
 
-def assessor(folder: Path | str | None, columns, unfiltered: bool) -> Assess | None:
+def assessor(folder: Path | str | None, columns: Sequence[str] | None, unfiltered: bool) -> Assess | None:
     """Severities of a recording by the map in `folder`: of one fault, or of two where the map has two."""
     if folder is None:
         return None

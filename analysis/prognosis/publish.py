@@ -19,7 +19,7 @@ from lacuna.analysis.prognosis.filter import run
 from lacuna.analysis.prognosis.forecast import LEVELS as PROBABILITIES
 from lacuna.analysis.prognosis.forecast import Forecast, last_error, series_of
 from lacuna.analysis.prognosis.smoother import tracked
-from lacuna.analysis.prognosis.telling import FORMAT, entry, sentence
+from lacuna.analysis.prognosis.telling import counted_verdicts, forecast_json, sentence, urgency
 from lacuna.analysis.prognosis.verdict import FORECAST
 
 DRAWN = 40  # actuators that get a figure; of more, those at greatest risk
@@ -33,18 +33,6 @@ h2{{font-size:1.05rem;margin:2rem 0
 <p><small>lacuna {version}; limits {limits}. Intervals are of remaining use; the fan shows when each severity is
 reached.</small></p></html>
 """
-
-
-def forecast_json(said: Sequence[Forecast], risk: float, version: str) -> dict:
-    """The content of forecast.json; a second fault of an actuator stands under `faults` of the first."""
-    actuators: dict[str, dict] = {}
-    for f in said:
-        own = entry(f, risk)
-        if f.history.actuator in actuators:
-            actuators[f.history.actuator].setdefault("faults", {})[f.history.fault] = own
-        else:
-            actuators[f.history.actuator] = own | ({"fault": f.history.fault} if f.history.fault else {})
-    return {"format": FORMAT, "version": version, "actuators": actuators}
 
 
 def publish(said: Sequence[Forecast], bank: Bank, out: Path, risk: float, version: str) -> None:
@@ -68,19 +56,10 @@ def publish(said: Sequence[Forecast], bank: Bank, out: Path, risk: float, versio
             parts.append(_part(f, picture.getvalue(), risk))
         shown = f"{len(first)} of {len(said)} shown, those at greatest risk first." if len(said) > DRAWN else ""
         limits = ", ".join(f"{n} from {v:g}" for n, v in zip(said[0].limits.names, said[0].limits.values, strict=True))
-        page = _PAGE.format(summary=f"{_counted(said)} {shown}", parts="".join(parts), version=version, limits=limits)
+        page = _PAGE.format(
+            summary=f"{counted_verdicts(said)} {shown}", parts="".join(parts), version=version, limits=limits
+        )
         (scratch / "report.html").write_text(page, encoding="utf-8")
-
-
-def urgency(f: Forecast) -> tuple:
-    """Sorts by risk: forecasts by their median, then what is too early to say, then what is steady."""
-    order = {"forecast": 0, "too_early": 1, "steady": 2}
-    return order[f.verdict], float(f.quantiles[-1, 2] / max(f.horizon, 1e-300)), f.history.actuator
-
-
-def _counted(said: Sequence[Forecast]) -> str:
-    count = {v: sum(f.verdict == v for f in said) for v in ("forecast", "too_early", "steady")}
-    return f"{count['forecast']} forecast, {count['too_early']} too early to say, {count['steady']} steady."
 
 
 def _part(f: Forecast, svg: str, risk: float) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 import math
 
 import numpy as np
@@ -64,3 +65,26 @@ def entry(f: Forecast, risk: float) -> dict:
 def _limit(row: np.ndarray) -> dict:
     low95, low, median, high, high95 = (float(v) if np.isfinite(v) else None for v in row)
     return {"median": median, "interval80": [low, high], "interval95": [low95, high95]}
+
+
+def forecast_json(said: Sequence[Forecast], risk: float, version: str) -> dict:
+    """The content of forecast.json; a second fault of an actuator stands under `faults` of the first."""
+    actuators: dict[str, dict] = {}
+    for f in said:
+        own = entry(f, risk)
+        if f.history.actuator in actuators:
+            actuators[f.history.actuator].setdefault("faults", {})[f.history.fault] = own
+        else:
+            actuators[f.history.actuator] = own | ({"fault": f.history.fault} if f.history.fault else {})
+    return {"format": FORMAT, "version": version, "actuators": actuators}
+
+
+def urgency(f: Forecast) -> tuple:
+    """Sorts by risk: forecasts by their median, then what is too early to say, then what is steady."""
+    order = {"forecast": 0, "too_early": 1, "steady": 2}
+    return order[f.verdict], float(f.quantiles[-1, 2] / max(f.horizon, 1e-300)), f.history.actuator
+
+
+def counted_verdicts(said: Sequence[Forecast]) -> str:
+    count = {v: sum(f.verdict == v for f in said) for v in ("forecast", "too_early", "steady")}
+    return f"{count['forecast']} forecast, {count['too_early']} too early to say, {count['steady']} steady."

@@ -16,7 +16,7 @@ from lacuna.codegen.flatten.values import Array, Record, Value, scalars, shape_o
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
-from lacuna.codegen.units.unit import parse_unit
+from lacuna.units import parse_unit
 
 
 @dataclass
