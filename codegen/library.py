@@ -63,6 +63,10 @@ class Library:
         """Folders of the packages seen so far, outermost first."""
         return list(self._folders.values())
 
+    def folder_of(self, cls: ast.Class) -> Path | None:
+        """The folder of a package that is one."""
+        return self._folders.get(id(cls))
+
     def parse_file(self, path: Path) -> list[ast.Class]:
         """The classes of one file, each time the same objects. Raises F001 when it cannot be read."""
         path = Path(path)

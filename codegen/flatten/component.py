@@ -40,6 +40,7 @@ class Variable(Protocol):
     type: Kind
     variability: str
     is_structural: bool
+    is_free: bool  # a parameter with fixed = false
 
     def binding(self) -> Value | None:
         """Its value by declaration equation or modification."""

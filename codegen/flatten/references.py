@@ -174,6 +174,8 @@ def _row(array: Array, index: Expr, scope: Scope, ref: ast.Ref, written: ast.Exp
 
 def _choose(rows: list[Value], index: Expr, written: ast.Expression, scope: Scope) -> Value:
     """An element by a number known only at run time: an if-expression over all of them."""
+    if not rows:
+        raise Diagnostic("R045", "a subscript of an empty array", written.span, "it has no element")
     result = rows[-1]
     for number in range(len(rows) - 1, 0, -1):
         condition = ex.relation("==", index, ex.const(number))

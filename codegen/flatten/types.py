@@ -11,11 +11,13 @@ from lacuna.codegen.flatten.modifiers import Modifier, from_tree, merge
 from lacuna.codegen.flatten.scope import PRIMITIVES, Scope, base_class, find_class, unknown_class
 from lacuna.codegen.syntax import ast
 
+EXTERNAL = "ExternalObject"
 ATTRIBUTES = {
     "Real": ("value", "quantity", "unit", "displayUnit", "min", "max", "start", "fixed", "nominal", "stateSelect"),
     "Integer": ("quantity", "min", "max", "start", "fixed"),
     "Boolean": ("quantity", "start", "fixed"),
     "String": ("quantity", "start", "fixed"),
+    EXTERNAL: (),
 }
 
 
@@ -60,12 +62,19 @@ def type_of(cls: ast.Class, context: Context, depth: int = 0) -> Type:
         found.dimensions = evaluate_dimensions(cls.alias.dimensions, inside, None, cls.name) + found.dimensions
         found.causality = cls.alias.causality or found.causality
         return found
+    if is_external(cls):
+        return Type(EXTERNAL, cls)
     for clause in cls.extends:
         if str(clause.base) in PRIMITIVES or _is_primitive(clause.base, inside, depth):
             found = resolve_type(clause.base, inside, depth + 1)
             found.modifier = merge(from_tree(clause.modification, inside), found.modifier)
             return found
     return Type(None, cls)
+
+
+def is_external(cls: ast.Class) -> bool:
+    """Is it a class of external objects (Modelica 3.6, 12.9.7)?"""
+    return any(str(clause.base) == EXTERNAL for clause in cls.extends)
 
 
 def _of_alias(cls: ast.Class, context: Context, depth: int) -> Type:
