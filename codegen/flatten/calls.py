@@ -11,9 +11,10 @@ from lacuna.codegen.flatten.derivative import time_derivative
 from lacuna.codegen.flatten.enumerations import as_integer
 from lacuna.codegen.flatten.functions import call_function, construct_record
 from lacuna.codegen.flatten.lower import Handler, lower, lower_scalar
-from lacuna.codegen.flatten.scope import Scope, enumeration, find_class, own_or_inherited, visible_classes
+from lacuna.codegen.flatten.scope import Scope, enumeration, find_class, own_or_inherited
 from lacuna.codegen.flatten.texts import text_of
 from lacuna.codegen.flatten.types import is_external
+from lacuna.codegen.flatten.unknown import visible_classes
 from lacuna.codegen.flatten.values import FunctionValue, Value, elementwise, shape_of
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
