@@ -25,7 +25,8 @@ class CVariable(Structure):
         *((name, c_char_p) for name in ("name", "unit", "description", "file")),
         *((name, c_int) for name in ("line", "type", "storage", "index", "sign", "settable", "is_output")),
         *((name, c_double) for name in ("start", "min", "max", "nominal")),
-        ("inferred_unit", c_char_p), ("is_parameter", c_int),
+        ("inferred_unit", c_char_p),
+        ("is_parameter", c_int),
     ]
 
 
