@@ -65,9 +65,7 @@ def read_text(path: Path) -> TextTable:
     width = len(_fields(lines[first], separator))
     names = [row for row in above if len(row) == width]
     if not names:
-        raise RecordingError(
-            f"{path}:{first + 1}: numbers without a header line; write the names of the columns above them"
-        )
+        raise RecordingError(f"{path}:{first + 1}: {_no_header(above, width)}")
     units = names[-1] if len(names) > 1 and _are_units(names[-1], names[-2]) else None
     header = names[-2] if units else names[-1]
     values = _numbers(path, lines, first, Dialect(separator, decimal, encoding), width)
@@ -80,6 +78,12 @@ def read_text(path: Path) -> TextTable:
         Dialect(separator, decimal, encoding),
         above.index(header),
     )
+
+
+def _no_header(above: list[list[str]], width: int) -> str:
+    if above and len(above[-1]) > 1:
+        return f"{len(above[-1])} columns in the header, {width} in the rows"
+    return "numbers without a header line; write the names of the columns above them"
 
 
 def _decoded(path: Path) -> tuple[str, str]:
