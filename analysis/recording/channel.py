@@ -40,6 +40,7 @@ class Recorded:
     path: Path
     channels: tuple[Channel, ...]
     notes: tuple[str, ...] = ()
+    time: str = "time"  # what the file calls the column of time
 
     def __getitem__(self, name: str) -> Channel:
         """The channel called `name`, by its whole head or without its unit. Raises KeyError."""
@@ -66,7 +67,7 @@ def from_table(
     channels = tuple(
         Channel(n, heads[i].unit or "", time, values[i], heads[i]) for n, i in zip(names, others, strict=True)
     )
-    return Recorded(path, channels, (*notes, *assumed, *more))
+    return Recorded(path, channels, (*notes, *assumed, *more), heads[k].text)
 
 
 def _refuse_namesakes(path: Path, header: Sequence[str]) -> None:

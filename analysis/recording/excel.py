@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lacuna.analysis.recording.channel import Recorded, RecordingError, from_table
+from lacuna.analysis.recording.channel import Recorded, RecordingError, from_table, on_one_time
 
 
 def read(path: Path) -> Recorded:
@@ -42,3 +42,13 @@ def _text(cell: object) -> str:
 def _are_units(rows: np.ndarray, first: int) -> bool:
     """Two rows of text above the numbers: names, then units."""
     return first > 1 and all(isinstance(cell, str) for cell in rows[first - 2]) and any(map(_text, rows[first - 1]))
+
+
+def write(recorded: Recorded, path: Path) -> None:
+    """Names in the first row, units in the second."""
+    import pandas
+
+    time, columns = on_one_time(recorded.channels)
+    rows = [["time", *(c.name for c in recorded.channels)], ["s", *(c.unit for c in recorded.channels)]]
+    rows += [list(row) for row in zip(time.tolist(), *(column.tolist() for column in columns), strict=True)]
+    pandas.DataFrame(rows).to_excel(path, header=False, index=False)

@@ -1,4 +1,4 @@
-"""Recordings in the formats people have: one reader for each, chosen by the file's suffix.
+"""Recordings in the formats people have: one reader and one writer for each, chosen by the file's suffix.
 
 text        .csv .txt .tsv .dat .asc   separators, decimal commas, encodings, rows of units
 MATLAB      .mat                       version 5 (scipy) and 7.3 (h5py)
@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from importlib import import_module
 from pathlib import Path
+import tempfile
 
 from lacuna.analysis.recording.channel import Reader, Recorded, RecordingError
 from lacuna.extras import names_missing_packages
@@ -39,10 +40,24 @@ def read_recorded(path: Path | str) -> Recorded:
     return _reader(path)(path)
 
 
+@names_missing_packages
+def write_recorded(recorded: Recorded, path: Path) -> None:
+    """Write the channels in the format of the path's suffix, whole or not at all. Raises RecordingError for others."""
+    kind = _kind(path)
+    with tempfile.TemporaryDirectory(dir=path.parent, prefix=".convert") as scratch:
+        partial = Path(scratch) / path.name
+        import_module(f"lacuna.analysis.recording.{kind}").write(recorded, partial)
+        partial.replace(path)
+
+
 def _reader(path: Path) -> Reader:
     with path.open("rb") as file:
         kind = "mdf" if file.read(8) == b"MDF     " else ""
-    kind = kind or next((name for name, suffixes in _READERS.items() if path.suffix.lower() in suffixes), "")
-    if not kind:
+    return import_module(f"lacuna.analysis.recording.{kind or _kind(path)}").read
+
+
+def _kind(path: Path) -> str:
+    kind = next((name for name, suffixes in _READERS.items() if path.suffix.lower() in suffixes), None)
+    if kind is None:
         raise RecordingError(f"{path}: no format is known by `{path.suffix}`; there are {' '.join(SUFFIXES)}")
-    return import_module(f"lacuna.analysis.recording.{kind}").read
+    return kind

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from lacuna.analysis.recording.channel import Recorded, RecordingError, from_table
+from lacuna.analysis.recording.channel import Recorded, RecordingError, from_table, on_one_time
 
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 
@@ -97,3 +97,17 @@ def _columns_of_text(matrix: Any) -> list[str]:
     width = max(map(len, lines), default=0)
     padded = [line.ljust(width) for line in lines]
     return ["".join(column).replace("\0", "").strip() for column in zip(*padded, strict=True)]
+
+
+def write(recorded: Recorded, path: Path) -> None:
+    """Version 5: `time`, `names`, `units`, `data` [samples, channels]."""
+    from scipy.io import savemat
+
+    time, columns = on_one_time(recorded.channels)
+    content = {
+        "time": time,
+        "names": np.array([c.name for c in recorded.channels], dtype=object),
+        "units": np.array([c.unit for c in recorded.channels], dtype=object),
+        "data": np.column_stack(columns),
+    }
+    savemat(path, content, appendmat=False, oned_as="column", do_compression=True)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lacuna.analysis.recording.channel import Channel, Recorded, RecordingError, distinct, from_table
+from lacuna.analysis.recording.channel import Channel, Recorded, RecordingError, distinct, from_table, on_one_time
 from lacuna.analysis.recording.heads import read_head
 
 
@@ -35,3 +35,13 @@ def read(path: Path) -> Recorded:
         )
     units = [str(c.properties.get("unit_string", "")) for c in found]
     return from_table(path, [c.name for c in found], units, np.array([np.asarray(c.data, float) for c in found]))
+
+
+def write(recorded: Recorded, path: Path) -> None:
+    """One group, with a channel of time in s."""
+    from nptdms import ChannelObject, TdmsWriter
+
+    time, columns = on_one_time(recorded.channels)
+    rows = [("time", "s", time), *((c.name, c.unit, v) for c, v in zip(recorded.channels, columns, strict=True))]
+    with TdmsWriter(path) as file:
+        file.write_segment([ChannelObject("recording", n, v, properties={"unit_string": u}) for n, u, v in rows])

@@ -16,7 +16,7 @@ import re
 
 import numpy as np
 
-from lacuna.analysis.recording.channel import Recorded, RecordingError, from_table
+from lacuna.analysis.recording.channel import Recorded, RecordingError, from_table, on_one_time
 
 _SEPARATORS = (",", ";", "\t", "|")
 _SAMPLE = 200  # lines that decide the dialect
@@ -169,3 +169,14 @@ def _named_columns(path: Path, header: list[str], values: np.ndarray) -> list[in
         if not name and np.isfinite(values[k]).any():
             raise RecordingError(f"{path}: column {k + 1} has no name")
     return [k for k, name in enumerate(header) if name]
+
+
+def write(recorded: Recorded, path: Path) -> None:
+    """A CSV with `time` in s first and each unit in brackets; numbers read back as they are, missing ones are empty."""
+    time, columns = on_one_time(recorded.channels)
+    heads = ["time [s]", *(f"{c.name} [{c.unit}]" if c.unit else c.name for c in recorded.channels)]
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(heads)
+        for row in zip(time.tolist(), *(column.tolist() for column in columns), strict=True):
+            writer.writerow(["" if value != value else repr(value) for value in row])

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from lacuna.analysis.recording.channel import RecordingError, on_one_time
-from lacuna.analysis.recording.formats import read_recorded
+from lacuna.analysis.recording.formats import read_recorded, write_recorded
 
 TIME = np.round(np.arange(200) * 1e-3, 3)
 CURRENT = np.round(np.sin(40 * TIME), 4)
@@ -96,6 +96,19 @@ def test_every_format_gives_the_same_recording(name: str, tmp_path: Path) -> Non
         assert np.array_equal(channel.values, values)
         assert np.array_equal(channel.time, TIME)
         assert channel.unit == ("" if name in WITHOUT_UNITS else unit)
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a.mat", "a.parquet", "a.mf4", "a.tdms", "a.xlsx"])
+def test_what_is_written_in_a_format_reads_back_the_same(name: str, tmp_path: Path) -> None:
+    if name != "a.csv":
+        FORMATS[name](tmp_path / name).unlink()  # skips where its package is missing
+    source = read_recorded(csv(tmp_path / "source.csv"))
+    write_recorded(source, tmp_path / name)
+    again = read_recorded(tmp_path / name)
+    for channel in source.channels:
+        assert np.array_equal(again[channel.name].values, channel.values)
+        assert np.array_equal(again[channel.name].time, channel.time)
+        assert again[channel.name].unit == channel.unit
 
 
 @pytest.mark.parametrize("name", FORMATS)
