@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 4
+#define MDL_ABI_VERSION 5
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
@@ -56,6 +56,7 @@ typedef struct mdl_data {
   int reinitialised;   /* set by event(): reinit changed x */
   int terminated;      /* set by event(): 1 + index into `messages` of the terminate() that fired; else 0 */
   mdl_failure failure;
+  double start_time; /* of the run; parameters may depend on it */
 } mdl_data;
 
 typedef enum {

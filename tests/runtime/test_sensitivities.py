@@ -14,7 +14,7 @@ from tests.runtime.closed_forms import ALL, BALL, ClosedForm
 RTOL = 1e-9
 # Error of a sensitivity over its largest value: the run's own error, amplified by the events (a bounce adds its share).
 BOUND = 1e3 * RTOL
-SOLVERS = ("dopri5",)
+SOLVERS = ("dopri5", "ida")
 
 
 def compiled(tmp_path: Path, text: str, **options) -> runtime.Model:
