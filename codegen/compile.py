@@ -11,7 +11,9 @@ from typing import TypeVar
 
 from lacuna.codegen import cache, flat
 from lacuna.codegen.dae import events, hybrid
-from lacuna.codegen.dae.initial import discrete_starts, initial_system
+from lacuna.codegen.dae.discrete_starts import discrete_starts
+from lacuna.codegen.dae.free_parameters import free_parameters
+from lacuna.codegen.dae.initial import initial_system
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.storage import Storage
 from lacuna.codegen.emit.source import generate
@@ -58,6 +60,7 @@ class CompiledModel:
 def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     """The structural passes, in order."""
     sys.setrecursionlimit(max(sys.getrecursionlimit(), 20000))
+    declared = report.run("initial system", free_parameters, declared)
     aliases = report.run("aliases", eliminate_aliases, declared)
     frozen = report.run("hybrid", hybrid.analyse, aliases.model)
     model = report.run("initial system", discrete_starts, frozen.model)
