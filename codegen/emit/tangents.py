@@ -33,8 +33,9 @@ INITIAL = f"static int mdl_initial_system_tangent{POINT})"
 RHS = f"MDL_WIDE static int mdl_rhs_tangent{POINT})"
 DERIVATIVES = f"MDL_WIDE static int mdl_derivatives_tangent{POINT})"
 RESIDUAL = (
-    "MDL_WIDE static int mdl_residual_tangent(mdl_data *m, double t, const double *y, const double *yp, mdl_tangent *tangent,\n"
-    "                                const mdl_lanes *tangent_y, const mdl_lanes *tangent_yp, mdl_lanes *tangent_r)"
+    "MDL_WIDE static int mdl_residual_tangent(mdl_data *m, double t, const double *y, const double *yp,\n"
+    "                                mdl_tangent *tangent, const mdl_lanes *tangent_y,\n"
+    "                                const mdl_lanes *tangent_yp, mdl_lanes *tangent_r)"
 )
 ROOTS = f"static int mdl_roots_tangent{POINT}, mdl_lanes *tangent_g)"
 TABLE = """\
