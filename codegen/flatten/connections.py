@@ -13,6 +13,8 @@ from lacuna.codegen.flatten.streams import stream_equations
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.syntax import ast
 
+MAX_NAMES = 40  # in the text of a sum of flows
+
 Connections = list[tuple[ast.Connect, Scope]]
 
 
@@ -28,17 +30,21 @@ def connection_equations(connections: Connections, context: Context) -> list[fla
     for group in sets.ends.groups():
         root = sets.ends.find(group[0])
         span, origin = sets.span[root], sets.origin[root]
-        names = " ".join(dict.fromkeys(e.name for e in group))
+        names = list(dict.fromkeys(e.name for e in group))
         kind = sets.kind[group[0]]
         if kind == "flow":
             total = _sum([(ex.var(end.name), end.outside) for end in group])
-            equations.append(flat.Equation(total, ex.ZERO, span, origin, f"sum of flows: {names}"))
+            equations.append(flat.Equation(total, ex.ZERO, span, origin, f"sum of flows: {_shortened(names)}"))
         elif kind == "potential":
-            unique = list(dict.fromkeys(e.name for e in group))
-            for name in unique[1:]:
-                a, b = _variable(unique[0], context), _variable(name, context)
-                equations.append(flat.Equation(a, b, span, origin, f"connected: {unique[0]} = {name}"))
+            for name in names[1:]:
+                a, b = _variable(names[0], context), _variable(name, context)
+                equations.append(flat.Equation(a, b, span, origin, f"connected: {names[0]} = {name}"))
     return equations + _unconnected(sets, context) + stream_equations(sets, context)
+
+
+def _shortened(names: list[str]) -> str:
+    more = f" and {len(names) - MAX_NAMES} more" if len(names) > MAX_NAMES else ""
+    return " ".join(names[:MAX_NAMES]) + more
 
 
 def _sum(flows: list[tuple[ex.Expr, bool]]) -> ex.Expr:
