@@ -12,9 +12,10 @@ from lacuna.codegen.flatten.enumerations import as_integer
 from lacuna.codegen.flatten.function_code import is_done
 from lacuna.codegen.flatten.functions import call_function, construct_record
 from lacuna.codegen.flatten.lower import Handler, lower, lower_scalar
-from lacuna.codegen.flatten.scope import Scope, enumeration, find_class, own_or_inherited, visible_classes
+from lacuna.codegen.flatten.scope import Scope, enumeration, find_class, own_or_inherited
 from lacuna.codegen.flatten.texts import text_of
 from lacuna.codegen.flatten.types import is_external
+from lacuna.codegen.flatten.unknown import visible_classes
 from lacuna.codegen.flatten.values import FunctionValue, Value, elementwise, shape_of
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
@@ -24,9 +25,6 @@ from lacuna.codegen.syntax import ast
 _OUTSIDE = {
     "delay": "model the transport, for example by a chain of first-order lags",
     "spatialDistribution": "divide the length into elements",
-    "inStream": "carry the property as a variable of the connector",
-    "actualStream": "carry the property as a variable of the connector",
-    "cardinality": "use a Boolean parameter that says whether it is connected",
     "Clock": "use when sample(start, interval) then",
     "previous": "use pre(x) inside when sample(...)",
     "hold": "a discrete variable holds its value",

@@ -8,7 +8,9 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.evaluate import evaluate_dimensions
 from lacuna.codegen.flatten.modifiers import Modifier, from_tree, merge
-from lacuna.codegen.flatten.scope import PRIMITIVES, Scope, base_class, find_class, unknown_class
+from lacuna.codegen.flatten.restrictions import check_class
+from lacuna.codegen.flatten.scope import PRIMITIVES, Scope, base_class, find_class
+from lacuna.codegen.flatten.unknown import unknown_class
 from lacuna.codegen.syntax import ast
 
 EXTERNAL = "ExternalObject"
@@ -49,6 +51,7 @@ def resolve_type(reference: ast.Ref, scope: Scope, depth: int = 0) -> Type:
 def type_of(cls: ast.Class, context: Context, depth: int = 0) -> Type:
     """What a class is as the type of a component."""
     if cls.literals is not None:
+        check_class(cls, context)
         return Type("Integer", cls, tuple(name for name, _ in cls.literals))
     inside = cls.written if isinstance(cls.written, Scope) else Scope(context, cls, None)
     if cls.alias is not None:

@@ -6,6 +6,8 @@
 #include "onestep.h"
 #include "sensitivity.h"
 
+enum { STAGES = 7 }; /* of every scheme that has coefficients here */
+
 void rt_onestep_tangent_free(rt_onestep *o) {
   if (!o->tangent) return;
   free(o->tangent->x0);
@@ -47,7 +49,7 @@ static inline void add_up(int n, double *restrict y, const double *restrict x, c
   }
 }
 
-static void stage_sum(int n, rt_onestep *t, double h, int count, const double *a) {
+MDL_WIDE static void stage_sum(int n, rt_onestep *t, double h, int count, const double *a) {
   switch (count) {
   case 1:
     add_up(n, t->x1, t->x0, t->k, h, 1, a);
@@ -69,17 +71,43 @@ static void stage_sum(int n, rt_onestep *t, double h, int count, const double *a
   }
 }
 
-/* The largest mean square, over the columns, of e_ik / (atol_i / scale_k + rtol max(|x0_ik|, |x1_ik|)). */
-static double worst_column(const rt_session *s, const rt_onestep *t) {
+/* The error of a step of all seven stages. */
+MDL_WIDE static void error_of(int n, rt_onestep *t, double h, const double *weights) {
+  const double *restrict k = t->k;
+  double *restrict error = t->error;
+  for (int i = 0; i < n; i++) {
+    double sum = 0;
+    for (int j = 0; j < STAGES; j++)
+      sum += weights[j] * k[j * n + i];
+    error[i] = h * sum;
+  }
+}
+
+/* 1 / scale of four columns. One whose parameter has no known size is measured by itself: by its largest entry, each
+ * over the nominal value of its state. */
+static void weights(const rt_session *s, const rt_onestep *t, int first, double *weight) {
   const rt_sensitivities *f = s->sensitivities;
-  double worst = 0;
+  for (int k = 0; k < MDL_LANES; k++) {
+    weight[k] = f->weight[first + k];
+    if (!isinf(weight[k])) continue;
+    weight[k] = 0;
+    for (int i = 0; i < s->d->n_x; i++)
+      weight[k] = rt_max(weight[k], fabs(t->x1[i * f->columns + first + k]) * s->options.atol / s->atol[i]);
+  }
+}
+
+/* The largest mean square, over the columns, of e_ik / (atol_i / scale_k + rtol max(|x0_ik|, |x1_ik|)). */
+MDL_WIDE static double worst_column(const rt_session *s, const rt_onestep *t) {
+  const rt_sensitivities *f = s->sensitivities;
+  double worst = 0, weight[MDL_LANES];
   for (int first = 0; first < f->columns; first += MDL_LANES) {
     double sum[MDL_LANES] = {0};
+    weights(s, t, first, weight);
     for (int i = 0; i < s->d->n_x; i++) {
       size_t row = (size_t)(i * f->columns + first);
       for (int k = 0; k < MDL_LANES; k++) {
         double size0 = fabs(t->x0[row + k]), size1 = fabs(t->x1[row + k]);
-        double size = s->atol[i] * f->weight[first + k] + s->options.rtol * (size0 > size1 ? size0 : size1);
+        double size = s->atol[i] * weight[k] + s->options.rtol * (size0 > size1 ? size0 : size1) + DBL_MIN;
         sum[k] += (t->error[row + k] / size) * (t->error[row + k] / size);
       }
     }
@@ -108,18 +136,13 @@ int rt_onestep_tangent_step(rt_session *s, rt_onestep *o, double h, double *squa
     point.x = (mdl_lanes *)t->x1;
     point.xdot = (mdl_lanes *)(t->k + j * n);
     if (s->d->n_u) rt_inputs_at(s, time);
-    int status =
-        s->d->tangents->rhs(&s->data, time, o->stage_x + j * n_x, o->k + j * n_x, o->stage_v + j * s->d->n_v, &point);
+    int status = s->d->tangents->derivatives(&s->data, time, o->stage_x + j * n_x, o->k + j * n_x,
+                                             o->stage_v + j * s->d->n_v, &point);
     if (status) return status;
     s->result->counters.tangents++;
   }
   if (!square) return 0;
-  for (int i = 0; i < n; i++) {
-    double sum = 0;
-    for (int j = 0; j < stages; j++)
-      sum += scheme->error_weights[j] * t->k[j * n + i];
-    t->error[i] = h * sum;
-  }
+  error_of(n, t, h, scheme->error_weights);
   double own = worst_column(s, t);
   if (own > *square) *square = own;
   return 0;
@@ -132,7 +155,7 @@ void rt_onestep_tangent_accept(rt_session *s, rt_onestep *o) {
   size_t n = (size_t)(s->d->n_x * f->columns) * sizeof(double);
   memcpy(f->at.x, o->tangent->x1, n);
   memcpy(f->at.xdot, o->tangent->f1, n);
-  memcpy(f->at.v, f->inside.v, (size_t)(s->d->n_v * f->columns) * sizeof(double));
+  f->complete = false;
   rt_tangent_check_finite(s);
 }
 
