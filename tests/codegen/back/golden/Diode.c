@@ -61,7 +61,46 @@ static const mdl_equation mdl_equations[] = {
   {"u = if time < T then U else -U", "Diode.mo", 13, ""},
   {"u = R*i + v + u_C", "Diode.mo", 14, ""},
   {"i = I_s*(exp(v/V_t) - 1)", "Diode.mo", 15, ""},
-  {"C*der(u_C) = i", "Diode.mo", 16, ""}
+  {"C*der(u_C) = i", "Diode.mo", 16, ""},
+  {"inverse of V_t = 1.0 / V_t", "Diode.mo", 1, ""},
+  {"inverse of C = 1.0 / C", "Diode.mo", 1, ""}
+};
+
+static const mdl_computed mdl_computed_by[] = {
+  {MDL_PARAMETER, 6, 4},
+  {MDL_PARAMETER, 7, 5},
+  {MDL_ALGEBRAIC, 0, 0},
+  {MDL_ALGEBRAIC, 1, 1},
+  {MDL_ALGEBRAIC, 2, 2},
+  {MDL_DERIVATIVE, 0, 3}
+};
+
+static const int mdl_equation_first[] = {
+  0,
+  2,
+  7,
+  11,
+  13,
+  14,
+  15
+};
+
+static const int mdl_equation_variables[] = {
+  4,
+  6,
+  0,
+  8,
+  6,
+  9,
+  7,
+  2,
+  3,
+  8,
+  7,
+  1,
+  8,
+  3,
+  1
 };
 
 static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double value) {
@@ -298,14 +337,35 @@ static int mdl_check(mdl_data *m, double t, const double *x, const double *xdot,
   return 0;
 }
 
+static int mdl_nominals(mdl_data *m, double *nominal) {
+  const double V_t = m->p[3];
+  const double tmp1 = fabs(V_t);
+  nominal[0] = tmp1;
+  nominal[1] = tmp1;
+  nominal[2] = 1.0;
+  return 0;
+}
+
+static int mdl_divisions(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *value) {
+  (void)m;
+  (void)t;
+  (void)x;
+  (void)xdot;
+  (void)v;
+  (void)value;
+  return 0;
+}
+
 static const mdl_descriptor mdl_model = {
   .abi_version = MDL_ABI_VERSION,
   .name = "Diode",
   .hash = "",
   .jac_nnz = 4,
   .n_asserts = 0,
+  .n_computed = 6,
   .n_d = 0,
-  .n_equations = 4,
+  .n_divisions = 0,
+  .n_equations = 6,
   .n_messages = 0,
   .n_p = 8,
   .n_rel = 1,
@@ -330,6 +390,10 @@ static const mdl_descriptor mdl_model = {
   .interval = 0.0,
   .jac_colptr = mdl_jac_colptr,
   .jac_rowidx = mdl_jac_rowidx,
+  .computed = mdl_computed_by,
+  .equation_first = mdl_equation_first,
+  .equation_variables = mdl_equation_variables,
+  .division_equation = NULL,
   .starts = mdl_starts,
   .parameters = mdl_parameters,
   .samples = mdl_samples,
@@ -342,6 +406,8 @@ static const mdl_descriptor mdl_model = {
   .next_time_event = mdl_next_time_event,
   .event = mdl_event,
   .check = mdl_check,
+  .nominals = mdl_nominals,
+  .divisions = mdl_divisions,
 };
 
 const mdl_descriptor *mdl_descriptor_get(void);

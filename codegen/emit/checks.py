@@ -1,0 +1,105 @@
+"""What the runtime needs to look after a run: which equation gives what, sizes of unknowns and guards, divisors."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from lacuna.codegen import flat
+from lacuna.codegen.dae.prepared import Prepared
+from lacuna.codegen.emit.body import Body
+from lacuna.codegen.emit.continuous import function
+from lacuna.codegen.emit.discrete import is_settable
+from lacuna.codegen.emit.equations import EquationTable
+from lacuna.codegen.emit.names import Names
+from lacuna.codegen.emit.steps import comment
+from lacuna.codegen.structure.causal import Assignment, Division, Step
+from lacuna.codegen.structure.constants import dependency_order
+from lacuna.codegen.structure.nominal import difference
+from lacuna.codegen.symbolic.expr import Expr, var
+from lacuna.codegen.symbolic.leaves import leaves
+
+NOMINALS = "static int mdl_nominals(mdl_data *m, double *nominal)"
+DIVISIONS = "static int mdl_divisions(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *value)"
+MAX_SHOWN = 8  # variables whose values a message shows
+
+
+def dependent_parameters(prepared: Prepared) -> list[tuple[str, flat.Equation]]:
+    """Parameters that follow others, in the order in which they are computed, each with its equation."""
+    model = prepared.model
+    names = [n for n in dependency_order(model) if not is_settable(model.variables[n])]
+    return [(n, _binding(model.variables[n])) for n in names]
+
+
+def _binding(v: flat.Variable) -> flat.Equation:
+    return flat.Equation(var(v.name), v.binding, v.span, text=f"{v.name} = {v.binding}")
+
+
+@dataclass
+class Checks:
+    """Tables and callbacks of one model; `rows` are the indices of declared variables in the table."""
+
+    prepared: Prepared
+    equations: EquationTable
+    names: Names
+    rows: dict[str, int]
+
+    def computed(self) -> list[str]:
+        storage = self.prepared.storage
+        parameters = [
+            f"{{MDL_PARAMETER, {storage.slot(name).index}, {self.equations.index(equation)}}}"
+            for name, equation in dependent_parameters(self.prepared)
+        ]
+        return parameters + [
+            f"{{{self._place(unknown)}, {self.equations.index(source)}}}"
+            for step in self.prepared.explicit
+            for unknown, source in _sources(step)
+        ]
+
+    def _place(self, unknown: Expr) -> str:
+        slot = self.prepared.storage.slot(str((unknown.args[0] if unknown.op == "der" else unknown).value))
+        return f"{'MDL_DERIVATIVE' if unknown.op == 'der' else 'MDL_ALGEBRAIC'}, {slot.index}"
+
+    def equation_variables(self) -> tuple[list[str], list[str]]:
+        """(where those of each equation begin, rows of the variables)."""
+        first, variables = [0], []
+        for e in self.equations.entries:
+            names = sorted({str(n.value) for n in leaves(e.lhs) | leaves(e.rhs) if n.op == "var"} & self.rows.keys())
+            variables += [str(self.rows[n]) for n in names[:MAX_SHOWN]]
+            first.append(len(variables))
+        return [str(k) for k in first], variables
+
+    def nominals(self) -> str:
+        sizes, model = self.prepared.nominals, self.prepared.model
+        unknowns = [*map(var, self.prepared.storage.states), *self.prepared.residual.tears]
+        found = [sizes.get(u) for u in unknowns]
+        found += [difference(r.left, r.right, sizes, model) for r in self.prepared.relations]
+        body = Body(self.names, self.prepared.storage.frozen)
+        body.plan(s.expression for s in found if s)
+        for k, size in enumerate(found):
+            body.line(f"nominal[{k}] = {body.value(size.expression) if size else '0.0'};")
+        return function(NOMINALS, body)
+
+    def divisions(self) -> str:
+        quotients = self.prepared.divisions
+        body = Body(self.names, self.prepared.storage.point)
+        body.plan(e for q in quotients for e in (q.numerator, q.divisor))
+        for k, q in enumerate(quotients):
+            body.line(comment(q.source))
+            body.line(f"value[{2 * k}] = {body.value(q.numerator)};")
+            body.line(f"value[{2 * k + 1}] = {body.value(q.divisor)};")
+        return function(DIVISIONS, body)
+
+    def division_equations(self) -> list[str]:
+        return [str(self.equations.index(q.source)) for q in self.prepared.divisions]
+
+
+def _sources(step: Step) -> Iterator[tuple[Expr, flat.Equation]]:
+    """Each unknown of a step with its equation; a tear with a residual of its block."""
+    if isinstance(step, Assignment | Division):
+        yield step.unknown, step.row.source
+        return
+    for unknown, row in zip(step.tears, step.residuals, strict=True):
+        yield unknown, row.source
+    for a in step.assignments:
+        yield a.unknown, a.row.source
