@@ -11,8 +11,10 @@ from typing import TypeVar
 
 from lacuna.codegen import cache, flat
 from lacuna.codegen.dae import events, hybrid
+from lacuna.codegen.dae.discrete_starts import discrete_starts
 from lacuna.codegen.dae.divisions import divisions
-from lacuna.codegen.dae.initial import discrete_starts, initial_system
+from lacuna.codegen.dae.free_parameters import free_parameters
+from lacuna.codegen.dae.initial import initial_system
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.storage import Storage
 from lacuna.codegen.emit.source import generate
@@ -60,6 +62,7 @@ class CompiledModel:
 def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     """The structural passes, in order."""
     sys.setrecursionlimit(max(sys.getrecursionlimit(), 20000))
+    declared = report.run("initial system", free_parameters, declared)
     aliases = report.run("aliases", eliminate_aliases, declared)
     frozen = report.run("hybrid", hybrid.analyse, aliases.model)
     model = report.run("initial system", discrete_starts, frozen.model)
@@ -108,21 +111,23 @@ def compile_model(
     cache_directory: str | None = None,
     modifications: Modifications | None = None,
     units: str = "error",
+    sensitivities: bool = False,
 ) -> CompiledModel:
     """Translate and compile a model, or take it from the cache where nothing that it was made from has changed.
 
-    `units`: what an inconsistent unit is, "error" or "warn" (a warning in the report). Raises Diagnostic (a finding
-    about the model) or cache.CompilerError (the C compiler failed).
+    `units`: what an inconsistent unit is, "error" or "warn" (a warning in the report). `sensitivities`: with the
+    derivatives that a run with sensitivities needs (its C is twice as long, and a model of its own in the cache).
+    Raises Diagnostic (a finding about the model) or cache.CompilerError (the C compiler failed).
     """
     store = cache.Cache(cache_directory)
-    request = cache.request_key(name, search_path, modifications, units)
+    request = cache.request_key(name, search_path, modifications, units, sensitivities)
     found = store.find(request)
     if found:
         return CompiledModel(found.name, found.library, found.hash, Report(cached=True, warnings=found.warnings))
     with _translating:
         prepared, report = translate(name, search_path=search_path, modifications=modifications, units=units)
-        prepared.hash = cache.content_hash(prepared.declared.files, request)
-        source = report.run("C", generate, prepared)
+        prepared.hash = cache.content_hash(prepared.declared, modifications, units, sensitivities)
+        source = report.run("C", generate, prepared, sensitivities)
     library = report.run("compile", store.build, prepared.hash, source)
-    store.remember(request, prepared, library, report.warnings)
+    store.remember(request, prepared, library, report.warnings, search_path)
     return CompiledModel(prepared.declared.name, library, prepared.hash, report)

@@ -126,6 +126,16 @@ class For:
 
 
 @dataclass
+class Native:
+    """Functions only: a C function of the generated file, given inputs, then places of outputs."""
+
+    function: str
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    span: Span
+
+
+@dataclass
 class Return:
     span: Span
 
@@ -148,7 +158,10 @@ class When:
     origin: str = ""
 
 
-Statement = Assign | AssignCall | AssignElement | Reinit | Assert | Terminate | If | While | For | Return | Break | When
+Statement = (
+    Assign | AssignCall | AssignElement | Native | Reinit | Assert | Terminate
+    | If | While | For | Return | Break | When
+)  # fmt: skip
 
 
 @dataclass

@@ -27,7 +27,11 @@ class Component(Protocol):
 
     name: str
     variability: str
+    parent: Component | None
     elements: Mapping[str, object]  # by name: what it declares and inherits
+
+    def sees(self, name: str, cls: ast.Class) -> bool:
+        """May what is written in `cls`, itself or a base of it, use the element `name`?"""
 
     def child(self, name: str) -> object | None:
         """The component `name` of it, None where no such is declared."""
@@ -40,6 +44,7 @@ class Variable(Protocol):
     type: Kind
     variability: str
     is_structural: bool
+    is_free: bool  # a parameter with fixed = false
 
     def binding(self) -> Value | None:
         """Its value by declaration equation or modification."""

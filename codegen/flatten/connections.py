@@ -6,10 +6,11 @@ from dataclasses import dataclass, field, replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.class_values import unknown_name
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.instance import Absent, ArrayNode, Node
 from lacuna.codegen.flatten.leaf import Leaf
-from lacuna.codegen.flatten.references import apply_subscripts, member, unknown_name
+from lacuna.codegen.flatten.references import apply_subscripts, member
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.values import Array, Value, scalars
 from lacuna.codegen.symbolic import expr as ex

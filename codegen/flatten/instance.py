@@ -13,13 +13,16 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.enumerations import IndexType, index_type
 from lacuna.codegen.flatten.evaluate import evaluate_boolean, evaluate_dimensions
-from lacuna.codegen.flatten.inheritance import Element, Inheritance
+from lacuna.codegen.flatten.inheritance import Element, Inheritance, inheriting, refuse_redeclaration
 from lacuna.codegen.flatten.leaf import Leaf
 from lacuna.codegen.flatten.lower import modifier_value
 from lacuna.codegen.flatten.modifiers import Modifier, for_each, from_tree, merge, narrow
-from lacuna.codegen.flatten.scope import Scope, require_class
+from lacuna.codegen.flatten.prefixes import check_block, check_outer, check_prefixes
+from lacuna.codegen.flatten.scope import Scope, own_or_inherited
+from lacuna.codegen.flatten.subtypes import mismatch, require_subtype
 from lacuna.codegen.flatten.types import Type, resolve_type
 from lacuna.codegen.flatten.values import Array, Record, Value, indices
+from lacuna.codegen.flatten.views import modified, view
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.syntax import ast
 
@@ -59,6 +62,7 @@ class Instance:
         modifier: Modifier | None,
         declaration: ast.Component | None = None,
     ) -> None:
+        cls = _seen(cls, modifier, context)
         self.context, self.cls, self.name, self.parent = context, cls, name, parent
         self.declaration = declaration
         self.span = declaration.span if declaration else cls.span
@@ -70,11 +74,12 @@ class Instance:
         self._building: list[str] = []
         above = parent
         while above is not None:
-            if above.cls is cls:
+            if (above.cls.origin or above.cls) is (cls.origin or cls) and above.cls.redeclared == cls.redeclared:
                 raise Diagnostic("R011", f"{cls.name} contains itself", self.span, "break the circle of components")
             above = above.parent
         inherited = Inheritance(context, self, cls, modifier)
         self.elements, self.sections, self.classes = inherited.elements, inherited.sections, inherited.classes
+        self._visible = inherited.visible
 
     def child(self, name: str) -> Node | None:
         """The component `name`, made when first asked for; None where no such is declared."""
@@ -95,6 +100,12 @@ class Instance:
             self._building.pop()
         return node
 
+    def sees(self, name: str, cls: ast.Class) -> bool:
+        """May what is written in `cls`, itself or a base of it, use the element `name`? Bases do not see what is added
+        to them (5.6.1)."""
+        visible = self._visible.get(id(cls.origin or cls))
+        return visible is None or name in visible
+
     def children(self) -> list[Node]:
         return [self.child(name) for name in self.elements]
 
@@ -104,26 +115,26 @@ class Instance:
     def _build(self, element: Element) -> Node:
         declaration = element.declaration
         scope = Scope(self.context, element.cls, self)
-        redeclared = element.modifier is not None and element.modifier.redeclare is not None
-        tree = (
-            declaration.constraint.modification if redeclared and declaration.constraint else declaration.modification
-        )
-        own = from_tree(tree, scope, final=declaration.final)
+        redeclared = element.modifier is not None and isinstance(element.modifier.redeclare, ast.Component)
+        own = self._own_modifier(declaration, scope, redeclared)
         modifier = merge(element.modifier, own) or own
         if declaration.outer and not declaration.inner:
-            return self._outer(declaration)
+            check_outer(declaration, element.modifier)
+            return self._outer(declaration, scope)
         if declaration.condition is not None and not evaluate_boolean(declaration.condition, scope):
             return Absent(self.path_of(declaration.name), declaration.span)
-        reference, type_scope = declaration.type, scope
-        if modifier.redeclare is not None:
-            reference, type_scope = self._redeclared(element, modifier)
-        found = resolve_type(reference, type_scope)
-        sizes = evaluate_dimensions([*declaration.dimensions], scope, modifier, declaration.name)
-        index_types = tuple(index_type(d, scope) for d in declaration.dimensions)
+        type_scope = scope
+        if redeclared:
+            declaration, type_scope = self._redeclared(element, modifier)
+        found = resolve_type(declaration.type, type_scope)
+        check_prefixes(declaration, found, self._elements_of)
+        check_block(element.cls, declaration, found, self._elements_of)
+        sizes = evaluate_dimensions([*declaration.dimensions], type_scope, modifier, declaration.name)
+        index_types = tuple(index_type(d, type_scope) for d in declaration.dimensions)
         sizes += found.dimensions
-        record = self._record_value()
+        record, outside = self._record_value(), element.modifier
         given = record is not None and declaration.name in record.fields
-        if given and (element.modifier is None or element.modifier.value is None):
+        if given and (outside is None or outside.value is None or outside.weak):
             modifier = replace(modifier, value=record.fields[declaration.name], index=())
         self.context.spend(prod(sizes), declaration.span)
         name = self.path_of(declaration.name)
@@ -141,6 +152,15 @@ class Instance:
             items.append(Instance(self.context, found.cls, name + text, self, inner, declaration))
         return ArrayNode(name, tuple(sizes), items, index_types)
 
+    @staticmethod
+    def _own_modifier(declaration: ast.Component, scope: Scope, redeclared: bool) -> Modifier:
+        """What the declaration says, and its constraining clause: that holds whatever stands there (7.3.2)."""
+        own = from_tree(declaration.modification, scope, final=declaration.final)
+        if declaration.constraint is None:
+            return own
+        constraint = from_tree(declaration.constraint.modification, scope, final=declaration.final)
+        return constraint if redeclared else merge(own, constraint) or own
+
     def _record_value(self) -> Record | None:
         """The record this component is bound to, as in `Data data = other`."""
         if self._record is None and self._modifier is not None and self._modifier.value is not None:
@@ -151,28 +171,45 @@ class Instance:
             self._record = value
         return self._record
 
-    def _redeclared(self, element: Element, modifier: Modifier) -> tuple[ast.Ref, Scope]:
-        declaration, new = element.declaration, modifier.redeclare
-        if not declaration.replaceable:
-            error = Diagnostic(
-                "R033", f"{declaration.name} is not replaceable", modifier.span, "declare it with 'replaceable'"
-            )
-            error.notes.append((declaration.span, "declared here"))
-            raise error
-        library = self.context.library
-        scope = element.modifier.scope
-        limit = declaration.constraint.base if declaration.constraint else declaration.type
-        bound = require_class(library, element.cls, limit, "class")
-        chosen = require_class(library, scope.cls, new.type, "class")
-        needed = Instance(self.context, bound, "", None, None).elements
-        offered = Instance(self.context, chosen, "", None, None).elements
-        missing = [n for n, e in needed.items() if n not in offered and not e.declaration.protected]
-        if missing:
-            hint = f"choose a class that has what {bound.name} has"
-            raise Diagnostic("R034", f"{chosen.name} lacks {', '.join(missing)} of {bound.name}", new.span, hint)
-        return new.type, scope
+    def _redeclared(self, element: Element, modifier: Modifier) -> tuple[ast.Component, Scope]:
+        """The declaration that stands in place of a replaceable one, and the scope of its type. Raises R033, R034."""
+        old, new, scope = element.declaration, modifier.redeclare, modifier.redeclared_in
+        own = Scope(self.context, element.cls, self)
+        chosen = resolve_type(new.type, scope)
+        if not old.replaceable and new.dimensions:
+            declared = resolve_type(old.type, own)
+            if (declared.primitive, declared.cls) == (chosen.primitive, chosen.cls):
+                return inheriting(new, old), scope  # sizes may be redeclared anyway
+        refuse_redeclaration(new, old, modifier.span)
+        bound = resolve_type(old.constraint.base if old.constraint else old.type, own)
+        require_subtype(chosen, bound, self.context, self._elements_of, f"{new.type} for {old.name}", new.span)
+        return inheriting(new, old), scope
 
-    def _outer(self, declaration: ast.Component) -> Node:
+    def _elements_of(self, cls: ast.Class) -> dict[str, Element]:
+        return Instance(self.context, cls, "", None, None).elements
+
+    def _outer(self, declaration: ast.Component, scope: Scope) -> Node:
+        """The inner component that an outer one means. Raises R013 where there is none, R076 where it does not fit."""
+        found = self._inner(declaration)
+        if isinstance(found, Absent):
+            return found
+        wanted, first = resolve_type(declaration.type, scope), found
+        if isinstance(found, ArrayNode):
+            first = found.items[0] if found.items else found
+        have = found.type if isinstance(found, Leaf) else Type(None, getattr(first, "cls", wanted.cls))
+        reason = mismatch(replace(have, dimensions=[]), replace(wanted, dimensions=[]), self.context, self._elements_of)
+        shape = [] if isinstance(found, Instance) else found.shape
+        if len(shape) != len(declaration.dimensions) + len(wanted.dimensions):
+            reason = "their numbers of dimensions differ"
+        if reason:
+            error = Diagnostic(
+                "R076", f"outer {declaration.name}: {reason}", declaration.span, "make their types alike"
+            )
+            error.notes.append((found.span if not isinstance(found, ArrayNode) else first.span, "the inner one"))
+            raise error
+        return found
+
+    def _inner(self, declaration: ast.Component) -> Node:
         above = self.parent
         while above is not None:
             element = above.elements.get(declaration.name)
@@ -196,6 +233,21 @@ class Instance:
             if declaration.replaceable:
                 hint = f"redeclare it: {declaration.name}(redeclare CLASS {declaration.name})"
             raise Diagnostic("R015", f"{cls.name} is partial and cannot be a component", declaration.span, hint)
+
+
+def _seen(cls: ast.Class, modifier: Modifier | None, context: Context) -> ast.Class:
+    """`cls` with the classes that `modifier` redeclares or modifies in it."""
+    library = context.library
+    redeclared: dict[str, ast.Class] = {}
+    for name, child in modifier.children.items() if modifier is not None else ():
+        if isinstance(child.redeclare, ast.Class):
+            scope = child.redeclared_in
+            redeclared[name] = view(library, child.redeclare, scope.cls, written=scope)
+        elif child.redeclare is None and child.children and child.tree is not None:
+            plain = own_or_inherited(library, cls, name)
+            if plain is not None:
+                redeclared[name] = modified(library, plain, child.tree, child.scope, child.scope.cls)
+    return view(library, cls, cls.parent, redeclared, cls.whole) if redeclared else cls
 
 
 Node = Instance | Leaf | ArrayNode | Absent

@@ -11,7 +11,7 @@ from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.enumerations import IndexType
 from lacuna.codegen.flatten.lower import modifier_value
 from lacuna.codegen.flatten.modifiers import Modifier
-from lacuna.codegen.flatten.types import ATTRIBUTES, Type
+from lacuna.codegen.flatten.types import ATTRIBUTES, EXTERNAL, Type
 from lacuna.codegen.flatten.values import Array, Record, Value, indices, shape_of, shape_text
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
@@ -70,9 +70,19 @@ class Leaf:
     def is_structural(self) -> bool:
         return self.variability in ("constant", "parameter")
 
+    @cached_property
+    def is_free(self) -> bool:
+        """A parameter that initial equations determine."""
+        return self.variability == "parameter" and self._is_false(self.modifier.children.get("fixed"))
+
+    @staticmethod
+    def _is_false(fixed: Modifier | None) -> bool:
+        value = fixed.value if fixed is not None else None
+        return value is ex.FALSE or (isinstance(value, ast.Literal) and value.value is False)
+
     def value(self) -> Value:
         """The variable(s) as expressions; a String is its text."""
-        if self.primitive == "String":
+        if self.primitive in ("String", EXTERNAL):
             return self.text()
         if not self.shape:
             return ex.var(self.name, self.primitive)
@@ -85,7 +95,8 @@ class Leaf:
     def text(self) -> Value:
         value = self.binding()
         if value is None:
-            raise Diagnostic("F020", f"the String {self.name} has no value", self.span, 'bind it: = "..."')
+            hint = 'bind it: = "..."' if self.primitive == "String" else "bind it to a call of its constructor"
+            raise Diagnostic("F020", f"the {self.primitive} {self.name} has no value", self.span, hint)
         return value
 
     def binding(self) -> Value | None:

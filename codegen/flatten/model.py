@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -35,7 +36,8 @@ def flatten(
     """The flat model of class `name` (see `Library.find`), every check of the front end done.
 
     `modifications` set structural parameters by their full name; `units` is "error", "warn" (findings go to
-    `FlatModel.warnings`) or "off". Raises Diagnostic; further independent findings are in its `others`.
+    `FlatModel.warnings`), "all" (findings inside libraries are errors, too) or "off". Raises Diagnostic; further
+    independent findings are in its `others`.
     """
     cls = library.find(name)
     if cls.kind not in MODEL_KINDS or cls.partial:
@@ -76,11 +78,18 @@ def flatten(
 def _check_units(model: flat.FlatModel, context: Context, mode: str) -> None:
     if mode == "off":
         return
-    findings = check_units(model, context.argument_units, context.function_units, context.places)
+    package = context.library.foreign_package
+    findings = check_units(model, context.argument_units, context.function_units, context.places, package)
+    own = [f for f in findings if mode == "all" or not package(f.span.file)]
     if mode == "warn":
-        context.warnings += [replace(f, severity="warning") for f in findings]
+        context.warnings += [replace(f, severity="warning") for f in own]
     else:
-        context.errors += findings
+        context.errors += own
+    foreign = Counter(package(f.span.file) for f in findings if f not in own)
+    for name, count in foreign.items():
+        hint = "lacuna check --units all shows them"
+        message = f"{count} places of the library {name} do not pass the unit check"
+        context.warnings.append(Diagnostic("W007", message, hint=hint, severity="warning"))
 
 
 def _outside_modifier(modifications: dict[str, Expr | float], span: Span) -> Modifier | None:

@@ -10,6 +10,7 @@ which fold constants and drop neutral elements; never call `Expr` itself.
     der       (var,)                    -
     pre       (var,)                    -
     time      ()                        -
+    start_time ()                       -         of the run, in parameters
     + * and or min max                  two arguments, left to right
     - /       two arguments;  neg not   one argument;   ^  two arguments
     < <= > >= == <>                     two arguments
@@ -85,6 +86,7 @@ def var(name: str, type: str = REAL) -> Expr:
 
 ZERO, ONE, TRUE, FALSE = const(0.0), const(1.0), const(True), const(False)
 TIME = node("time")
+START_TIME = node("start_time")
 
 
 def is_const(e: Expr, value: object = None) -> bool:

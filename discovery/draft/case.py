@@ -9,15 +9,15 @@ import shutil
 
 import numpy as np
 
+from lacuna.analysis.recording.heads import Head
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.search_path import search_path, split_name
 from lacuna.discovery import noise
 from lacuna.discovery.cases import CaseError
-from lacuna.discovery.draft.columns import Head
 from lacuna.discovery.draft.match import Match, Target, matched
 from lacuna.discovery.draft.recorded import Recorded, parted, read_recorded, write_recorded
 from lacuna.discovery.draft.write import Column, Draft, case_toml
-from lacuna.discovery.units import to_si
+from lacuna.recorded_units import to_si
 from lacuna.runtime import Model
 
 ZERO_CELSIUS = 273.15  # K

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 import re
 
+from lacuna.analysis.recording.heads import Head
 from lacuna.codegen.suggest import distance
-from lacuna.codegen.units.unit import parse_unit
-from lacuna.discovery.draft.columns import Head
-from lacuna.discovery.units import to_si
+from lacuna.recorded_units import to_si
+from lacuna.units import parse_unit
 
 
 @dataclass(frozen=True)

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
+from lacuna.analysis.recording.heads import Head, read_head
 from lacuna.analysis.recording.text import TextTable, read_text
 from lacuna.discovery.cases import CaseError
-from lacuna.discovery.draft.columns import Head, read_head
-from lacuna.discovery.units import to_si
+from lacuna.recorded_units import to_si
 
 MAX_ROUNDING = 1e-6  # of a sample interval, that the digits of an absolute time may cost
 FIT_SHARE = (

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 4
+#define MDL_ABI_VERSION 6
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
@@ -56,6 +56,7 @@ typedef struct mdl_data {
   int reinitialised;   /* set by event(): reinit changed x */
   int terminated;      /* set by event(): 1 + index into `messages` of the terminate() that fired; else 0 */
   mdl_failure failure;
+  double start_time; /* of the run; parameters may depend on it */
 } mdl_data;
 
 typedef enum {
@@ -109,6 +110,7 @@ typedef struct {
   mdl_storage storage; /* MDL_PARAMETER, MDL_DERIVATIVE or MDL_ALGEBRAIC */
   int index, equation;
 } mdl_computed;
+struct mdl_tangents;
 
 typedef struct mdl_descriptor {
   int abi_version;
@@ -172,6 +174,7 @@ typedef struct mdl_descriptor {
   /* Check the other asserts at an accepted point; < 0 with m->failure set where one is violated. */
   int (*check)(mdl_data *m, double t, const double *x, const double *xdot, const double *v);
 
+  const struct mdl_tangents *tangents; /* derivatives (mdl_tangent.h); NULL where they were not asked for */
   int n_computed;
   const mdl_computed *computed;  /* [n_computed] */
   const int *equation_first;     /* [n_equations + 1] where the variables of an equation begin in */

@@ -31,6 +31,8 @@ rt_status rt_scale_parameters(rt_session *s) {
   }
   for (int r = 0; r < d->n_rel; r++)
     if (!(s->g_nominal[r] > 0) || !isfinite(s->g_nominal[r])) s->g_nominal[r] = 0;
+  for (int i = 0; i < d->n_x + d->n_z; i++) /* until the start is known */
+    s->atol[i] = 0.01 * s->options.rtol * sized(s->nominal[i], 0);
   return RT_OK;
 }
 

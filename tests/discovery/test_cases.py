@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lacuna.discovery.cases import CaseError, load
-from lacuna.discovery.units import UnitError, to_si
+from lacuna.recorded_units import UnitError, to_si
 
 
 def test_units_lead_to_si() -> None:

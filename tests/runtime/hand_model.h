@@ -139,6 +139,7 @@ template <class M> struct Generated {
                                      M::next_time_event,
                                      M::event,
                                      M::check,
+                                     nullptr,
                                      0,
                                      nullptr,
                                      nullptr,

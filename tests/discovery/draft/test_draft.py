@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from lacuna.analysis.recording.heads import read_head
 from lacuna.analysis.recording.text import TextTableError, read_text
 from lacuna.discovery.cases import CaseError, load
 from lacuna.discovery.draft.case import new_case
-from lacuna.discovery.draft.columns import read_head
 from lacuna.discovery.draft.match import Target, matched
 
 PLATE = """model Plate "A heated plate in a room"

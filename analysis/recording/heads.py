@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 import re
 
-from lacuna.discovery.units import UnitError, to_si
+from lacuna.recorded_units import UnitError, to_si
 
 # How loggers write units that the language writes otherwise.
 _SPELLINGS = {

@@ -6,7 +6,7 @@ from dataclasses import replace
 import math
 import re
 
-from lacuna.codegen.units.unit import format_unit, parse_unit
+from lacuna.units import format_unit, parse_unit
 
 # Symbols whose SI unit keeps the radian or the degree Celsius, which exponents do not show.
 _ATOMS: dict[str, tuple[float, str]] = {
