@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 import lacuna
-from lacuna.cli import assess, check, compare, compile, explain, list, maps, simulate, steps, sweep
+from lacuna.cli import assess, check, compare, compile, explain, forecast, list, maps, simulate, steps, sweep
 
 app = typer.Typer(
     name="lacuna",
@@ -58,6 +58,7 @@ app.add_typer(list.app, name="list", rich_help_panel=MODELS)
 app.command("maps", rich_help_panel=FAULTS)(maps.maps)
 app.command("sweep", rich_help_panel=FAULTS)(sweep.sweep)
 app.command("assess", rich_help_panel=FAULTS)(assess.assess)
+app.command("forecast", rich_help_panel=FAULTS)(forecast.forecast)
 app.command("explain", rich_help_panel=PHYSICS)(explain.explain)
 app.command("fit", rich_help_panel=PHYSICS)(steps.fit)
 app.command("locate", rich_help_panel=PHYSICS)(steps.locate)

@@ -16,12 +16,14 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from lacuna.campaigns import Sweep, sweep
     from lacuna.comparisons import Agreement, Comparison, compare, compare_with_file
+    from lacuna.degradation import degradation_laws
     from lacuna.diagnoses import Case, Explanation, Verdict, explain, open_case
     from lacuna.errors import UserError, is_user_error, message_of, nearest
     from lacuna.faults import Assessment, CombinedMap, OperatingMap, assess, combined_maps, maps
     from lacuna.inputs import Input, recorded
     from lacuna.listings import Entry, list_effects, list_models, list_solvers
     from lacuna.models import Finding, Model, check, dump, load
+    from lacuna.prognosis import Prognosis, forecast
     from lacuna.progress import Progress
     from lacuna.results import IncompleteRun, Result
 
@@ -35,6 +37,8 @@ _HOMES = {
     "listings": ("Entry", "list_effects", "list_models", "list_solvers"),
     "models": ("Finding", "Model", "check", "dump", "load"),
     "progress": ("Progress",),
+    "degradation": ("degradation_laws",),
+    "prognosis": ("Prognosis", "forecast"),
     "results": ("IncompleteRun", "Result"),
 }
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
@@ -53,6 +57,7 @@ __all__ = [
     "Input",
     "Model",
     "OperatingMap",
+    "Prognosis",
     "Progress",
     "Result",
     "Sweep",
@@ -63,8 +68,10 @@ __all__ = [
     "combined_maps",
     "compare",
     "compare_with_file",
+    "degradation_laws",
     "dump",
     "explain",
+    "forecast",
     "is_user_error",
     "list_effects",
     "list_models",

@@ -198,7 +198,6 @@ static rt_status restart(rt_session *s, void *p) {
 
 static rt_status begin(rt_session *s, void *p) {
   rt_status status = rt_check_forms(s);
-  rt_ida_tangent_begin(s, p);
   return status ? status : restart(s, p);
 }
 

@@ -21,7 +21,6 @@ typedef struct {
 
 /* ida_tangent.c */
 bool rt_ida_sensitivities(rt_session *s, void *memory);
-void rt_ida_tangent_begin(rt_session *s, rt_ida *m);
 rt_status rt_ida_tangent_restart(rt_session *s, rt_ida *m);
 rt_status rt_ida_tangent_step(rt_session *s, rt_ida *m);
 void rt_ida_dense_tangent(rt_session *s, void *memory, rt_dense *out);

@@ -9,7 +9,7 @@
 #include "ida.h"
 #include "vector.h"
 
-static const double NOT_TESTED = 1e100; /* absolute tolerance of a column whose parameter has no known size */
+static const double NOT_TESTED = 1e100; /* absolute tolerance of a column that has no size yet */
 
 /* Vectors of the columns -> rows of a bundle, and back. */
 static void to_rows(const rt_ida *m, int n, int columns, N_Vector *vectors, double *rows) {
@@ -88,14 +88,21 @@ bool rt_ida_sensitivities(rt_session *s, void *memory) {
   return false;
 }
 
-/* The scales of the columns are known when the run has begun. */
-void rt_ida_tangent_begin(rt_session *s, rt_ida *m) {
+/* Absolute tolerances of the columns. One whose parameter has no known size is measured by itself, as it is now. */
+static bool set_tolerances(rt_session *s, rt_ida *m) {
+  const rt_sensitivities *f = s->sensitivities;
+  const double *x = rt_rows(f->at.x);
   for (int k = 0; k < m->columns; k++) {
-    double weight = s->sensitivities->weight[k], *atol = N_VGetArrayPointer(m->tangent_atol[k]);
+    double weight = f->weight[k], *atol = N_VGetArrayPointer(m->tangent_atol[k]);
+    if (isinf(weight)) {
+      weight = 0;
+      for (int i = 0; i < s->d->n_x; i++)
+        weight = rt_max(weight, fabs(x[i * f->columns + k]) * s->options.atol / s->atol[i]);
+    }
     for (int i = 0; i < s->d->n_x + s->d->n_z; i++)
-      atol[i] = isfinite(weight) ? s->atol[i] * weight : NOT_TESTED;
+      atol[i] = weight > 0 ? s->atol[i] * weight : NOT_TESTED;
   }
-  if (m->columns) IDASensSVtolerances(m->ida, s->options.rtol, m->tangent_atol);
+  return IDASensSVtolerances(m->ida, s->options.rtol, m->tangent_atol) == IDA_SUCCESS;
 }
 
 /* From the tangents at the session's point; z' is left at zero, as z is not in the error test. */
@@ -114,7 +121,8 @@ rt_status rt_ida_tangent_restart(rt_session *s, rt_ida *m) {
     for (int j = 0; j < m->columns; j++)
       N_VGetArrayPointer(m->tangent_yp[j])[d->n_x + k] = 0;
   }
-  if (IDASensReInit(m->ida, IDA_STAGGERED, m->tangent_y, m->tangent_yp) == IDA_SUCCESS) return RT_OK;
+  if (set_tolerances(s, m) && IDASensReInit(m->ida, IDA_STAGGERED, m->tangent_y, m->tangent_yp) == IDA_SUCCESS)
+    return RT_OK;
   return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "IDA refuses to restart sensitivities at time %.9g s", s->t);
 }
 
