@@ -20,7 +20,8 @@ from lacuna.codegen.symbolic.expr import Expr, var
 from lacuna.codegen.symbolic.leaves import leaves
 
 NOMINALS = "static int mdl_nominals(mdl_data *m, double *nominal)"
-DIVISIONS = "static int mdl_divisions(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *value)"
+_POINT = "mdl_data *m, double t, const double *x, const double *xdot, const double *v"
+DIVISIONS = f"static int mdl_divisions({_POINT}, double *value)"
 MAX_SHOWN = 8  # variables whose values a message shows
 
 

@@ -3,11 +3,12 @@
 In this order, for each continuous variable:
 
 1. its declared `nominal`, else the size of its start value where that is not zero;
-2. the balance of an equation: the largest of its terms whose size is known is as large as the terms in which one thing
-   is unknown, so that V = R i + k w gives i = V/R and w = V/k, and a relation x > limit gives x = limit. Parameters have
-   the size of their values, sin and cos 1, and first of all what stands in them has. Of several balances the smallest counts.
-   What is found serves in the next round. Where a round finds nothing, sums inside products are looked at, then
-   numbers that stand as terms (a threshold of 1e-6 says less than a parameter, but more than nothing);
+2. the balance of an equation: the largest of its terms whose size is known is as large as the terms in which one
+   thing is unknown, so that V = R i + k w gives i = V/R and w = V/k, and a relation x > limit gives x = limit.
+   Parameters have the size of their values, sin and cos 1, and first of all what stands in them has. Of several
+   balances the smallest counts. What is found serves in the next round. Where a round finds nothing, sums inside
+   products are looked at, then numbers that stand as terms (a threshold of 1e-6 says less than a parameter, but more
+   than nothing);
 3. then the length of the experiment links a variable and its derivative;
 4. an angle (unit rad) has at most size 1, at which it acts, however many turns it makes;
 5. else none: the runtime takes the size at the start of the run, and 1 in the variable's unit where that is zero.
@@ -73,9 +74,8 @@ class _Inference:
         self._memo: dict[Expr, Size | None] = {}
         self._found: dict[Expr, Size] = {}
         self._numbers = False  # whether a number that stands as a term has a size
-        self._looks = (
-            (self._angles, False), (self._whole, False), (self._inside, False), (self._whole, True), (self._inside, True)
-        )  # fmt: skip
+        sums = ((self._whole, False), (self._inside, False), (self._whole, True), (self._inside, True))
+        self._looks = ((self._angles, False), *sums)  # each with whether numbers count
         self._pending = [dict.fromkeys(range(len(balances))) for _ in self._looks]  # balances that may tell more
         self._users: dict[Expr, list[int]] = {}
         for k, (left, right, _) in enumerate(balances):
@@ -135,7 +135,8 @@ class _Inference:
 
     def balance(self) -> bool:
         """One round of balances, of the first kind that finds anything; whether one did."""
-        for (look, self._numbers), pending in zip(self._looks, self._pending, strict=True):
+        for (look, numbers), pending in zip(self._looks, self._pending, strict=True):
+            self._numbers = numbers
             self._memo, self._found = {}, {}
             for k in sorted(pending):
                 look(*self._balances[k])

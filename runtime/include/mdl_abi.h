@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 6
+#define MDL_ABI_VERSION 7
 
 typedef enum {
   MDL_FAILURE_NONE = 0,

@@ -116,6 +116,16 @@ static rt_status fail_assert(rt_session *s, double time, const mdl_assert *rule)
   return RT_ASSERT;
 }
 
+/* Row of the variable that an equation of the explicit form is solved for, -1 where it is none. */
+static int unknown_of(const rt_session *s, int equation) {
+  for (int k = 0; k < s->d->n_computed; k++) {
+    const mdl_computed *c = &s->d->computed[k];
+    if (c->equation == equation && c->storage != MDL_PARAMETER)
+      return rt_find_row(s, c->storage == MDL_DERIVATIVE ? MDL_STATE : c->storage, c->index);
+  }
+  return -1;
+}
+
 /* Turn the failure that a model function has left in m->failure into the session's. `doing` says what for. */
 rt_status rt_fail_model(rt_session *s, double time, const char *doing) {
   const mdl_descriptor *d = s->d;
@@ -124,8 +134,9 @@ rt_status rt_fail_model(rt_session *s, double time, const char *doing) {
   bool placed = f->equation >= 0 && f->equation < (is_assert ? d->n_asserts : d->n_equations);
   if (is_assert && placed) return fail_assert(s, time, &d->asserts[f->equation]);
   const mdl_equation *where = placed && !is_assert ? &d->equations[f->equation] : NULL;
-  bool named = f->variable >= 0 && f->variable < d->n_variables;
-  int variable = named ? f->variable : -1;
+  int variable = f->kind == MDL_FAILURE_SINGULAR && placed ? unknown_of(s, f->equation) : f->variable;
+  bool named = variable >= 0 && variable < d->n_variables;
+  if (!named) variable = -1;
   if (f->kind == MDL_FAILURE_BOUND && named) return fail_bound(s, time, f);
   rt_fail(s, status_of(f->kind), time, variable, where, "%s at time %.9g s: %s%s%s (value %.9g)", doing, time,
           describe(f->kind), named ? ", variable " : "", named ? d->variables[variable].name : "",
