@@ -18,7 +18,9 @@ if TYPE_CHECKING:
     from lacuna.comparisons import Agreement, Comparison, compare, compare_with_file
     from lacuna.degradation import degradation_laws
     from lacuna.diagnoses import Case, Explanation, Verdict, explain, open_case
+    from lacuna.drafts import Drafted, convert, new_case
     from lacuna.errors import UserError, is_user_error, message_of, nearest
+    from lacuna.examples import copy_examples
     from lacuna.faults import Assessment, CombinedMap, OperatingMap, assess, combined_maps, maps
     from lacuna.inputs import Input, recorded
     from lacuna.listings import Entry, list_effects, list_models, list_solvers
@@ -31,7 +33,9 @@ _HOMES = {
     "campaigns": ("Sweep", "sweep"),
     "comparisons": ("Agreement", "Comparison", "compare", "compare_with_file"),
     "diagnoses": ("Case", "Explanation", "Verdict", "explain", "open_case"),
+    "drafts": ("Drafted", "convert", "new_case"),
     "errors": ("UserError", "is_user_error", "message_of", "nearest"),
+    "examples": ("copy_examples",),
     "faults": ("Assessment", "CombinedMap", "OperatingMap", "assess", "combined_maps", "maps"),
     "inputs": ("Input", "recorded"),
     "listings": ("Entry", "list_effects", "list_models", "list_solvers"),
@@ -50,6 +54,7 @@ __all__ = [
     "Case",
     "CombinedMap",
     "Comparison",
+    "Drafted",
     "Entry",
     "Explanation",
     "Finding",
@@ -68,6 +73,8 @@ __all__ = [
     "combined_maps",
     "compare",
     "compare_with_file",
+    "convert",
+    "copy_examples",
     "degradation_laws",
     "dump",
     "explain",
@@ -80,6 +87,7 @@ __all__ = [
     "maps",
     "message_of",
     "nearest",
+    "new_case",
     "open_case",
     "recorded",
     "sweep",

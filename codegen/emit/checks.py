@@ -7,16 +7,18 @@ from dataclasses import dataclass
 
 from lacuna.codegen import flat
 from lacuna.codegen.dae.prepared import Prepared
-from lacuna.codegen.emit.body import Body
-from lacuna.codegen.emit.continuous import function
+from lacuna.codegen.emit.body import Access, Body
+from lacuna.codegen.emit.continuous import c_function, function
 from lacuna.codegen.emit.discrete import is_settable
 from lacuna.codegen.emit.equations import EquationTable
+from lacuna.codegen.emit.large import LARGE
 from lacuna.codegen.emit.names import Names
+from lacuna.codegen.emit.rolled import Rolled, assignment, in_parts
 from lacuna.codegen.emit.steps import comment
 from lacuna.codegen.structure.causal import Assignment, Division, Step
 from lacuna.codegen.structure.constants import dependency_order
 from lacuna.codegen.structure.nominal import difference
-from lacuna.codegen.symbolic.expr import Expr, var
+from lacuna.codegen.symbolic.expr import ZERO, Expr, var
 from lacuna.codegen.symbolic.leaves import leaves
 
 NOMINALS = "static int mdl_nominals(mdl_data *m, double *nominal)"
@@ -75,21 +77,31 @@ class Checks:
         unknowns = [*map(var, self.prepared.storage.states), *self.prepared.residual.tears]
         found = [sizes.get(u) for u in unknowns]
         found += [difference(r.left, r.right, sizes, model) for r in self.prepared.relations]
-        body = Body(self.names, self.prepared.storage.frozen)
-        body.plan(s.expression for s in found if s)
-        for k, size in enumerate(found):
-            body.line(f"nominal[{k}] = {body.value(size.expression) if size else '0.0'};")
-        return function(NOMINALS, body)
+        rows = [(f"nominal[{k}]", size.expression if size else ZERO, "") for k, size in enumerate(found)]
+        return self._write(NOMINALS, rows, self.prepared.storage.frozen)
 
     def divisions(self) -> str:
-        quotients = self.prepared.divisions
-        body = Body(self.names, self.prepared.storage.point)
-        body.plan(e for q in quotients for e in (q.numerator, q.divisor))
-        for k, q in enumerate(quotients):
-            body.line(comment(q.source))
-            body.line(f"value[{2 * k}] = {body.value(q.numerator)};")
-            body.line(f"value[{2 * k + 1}] = {body.value(q.divisor)};")
-        return function(DIVISIONS, body)
+        rows = []
+        for k, q in enumerate(self.prepared.divisions):
+            rows.append((f"value[{2 * k}]", q.numerator, comment(q.source)))
+            rows.append((f"value[{2 * k + 1}]", q.divisor, ""))
+        return self._write(DIVISIONS, rows, self.prepared.storage.point)
+
+    def _write(self, signature: str, rows: list[tuple[str, Expr, str]], access: Access) -> str:
+        """A callback that stores the value of each row (place, value, comment)."""
+        if len(rows) > LARGE:
+            rolled = Rolled(self.names, access)
+            rolled.plan(value for _, value, _ in rows)
+            for place, value, note in rows:
+                rolled.add(assignment(place, value, comment=note))
+            return in_parts(signature, rolled.parts(), rolled.shared, c_function)
+        body = Body(self.names, access)
+        body.plan(value for _, value, _ in rows)
+        for place, value, note in rows:
+            if note:
+                body.line(note)
+            body.line(f"{place} = {body.value(value)};")
+        return function(signature, body)
 
     def division_equations(self) -> list[str]:
         return [str(self.equations.index(q.source)) for q in self.prepared.divisions]

@@ -16,6 +16,8 @@ from lacuna.codegen.flatten.values import Array, Value, scalars
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.syntax import ast
 
+MAX_NAMES = 40  # in the text of a sum of flows
+
 Connector = Node | tuple[Leaf, int]  # the latter: one scalar of a connector that is a variable
 
 
@@ -69,16 +71,21 @@ def connection_equations(connections: list[tuple[ast.Connect, Scope]], context: 
     for group in sets.groups():
         root = sets.find(group[0])
         span, origin = sets.span[root], sets.origin[root]
-        names = " ".join(dict.fromkeys(e.name for e in group))
+        names = list(dict.fromkeys(e.name for e in group))
         if sets.flow[group[0]]:
             total = _sum([(ex.var(end.name), end.outside) for end in group])
-            equations.append(flat.Equation(total, ex.ZERO, span, origin, f"sum of flows: {names}"))
+            equations.append(flat.Equation(total, ex.ZERO, span, origin, f"sum of flows: {_shortened(names)}"))
             continue
         unique = list(dict.fromkeys(e.name for e in group))
         for name in unique[1:]:
             a, b = _variable(unique[0], context), _variable(name, context)
             equations.append(flat.Equation(a, b, span, origin, f"connected: {unique[0]} = {name}"))
     return equations + _unconnected(sets, context)
+
+
+def _shortened(names: list[str]) -> str:
+    more = f" and {len(names) - MAX_NAMES} more" if len(names) > MAX_NAMES else ""
+    return " ".join(names[:MAX_NAMES]) + more
 
 
 def _sum(flows: list[tuple[ex.Expr, bool]]) -> ex.Expr:
