@@ -11,7 +11,6 @@ from lacuna.codegen.emit.body import Access, Body
 from lacuna.codegen.emit.continuous import c_function, function
 from lacuna.codegen.emit.discrete import is_settable
 from lacuna.codegen.emit.equations import EquationTable
-from lacuna.codegen.emit.large import LARGE
 from lacuna.codegen.emit.names import Names
 from lacuna.codegen.emit.rolled import Rolled, assignment, in_parts
 from lacuna.codegen.emit.steps import comment
@@ -24,6 +23,7 @@ from lacuna.codegen.symbolic.leaves import leaves
 NOMINALS = "static int mdl_nominals(mdl_data *m, double *nominal)"
 _POINT = "mdl_data *m, double t, const double *x, const double *xdot, const double *v"
 DIVISIONS = f"static int mdl_divisions({_POINT}, double *value)"
+SMALL = 50  # rows up to which each is a line of its own
 MAX_SHOWN = 8  # variables whose values a message shows
 
 
@@ -89,7 +89,7 @@ class Checks:
 
     def _write(self, signature: str, rows: list[tuple[str, Expr, str]], access: Access) -> str:
         """A callback that stores the value of each row (place, value, comment)."""
-        if len(rows) > LARGE:
+        if len(rows) > SMALL:
             rolled = Rolled(self.names, access)
             rolled.plan(value for _, value, _ in rows)
             for place, value, note in rows:

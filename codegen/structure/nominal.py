@@ -20,7 +20,7 @@ quantity. It is an expression in the parameters, computed for the values of each
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 import math
 
 from lacuna.codegen import flat
@@ -40,6 +40,13 @@ class Size:
     expression: Expr
     value: float
     reason: str = ""
+    terms: int = 1  # that the expression is made of
+
+    def smaller(self, other: Size) -> bool:
+        """Whether it is the smaller estimate, or as large and simpler."""
+        if math.isclose(self.value, other.value, rel_tol=1e-9):
+            return self.terms < other.terms
+        return self.value < other.value
 
 
 def infer(system: System, relations: Iterable[tuple[Expr, Expr, str]]) -> dict[Expr, Size]:
@@ -170,7 +177,7 @@ class _Inference:
         largest = _largest([s for t in sized if (s := self.size(t))])
         for t in terms if largest else ():
             if self.size(t) is None:
-                self._assign(t, Size(largest.expression, largest.value, where))
+                self._assign(t, _named(largest, where))
 
     def _assign(self, e: Expr, size: Size | None) -> None:
         """What is unknown in `e` is such that `e` has this size."""
@@ -178,7 +185,7 @@ class _Inference:
             return
         if e.op in ("var", "der"):
             best = self._found.get(e)
-            if e not in self.sizes and self._is_continuous(e) and (best is None or size.value < best.value):
+            if e not in self.sizes and self._is_continuous(e) and (best is None or size.smaller(best)):
                 self._found[e] = size
         elif e.op == "neg" or (e.op == "call" and e.value == "abs"):
             self._assign(e.args[0], size)
@@ -230,16 +237,16 @@ def _terms(e: Expr) -> Iterator[Expr]:
         yield e
 
 
-def _size(expression: Expr, value: float, reason: str = "") -> Size | None:
-    return Size(expression, value, reason) if 0 < value < math.inf else None
+def _size(expression: Expr, value: float, reason: str = "", terms: int = 1) -> Size | None:
+    return Size(expression, value, reason, terms) if 0 < value < math.inf else None
 
 
 def _named(size: Size | None, reason: str) -> Size | None:
-    return Size(size.expression, size.value, reason) if size else None
+    return replace(size, reason=reason) if size else None
 
 
 def _largest(sizes: Sequence[Size]) -> Size | None:
-    return max(sizes, key=lambda s: s.value) if sizes else None
+    return max(sizes, key=lambda s: (s.value, -s.terms)) if sizes else None
 
 
 def _power(size: Size | None, exponent: Expr) -> Size | None:
@@ -255,4 +262,4 @@ def _combine(op: str, a: Size | None, b: Size | None) -> Size | None:
     if a is None or b is None:
         return None
     value = a.value * b.value if op == "*" else a.value / b.value
-    return _size((mul if op == "*" else div)(a.expression, b.expression), value)
+    return _size((mul if op == "*" else div)(a.expression, b.expression), value, "", a.terms + b.terms)

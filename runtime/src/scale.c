@@ -32,15 +32,14 @@ rt_status rt_scale_parameters(rt_session *s) {
   for (int r = 0; r < d->n_rel; r++)
     if (!(s->g_nominal[r] > 0) || !isfinite(s->g_nominal[r])) s->g_nominal[r] = 0;
   for (int i = 0; i < d->n_x + d->n_z; i++) /* until the start is known */
-    s->atol[i] = 0.01 * s->options.rtol * sized(s->nominal[i], 0);
+    s->atol[i] = s->options.atol * sized(s->nominal[i], 0);
   return RT_OK;
 }
 
 static void set_tolerances(rt_session *s) {
   for (int i = 0; i < s->d->n_x; i++)
     s->outgrown[i] = s->range[i] < s->nominal[i] ? 2 * s->range[i] : INFINITY;
-  double relative = s->options.atol > 0 ? s->options.atol : 0.01 * s->options.rtol;
-  double least = s->options.atol > 0 ? 1 : rt_min(1, rt_max(lowest, rounding / relative));
+  double relative = s->options.atol, least = s->atol_given ? 1 : rt_min(1, rt_max(lowest, rounding / relative));
   for (int i = 0; i < s->d->n_x + s->d->n_z; i++)
     s->atol[i] = relative * rt_min(s->nominal[i], rt_max(s->range[i], least * s->nominal[i]));
 }

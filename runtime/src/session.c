@@ -110,6 +110,8 @@ rt_session *rt_session_new(const rt_model *model, const rt_options *options, cha
   if (done) {
     declared_parameters(s);
     if (!(s->options.rtol > 0)) s->options.rtol = s->d->tolerance > 0 ? s->d->tolerance : 1e-6;
+    s->atol_given = s->options.atol > 0;
+    if (!s->atol_given) s->options.atol = 0.01 * s->options.rtol;
     s->memory = s->method->create(s);
   }
   if (s->memory) return s;

@@ -108,6 +108,7 @@ struct rt_session {
   double *g_nominal;
   double *range;    /* [n_x + n_z] largest size so far, followed up to the nominal value */
   double *outgrown; /* [n_x] size from which on range is to be followed again */
+  bool atol_given;  /* by the caller: it stays as it is */
   double *atol;     /* [n_x + n_z] */
   double *y, *yp;   /* [n_x + n_z] scratch for the residual form */
 
