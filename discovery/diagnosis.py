@@ -160,6 +160,9 @@ def _variable(finding: Finding) -> str:
     if attachment.shaft is not None:
         along = ("torque.", "load.", "stiffness", "end_stop", "friction.position")
         return f"{attachment.location}.phi" if identifier.startswith(along) else f"{attachment.location}.w"
+    if attachment.site is not None:
+        used = [v for _, v in attachment.signals if not v.startswith("der(")]
+        return used[0] if used else attachment.location
     if attachment.device is not None:
         return f"{attachment.location}.{'s' if identifier in ('stiffness', 'friction.position') else 'v'}"
     if attachment.lines:

@@ -45,7 +45,7 @@ def find(
         proposals = screened(case, here, law, efforts, progress)
         for proposal in proposals[:FITTED]:
             progress(f"fitting a law at {proposal.law.site.location}")
-            proposal.candidate = _fitted(case, amendment, base, proposal.law, proposal.start)
+            proposal.candidate = fitted_law(case, amendment, base, proposal.law, proposal.start)
         fitted = [p for p in proposals[:FITTED] if p.candidate is not None]
         if not fitted:
             break
@@ -57,10 +57,10 @@ def find(
         if after > before - 2 * np.log(len(proposals)):  # ln of the squared number of terms that were looked at
             break
         best = chosen
-    return None if best is None else _simplified(case, amendment, base, best)
+    return None if best is None else simplified(case, amendment, base, best)
 
 
-def _fitted(
+def fitted_law(
     case: Case,
     amendment: Amendment,
     base: Fit,
@@ -90,16 +90,16 @@ def _free(law: Law, attachment: Attachment, start: dict[str, float]) -> list[Fre
     return free
 
 
-def _simplified(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> Candidate:
+def simplified(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> Candidate:
     """The law without coefficients that may be zero, and with whole exponents and orders where the data allows them."""
     for simpler in _simpler(best):
-        candidate = _fitted(case, amendment, base, simpler.law, simpler.start, best.candidate.fit.point)
+        candidate = fitted_law(case, amendment, base, simpler.law, simpler.start, best.candidate.fit.point)
         if candidate is None:
             continue
         correlation = best.candidate.fit.correlation()
         if score(candidate, base, correlation) < score(best.candidate, base, correlation):
             simpler.candidate = candidate
-            return _simplified(case, amendment, base, simpler)
+            return simplified(case, amendment, base, simpler)
     return best.candidate
 
 
