@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import typer
+from dataclasses import asdict
 
-from lacuna.cli.errors import reported
-from lacuna.cli.options import Model, Units
+import lacuna
+from lacuna.cli.answer import Answer, answered
+from lacuna.cli.options import ClassName, Libraries, Model, Units
 
 
-@reported
-def check(model: Model, units: Units = "error") -> None:
+@answered
+def check(model: Model, class_name: ClassName = "", library: Libraries = None, units: Units = "error") -> Answer:
     """Parse, resolve, flatten and check the units of MODEL; print every finding with file, line and a hint."""
-    from lacuna.codegen.flatten import flatten
-    from lacuna.codegen.library import Library
-
-    flat = flatten(Library(), model, units=units)
-    for warning in flat.warnings:
-        typer.echo(str(warning), err=True)
-    states = sum(1 for v in flat.variables.values() if v.variability == "continuous")
-    typer.echo(
-        f"{flat.name}: {len(flat.variables)} variables ({states} continuous), {len(flat.equations)} equations, "
-        f"{len(flat.warnings)} warnings; no errors"
+    found = lacuna.check(model, class_name=class_name, libraries=library or [], units=units)
+    said = (
+        f"{found.name}: {found.variables} variables ({found.states} continuous), {found.equations} equations, "
+        f"{len(found.warnings)} warnings; no errors"
     )
+    return Answer(asdict(found), [said], warnings=list(found.warnings))

@@ -1,10 +1,13 @@
-"""The `lacuna` command: one file a sub-command, each a thin layer over a stage."""
+"""The `lacuna` command: one file a sub-command, each a thin layer over the public face `lacuna`."""
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import typer
 
-from lacuna.cli import assess, check, compare, compile, explain, maps, simulate, steps, sweep
+import lacuna
+from lacuna.cli import assess, check, compare, compile, explain, list, maps, simulate, steps, sweep
 
 app = typer.Typer(
     name="lacuna",
@@ -13,8 +16,9 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
     help="""Equations in, health maps out; and when a recording disagrees, the missing physics.
 
-MODEL is a qualified name such as [bold]Actuators.EccentricBldc[/bold], found in the package [bold]model/[/bold],
-or a [bold].mo[/bold] file of yours. Commands write under [bold]out/[/bold] unless --out says otherwise, print what
+MODEL is a qualified name such as [bold]Actuators.EccentricBldc[/bold], found in the package [bold]model/[/bold], in a
+[bold]--library[/bold] or in MODELICAPATH; a [bold].mo[/bold] file of yours, or the folder of a package, with
+[bold]--model[/bold] for a class in it. Commands write under [bold]out/[/bold] unless --out says otherwise, print what
 they wrote, and end with status 0 only when all went well.
 
 [bold]Start here[/bold]
@@ -30,10 +34,27 @@ lacuna explain CASE: what a recording knows and the model does not""",
 
 MODELS, FAULTS, PHYSICS = "Models", "Maps and severity", "Missing physics"
 
+
+def _version(asked: bool) -> None:
+    if asked:
+        typer.echo(f"lacuna {lacuna.__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def main(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version")
+    ] = False,
+) -> None:
+    pass
+
+
 app.command("check", rich_help_panel=MODELS)(check.check)
 app.command("compile", rich_help_panel=MODELS)(compile.compile)
 app.command("simulate", rich_help_panel=MODELS)(simulate.simulate)
 app.command("compare", rich_help_panel=MODELS)(compare.compare)
+app.add_typer(list.app, name="list", rich_help_panel=MODELS)
 app.command("maps", rich_help_panel=FAULTS)(maps.maps)
 app.command("sweep", rich_help_panel=FAULTS)(sweep.sweep)
 app.command("assess", rich_help_panel=FAULTS)(assess.assess)

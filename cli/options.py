@@ -7,17 +7,42 @@ from typing import Annotated, Literal
 
 import typer
 
-from lacuna.cli.errors import UserError
+import lacuna
+from lacuna.cli.complete import inputs_of, models, parameters_of, variables_of
 
-MODEL_HELP = "Qualified name (Lacuna.Actuators.X or Actuators.X) or a .mo file"
+MODEL_HELP = "Qualified name (Lacuna.Actuators.X or Actuators.X), a .mo file, or the folder of a package"
 
-Model = Annotated[str, typer.Argument(metavar="MODEL", help=MODEL_HELP)]
+Model = Annotated[str, typer.Argument(metavar="MODEL", help=MODEL_HELP, autocompletion=models)]
+ClassName = Annotated[str, typer.Option("--model", metavar="CLASS", help="Class inside the file or package MODEL")]
+Libraries = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--library", "-L", metavar="PATH",
+        help="Folder of a package, folder of packages, or a .mo file to look classes up in; repeat for more. "
+        "Folders of MODELICAPATH come after these",
+    ),
+]  # fmt: skip
 Units = Annotated[
     Literal["error", "warn"], typer.Option(help="What a dimensionally inconsistent equation is: an error or a warning")
 ]
-Assignments = Annotated[
+Parameters = Annotated[
     list[str] | None,
-    typer.Option("--parameter", "-p", metavar="NAME=VALUE", help="Set a parameter (SI units); repeat for more"),
+    typer.Option(
+        "--parameter", "-p", metavar="NAME=VALUE", autocompletion=parameters_of,
+        help="Set a parameter (SI units); repeat for more",
+    ),
+]  # fmt: skip
+Inputs = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--input", "-u", metavar="NAME=VALUE|FILE.csv[:COLUMN]", autocompletion=inputs_of,
+        help="Drive an input by a constant or by a recorded column (SI units); repeat for more",
+    ),
+]  # fmt: skip
+Hold = Annotated[bool, typer.Option("--hold", help="Hold recorded inputs between samples, not linear")]
+Signals = Annotated[
+    list[str] | None,
+    typer.Option("--signal", autocompletion=variables_of, help="Record only these variables; repeat for more"),
 ]
 
 
@@ -27,11 +52,36 @@ def assignments(texts: list[str] | None, option: str = "-p") -> dict[str, str]:
     for text in texts or []:
         name, equals, value = text.partition("=")
         if not equals or not name.strip() or not value.strip():
-            raise UserError(f"{option} {text}: expected NAME=VALUE")
+            raise lacuna.UserError(f"{option} {text}: expected NAME=VALUE")
         if name.strip() in result:
-            raise UserError(f"{option} {text}: {name.strip()} is given twice")
+            raise lacuna.UserError(f"{option} {text}: {name.strip()} is given twice")
         result[name.strip()] = value.strip()
     return result
+
+
+def parameters(texts: list[str] | None) -> dict[str, float]:
+    """Of -p."""
+    return {name: number(name, text) for name, text in assignments(texts).items()}
+
+
+def inputs(texts: list[str] | None, hold: bool) -> dict[str, lacuna.Input]:
+    """Of -u: a number, or FILE.csv with the column's name after a colon (default: the input's own)."""
+    found: dict[str, lacuna.Input] = {}
+    for name, text in assignments(texts, "-u").items():
+        value = _constant(text)
+        if value is None:
+            file, _, column = text.partition(":") if not Path(text).exists() else (text, "", "")
+            value = lacuna.recorded(file, column or name, hold=hold)
+        found[name] = value
+    return found
+
+
+def _constant(text: str) -> float | None:
+    """A number or true/false; None for anything else, which is the name of a file."""
+    try:
+        return number("", text)
+    except lacuna.UserError:
+        return None
 
 
 def number(name: str, text: str) -> float:
@@ -40,10 +90,11 @@ def number(name: str, text: str) -> float:
     try:
         return words[text.lower()] if text.lower() in words else float(text)
     except ValueError:
-        raise UserError(f"{name}={text}: '{text}' is neither a number nor true/false") from None
+        raise lacuna.UserError(f"{name}={text}: '{text}' is neither a number nor true/false") from None
 
 
 def default_folder(kind: str, name: str) -> Path:
-    """out/KIND/NAME, where the last part of a model's name or the stem of its file stands for it."""
-    stem = Path(name).stem if name.endswith(".mo") else name.rsplit(".", 1)[-1]
-    return Path("out") / kind / stem
+    """out/KIND/NAME, where the last part of a class's name or the stem of a file stands for it."""
+    name = name.rpartition(":")[2] or name
+    stem = Path(name).stem if name.endswith(".mo") else Path(name).name.rsplit(".", 1)[-1]
+    return Path("out") / kind / (stem or Path(name).resolve().name)

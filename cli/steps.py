@@ -3,145 +3,88 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
-from rich.console import Console
 from rich.table import Table
 import typer
 
-from lacuna.cli.errors import UserError, reported
-from lacuna.cli.output import console
-
-if TYPE_CHECKING:
-    from lacuna.discovery.explanation import Explanation
+import lacuna
+from lacuna.cli.answer import Answer, answered, progress
 
 Case = Annotated[Path, typer.Argument(metavar="CASE", help="Folder with case.toml and its recordings")]
 Out = Annotated[Path | None, typer.Option(help="Folder of report.html; default: out/STEP/CASE")]
 SHOWN = 12  # rows of a ranking
 
 
-@reported
-def fit(case: Case, out: Out = None) -> None:
+@answered
+def fit(case: Case, out: Out = None) -> Answer:
     """Are the believed equations enough? Fit all parameters that are not exact; print them with their intervals."""
-    from lacuna.discovery.cases import load
-    from lacuna.discovery.steps import fitted
-
-    with Console(stderr=True).status("reading the recordings") as status:
-        result = fitted(load(case), status.update)
-    _parameters(result)
-    _errors(result.before.validate, result.floor)
-    _report(result, "fit", case, out)
+    with progress() as tell:
+        found = lacuna.open_case(case).fit(out=out, progress=tell)
+    return Answer(found.diagnosis, [_parameters(found), _errors(found, "before")], list(found.written))
 
 
-@reported
-def locate(case: Case, out: Out = None) -> None:
+@answered
+def locate(case: Case, out: Out = None) -> Answer:
     """Which effort is missing, and where? Rank the places of the model by what an effort there would explain."""
-    from lacuna.discovery.cases import load
-    from lacuna.discovery.steps import add_location, fitted
-
-    with Console(stderr=True).status("reading the recordings") as status:
-        result = fitted(load(case), status.update)
-        add_location(result, status.update)
-    found = result.located
-    table = Table("place", "missing", "misfit explained")
-    for place in found.places[:SHOWN]:
-        table.add_row(place.location, f"{place.kind}, {place.unit}", f"{place.explained:.1%}")
-    console().print(table)
-    if found.organiser:
-        typer.echo(found.organiser.sentence)
-    _report(result, "locate", case, out)
+    with progress() as tell:
+        return _ranking(lacuna.open_case(case).locate(out=out, progress=tell))
 
 
-@reported
-def name(case: Case, out: Out = None) -> None:
+@answered
+def name(case: Case, out: Out = None) -> Answer:
     """Which physics is it? Attach the catalogue's effects, simulate and fit again, and rank them by the evidence."""
-    from lacuna.discovery.cases import load
-    from lacuna.discovery.steps import add_naming, fitted
-
-    with Console(stderr=True).status("reading the recordings") as status:
-        loaded = load(case)
-        library = loaded.library()
-        result = fitted(loaded, status.update, library)
-        add_naming(result, library, status.update)
-    table = Table("hypothesis", "evidence against none", "confidence")
-    for ranked in result.namings[0].ranked[:SHOWN]:
-        table.add_row(ranked.attachment.label, f"{-ranked.score:.1f}", f"{ranked.confidence:.3f}")
-    console().print(table)
-    _report(result, "name", case, out)
+    with progress() as tell:
+        return _ranking(lacuna.open_case(case).name(out=out, progress=tell))
 
 
-@reported
+@answered
 def amend(
     case: Case,
     effect: Annotated[str, typer.Option(help="Identifier, such as friction.coulomb; default: the best")] = "",
     out: Out = None,
-) -> None:
+) -> Answer:
     """Write the model amended by one effect of the catalogue, fitted, and judge the file as it is written."""
-    from lacuna.discovery.cases import load
-    from lacuna.discovery.explain import judge_written, write_amended
-    from lacuna.discovery.steps import add_amendment, add_scatter, fitted
-
-    with Console(stderr=True).status("reading the recordings") as status:
-        loaded = load(case)
-        library = loaded.library()
-        result = fitted(loaded, status.update, library)
-        add_amendment(result, library, effect, status.update)
-        add_scatter(result, status.update)
-    folder = _folder("amend", case, out)
-    path = write_amended(result, folder)
-    judge_written(result, path)
-    _errors(result.after.validate, result.floor)
-    typer.echo(f"written: {path}")
-    _report(result, "amend", case, out, path)
+    with progress() as tell:
+        found = lacuna.open_case(case).amend(effect, out=out, progress=tell)
+    return Answer(found.diagnosis, [_errors(found, "after")], list(found.written))
 
 
-@reported
+@answered
 def judge(
     case: Case,
     model: Annotated[Path, typer.Argument(metavar="MODEL.mo", help="A model file with the believed model's variables")],
     out: Out = None,
-) -> None:
+) -> Answer:
     """How well does a model file, as written, simulate the recordings that nothing was fitted to?"""
-    from lacuna.discovery import places
-    from lacuna.discovery.amend import Amendment
-    from lacuna.discovery.cases import load
-    from lacuna.discovery.judge import judge_file
-    from lacuna.discovery.report import write_judgement
-
-    loaded = load(case)
-    if not model.is_file():
-        raise UserError(f"{model}: there is no such file")
-    found = judge_file(loaded, Amendment(places.read(loaded.library(), loaded.base)), model, {})
-    _errors(found.validate, None)
-    typer.echo(f"written: {write_judgement(loaded, found, _folder('judge', case, out), model.name)}")
+    found = lacuna.open_case(case).judge(model, out=out)
+    table = Table("signal", "NRMSE, validation")
+    for signal, value in found.validate.items():
+        table.add_row(signal or "all", f"{value:.4g}")
+    return Answer({"fit": found.fit, "validate": found.validate}, [table], [found.report])
 
 
-def _parameters(result: Explanation) -> None:
-    from lacuna.discovery.diagnosis import build
+def _ranking(found: lacuna.Explanation) -> Answer:
+    table = Table(*found.ranked)
+    for row in found.ranking[:SHOWN]:
+        table.add_row(*row)
+    ranking = [dict(zip(found.ranked, row, strict=True)) for row in found.ranking]
+    remark = [found.remark] if found.remark else []
+    return Answer(found.diagnosis | {"ranking": ranking}, [table, *remark], list(found.written))
 
+
+def _parameters(found: lacuna.Explanation) -> Table:
     table = Table("parameter", "believed", "fitted", "± (95 %)", "unit", "")
-    for name, p in build(result, None)["parameters"].items():
+    for name, p in found.parameters.items():
         flag = "outside belief" if p["outside_belief"] else ""
         table.add_row(name, f"{p['believed']:.5g}", f"{p['value']:.5g}", f"{2 * p['std']:.2g}", p["unit"], flag)
-    console().print(table)
+    return table
 
 
-def _errors(nrmse: dict[str, float], floor: dict[str, float] | None) -> None:
-    """NRMSE on the validation recordings; the key "" is that of all signals together."""
-    table = Table("signal", "NRMSE, validation", *(["noise alone"] if floor else []))
-    for signal, value in nrmse.items():
-        noise = [f"{floor[signal]:.4g}" if signal in floor else ""] if floor else []
-        table.add_row(signal or "all", f"{value:.4g}", *noise)
-    console().print(table)
-
-
-def _folder(step: str, case: Path, out: Path | None) -> Path:
-    folder = out or Path("out") / step / case.resolve().name
-    folder.mkdir(parents=True, exist_ok=True)
-    return folder
-
-
-def _report(result: Explanation, step: str, case: Path, out: Path | None, amended: Path | None = None) -> None:
-    from lacuna.discovery.report import write
-
-    typer.echo(f"written: {write(result, _folder(step, case, out), amended)}")
+def _errors(found: lacuna.Explanation, which: str) -> Table:
+    """NRMSE on the validation recordings, beside what noise alone gives."""
+    table = Table("signal", "NRMSE, validation", "noise alone")
+    for signal, value in found.errors.items():
+        table.add_row(signal, f"{value[which]:.4g}", f"{value['noise_floor']:.4g}")
+    table.add_row("all", f"{found.nrmse['validate'][which]:.4g}", "")
+    return table

@@ -7,14 +7,20 @@ from typing import Annotated
 
 import typer
 
-from lacuna.cli.errors import reported
+import lacuna
+from lacuna.cli.answer import Answer, answered, progress
+from lacuna.cli.complete import models
+from lacuna.cli.options import ClassName, Libraries
 
 
-@reported
+@answered
 def sweep(
-    actuator: Annotated[
-        str | None, typer.Argument(metavar="[ACTUATOR]", help="Model; default: that of the settings' tests")
+    model: Annotated[
+        str | None,
+        typer.Argument(metavar="[ACTUATOR]", help="Model; default: that of the settings' tests", autocompletion=models),
     ] = None,
+    class_name: ClassName = "",
+    library: Libraries = None,
     points: Annotated[int, typer.Option(min=1, help="Simulated tests, by a low-discrepancy design")] = 1000,
     settings: Annotated[Path | None, typer.Option(help="Test, fault axis and nuisances, a TOML file")] = None,
     solver: Annotated[str, typer.Option(help="Solver of every test")] = "dopri5",
@@ -23,33 +29,17 @@ def sweep(
     ] = None,
     chunk: Annotated[int, typer.Option(min=1, help="Tests a task")] = 16,
     out: Annotated[Path | None, typer.Option(help="Folder; default: out/sweeps/NAME of the settings")] = None,
-) -> None:
+) -> Answer:
     """Simulate and analyse many tests with fault and nuisances drawn together; results.parquet has one row a test.
 
     Goes on where it stopped, whatever was lost: a worker, the connection, this process.
 
     [bold]Example[/bold]: lacuna sweep --points 5000 --scheduler tcp://10.0.0.1:8786
     """
-    from lacuna.analysis.campaign.points import sobol_points
-    from lacuna.analysis.campaign.run import run_campaign
-    from lacuna.analysis.campaign.work import Work
-    from lacuna.analysis.map.plant import ModelPlant
-    from lacuna.analysis.progress import progress_bar
-    from lacuna.analysis.settings import PAPER, load_settings
-    from lacuna.codegen.compile import compile_model
-
-    chosen = load_settings(settings or PAPER)
-    compiled = compile_model(actuator or chosen.disturbed_model)
-    plant = ModelPlant.of(compiled, chosen)
-    work = Work(compiled.name, Path(compiled.path).read_bytes(), compiled.hash, chosen.text, solver)
-    folder = out or Path("out/sweeps") / (settings or PAPER).stem
-    with progress_bar(f"sweep of {compiled.name}") as progress:
-        results = run_campaign(
-            work,
-            sobol_points(chosen, points, plant),
-            folder,
-            scheduler=scheduler,
-            chunk=chunk,
-            progress=progress,
-        )
-    typer.echo(f"written: {results}")
+    with progress() as tell:
+        done = lacuna.sweep(
+            model, class_name=class_name, libraries=library or [], points=points, settings=settings, solver=solver,
+            scheduler=scheduler, chunk=chunk, out=out, progress=tell,
+        )  # fmt: skip
+    data = {"tests": len(done), "failed": len(done.failures), "columns": done.names}
+    return Answer(data, [f"{len(done)} tests, {len(done.failures)} failed"], [done.path])

@@ -7,20 +7,24 @@ written beside its place and renamed, so that processes may share the cache.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 import hashlib
 import json
 import os
 from pathlib import Path
+import shutil
 import subprocess
 import tempfile
 
+from lacuna.codegen import flat
 from lacuna.codegen.dae.prepared import Prepared
+from lacuna.codegen.emit.c_text import SourceNames
 from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.search_path import names_in, split_name
 from lacuna.codegen.search_path import search_path as default_path
-from lacuna.codegen.search_path import split_name
+import lacuna.units
 
 COMPILER = (
     "cc", "-std=c11", "-O2", "-fPIC", "-shared", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic", "-Werror",
@@ -31,6 +35,8 @@ INCLUDE = _HERE.parent / "runtime" / "include"
 
 class CompilerError(RuntimeError):
     """The C compiler is missing or refused generated code (which is a fault of the generator)."""
+
+    user_error = True
 
 
 @dataclass
@@ -52,27 +58,63 @@ def _digest(*parts: str | bytes) -> str:
 @lru_cache(maxsize=1)
 def generator_version() -> str:
     """Digest of the generator's own source, the ABI and the compiler's command: any change makes all models new."""
-    files = [*sorted(_HERE.rglob("*.py")), INCLUDE / "mdl_abi.h"]
+    headers = [INCLUDE / "mdl_abi.h", INCLUDE / "mdl_tangent.h"]
+    files = [*sorted(_HERE.rglob("*.py")), Path(lacuna.units.__file__), *headers]
     return _digest(" ".join(COMPILER), *(f.read_bytes() for f in files))
 
 
 def request_key(
-    name: str, search_path: Sequence[str] | None, modifications: Mapping[str, object] | None, units: str
+    name: str,
+    search_path: Sequence[str] | None,
+    modifications: Mapping[str, object] | None,
+    units: str,
+    sensitivities: bool = False,
 ) -> str:
     """Digest of what was asked for, and where it is looked up: `search_path`, else MODELICAPATH and package Lacuna.
 
     The text of the files is not part of it: the index holds that of each file read, so that an edit makes only those
-    models new that read the edited file. The folder is, because a compiled model names its source lines by file.
+    models new that read the edited file.
     """
     paths = [str(Path(p).resolve()) for p in (default_path() if search_path is None else search_path)]
     file, inner = split_name(name)
     changes = sorted((k, repr(v)) for k, v in (modifications or {}).items())
-    return _digest(json.dumps([str(file.resolve()) if file else "", inner, paths, changes, units]))
+    return _digest(json.dumps([str(file.resolve()) if file else "", inner, paths, changes, units, sensitivities]))
 
 
-def content_hash(files: Mapping[str, str], request: str) -> str:
-    """Digest of the text of every file read, the generator, and the request."""
-    return _digest(generator_version(), request, json.dumps(sorted(files.items())))
+def content_hash(
+    model: flat.FlatModel, modifications: Mapping[str, object] | None, units: str, sensitivities: bool = False
+) -> str:
+    """Digest of what decides the C of a model: the generator, the text of every file read, that of its own file among
+    them, and what was asked for. It is the same wherever the files lie."""
+    changes = sorted((k, repr(v)) for k, v in (modifications or {}).items())
+    files = SourceNames().digests(model.files.items())
+    own = model.files.get(model.span.file, "")
+    return _digest(generator_version(), json.dumps([model.name, own, files, changes, units, sensitivities]))
+
+
+@lru_cache(maxsize=1)
+def compiler() -> str:
+    """Which program `cc` is: its path after links, its size and time. Another one makes all libraries new."""
+    found = shutil.which(COMPILER[0])
+    if found is None:
+        return ""
+    path = Path(found).resolve()
+    status = path.stat()
+    return f"{path} {status.st_size} {status.st_mtime_ns}"
+
+
+def _folders(files: Iterable[str], search_path: Sequence[str] | None) -> dict[str, str]:
+    """Where classes are looked up beside these files, with a digest of the names there: a new file may win."""
+    places = map(Path, default_path() if search_path is None else search_path)
+    found = {*(Path(file).parent for file in files), *(p for p in places if p.is_dir())}
+    return {str(folder): _names(str(folder)) for folder in sorted(found)}
+
+
+def _names(folder: str) -> str:
+    try:
+        return _digest(*names_in(Path(folder)))
+    except OSError:
+        return ""
 
 
 def _file_digest(path: str) -> str | None:
@@ -105,7 +147,9 @@ class Cache:
             entry = json.loads(self._index(request).read_text())
         except (OSError, ValueError):
             return None
-        if entry["generator"] != generator_version() or not Path(entry["library"]).exists():
+        if entry["generator"] != [generator_version(), compiler()] or not Path(entry["library"]).exists():
+            return None
+        if any(_names(folder) != digest for folder, digest in entry["folders"].items()):
             return None
         if any(_file_digest(path) != digest for path, digest in entry["files"].items()):
             return None
@@ -113,19 +157,28 @@ class Cache:
                     for w in entry["warnings"]]  # fmt: skip
         return Found(entry["name"], entry["library"], entry["hash"], warnings)
 
-    def remember(self, request: str, prepared: Prepared, library: str, warnings: Sequence[Diagnostic]) -> None:
+    def remember(
+        self,
+        request: str,
+        prepared: Prepared,
+        library: str,
+        warnings: Sequence[Diagnostic],
+        search_path: Sequence[str] | None,
+    ) -> None:
         index = self._index(request)
         index.parent.mkdir(parents=True, exist_ok=True)
         spans = [(w, [w.span.file, w.span.line, w.span.column, w.span.length] if w.span else None) for w in warnings]
         entry = {
             "name": prepared.declared.name, "library": library, "hash": prepared.hash,
-            "generator": generator_version(), "files": prepared.declared.files,
+            "generator": [generator_version(), compiler()], "files": prepared.declared.files,
+            "folders": _folders(prepared.declared.files, search_path),
             "warnings": [[w.code, w.message, span, w.hint] for w, span in spans],
         }  # fmt: skip
         _write(index, json.dumps(entry))
 
     def build(self, digest: str, source: str) -> str:
-        """Compile C `source` to <digest>.so and keep both; returns the path of the library."""
+        """Compile C `source` to a library named by its digest and the compiler, and keep both; returns its path."""
+        digest = _digest(digest, compiler())
         self.directory.mkdir(parents=True, exist_ok=True)
         library, c_file = self.directory / f"{digest[:32]}.so", self.directory / f"{digest[:32]}.c"
         if library.exists():

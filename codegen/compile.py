@@ -100,21 +100,23 @@ def compile_model(
     cache_directory: str | None = None,
     modifications: Modifications | None = None,
     units: str = "error",
+    sensitivities: bool = False,
 ) -> CompiledModel:
     """Translate and compile a model, or take it from the cache where nothing that it was made from has changed.
 
-    `units`: what an inconsistent unit is, "error" or "warn" (a warning in the report). Raises Diagnostic (a finding
-    about the model) or cache.CompilerError (the C compiler failed).
+    `units`: what an inconsistent unit is, "error" or "warn" (a warning in the report). `sensitivities`: with the
+    derivatives that a run with sensitivities needs (its C is twice as long, and a model of its own in the cache).
+    Raises Diagnostic (a finding about the model) or cache.CompilerError (the C compiler failed).
     """
     store = cache.Cache(cache_directory)
-    request = cache.request_key(name, search_path, modifications, units)
+    request = cache.request_key(name, search_path, modifications, units, sensitivities)
     found = store.find(request)
     if found:
         return CompiledModel(found.name, found.library, found.hash, Report(cached=True, warnings=found.warnings))
     with _translating:
         prepared, report = translate(name, search_path=search_path, modifications=modifications, units=units)
-        prepared.hash = cache.content_hash(prepared.declared.files, request)
-        source = report.run("C", generate, prepared)
+        prepared.hash = cache.content_hash(prepared.declared, modifications, units, sensitivities)
+        source = report.run("C", generate, prepared, sensitivities)
     library = report.run("compile", store.build, prepared.hash, source)
-    store.remember(request, prepared, library, report.warnings)
+    store.remember(request, prepared, library, report.warnings, search_path)
     return CompiledModel(prepared.declared.name, library, prepared.hash, report)

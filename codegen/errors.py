@@ -45,6 +45,8 @@ class Diagnostic(Exception):
     equations of a singular subset).
     """
 
+    user_error = True
+
     code: str
     message: str
     span: Span | None = None

@@ -48,6 +48,10 @@ class Library:
         self._folders: dict[int, Path] = {}  # id of a package class -> its folder
         self._parsed: dict[Path, list[ast.Class]] = {}
         self._members: dict[tuple[int, str], ast.Class | None] = {}  # None where there is no file
+        self.views: dict[tuple[object, ...], ast.Class] = {}  # see flatten/views.py
+        self.bases: dict[int, list[ast.Class]] = {}  # of classes that were asked for, by identity
+        self.resolving: set[int] = set()  # classes whose bases are being looked up, by identity
+        self.kept: list[object] = []  # whose identities are keys of the two above
 
     def _package(self, folder: Path) -> ast.Class:
         classes = self.parse_file(folder / PACKAGE_FILE)

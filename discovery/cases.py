@@ -14,7 +14,7 @@ import numpy as np
 from lacuna.codegen.library import Library
 from lacuna.discovery.case_keys import KeyProblem, check
 from lacuna.discovery.case_model import CaseModel, case_model
-from lacuna.discovery.units import UnitError, to_si
+from lacuna.recorded_units import UnitError, to_si
 
 DEFAULT_UNCERTAINTY = 0.05  # believed relative 1-sigma of a parameter that case.toml does not mention
 

@@ -19,8 +19,8 @@ from lacuna.discovery.amend import Amendment, probe_name, tracker_name
 from lacuna.discovery.cases import Case, CaseError, Recording, Signal
 from lacuna.discovery.noise import Noise
 from lacuna.discovery.tracking import Motion, recorded_column, recorded_motion
-from lacuna.discovery.units import same_unit
 from lacuna.discovery.values import values_in
+from lacuna.recorded_units import same_unit
 from lacuna.runtime import Model, RecordedInput, Session, SimulationError
 
 RTOL, LEAST_RTOL, FINER = 1e-6, 1e-9, 0.1  # of the solver: usual, least, and the step from one to the next finer one

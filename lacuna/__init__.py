@@ -1,5 +1,92 @@
-"""Lacuna: machines as equations, simulations, health maps, and what the equations leave out."""
+"""Lacuna: machines as equations, simulations, health maps, and what the equations leave out.
 
+    import lacuna
+    model = lacuna.load("Actuators.EccentricBldc")
+    result = model.simulate(stop=0.5, parameters={"zeta": 0.3})
+    result["rotor.w"]          # rad/s
+    result.plot("rotor.w")
+
+Every name below is loaded when it is first used: `import lacuna` itself needs nothing but Python.
+"""
+
+from importlib import import_module
 from importlib.metadata import version as _version
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from lacuna.campaigns import Sweep, sweep
+    from lacuna.comparisons import Agreement, Comparison, compare, compare_with_file
+    from lacuna.diagnoses import Case, Explanation, Verdict, explain, open_case
+    from lacuna.errors import UserError, is_user_error, message_of, nearest
+    from lacuna.faults import Assessment, CombinedMap, OperatingMap, assess, combined_maps, maps
+    from lacuna.inputs import Input, recorded
+    from lacuna.listings import Entry, list_effects, list_models, list_solvers
+    from lacuna.models import Finding, Model, check, dump, load
+    from lacuna.progress import Progress
+    from lacuna.results import IncompleteRun, Result
+
+_HOMES = {
+    "campaigns": ("Sweep", "sweep"),
+    "comparisons": ("Agreement", "Comparison", "compare", "compare_with_file"),
+    "diagnoses": ("Case", "Explanation", "Verdict", "explain", "open_case"),
+    "errors": ("UserError", "is_user_error", "message_of", "nearest"),
+    "faults": ("Assessment", "CombinedMap", "OperatingMap", "assess", "combined_maps", "maps"),
+    "inputs": ("Input", "recorded"),
+    "listings": ("Entry", "list_effects", "list_models", "list_solvers"),
+    "models": ("Finding", "Model", "check", "dump", "load"),
+    "progress": ("Progress",),
+    "results": ("IncompleteRun", "Result"),
+}
+_HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 
 __version__ = _version("lacuna")
+__all__ = [
+    "Agreement",
+    "Assessment",
+    "Case",
+    "CombinedMap",
+    "Comparison",
+    "Entry",
+    "Explanation",
+    "Finding",
+    "IncompleteRun",
+    "Input",
+    "Model",
+    "OperatingMap",
+    "Progress",
+    "Result",
+    "Sweep",
+    "UserError",
+    "Verdict",
+    "assess",
+    "check",
+    "combined_maps",
+    "compare",
+    "compare_with_file",
+    "dump",
+    "explain",
+    "is_user_error",
+    "list_effects",
+    "list_models",
+    "list_solvers",
+    "load",
+    "maps",
+    "message_of",
+    "nearest",
+    "open_case",
+    "recorded",
+    "sweep",
+]
+
+
+def __getattr__(name: str) -> object:
+    """The public names, each from its module when it is first used."""
+    if name not in _HOME_OF:
+        raise AttributeError(f"module 'lacuna' has no attribute {name!r}")
+    found = getattr(import_module(f"lacuna.{_HOME_OF[name]}"), name)
+    globals()[name] = found
+    return found
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -1,17 +1,18 @@
 """Run generated models: load one, simulate it, read and write results."""
 
 from lacuna.runtime.errors import SimulationError, UnknownNameError
-from lacuna.runtime.files import read_csv, write_csv, write_mat
+from lacuna.runtime.files import metadata, read_csv, write_csv, write_parquet
 from lacuna.runtime.model import Equation, Model, Variable
-from lacuna.runtime.result import EventEntry, Failure, Result
+from lacuna.runtime.modelica_mat import write_mat
+from lacuna.runtime.result import EventEntry, Failure, Flag, Result
 from lacuna.runtime.simulation import SOLVERS, RecordedInput, Session, simulate
 
-__version__ = "0.1.0"
 __all__ = [
     "SOLVERS",
     "Equation",
     "EventEntry",
     "Failure",
+    "Flag",
     "Model",
     "RecordedInput",
     "Result",
@@ -19,8 +20,10 @@ __all__ = [
     "SimulationError",
     "UnknownNameError",
     "Variable",
+    "metadata",
     "read_csv",
     "simulate",
     "write_csv",
     "write_mat",
+    "write_parquet",
 ]

@@ -1,8 +1,8 @@
-"""Results in files: `<run>.csv` with `<run>.meta.json` beside it, and MATLAB .mat for large signals."""
+"""Results in files: `<run>.csv` or `<run>.parquet` with `<run>.meta.json` beside it (for .mat: modelica_mat.py)."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Sequence
 from dataclasses import asdict
 import json
 import os
@@ -15,9 +15,10 @@ from lacuna.runtime.errors import SimulationError
 from lacuna.runtime.result import Result
 
 FORMAT = "lacuna-result-1"
+_CHUNK = 4096  # rows that are turned into text at once
 
 
-def _replace(path: Path, write: Callable[[Path], None]) -> None:
+def replace(path: Path, write: Callable[[Path], None]) -> None:
     """Write to a temporary file in the same folder, then rename: nobody sees half a file."""
     path.parent.mkdir(parents=True, exist_ok=True)
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
@@ -31,9 +32,10 @@ def _replace(path: Path, write: Callable[[Path], None]) -> None:
         temporary.unlink(missing_ok=True)
 
 
-def metadata(result: Result) -> dict:
-    """What meta.json says: units, kinds, parameters, solver, counters, event log, completeness."""
-    variables = {name: result.model.variables[name] for name in result.columns}
+def metadata(result: Result, names: Sequence[str] | None = None) -> dict:
+    """What meta.json says: units, kinds, parameters, solver with the tolerances used, counters, event log, whether the
+    run is complete. `names` are the columns of the file (default: those that the run recorded)."""
+    variables = {name: result.model.variables[name] for name in (result.columns if names is None else names)}
     return {
         "format": FORMAT,
         "model": result.model.name,
@@ -53,19 +55,60 @@ def metadata(result: Result) -> dict:
 
 
 def meta_path(path: Path) -> Path:
-    return path.with_name(path.name.removesuffix(".csv") + ".meta.json")
+    return path.with_name(path.name.removesuffix(path.suffix) + ".meta.json")
 
 
-def write_csv(result: Result, path: str | Path) -> Path:
-    """Write `path` (17 digits: every double survives; last column `event` 0/1) and its .meta.json."""
+def write_metadata(result: Result, path: Path, names: Sequence[str]) -> None:
+    """The .meta.json beside `path`."""
+    text = json.dumps(_finite(metadata(result, names)), indent=1, ensure_ascii=False) + "\n"
+    replace(meta_path(path), lambda p: p.write_text(text, encoding="utf-8"))
+
+
+def write_csv(result: Result, path: str | Path, names: Sequence[str] | None = None) -> Path:
+    """Write `path` and its .meta.json: `time`, `names` (default: what was recorded), and `event`, 1 at rows that were
+    added at an event, where there are any. Each number has the fewest digits that read back exactly."""
     path = Path(path)
-    table = np.column_stack([result.time, *(result[name] for name in result.columns), result.event])
-    header = ",".join(_field(name) for name in ("time", *result.columns, "event"))
-    formats = ["%.17g"] * (table.shape[1] - 1) + ["%d"]
-    _replace(path, lambda p: np.savetxt(p, table, fmt=formats, delimiter=",", header=header, comments=""))
-    text = json.dumps(_finite(metadata(result)), indent=1, ensure_ascii=False) + "\n"
-    _replace(meta_path(path), lambda p: p.write_text(text, encoding="utf-8"))
+    names = result.columns if names is None else list(names)
+    columns = [result.time, *(result[name] for name in names)]
+    ending = [f",{flag:d}\n" for flag in result.event] if result.event.any() else ["\n"] * len(result)
+    header = ["time", *map(_field, names), *(["event"] if result.event.any() else [])]
+
+    def write(place: Path) -> None:
+        with place.open("w", encoding="utf-8") as file:
+            file.write(",".join(header) + "\n")
+            for k in range(0, len(result), _CHUNK):
+                rows = zip(*(column[k : k + _CHUNK].tolist() for column in columns), strict=True)
+                file.writelines(",".join(map(_number, row)) + ending[k + i] for i, row in enumerate(rows))
+
+    replace(path, write)
+    write_metadata(result, path, names)
     return path
+
+
+def write_parquet(result: Result, path: str | Path, names: Sequence[str] | None = None) -> Path:
+    """The same columns as Parquet, units and descriptions in the metadata of its fields; and the .meta.json."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    path = Path(path)
+    names = result.columns if names is None else list(names)
+    fields, arrays = [pa.field("time", pa.float64(), metadata={"unit": "s"})], [pa.array(result.time)]
+    for name in names:
+        v = result.model.variables[name]
+        fields.append(pa.field(name, pa.float64(), metadata={"unit": v.unit, "description": v.description}))
+        arrays.append(pa.array(result[name]))
+    if result.event.any():
+        fields.append(pa.field("event", pa.bool_()))
+        arrays.append(pa.array(result.event))
+    table = pa.Table.from_arrays(arrays, schema=pa.schema(fields))
+    replace(path, lambda p: pq.write_table(table, p, compression="zstd"))
+    write_metadata(result, path, names)
+    return path
+
+
+def _number(value: float) -> str:
+    """The shortest text that reads back as `value`; whole numbers without a fraction."""
+    return f"{value:.0f}" if value.is_integer() and abs(value) < 1e15 else repr(value)
 
 
 def _field(name: str) -> str:
@@ -105,27 +148,3 @@ def read_csv(path: str | Path) -> tuple[dict[str, np.ndarray], dict]:
     columns = table.T if table.size else np.empty((len(header), 0))
     meta = meta_path(path)
     return dict(zip(header, columns, strict=True)), json.loads(meta.read_text("utf-8")) if meta.exists() else {}
-
-
-def write_mat(result: Result, path: str | Path) -> Path:
-    """A MATLAB 5 file, which MATLAB, Octave, scipy.io.loadmat and Modelica tools' readers open.
-
-    `time` [n], `event` [n], `names` (full names), `units`, and `data` [n, len(names)] in their order. Names such as
-    gear.phi_rel are no MATLAB identifiers, hence the table of names.
-    """
-    from scipy.io import savemat
-
-    path = Path(path)
-    columns = result.columns
-    data = np.column_stack([result[name] for name in columns]) if columns else np.empty((len(result), 0))
-    content: Mapping[str, object] = {
-        "time": result.time,
-        "event": result.event.astype(np.uint8),
-        "names": np.array(columns, dtype=object),
-        "units": np.array([result.model.variables[name].unit for name in columns], dtype=object),
-        "data": data,
-        "model": result.model.name,
-        "complete": result.complete,
-    }
-    _replace(path, lambda p: savemat(p, content, appendmat=False, oned_as="column", do_compression=True))
-    return path

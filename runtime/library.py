@@ -15,6 +15,7 @@ STATUS = (
     "step_collapse", "non_finite", "singular", "domain", "assert", "memory",
 )  # fmt: skip
 EVENT_KINDS = ("state", "time", "sample", "terminate")
+FLAG_KINDS = ("grazing", "order", "non_finite")
 STORAGE = ("state", "algebraic", "discrete", "parameter", "input", "derivative")
 TYPES = ("Real", "Integer", "Boolean")
 
@@ -66,12 +67,17 @@ class CCounters(Structure):
         for name in (
             "steps", "error_test_fails", "rhs", "residuals", "jacobians", "root_evaluations", "newton_iterations",
             "newton_fails", "state_events", "time_events", "sample_events", "input_jumps", "event_passes", "restarts",
+            "tangents",
         )
     ]  # fmt: skip
 
 
 class CEvent(Structure):
     _fields_ = [("time", c_double), ("kind", c_int), ("index", c_int), ("direction", c_int)]
+
+
+class CFlag(Structure):
+    _fields_ = [("time", c_double), ("kind", c_int), ("relation", c_int), ("other", c_int)]
 
 
 class COptions(Structure):
@@ -94,6 +100,7 @@ _SIGNATURES = {
     "rt_session_input": (c_int, c_void_p, c_int, c_int, c_void_p, c_void_p, c_int),
     "rt_session_outputs": (c_int, c_void_p, c_int, _INTS),
     "rt_session_grid": (c_int, c_void_p, c_int, c_void_p, c_double),
+    "rt_session_sensitivities": (c_int, c_void_p, c_int, _INTS),
     "rt_session_run": (c_void_p, c_void_p, c_double, c_double),
     "rt_result_free": (None, c_void_p),
     "rt_result_failure": (POINTER(CFailure), c_void_p),
@@ -104,6 +111,9 @@ _SIGNATURES = {
     "rt_result_event_flags": (c_void_p, c_void_p),
     "rt_result_column": (c_void_p, c_void_p, c_int),
     "rt_result_parameters": (c_void_p, c_void_p),
+    "rt_result_sensitivity": (c_void_p, c_void_p, c_int, c_int),
+    "rt_result_margins": (c_void_p, c_void_p),
+    "rt_result_flags": (POINTER(CFlag), c_void_p, POINTER(c_size_t)),
     "rt_result_events": (POINTER(CEvent), c_void_p, POINTER(c_size_t)),
 }
 

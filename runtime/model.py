@@ -110,6 +110,11 @@ class Model:
         return {n: v for n, v in self.variables.items() if v.kind == "state"}
 
     @cached_property
+    def declared(self) -> list[str]:
+        """Names of all variables that are not declared as parameters or constants, aliases among them."""
+        return [name for name, v in self.variables.items() if v.kind != "parameter"]
+
+    @cached_property
     def recordable(self) -> list[str]:
         """Everything that may change with time, each once: of several aliases the first stands for all."""
         first: dict[tuple[str, int], str] = {}

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from lacuna.runtime.errors import SimulationError
-from lacuna.runtime.library import EVENT_KINDS, STATUS, library
+from lacuna.runtime.library import EVENT_KINDS, FLAG_KINDS, STATUS, library
 from lacuna.runtime.model import Model
 
 
@@ -38,6 +38,27 @@ class EventEntry:
     text: str  # the relation as written, or the message
 
 
+@dataclass(frozen=True, slots=True)
+class Flag:
+    """A place where sensitivities are not what they seem.
+
+    grazing: a relation only touches its threshold, and from there on they are not numbers; order: two events at one
+    instant, as far as it is known, that move differently with a parameter; non_finite: a derivative is infinite.
+    """
+
+    time: float
+    kind: str  # grazing | order | non_finite
+    relations: tuple[str, ...]  # as written, those concerned
+
+    def __str__(self) -> str:
+        what = {
+            "grazing": "a relation only touches its threshold; there are no sensitivities after it",
+            "order": "two events at one instant move differently with a parameter",
+            "non_finite": "a derivative is infinite; there are no sensitivities after it",
+        }[self.kind]
+        return f"{what} at time {self.time:.9g} s: {'; '.join(self.relations)}"
+
+
 class _Owner:
     """Frees the C result when the last array that looks into it is gone."""
 
@@ -59,8 +80,17 @@ class _View:
 class Result:
     """`result["name"]` is the column of a recorded variable (SI units), `result.time` the time of each row (s)."""
 
-    def __init__(self, model: Model, handle: int, columns: Sequence[str], settings: dict, free: Callable[[], None]):
+    def __init__(
+        self,
+        model: Model,
+        handle: int,
+        columns: Sequence[str],
+        settings: dict,
+        free: Callable[[], None],
+        sensitivities: Sequence[str] = (),
+    ):
         self.model, self.columns, self.settings = model, list(columns), dict(settings)
+        self.sensitivities = tuple(sensitivities)
         self._lib, self._handle, self._owner = library(), handle, _Owner(free)
         self._rows = self._lib.rt_result_rows(handle)
 
@@ -104,14 +134,52 @@ class Result:
         """
         if name == "time":
             return self.time
-        variable = self.model.variable(name)
-        if variable.kind == "parameter":
+        if self.model.variable(name).kind == "parameter":
             return np.full(self._rows, self.parameters[name])
+        place, sign = self._place(name)
+        column = self._array(self._lib.rt_result_column(self._handle, place), "<f8")
+        return column if sign > 0 else -column
+
+    def _place(self, name: str) -> tuple[int, int]:
+        """(column, sign) of a recorded variable."""
+        variable = self.model.variable(name)
         place = self._places.get((variable.kind, variable.index))
         if place is None:
             raise SimulationError(f"{name} was not recorded; ask for it in `outputs`")
-        column = self._array(self._lib.rt_result_column(self._handle, place[0]), "<f8")
-        return column if place[1] == variable.sign else -column
+        return place[0], place[1] * variable.sign
+
+    def sensitivity(self, output: str, parameter: str) -> np.ndarray:
+        """d output / d parameter at the time of each row (SI units), at fixed time; of a state named in the place of a
+        parameter, by its initial value. In rows at an event, the one before and the one after it.
+
+        Not a number where it does not exist any more; `flags` says why. Raises SimulationError where the output was not
+        recorded, or the run was not asked for this parameter.
+        """
+        if parameter not in self.sensitivities:
+            raise SimulationError(f"no sensitivity with respect to {parameter}; ask for it in `sensitivities`")
+        column, sign = self._place(output)
+        address = self._lib.rt_result_sensitivity(self._handle, column, self.sensitivities.index(parameter))
+        return sign * self._array(address, "<f8")
+
+    @cached_property
+    def margins(self) -> dict[str, float]:
+        """How far each parameter may be changed, to first order, before two events of the run change their order (in
+        the parameter's unit; infinite where no two instants move differently)."""
+        address = self._lib.rt_result_margins(self._handle)
+        count = len(self.sensitivities)
+        values = (ctypes.c_double * count).from_address(address) if count else ()
+        return dict(zip(self.sensitivities, values, strict=True))
+
+    @cached_property
+    def flags(self) -> list[Flag]:
+        """Where the order of events is about to change: sensitivities after it hold on one side, or not at all."""
+        count = ctypes.c_size_t()
+        entries = self._lib.rt_result_flags(self._handle, ctypes.byref(count))
+        return [self._flag(entries[i]) for i in range(count.value)]
+
+    def _flag(self, f) -> Flag:
+        named = tuple(self.model.relations[r].text for r in (f.relation, f.other) if r >= 0)
+        return Flag(f.time, FLAG_KINDS[f.kind], named)
 
     @cached_property
     def parameters(self) -> dict[str, float]:

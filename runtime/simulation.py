@@ -47,6 +47,8 @@ class Session:
     interval. With `events`, a row before and one after each event is added. `locate_events=False` takes state and
     time events at the end of the step in which they fall, which is what fixed-step simulations usually do.
     A run that takes more than `max_steps` ends with a failure. `atol` is per unit of a variable's nominal value.
+    `sensitivities` names parameters, and states for their initial values, by which every output is differentiated
+    (`Result.sensitivity`); the model must have been compiled with them, and the solver be dopri5 or ida.
     Raises SimulationError for what cannot be used.
     """
 
@@ -66,6 +68,7 @@ class Session:
         interval: float | None = None,
         events: bool = True,
         inputs: Mapping[str, RecordedInput | float] | None = None,
+        sensitivities: Sequence[str] = (),
     ):
         self._lib, self.model = library(), model
         for name, value in {"rtol": rtol, "atol": atol, "step": step, "max_step": max_step}.items():
@@ -84,6 +87,7 @@ class Session:
         self._set_outputs(model.recordable if outputs is None else outputs)
         self._set_grid(output_times, model.interval if interval is None else interval)
         self.set_inputs(inputs or {})
+        self._set_sensitivities(sensitivities)
 
     def _check(self, status: int) -> None:
         if status:
@@ -99,6 +103,11 @@ class Session:
         self._times = None if times is None else np.ascontiguousarray(times, dtype=float)
         count, address = (0, None) if times is None else (self._times.size, self._times.ctypes.data)
         self._check(self._lib.rt_session_grid(self._handle, count, address, interval))
+
+    def _set_sensitivities(self, names: Sequence[str]) -> None:
+        self._sensitivities = tuple(names)
+        rows = [self.model.variable(name, "parameter or state", self.model.variables).row for name in names]
+        self._check(self._lib.rt_session_sensitivities(self._handle, len(rows), (ctypes.c_int * len(rows))(*rows)))
 
     def set_inputs(self, inputs: Mapping[str, RecordedInput | float]) -> None:
         """Drive inputs by recordings or constants; inputs not named keep what they had (at first their start value)."""
@@ -144,7 +153,9 @@ class Session:
         )
         if not handle:
             raise MemoryError("no memory for the result of a simulation")
-        return Result(model, handle, self._columns, self.settings, partial(lib.rt_result_free, handle))
+        return Result(
+            model, handle, self._columns, self.settings, partial(lib.rt_result_free, handle), self._sensitivities
+        )
 
 
 def simulate(

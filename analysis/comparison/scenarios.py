@@ -6,6 +6,8 @@ from dataclasses import dataclass, field, fields
 from pathlib import Path
 import tomllib
 
+from lacuna.runtime import RecordedInput
+
 DEFAULT_FILE = Path(__file__).with_name("scenarios.toml")
 
 
@@ -27,6 +29,7 @@ class Scenario:
     steps: tuple[float, ...]
     shown: tuple[str, ...]  # signals of the overlay figure
     parameters: dict[str, float] = field(default_factory=dict)
+    inputs: dict[str, RecordedInput | float] = field(default_factory=dict)  # a file of scenarios has constants only
     reference_rtol: float = 1e-12
     variable_rtol: tuple[float, ...] = (1e-4, 1e-6, 1e-8)
 

@@ -121,8 +121,8 @@ def run(scenario: Scenario, model: runtime.Model, tick: Callable[[Lane], None] =
 def _simulate(scenario: Scenario, model: runtime.Model, lane: Lane, grid: np.ndarray) -> tuple[runtime.Result, float]:
     begin = clock.thread_time()
     result = runtime.simulate(
-        model, solver=lane.solver, parameters=scenario.parameters, stop=scenario.stop, rtol=lane.rtol,
-        step=lane.step, locate_events=lane.located, output_times=grid, events=False,
+        model, solver=lane.solver, parameters=scenario.parameters, inputs=scenario.inputs, stop=scenario.stop,
+        rtol=lane.rtol, step=lane.step, locate_events=lane.located, output_times=grid, events=False,
     )  # fmt: skip
     return result, clock.thread_time() - begin
 

@@ -10,7 +10,7 @@ from lacuna.codegen.emit.asserts import of_the_run, write_assert
 from lacuna.codegen.emit.body import Body
 from lacuna.codegen.emit.equations import EquationTable
 from lacuna.codegen.emit.names import Names
-from lacuna.codegen.emit.steps import StepWriter, comment
+from lacuna.codegen.emit.steps import StepWriter, comment, place
 from lacuna.codegen.structure.causal import Step, unknowns_of
 from lacuna.codegen.structure.residual_form import CJ, needed
 from lacuna.codegen.structure.tearing import Assignment
@@ -33,7 +33,7 @@ def function(signature: str, body: Body) -> str:
     text = body.text()
     arguments = signature[signature.index("(") + 1 : -1].replace("*", " ").split(",")
     names = [a.split()[-1] for a in arguments]
-    words = set(re.findall(r"[A-Za-z_]\w*", re.sub(r"/\*.*?\*/", "", text)))
+    words = set(re.findall(r"(?<!->)\b[A-Za-z_]\w*", re.sub(r"/\*.*?\*/", "", text)))
     unused = [f"  (void){n};" for n in names if n not in words]
     parts = [f"{signature} {{", *unused]
     result = "0"
@@ -149,6 +149,6 @@ class Continuous:
         asserts = of_the_run(self._p)
         body.plan(a.condition for _, a in asserts)
         for row, a in asserts:
-            body.line(f"/* {a.span.file.rsplit('/', 1)[-1]}:{a.span.line}  assert */")
+            body.line(f"/* {place(a.span)}  assert */")
             write_assert(body, a.condition, row)
         return function(CHECK, body)

@@ -12,7 +12,7 @@ from lacuna.codegen.emit.asserts import assert_index, of_parameters, write_asser
 from lacuna.codegen.emit.body import Body
 from lacuna.codegen.emit.continuous import function
 from lacuna.codegen.emit.names import Names
-from lacuna.codegen.emit.steps import comment
+from lacuna.codegen.emit.steps import comment, place
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.constants import dependency_order
 from lacuna.codegen.symbolic.expr import relation, sub, var, walk
@@ -27,6 +27,8 @@ PARAMETERS = "static int mdl_parameters(mdl_data *m)"
 
 class Discrete:
     """Writes the callbacks for events of one model."""
+
+    signature = EVENT
 
     def __init__(self, prepared: Prepared, names: Names, rows: dict[str, int]):
         self._p, self._names, self._rows = prepared, names, rows
@@ -45,8 +47,7 @@ class Discrete:
             match step:
                 case DiscreteEquation():
                     body.line(comment(step.source))
-                    body.plan([step.value])
-                    body.let(var(step.target, self._type(step.target)), step.value)
+                    self._equation(step)
                 case flat.When():
                     self._declare(step, step.span)
                     self._when(step)
@@ -56,7 +57,11 @@ class Discrete:
         for step in self._p.events:
             for name in targets(step):
                 body.line(f"m->d[{self._storage.slot(name).index}] = {self._names.identifier(name)};")
-        return function(EVENT, body)
+        return function(self.signature, body)
+
+    def _equation(self, step: DiscreteEquation) -> None:
+        self._body.plan([step.value])
+        self._body.let(var(step.target, self._type(step.target)), step.value)
 
     def _has_moving_time_relations(self) -> bool:
         """Whether the instant of a time relation depends on discrete variables: it follows them from pass to pass."""
@@ -68,7 +73,7 @@ class Discrete:
 
     def _declare(self, step: flat.When | flat.Algorithm, span: flat.Span) -> None:
         """Discrete targets keep their value from before the event until something assigns them."""
-        self._body.line(f"/* {span.file.rsplit('/', 1)[-1]}:{span.line}  {type(step).__name__.lower()} */")
+        self._body.line(f"/* {place(span)}  {type(step).__name__.lower()} */")
         for name in targets(step):
             slot = self._storage.slot(name)
             if slot is None or slot.array != "d":
@@ -177,7 +182,7 @@ class Discrete:
         for name in storage.parameters:
             self._bounds(body, model.variables[name])
         for row, a in of_parameters(self._p):
-            body.line(f"/* {a.span.file.rsplit('/', 1)[-1]}:{a.span.line}  assert */")
+            body.line(f"/* {place(a.span)}  assert */")
             write_assert(body, a.condition, row)
         return function(PARAMETERS, body)
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from lacuna.codegen.emit.names import sanitise
 from lacuna.codegen.symbolic.expr import BOOLEAN, BUILTINS, Expr, call, const, div, mul, transform
 
 _BINARY = {
@@ -110,9 +109,14 @@ def _print_call(e: Expr, name: Lookup) -> str:
     return f"{function_name(function)}({arguments})"
 
 
-def function_name(function: str) -> str:
-    """The C function of a function of the model."""
-    return "fn_" + sanitise(function)
+def function_name(function: str, whole: bool = False) -> str:
+    """The C function of a function of the model, or the one that gives all its results.
+
+    Each has a name of its own: a dot becomes an underscore, everything else that is no letter or digit its code
+    between _0 and _ (after a dot no digit can stand, and no code starts with an l).
+    """
+    text = "".join(c if c.isascii() and c.isalnum() else "_" if c == "." else f"_0{ord(c):x}_" for c in function)
+    return f"fn_{text}{'_0l' if whole else ''}"
 
 
 def c_type(e: Expr) -> str:

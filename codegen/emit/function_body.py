@@ -8,8 +8,10 @@ import math
 import re
 
 from lacuna.codegen import flat
+from lacuna.codegen.emit.c_text import c_comment
 from lacuna.codegen.emit.expression import function_name, lower_powers, to_c
 from lacuna.codegen.emit.names import Names
+from lacuna.codegen.emit.steps import place
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr, const, is_const
 from lacuna.codegen.symbolic.function_tangent import by_name
@@ -48,8 +50,8 @@ class FunctionBody:
         body = "\n".join(self._lines)
         words = set(re.findall(r"\w+", body))
         unused = [f"  (void){n};" for n in ("m", *map(self._names.identifier, f.inputs)) if n not in words]
-        place = f"/* {f.span.file.rsplit('/', 1)[-1]}:{f.span.line}  function {f.name} */"
-        return "\n".join([place, f"{self._signature()} {{", *unused, body, "}"])
+        where = f"/* {place(f.span)}  function {c_comment(f.name)} */"
+        return "\n".join([where, f"{self._signature()} {{", *unused, body, "}"])
 
     def c_name(self, name: str) -> str:
         return self._names.identifier(name)
@@ -250,4 +252,4 @@ def by_pointer(f: flat.Function) -> tuple[str, ...]:
 
 def c_function(f: flat.Function) -> str:
     """The C function that gives all results."""
-    return function_name(f.name) + ("" if returns_value(f) else "_all")
+    return function_name(f.name, whole=not returns_value(f))

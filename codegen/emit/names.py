@@ -10,7 +10,7 @@ from lacuna.codegen.symbolic.expr import BUILTINS, Expr
 _KEYWORDS = """auto break case char const continue default do double else enum extern float for goto if inline int long
 register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while"""
 _TAKEN = """m t x xdot v y yp r g cj values next start interval pow fabs fmin fmax trunc isfinite isnan memcpy main
-INFINITY NAN NULL"""
+INFINITY NAN NULL tangent lane lanes"""
 _RESERVED = frozenset([*_KEYWORDS.split(), *_TAKEN.split(), *BUILTINS])
 _GENERATED = re.compile(r"(tmp|rel|tick|when|fires)\d+$|(fn|mdl|der|pre|tangent)_")
 

@@ -62,6 +62,55 @@ static int mdl_solve(int n, double *a, double *b) {
   return 0;
 }"""
 
+_FACTOR = """\
+/* LU factors of a (row-major, n x n) in place, pivots chosen by their size against the largest of their row; row i of
+ * the factors is row order[i] of a. Returns 1 where a is singular to working precision. */
+static int mdl_factor(int n, double *a, int *order) {
+  for (int i = 0; i < n; ++i)
+    order[i] = i;
+  for (int k = 0; k < n; ++k) {
+    int pivot = k;
+    double best = 0.0;
+    for (int i = k; i < n; ++i) {
+      double largest = 0.0;
+      for (int j = k; j < n; ++j)
+        if (fabs(a[i * n + j]) > largest) largest = fabs(a[i * n + j]);
+      const double size = largest > 0.0 ? fabs(a[i * n + k]) / largest : 0.0;
+      if (size > best) best = size, pivot = i;
+    }
+    if (!(best > 1e-14)) return 1;
+    const int row = order[k];
+    order[k] = order[pivot];
+    order[pivot] = row;
+    for (int j = 0; j < n && pivot != k; ++j) {
+      const double swap = a[k * n + j];
+      a[k * n + j] = a[pivot * n + j];
+      a[pivot * n + j] = swap;
+    }
+    for (int i = k + 1; i < n; ++i) {
+      a[i * n + k] /= a[k * n + k];
+      for (int j = k + 1; j < n; ++j)
+        a[i * n + j] -= a[i * n + k] * a[k * n + j];
+    }
+  }
+  return 0;
+}"""
+
+_SUBSTITUTE = """\
+/* Solves for x with the factors of mdl_factor, in several directions at once. */
+static void mdl_substitute(int n, const double *a, const int *order, const mdl_lanes *b, mdl_lanes *x) {
+  for (int i = 0; i < n; ++i) {
+    x[i] = b[order[i]];
+    for (int j = 0; j < i; ++j)
+      x[i] -= a[i * n + j] * x[j];
+  }
+  for (int i = n - 1; i >= 0; --i) {
+    for (int j = i + 1; j < n; ++j)
+      x[i] -= a[i * n + j] * x[j];
+    x[i] /= a[i * n + i];
+  }
+}"""
+
 _NEWTON = """\
 typedef struct {
   int iterations, halvings, converged;
@@ -102,6 +151,8 @@ _HELPERS = {
     "mdl_fail": _FAIL,
     "mdl_index": _INDEX,
     "mdl_solve": _SOLVE,
+    "mdl_factor": _FACTOR,
+    "mdl_substitute": _SUBSTITUTE,
     "mdl_newton": _NEWTON,
     "mdl_time_relation": _TIME,
     "mdl_next_switch": _NEXT,

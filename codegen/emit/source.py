@@ -6,13 +6,15 @@ from lacuna.codegen import flat
 from lacuna.codegen.dae.events import DiscreteEquation
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.emit.asserts import assert_index
+from lacuna.codegen.emit.c_text import SourceNames, c_comment, c_string
 from lacuna.codegen.emit.continuous import Continuous
 from lacuna.codegen.emit.discrete import Discrete
 from lacuna.codegen.emit.equations import EquationTable
 from lacuna.codegen.emit.expression import number
 from lacuna.codegen.emit.names import Names
 from lacuna.codegen.emit.prelude import helpers
-from lacuna.codegen.emit.tables import Tables, c_string
+from lacuna.codegen.emit.tables import Tables
+from lacuna.codegen.emit.tangents import Tangents
 from lacuna.codegen.emit.user_functions import calls, user_functions
 from lacuna.codegen.structure.causal import expressions_of
 from lacuna.codegen.symbolic.expr import Expr
@@ -24,8 +26,8 @@ _CALLBACKS = (
 )  # fmt: skip
 
 
-def generate(prepared: Prepared) -> str:
-    """The C source of a prepared model; the same bytes for the same model."""
+def generate(prepared: Prepared, sensitivities: bool = False) -> str:
+    """The C source of a prepared model, with its derivatives on request; the same bytes for the same model."""
     model, storage = prepared.model, prepared.storage
     equations = EquationTable([row.source for row in prepared.system.rows])
     names = Names(model.variables)
@@ -37,8 +39,13 @@ def generate(prepared: Prepared) -> str:
         continuous.residual(), continuous.jacobian(), continuous.roots(), discrete.time_relations(),
         discrete.next_time_event(), discrete.event(), continuous.check(),
     ]  # fmt: skip
+    everything = expressions_of_model(prepared)
+    tangents = Tangents(prepared, names, equations, tables.rows()) if sensitivities else None
+    if tangents:
+        functions += [*tangents.functions(), tangents.table(everything)]
+        everything += tangents.gradients.coefficients()
     code = "\n\n".join(functions)
-    called = user_functions(model.functions, called_functions(prepared), names, lambda a: assert_index(prepared, a))
+    called = user_functions(model.functions, calls(everything), names, lambda a: assert_index(prepared, a))
     code = "\n\n".join(filter(None, [called, code]))
     tables_text = "\n".join(constant_table(name, e) for e, name in names.tables.items())
     arrays, counts = _arrays(tables, discrete.messages)
@@ -47,12 +54,13 @@ def generate(prepared: Prepared) -> str:
         "n_v": len(storage.algebraics), "n_d": len(storage.discretes), "n_sample": len(prepared.samples),
         "n_when": discrete.when_count,
     }  # fmt: skip
-    parts = [_header(prepared), *arrays, tables_text, helpers(code), code, _descriptor(prepared, counts)]
+    descriptor = _descriptor(prepared, counts, tangents is not None)
+    parts = [_header(prepared, sensitivities), *arrays, tables_text, helpers(code), code, descriptor]
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
-def called_functions(prepared: Prepared) -> list[str]:
-    """Functions of the model that its own code calls, tangents included."""
+def expressions_of_model(prepared: Prepared) -> list[Expr]:
+    """Everything that the model's own code computes."""
     model, form = prepared.model, prepared.residual
     roots: list[Expr] = [value for column in prepared.jacobian.entries for _, value in column]
     roots += [value for _, value in prepared.jacobian.tangents]
@@ -64,7 +72,7 @@ def called_functions(prepared: Prepared) -> list[str]:
             [step] if isinstance(step, flat.When) else step.statements)  # fmt: skip
     roots += [a.condition for a in model.asserts]
     roots += [e for v in model.variables.values() for e in (v.binding, v.start, v.min, v.max) if e is not None]
-    return calls(roots)
+    return roots
 
 
 def constant_table(name: str, e: Expr) -> str:
@@ -72,16 +80,17 @@ def constant_table(name: str, e: Expr) -> str:
     return f"static const double {name}[] = {{{', '.join(number(float(a.value)) for a in e.args)}}};"
 
 
-def _header(prepared: Prepared) -> str:
-    files = "".join(f"\n *   {name.rsplit('/', 1)[-1]}  sha256 {digest}" for name, digest in _files(prepared))
+def _header(prepared: Prepared, sensitivities: bool) -> str:
+    files = "".join(f"\n *   {c_comment(name)}  sha256 {digest}" for name, digest in _files(prepared))
     return (
-        f"/* {prepared.declared.name}: generated from{files}\n * Do not edit: edit the model. */\n"
-        '#include "mdl_abi.h"\n\n#include <math.h>\n#include <stddef.h>\n#include <string.h>'
+        f"/* {c_comment(prepared.declared.name)}: generated from{files}\n * Do not edit: edit the model. */\n"
+        f'#include "mdl_{"tangent" if sensitivities else "abi"}.h"\n\n'
+        "#include <math.h>\n#include <stddef.h>\n#include <string.h>"
     )
 
 
 def _files(prepared: Prepared) -> list[tuple[str, str]]:
-    return sorted(prepared.declared.files.items())
+    return SourceNames().digests(prepared.declared.files.items())
 
 
 def _arrays(tables: Tables, messages: list[str]) -> tuple[list[str], dict[str, int]]:
@@ -104,7 +113,7 @@ def _arrays(tables: Tables, messages: list[str]) -> tuple[list[str], dict[str, i
     return arrays, counts
 
 
-def _descriptor(prepared: Prepared, counts: dict[str, int]) -> str:
+def _descriptor(prepared: Prepared, counts: dict[str, int], tangents: bool) -> str:
     experiment: flat.Experiment = prepared.declared.experiment
     fields = {
         "abi_version": "MDL_ABI_VERSION",
@@ -126,6 +135,7 @@ def _descriptor(prepared: Prepared, counts: dict[str, int]) -> str:
         "jac_colptr": "mdl_jac_colptr",
         "jac_rowidx": _pointer("mdl_jac_rowidx", counts["jac_nnz"]),
         **{name: f"mdl_{name}" for name in _CALLBACKS},
+        **({"tangents": "&mdl_model_tangents"} if tangents else {}),
     }
     rows = "\n".join(f"  .{key} = {value}," for key, value in fields.items())
     return (

@@ -7,6 +7,8 @@ from pathlib import Path
 
 from lacuna.codegen import flat
 from lacuna.codegen.emit.body import Body
+from lacuna.codegen.emit.c_text import c_comment
+from lacuna.codegen.errors import Span
 from lacuna.codegen.structure.causal import Division, LinearBlock, NonlinearBlock, Step, expressions_of
 from lacuna.codegen.structure.system import Row
 from lacuna.codegen.structure.tearing import Assignment
@@ -17,8 +19,13 @@ NEWTON_ITERATIONS = 50
 
 def comment(source: flat.Equation, text: str | None = None) -> str:
     """`/* file:line  equation */`"""
-    text = (text or source.text or f"{source.lhs} = {source.rhs}").replace("*/", "* /").replace("/*", "/ *")
-    return f"/* {Path(source.span.file).name}:{source.span.line}  {' '.join(text.split())} */"
+    text = text or source.text or f"{source.lhs} = {source.rhs}"
+    return f"/* {place(source.span)}  {c_comment(text)} */"
+
+
+def place(span: Span) -> str:
+    """file:line, for comments."""
+    return f"{c_comment(Path(span.file).name)}:{span.line}"
 
 
 class StepWriter:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-import json
 
 from lacuna.codegen import flat
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.storage import Slot
 from lacuna.codegen.emit.asserts import all_asserts, shown_values
+from lacuna.codegen.emit.c_text import SourceNames, c_string
 from lacuna.codegen.emit.discrete import is_settable
 from lacuna.codegen.emit.equations import EquationTable
 from lacuna.codegen.emit.expression import number
+from lacuna.codegen.errors import Span
 from lacuna.codegen.structure.system import DeclaredValues
 from lacuna.codegen.symbolic.expr import Expr, relation
 from lacuna.codegen.symbolic.leaves import leaves
@@ -19,16 +20,11 @@ from lacuna.codegen.symbolic.leaves import leaves
 _STORAGE = {"x": "STATE", "v": "ALGEBRAIC", "d": "DISCRETE", "p": "PARAMETER", "u": "INPUT"}
 
 
-def c_string(text: str) -> str:
-    """A C string literal (UTF-8)."""
-    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\177").replace("??", '?""?')
-
-
 class Tables:
     def __init__(self, prepared: Prepared, equations: EquationTable):
         self._p, self._equations = prepared, equations
         self._values = DeclaredValues(prepared.model)
-        self._sizes: dict[str, int] = {}
+        self._file = SourceNames()
 
     def array(self, declaration: str, rows: Sequence[str]) -> str:
         """`static const <declaration>[] = {...};`, or nothing where there are no rows (C has no empty arrays)."""
@@ -61,12 +57,15 @@ class Tables:
             for e, default in ((v.min, float("-inf")), (v.max, float("inf")), (v.nominal, 0.0))
         ]
         fields = [
-            c_string(v.name), c_string(v.unit), c_string(v.description), c_string(v.span.file), str(v.span.line),
+            c_string(v.name), c_string(v.unit), c_string(v.description), self._place(v.span),
             f"MDL_{v.type.upper()}", f"MDL_{_STORAGE[slot.array]}", str(slot.index), str(sign),
             str(int(slot.array == "p" and is_settable(final))), str(int(v.causality == "output")),
             number(sign * start), *limits,
         ]  # fmt: skip
         return "{" + ", ".join(fields) + "}"
+
+    def _place(self, span: Span) -> str:
+        return f"{c_string(self._file(span.file))}, {span.line}"
 
     def _moves(self, limit: Expr) -> bool:
         """Whether a bound follows parameters that may be set: then it holds for their values, not the declared ones."""
@@ -84,12 +83,12 @@ class Tables:
     def _source(self, e: flat.Equation, text: str | None = None) -> str:
         text = text if text is not None else e.text or f"{e.lhs} = {e.rhs}"
         text = " ".join(text.split())
-        return f"{{{c_string(text)}, {c_string(e.span.file)}, {e.span.line}, {c_string(e.origin)}}}"
+        return f"{{{c_string(text)}, {self._place(e.span)}, {c_string(e.origin)}}}"
 
     def asserts(self) -> list[str]:
         first, result = 0, []
         for a, shown in zip(all_asserts(self._p), self._shown(), strict=True):
-            source = f"{{{c_string(a.message)}, {c_string(a.span.file)}, {a.span.line}, {c_string(a.origin)}}}"
+            source = f"{{{c_string(a.message)}, {self._place(a.span)}, {c_string(a.origin)}}}"
             values = f"mdl_assert_values + {first}" if shown else "NULL"
             result.append(f"{{{source}, {len(shown)}, {values}}}")
             first += len(shown)

@@ -64,6 +64,6 @@ def _first_result(f: flat.Function) -> str:
     pointers = ["&result", *["NULL"] * (len(f.outputs) - 1)]
     return (
         f"static double {function_name(f.name)}({', '.join(arguments)}) {{\n"
-        f"  double result = 0.0;\n  {function_name(f.name)}_all({', '.join(['m', *names, *pointers])});\n"
+        f"  double result = 0.0;\n  {function_name(f.name, whole=True)}({', '.join(['m', *names, *pointers])});\n"
         "  return result;\n}"
     )

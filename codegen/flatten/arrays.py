@@ -163,7 +163,41 @@ def _cat(e: ast.Call, scope: Scope) -> Value:
 
 
 def _matrix(e: ast.Call, scope: Scope) -> Value:
-    return promote(_arguments(e, scope, 1, 1)[0], 2)
+    """The first two sizes; those after must be 1."""
+    value = promote(_arguments(e, scope, 1, 1)[0], 2)
+    if any(n != 1 for n in value.shape[2:]):
+        raise Diagnostic("R051", f"matrix of {shape_text(value.shape)}", e.span, "sizes after the second are 1")
+    return Array(value.shape[:2], value.items)
+
+
+def _outer_product(e: ast.Call, scope: Scope) -> Value:
+    a, b = (_array(v, e, (1,)).items for v in _arguments(e, scope, 2, 2))
+    return Array((len(a), len(b)), tuple(ex.mul(x, y) for x in a for y in b))
+
+
+def _symmetric(e: ast.Call, scope: Scope) -> Value:
+    """The upper triangle, mirrored."""
+    a = _array(_arguments(e, scope, 1, 1)[0], e, (2,))
+    n = range(a.shape[0])
+    if a.shape[0] != a.shape[1]:
+        raise Diagnostic("R051", f"symmetric of {shape_text(a.shape)}", e.span, "it needs a square matrix")
+    return Array(a.shape, tuple(a.items[min(i, j) * len(n) + max(i, j)] for i in n for j in n))
+
+
+def _skew(e: ast.Call, scope: Scope) -> Value:
+    """The matrix of a cross product: skew(x)*y = cross(x, y)."""
+    x = _array(_arguments(e, scope, 1, 1)[0], e, (1,)).items
+    if len(x) != 3:
+        raise Diagnostic("R051", "skew needs a vector of 3", e.span, "a cross product lives in space")
+    zero = ex.const(0)
+    return Array((3, 3), (zero, ex.neg(x[2]), x[1], x[2], zero, ex.neg(x[0]), ex.neg(x[1]), x[0], zero))
+
+
+_DOMAINS: dict[str, tuple[Callable[[float], bool], str]] = {
+    "sqrt": (lambda x: x >= 0, "numbers from 0"), "log": (lambda x: x > 0, "numbers above 0"),
+    "log10": (lambda x: x > 0, "numbers above 0"), "asin": (lambda x: abs(x) <= 1, "numbers from -1 to 1"),
+    "acos": (lambda x: abs(x) <= 1, "numbers from -1 to 1"),
+}  # fmt: skip
 
 
 def map_call(e: ast.Call, scope: Scope, count: int) -> Value:
@@ -172,6 +206,10 @@ def map_call(e: ast.Call, scope: Scope, count: int) -> Value:
     name = str(e.function)
     for a, written in zip(arguments, e.args, strict=True):
         need_numbers(a, written.span, name)
+        for item in scalars(a):
+            if name in _DOMAINS and item.op == "const" and not _DOMAINS[name][0](item.value) and not scope.conditional:
+                message = f"{name}({ex.to_text(item)}) does not exist"
+                raise Diagnostic("R064", message, written.span, f"{name} takes {_DOMAINS[name][1]}")
     return elementwise(lambda *xs: ex.call(name, *xs), arguments, e.span, f"arguments of {name}")
 
 
@@ -179,6 +217,7 @@ FUNCTIONS: dict[str, Handler] = {
     "size": size_of_array, "ndims": _ndims, "fill": _fill, "zeros": _constant_array(0), "ones": _constant_array(1),
     "identity": _identity, "diagonal": _diagonal, "linspace": _linspace, "transpose": _transpose, "cross": _cross,
     "vector": _vector, "scalar": _scalar, "matrix": _matrix, "cat": _cat,
+    "outerProduct": _outer_product, "symmetric": _symmetric, "skew": _skew,
     "sum": _reduction(ex.add, ex.const(0)), "product": _reduction(ex.mul, ex.const(1)),
     "min": _reduction(ex.minimum, None), "max": _reduction(ex.maximum, None),
 }  # fmt: skip

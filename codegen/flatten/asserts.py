@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.constants import known
@@ -9,7 +11,7 @@ from lacuna.codegen.flatten.enumerations import enumeration_of
 from lacuna.codegen.flatten.equations import origin_of
 from lacuna.codegen.flatten.lower import lower, lower_scalar
 from lacuna.codegen.flatten.scope import Scope
-from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, TRUE
 from lacuna.codegen.syntax import ast
 
 
@@ -20,7 +22,9 @@ def lower_assert(call: ast.Call, scope: Scope) -> flat.Assert:
         raise Diagnostic("R050", "assert needs a condition and a message", call.span, hint)
     condition = lower_scalar(arguments["condition"], scope, BOOLEAN)
     level = _level(arguments["level"], scope) if "level" in arguments else "error"
-    message = lower(arguments["message"], scope)
+    message = ""
+    if condition is not TRUE:  # else nobody reads it (8.3.7)
+        message = lower(arguments["message"], replace(scope, message=True, conditional=True))
     if not isinstance(message, str):
         hint = 'assert(x > 0, "text", AssertionLevel.warning)'
         raise Diagnostic("R020", "the message of assert is not a String", call.span, hint)

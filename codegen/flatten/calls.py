@@ -12,14 +12,14 @@ from lacuna.codegen.flatten.enumerations import as_integer
 from lacuna.codegen.flatten.functions import call_function, construct_record
 from lacuna.codegen.flatten.lower import Handler, lower, lower_scalar
 from lacuna.codegen.flatten.scope import Scope, enumeration, find_class, visible_classes
-from lacuna.codegen.flatten.values import Value, elementwise
+from lacuna.codegen.flatten.texts import text_of
+from lacuna.codegen.flatten.values import FunctionValue, Value, elementwise, shape_of
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
 
 _OUTSIDE = {
-    "homotopy": "give the actual expression, and start values where the initial problem is hard",
     "delay": "model the transport, for example by a chain of first-order lags",
     "spatialDistribution": "divide the length into elements",
     "inStream": "carry the property as a variable of the connector",
@@ -32,11 +32,6 @@ _OUTSIDE = {
     "superSample": "use a second sample(...)",
     "shiftSample": "use the start of sample(start, interval)",
     "interval": "use the parameter given to sample",
-    "getInstanceName": "write the name as a String",
-    "semiLinear": "write smooth(0, if x >= 0 then k1*x else k2*x)",
-    "skew": "write the matrix out",
-    "symmetric": "write the matrix out",
-    "outerProduct": "write the matrix as a comprehension",
     "Subtask": "clocks are left out",
 }
 
@@ -44,13 +39,21 @@ _OUTSIDE = {
 def lower_call(e: ast.Call, scope: Scope) -> Value:
     """The value of a call; of several results the first."""
     name = str(e.function)
-    handler = scope.context.lowering.functions.get(name)
-    return handler(e, scope) if handler is not None else call_of_model(e, scope)[0]
+    handler = scope.context.lowering.functions.get(name) if name not in scope.locals else None
+    if handler is not None:
+        return handler(e, scope)
+    results = call_of_model(e, scope)
+    if not results:
+        raise Diagnostic("R004", f"{name} has no result", e.span, "call it as a statement of its own: f(x);")
+    return results[0]
 
 
 def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
     """All results of a function or record constructor declared in a model."""
     name = str(e.function)
+    local = scope.locals.get(name)
+    if isinstance(local, FunctionValue):
+        return call_function(local.cls, e, scope, local.bound)
     cls = find_class(scope.context.library, scope.cls, e.function)
     if cls is not None and cls.kind == "function":
         return call_function(cls, e, scope)
@@ -135,6 +138,43 @@ def _smooth(e: ast.Call, scope: Scope) -> Value:
     return elementwise(lambda x: ex.special("smooth", degree, x, type=x.type), [value], e.span, "smooth")
 
 
+def _by_name(e: ast.Call, names: tuple[str, ...]) -> list[ast.Expression]:
+    """The arguments of a built-in operator whose inputs have names, in that order."""
+    written = dict(zip(names, e.args, strict=False)) | e.named
+    if len(e.args) + len(e.named) != len(names) or set(written) != set(names):
+        message = f"{e.function} takes {', '.join(names)}"
+        raise Diagnostic("R050", message, e.span, f"{e.function}({', '.join(names)})")
+    return [written[name] for name in names]
+
+
+def _homotopy(e: ast.Call, scope: Scope) -> Value:
+    """The actual expression; the simplified one must fit it (Modelica 3.6, 3.7.4.4)."""
+    actual, simplified = (lower(a, scope) for a in _by_name(e, ("actual", "simplified")))
+    if shape_of(actual) != shape_of(simplified):
+        raise Diagnostic("R042", "homotopy of two sizes", e.span, "both expressions need the same size")
+    return actual
+
+
+def _semi_linear(e: ast.Call, scope: Scope) -> Value:
+    """smooth(0, if x >= 0 then k1*x else k2*x) (Modelica 3.6, 3.7.4.5)."""
+    x, above, below = (lower(a, scope) for a in _by_name(e, ("x", "positiveSlope", "negativeSlope")))
+
+    def build(x: Expr, above: Expr, below: Expr) -> Expr:
+        chosen = ex.if_else(ex.relation(">=", x, ex.const(0)), ex.mul(above, x), ex.mul(below, x))
+        return chosen if chosen.op == "const" else ex.special("smooth", ex.const(0), chosen, type=REAL)
+
+    return elementwise(build, [x, above, below], e.span, "semiLinear")
+
+
+def _instance_name(e: ast.Call, scope: Scope) -> Value:
+    """getInstanceName(): the model, then the path of the component."""
+    _take(e, 0)
+    if scope.instance is None:
+        raise Diagnostic("R054", "getInstanceName in a function", e.span, "hand the name over as an argument")
+    top = scope.context.model
+    return f"{top}.{scope.instance.name}" if scope.instance.name else top
+
+
 def _sample(e: ast.Call, scope: Scope) -> Value:
     parts = [lower_scalar(a, scope, REAL) for a in _take(e, 2)]
     for value, written in zip(parts, e.args, strict=True):
@@ -150,16 +190,6 @@ def _phase(op: str) -> Callable[[ast.Call, Scope], Value]:
         return ex.special(op)
 
     return build
-
-
-def _text_of(e: ast.Call, scope: Scope) -> Value:
-    """String(x): only messages use it, so what varies is shown as its source."""
-    if not e.args:
-        raise Diagnostic("R050", "String needs a value", e.span, "write String(x)")
-    value = lower(e.args[0], scope)
-    if isinstance(value, Expr) and value.op == "const":
-        return str(value.value).lower() if value.type == BOOLEAN else f"{value.value:g}"
-    return value if isinstance(value, str) else str(value)
 
 
 def _integer_of(e: ast.Call, scope: Scope) -> Value:
@@ -187,6 +217,7 @@ def _scalar_function(count: int) -> Callable[[ast.Call, Scope], Value]:
 SCALAR_FUNCTIONS: dict[str, Handler] = {name: _scalar_function(count) for name, count in ex.BUILTINS.items()}
 OPERATORS: dict[str, Handler] = {
     "der": _der, "pre": _pre, "edge": _edge, "change": _change, "noEvent": _no_event, "smooth": _smooth,
-    "sample": _sample, "initial": _phase("initial"), "terminal": _phase("terminal"), "String": _text_of,
-    "Integer": _integer_of, "size": _size,
+    "sample": _sample, "initial": _phase("initial"), "terminal": _phase("terminal"), "String": text_of,
+    "Integer": _integer_of, "size": _size, "homotopy": _homotopy, "semiLinear": _semi_linear,
+    "getInstanceName": _instance_name,
 }  # fmt: skip

@@ -23,13 +23,17 @@ def flatten_if(item: ast.If, scope: Scope, out: Collected, descend: Descend) -> 
 
     Raises F030 where branches that change in time do not match.
     """
-    conditions = [TRUE if c is None else lower_scalar(c, scope, BOOLEAN) for c, _ in item.branches]
+    conditions, inner = [], scope
+    for written, _ in item.branches:
+        conditions.append(TRUE if written is None else lower_scalar(written, inner, BOOLEAN))
+        if conditions[-1].op != "const":
+            inner = replace(scope, conditional=True)
     fixed = all(is_known(c, scope.context) for c in conditions)
     if fixed and (all(c.op == "const" for c in conditions) or _structural(item)):
         _decided(item, conditions, scope, out, descend)
         return
     try:
-        parts = [_branch(body, scope, descend) for _, body in item.branches]
+        parts = [_branch(body, replace(scope, conditional=True), descend) for _, body in item.branches]
         if fixed and not _same_unknowns([p.equations for p in parts]):
             _decided(item, conditions, scope, out, descend)
             return

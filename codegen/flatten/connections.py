@@ -9,7 +9,7 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.instance import Absent, ArrayNode, Node
 from lacuna.codegen.flatten.leaf import Leaf
-from lacuna.codegen.flatten.references import apply_subscripts, element_numbers, member, unknown_name
+from lacuna.codegen.flatten.references import apply_subscripts, member, unknown_name
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.values import Array, Value, scalars
 from lacuna.codegen.symbolic import expr as ex
@@ -70,10 +70,7 @@ def connection_equations(connections: list[tuple[ast.Connect, Scope]], context: 
         span, origin = sets.span[root], sets.origin[root]
         names = " ".join(dict.fromkeys(e.name for e in group))
         if sets.flow[group[0]]:
-            total = ex.ZERO
-            for end in group:
-                v = ex.var(end.name)
-                total = ex.sub(total, v) if end.outside else ex.add(total, v)
+            total = _sum([(ex.var(end.name), end.outside) for end in group])
             equations.append(flat.Equation(total, ex.ZERO, span, origin, f"sum of flows: {names}"))
             continue
         unique = list(dict.fromkeys(e.name for e in group))
@@ -81,6 +78,17 @@ def connection_equations(connections: list[tuple[ast.Connect, Scope]], context: 
             a, b = _variable(unique[0], context), _variable(name, context)
             equations.append(flat.Equation(a, b, span, origin, f"connected: {unique[0]} = {name}"))
     return equations + _unconnected(sets, context)
+
+
+def _sum(flows: list[tuple[ex.Expr, bool]]) -> ex.Expr:
+    """All flows added, those marked with the other sign: from the left, and in halves where they are many."""
+    if len(flows) > 64:
+        middle = len(flows) // 2
+        return ex.add(_sum(flows[:middle]), _sum(flows[middle:]))
+    total = ex.ZERO
+    for v, negative in flows:
+        total = ex.sub(total, v) if negative else ex.add(total, v)
+    return total
 
 
 def _variable(name: str, context: Context) -> ex.Expr:
@@ -172,7 +180,7 @@ def _pick(
         picked = apply_subscripts(_numbers(node), subscripts, scope, ref)
         return [(node, position) for position in _chosen(picked, ref)]
     if isinstance(node, ArrayNode):
-        picked = apply_subscripts(element_numbers(node), subscripts, scope, ref)
+        picked = apply_subscripts(node.numbers, subscripts, scope, ref)
         return [node.items[number - 1] for number in _chosen(picked, ref)]
     if subscripts is not None:
         raise Diagnostic("R044", f"{node.name} is no array", ref.span, "remove the subscript")

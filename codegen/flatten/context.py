@@ -35,6 +35,7 @@ class Context:
     library: Library
     folder: Path  # of the model's file: data files are looked for here
     lowering: Lowering
+    model: str = ""  # the name of the class that is flattened
     scalars: dict[str, tuple[Variable, int]] = field(default_factory=dict)
     packages: dict[int, Component] = field(default_factory=dict)
     functions: dict[str, Function] = field(default_factory=dict)

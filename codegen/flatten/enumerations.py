@@ -6,8 +6,9 @@ from functools import lru_cache
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.scope import Scope, boolean_type, enumeration
 from lacuna.codegen.symbolic import expr as ex
-from lacuna.codegen.symbolic.expr import INTEGER, Expr
+from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, INTEGER, TRUE, Expr
 from lacuna.codegen.syntax import ast
 
 
@@ -48,3 +49,27 @@ def require_same(a: Expr, b: Expr, context: Context, span: Span) -> None:
         sides = " and ".join(name.rsplit(".", 1)[-1] or "Integer" for name in (first, second))
         name = (first or second).rsplit(".", 1)[-1]
         raise Diagnostic("R025", f"the sides are {sides}", span, f"use literals of {name}, or its number Integer(...)")
+
+
+IndexType = tuple[Expr, ...] | None  # of a dimension: the values of an enumeration or of Boolean; None: 1, 2, ...
+
+
+def index_type(e: ast.Expression, scope: Scope) -> IndexType:
+    """The values of the type that `e` names as a dimension or a range; None for anything else."""
+    if not isinstance(e, ast.Ref):
+        return None
+    cls = enumeration(e, scope)
+    if cls is not None:
+        return tuple(literal(cls, number) for number in range(1, len(cls.literals) + 1))
+    return (FALSE, TRUE) if boolean_type(e, scope) else None
+
+
+def index_number(index: Expr, kind: IndexType, context: Context, span: Span) -> Expr:
+    """A subscript as a whole number; false is 1, true 2. Raises R044 for one of a type that the dimension has not."""
+    wanted = "" if kind is None else "Boolean" if kind[0].type == BOOLEAN else enumeration_of(kind[0], context)
+    found = "Boolean" if index.type == BOOLEAN else enumeration_of(index, context)
+    if index.type not in (INTEGER, BOOLEAN) or found != wanted:
+        names = [name.rsplit(".", 1)[-1] or "Integer" for name in (found if index.type != "Real" else "Real", wanted)]
+        hint = f"use a value of {names[1]}" if wanted else "use a whole number"
+        raise Diagnostic("R044", f"a subscript is {names[0]}, the dimension runs over {names[1]}", span, hint)
+    return ex.if_else(index, ex.const(2), ex.const(1)) if found == "Boolean" else index

@@ -7,8 +7,10 @@ from dataclasses import dataclass, field
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.constants import variability
+from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.enumerations import require_same
-from lacuna.codegen.flatten.lower import iterate, lower, lower_results
+from lacuna.codegen.flatten.iterators import iterate
+from lacuna.codegen.flatten.lower import lower, lower_results
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.values import Record, Value, scalars, shape_of, shape_text
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
@@ -30,7 +32,7 @@ def unroll(item: ast.For, scope: Scope) -> list[Scope]:
     """One scope for each pass of a loop, the first iterator being the outermost."""
     scopes = [scope]
     for iterator in item.iterators:
-        scopes = [s.with_locals(**{iterator.name: v}) for s in scopes for v in iterate(iterator, s)]
+        scopes = [s.with_locals(**{iterator.name: v}) for s in scopes for v in iterate(iterator, s, item.body)]
     return scopes
 
 
@@ -40,14 +42,6 @@ def equalities(item: ast.Equality, scope: Scope) -> list[flat.Equation]:
         return _several(item, scope)
     left, right = lower(item.left, scope), lower(item.right, scope)
     return equate(left, right, item.span, scope, item.text)
-
-
-def continuous_equalities(item: ast.Equality, scope: Scope) -> list[flat.Equation]:
-    """Equations that hold at all times."""
-    result = equalities(item, scope)
-    for equation in result:
-        check_discrete(equation.lhs, equation.rhs, item.span, scope)
-    return result
 
 
 def equate(left: Value, right: Value, span: Span, scope: Scope, text: str) -> list[flat.Equation]:
@@ -90,13 +84,15 @@ def check_target(target: Expr | str, span: Span, scope: Scope) -> None:
         raise Diagnostic("R058", f"the {kind} {target.value} is assigned", span, hint)
 
 
-def check_discrete(left: Expr, right: Expr, span: Span, scope: Scope) -> None:
-    """A discrete variable does not follow what varies between events. Raises R063."""
-    for a, b in ((left, right), (right, left)):
-        varies = b.op != "var" and variability(b, scope.context) == "continuous"
-        if a.op == "var" and varies and variability(a, scope.context) == "discrete":
-            hint = "set it at events: when ... then; or drop 'discrete'"
-            raise Diagnostic("R063", f"the discrete {a.value} equals what varies continuously", span, hint)
+def check_discrete(equations: list[flat.Equation], assigned: set[str], context: Context) -> None:
+    """A discrete variable that no event sets does not follow what varies between events. Raises R063."""
+    for e in equations:
+        for a, b in ((e.lhs, e.rhs), (e.rhs, e.lhs)):
+            alone = a.op == "var" and a.value not in assigned and variability(a, context) == "discrete"
+            if alone and b.op not in ("var", "der") and variability(b, context) == "continuous":
+                hint = "set it at events: when ... then; or drop 'discrete'"
+                message = f"the discrete {a.value} equals what varies continuously"
+                raise Diagnostic("R063", message, e.span, hint)
 
 
 def _several(item: ast.Equality, scope: Scope) -> list[flat.Equation]:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.constants import known
+from lacuna.codegen.flatten.enumerations import index_type
 from lacuna.codegen.flatten.lower import lower, modifier_value
 from lacuna.codegen.flatten.modifiers import Modifier
-from lacuna.codegen.flatten.scope import Scope, enumeration
+from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.values import Array, Value, shape_of
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER
 from lacuna.codegen.syntax import ast
@@ -54,8 +55,7 @@ def evaluate_dimensions(
 
 
 def _dimension(e: ast.Expression, scope: Scope, name: str) -> int:
-    if isinstance(e, ast.Ref):
-        cls = enumeration(e, scope)
-        if cls is not None:
-            return len(cls.literals)
+    kind = index_type(e, scope)
+    if kind is not None:
+        return len(kind)
     return evaluate_integer(e, scope, f"the size of {name}")

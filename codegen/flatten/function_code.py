@@ -12,8 +12,9 @@ from lacuna.codegen.flatten.constants import AtRunTime, evaluate
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.elements import element, local_value
 from lacuna.codegen.flatten.function_locals import Signature, declared_sizes, fit, typed
-from lacuna.codegen.flatten.interpret import unknown_target
-from lacuna.codegen.flatten.lower import iterate, lower, lower_results, lower_scalar
+from lacuna.codegen.flatten.interpret import effect, unknown_target
+from lacuna.codegen.flatten.iterators import iterate
+from lacuna.codegen.flatten.lower import lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.references import apply_subscripts
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.values import Array, Record, Value, indices, scalars, shape_of, shape_text
@@ -172,8 +173,10 @@ class _Writer:
             result.append(flat.Return(item.span))
         elif isinstance(item, ast.Procedure) and str(item.call.function) == "assert":
             result.append(lower_assert(item.call, self.scope))
+        elif isinstance(item, ast.Procedure):
+            result += effect(item, self.scope)
         else:
-            what = str(item.call.function) if isinstance(item, ast.Procedure) else type(item).__name__.lower()
+            what = type(item).__name__.lower()
             raise Diagnostic("R059", f"'{what}' in a function", item.span, "functions compute values only")
 
     def _if(self, item: ast.If, result: list[flat.Statement]) -> None:
@@ -206,7 +209,7 @@ class _Writer:
             self._for(item, rest, body)
             result.append(flat.For(name, low, step, high, body, item.span))
         else:
-            for value in iterate(first, outer):
+            for value in iterate(first, outer, item.body):
                 self.scope = outer.with_locals(**{first.name: value})
                 self._for(item, rest, result)
         self.scope = outer

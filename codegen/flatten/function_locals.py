@@ -16,7 +16,7 @@ from lacuna.codegen.flatten.values import Array, Record, Value, scalars, shape_o
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
-from lacuna.codegen.units.unit import parse_unit
+from lacuna.units import parse_unit
 
 
 @dataclass
@@ -27,6 +27,17 @@ class Local:
     declaration: ast.Component
     type: Type
     scope: Scope  # of the class it is declared in
+
+    @property
+    def is_flexible(self) -> bool:
+        """A vector that is no input, declared with `:`: empty at first, then of the size of what is assigned."""
+        dimensions = self.declaration.dimensions
+        return self.declaration.causality != "input" and len(dimensions) == 1 and isinstance(dimensions[0], ast.Colon)
+
+    @property
+    def nothing(self) -> Value | None:
+        """What a flexible vector holds before anything is assigned."""
+        return Array((0,), ()) if self.is_flexible else None
 
     @cached_property
     def unit(self) -> str:
@@ -80,9 +91,26 @@ def signature_of(cls: ast.Class, context: Context) -> Signature:
                 changed = replace(declaration.modification, value=outer.value)
                 declaration = replace(declaration, modification=changed)
             declared.append(Local(name, declaration, resolve_type(declaration.type, scope), scope))
+        if cls.kind == "function":
+            _check_function(cls, instance)
         body = tuple(item for section, _ in instance.sections for item in section.items)
         found = signatures[id(cls)] = Signature(cls, tuple(declared), body)
     return found
+
+
+def _check_function(cls: ast.Class, instance: Instance) -> None:
+    """What a function must not hold (Modelica 3.6, 12.2)."""
+    sections = [section for section, _ in instance.sections]
+    wrong = next((s for s in sections if s.initial or not s.algorithm), None) or next(iter(sections[1:]), None)
+    if wrong is not None:
+        what = "an initial section" if wrong.initial else "a second algorithm" if wrong.algorithm else "equations"
+        hint = "a function has one algorithm section, or is external"
+        raise Diagnostic("R066", f"the function {cls.name} has {what}", wrong.span, hint)
+    for name, element in instance.elements.items():
+        d = element.declaration
+        if not (d.causality or d.protected or d.variability):
+            hint = "declare it input or output, or under 'protected'"
+            raise Diagnostic("R066", f"{name} of the function {cls.name} is public", d.span, hint)
 
 
 def fit(local: Local, value: Value, scope: Scope, span: Span) -> Value:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.component import Component
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.modifiers import Modifier, from_tree, merge
-from lacuna.codegen.flatten.scope import Scope, require_class
+from lacuna.codegen.flatten.scope import Scope, base_class, base_clauses, own_or_inherited, unknown_class
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.syntax import ast
 
@@ -45,15 +45,23 @@ class Inheritance:
             raise Diagnostic("R011", f"{cls.name} extends itself", cls.span, "break the circle of extends")
         context = self._context
         scope = Scope(context, cls, self._instance)
-        clauses = [(e.base, e.modification) for e in cls.extends]
-        if cls.alias is not None:
-            clauses.append((cls.alias.base, cls.alias.modification))
+        if isinstance(cls.written, Scope):
+            scope = cls.written
+        elif cls.alias is not None and cls.parent is not None:
+            scope = Scope(context, cls.parent, None)
+        constraint = self._constraint(cls)
+        if cls.alias is None:
+            modifier = merge(modifier, constraint)
         self.classes.append(cls)
-        for reference, tree in clauses:
-            base = require_class(context.library, cls, reference, "class", of_base=True)
+        for reference, tree in base_clauses(cls):
+            base = base_class(context.library, cls, reference, tree)
+            if base is None:
+                raise unknown_class(context.library, cls, reference, "class")
             inner = from_tree(tree, scope)
+            if cls.alias is not None and constraint is not None:
+                inner = merge(inner, constraint)
             before, sections = dict(self.elements), len(self.sections)
-            self._collect(base, merge(modifier, inner) if tree.arguments else modifier, depth + 1)
+            self._collect(base, modifier if inner.empty else merge(modifier, inner), depth + 1)
             if tree.left_out:
                 self._leave_out(tree.left_out, sections, base)
             inherited = {n: e for n, e in self.elements.items() if before.get(n) is not e}
@@ -62,6 +70,13 @@ class Inheritance:
             outer = modifier.children.get(declaration.name) if modifier else None
             self._add(Element(declaration, cls, outer))
         self.sections += [(section, cls) for section in cls.sections]
+
+    def _constraint(self, cls: ast.Class) -> Modifier | None:
+        """The modification of the constraining clause that `cls` was chosen under."""
+        if cls.constrained is None:
+            return None
+        tree, around = cls.constrained
+        return from_tree(tree, Scope(self._context, around, self._instance))
 
     def _leave_out(self, left_out: list[ast.Ref | ast.Connect], first: int, base: ast.Class) -> None:
         """Selective extension (Modelica 3.6, 7.4): drop inherited components with their connections, or connections."""
@@ -92,7 +107,9 @@ class Inheritance:
     def _add(self, element: Element) -> None:
         name = element.declaration.name
         present = self.elements.get(name)
-        if present is not None and present.declaration is not element.declaration:
+        if element.declaration.redeclares:
+            element = _redeclared(element, present)
+        elif present is not None and present.declaration is not element.declaration:
             same_type = str(present.declaration.type) == str(element.declaration.type)
             if present.cls is element.cls or not same_type:
                 error = Diagnostic("R010", f"{name} is declared twice", element.declaration.span, "rename one of them")
@@ -100,21 +117,57 @@ class Inheritance:
                 raise error
         self.elements[name] = element
 
-    @staticmethod
-    def _refuse_unknown(modifier: Modifier, elements: dict[str, Element], cls: ast.Class) -> None:
+    def _refuse_unknown(self, modifier: Modifier, elements: dict[str, Element], cls: ast.Class) -> None:
         for name, child in modifier.children.items():
-            if name not in elements:
+            if name not in elements and own_or_inherited(self._context.library, cls, name) is None:
                 hint = did_you_mean(name, elements, f"{cls.name} has {', '.join(list(elements)[:10]) or 'no elements'}")
                 raise Diagnostic("R032", f"{cls.path} has no element {name} to modify", child.span, hint)
 
     def _refuse_protected(self, modifier: Modifier, cls: ast.Class) -> None:
         for name, child in modifier.children.items():
-            declaration = self.elements[name].declaration
-            if declaration.protected:
+            declaration = self.elements[name].declaration if name in self.elements else None
+            if declaration is not None and declaration.protected:
                 hint = "make it public, or modify it in an extends clause"
                 error = Diagnostic("R037", f"{name} is protected in {cls.name}", child.span, hint)
                 error.notes.append((declaration.span, "declared here"))
                 raise error
+
+
+def _redeclared(element: Element, present: Element | None) -> Element:
+    """An element written with `redeclare`, in place of the inherited one. Raises R032, R033, R037."""
+    new = element.declaration
+    if present is None:
+        hint = "redeclare what a base class declares, or remove 'redeclare'"
+        raise Diagnostic("R032", f"{new.name} redeclares nothing", new.span, hint)
+    old = present.declaration
+    refuse_redeclaration(new, old, new.span)
+    if old.protected != new.protected:
+        hint = "declare both public, or both protected"
+        raise Diagnostic("R037", f"{new.name} and what it redeclares differ in visibility", new.span, hint)
+    if new.constraint is None and old.constraint is not None:
+        new = replace(new, constraint=old.constraint)
+    return replace(element, declaration=inheriting(new, old))
+
+
+def refuse_redeclaration(new: ast.Component, old: ast.Component, span: Span) -> None:
+    """Raises R033 where a component cannot be redeclared: constants, final ones, and those not replaceable."""
+    why = "a constant" if old.variability == "constant" else "final" if old.final else ""
+    if why or not old.replaceable:
+        message = f"{old.name} is {why or 'not replaceable'}" + (" and cannot be redeclared" if why else "")
+        error = Diagnostic("R033", message, span, "declare it with 'replaceable'" if not why else "remove 'redeclare'")
+        error.notes.append((old.span, "declared here"))
+        raise error
+
+
+def inheriting(new: ast.Component, old: ast.Component) -> ast.Component:
+    """A redeclaration with the prefixes and sizes of the original where it has none of its own (7.3)."""
+    return replace(
+        new, variability=new.variability or old.variability, causality=new.causality or old.causality,
+        flow=new.flow or old.flow, stream=new.stream or old.stream, inner=new.inner or old.inner,
+        outer=new.outer or old.outer, dimensions=new.dimensions or old.dimensions,
+        condition=new.condition or old.condition, protected=old.protected,
+        description=new.description or old.description,
+    )  # fmt: skip
 
 
 def written(reference: ast.Ref) -> str:

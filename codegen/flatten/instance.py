@@ -6,18 +6,23 @@ So `parameter Integer n = 3; Real x[n];` needs no ordering: asking for x asks fo
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import prod
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.enumerations import IndexType, index_type
 from lacuna.codegen.flatten.evaluate import evaluate_boolean, evaluate_dimensions
-from lacuna.codegen.flatten.inheritance import Element, Inheritance
+from lacuna.codegen.flatten.inheritance import Element, Inheritance, inheriting, refuse_redeclaration
 from lacuna.codegen.flatten.leaf import Leaf
 from lacuna.codegen.flatten.lower import modifier_value
 from lacuna.codegen.flatten.modifiers import Modifier, for_each, from_tree, merge, narrow
-from lacuna.codegen.flatten.scope import Scope, require_class
+from lacuna.codegen.flatten.scope import Scope, own_or_inherited
+from lacuna.codegen.flatten.subtypes import require_subtype
 from lacuna.codegen.flatten.types import Type, resolve_type
-from lacuna.codegen.flatten.values import Record, Value, indices
+from lacuna.codegen.flatten.values import Array, Record, Value, indices
+from lacuna.codegen.flatten.views import modified, view
+from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.syntax import ast
 
 
@@ -28,6 +33,12 @@ class ArrayNode:
     name: str
     shape: tuple[int, ...]
     items: list[Instance]
+    index_types: tuple[IndexType, ...] = ()
+
+    @cached_property
+    def numbers(self) -> Array:
+        """The numbers of its elements, from 1, in its shape: subscripts are applied to them."""
+        return Array(self.shape, tuple(ex.const(i + 1) for i in range(prod(self.shape))))
 
 
 @dataclass
@@ -50,6 +61,7 @@ class Instance:
         modifier: Modifier | None,
         declaration: ast.Component | None = None,
     ) -> None:
+        cls = _seen(cls, modifier, context)
         self.context, self.cls, self.name, self.parent = context, cls, name, parent
         self.declaration = declaration
         self.span = declaration.span if declaration else cls.span
@@ -61,7 +73,7 @@ class Instance:
         self._building: list[str] = []
         above = parent
         while above is not None:
-            if above.cls is cls:
+            if (above.cls.origin or above.cls) is (cls.origin or cls) and above.cls.redeclared == cls.redeclared:
                 raise Diagnostic("R011", f"{cls.name} contains itself", self.span, "break the circle of components")
             above = above.parent
         inherited = Inheritance(context, self, cls, modifier)
@@ -95,32 +107,30 @@ class Instance:
     def _build(self, element: Element) -> Node:
         declaration = element.declaration
         scope = Scope(self.context, element.cls, self)
-        redeclared = element.modifier is not None and element.modifier.redeclare is not None
-        tree = (
-            declaration.constraint.modification if redeclared and declaration.constraint else declaration.modification
-        )
-        own = from_tree(tree, scope, final=declaration.final)
+        redeclared = element.modifier is not None and isinstance(element.modifier.redeclare, ast.Component)
+        own = self._own_modifier(declaration, scope, redeclared)
         modifier = merge(element.modifier, own) or own
         if declaration.outer and not declaration.inner:
             return self._outer(declaration)
         if declaration.condition is not None and not evaluate_boolean(declaration.condition, scope):
             return Absent(self.path_of(declaration.name), declaration.span)
-        reference, type_scope = declaration.type, scope
-        if modifier.redeclare is not None:
-            reference, type_scope = self._redeclared(element, modifier)
-        found = resolve_type(reference, type_scope)
-        sizes = evaluate_dimensions([*declaration.dimensions], scope, modifier, declaration.name)
+        type_scope = scope
+        if redeclared:
+            declaration, type_scope = self._redeclared(element, modifier)
+        found = resolve_type(declaration.type, type_scope)
+        sizes = evaluate_dimensions([*declaration.dimensions], type_scope, modifier, declaration.name)
+        index_types = tuple(index_type(d, type_scope) for d in declaration.dimensions)
         sizes += found.dimensions
-        record = self._record_value()
-        if record is not None and (element.modifier is None or element.modifier.value is None):
-            modifier = replace(modifier, value=record.fields.get(declaration.name), index=())
+        record, outside = self._record_value(), element.modifier
+        given = record is not None and declaration.name in record.fields
+        if given and (outside is None or outside.value is None or outside.weak):
+            modifier = replace(modifier, value=record.fields[declaration.name], index=())
         self.context.spend(prod(sizes), declaration.span)
         name = self.path_of(declaration.name)
         if found.primitive is not None:
             attributes = for_each(found.modifier) if sizes else found.modifier
-            return Leaf(
-                self.context, self, declaration, name, found, tuple(sizes), merge(modifier, attributes) or modifier
-            )
+            complete = merge(modifier, attributes) or modifier
+            return Leaf(self.context, self, declaration, name, found, tuple(sizes), complete, index_types)
         self._check_component(declaration, found)
         if not sizes:
             return Instance(self.context, found.cls, name, self, merge(modifier, found.modifier), declaration)
@@ -129,7 +139,16 @@ class Instance:
             text = "[" + ",".join(map(str, index)) + "]"
             inner = merge(narrow(modifier, index), found.modifier)
             items.append(Instance(self.context, found.cls, name + text, self, inner, declaration))
-        return ArrayNode(name, tuple(sizes), items)
+        return ArrayNode(name, tuple(sizes), items, index_types)
+
+    @staticmethod
+    def _own_modifier(declaration: ast.Component, scope: Scope, redeclared: bool) -> Modifier:
+        """What the declaration says, and its constraining clause: that holds whatever stands there (7.3.2)."""
+        own = from_tree(declaration.modification, scope, final=declaration.final)
+        if declaration.constraint is None:
+            return own
+        constraint = from_tree(declaration.constraint.modification, scope, final=declaration.final)
+        return constraint if redeclared else merge(own, constraint) or own
 
     def _record_value(self) -> Record | None:
         """The record this component is bound to, as in `Data data = other`."""
@@ -141,26 +160,22 @@ class Instance:
             self._record = value
         return self._record
 
-    def _redeclared(self, element: Element, modifier: Modifier) -> tuple[ast.Ref, Scope]:
-        declaration, new = element.declaration, modifier.redeclare
-        if not declaration.replaceable:
-            error = Diagnostic(
-                "R033", f"{declaration.name} is not replaceable", modifier.span, "declare it with 'replaceable'"
-            )
-            error.notes.append((declaration.span, "declared here"))
-            raise error
-        library = self.context.library
-        scope = element.modifier.scope
-        limit = declaration.constraint.base if declaration.constraint else declaration.type
-        bound = require_class(library, element.cls, limit, "class")
-        chosen = require_class(library, scope.cls, new.type, "class")
-        needed = Instance(self.context, bound, "", None, None).elements
-        offered = Instance(self.context, chosen, "", None, None).elements
-        missing = [n for n, e in needed.items() if n not in offered and not e.declaration.protected]
-        if missing:
-            hint = f"choose a class that has what {bound.name} has"
-            raise Diagnostic("R034", f"{chosen.name} lacks {', '.join(missing)} of {bound.name}", new.span, hint)
-        return new.type, scope
+    def _redeclared(self, element: Element, modifier: Modifier) -> tuple[ast.Component, Scope]:
+        """The declaration that stands in place of a replaceable one, and the scope of its type. Raises R033, R034."""
+        old, new, scope = element.declaration, modifier.redeclare, modifier.redeclared_in
+        own = Scope(self.context, element.cls, self)
+        chosen = resolve_type(new.type, scope)
+        if not old.replaceable and new.dimensions:
+            declared = resolve_type(old.type, own)
+            if (declared.primitive, declared.cls) == (chosen.primitive, chosen.cls):
+                return inheriting(new, old), scope  # sizes may be redeclared anyway
+        refuse_redeclaration(new, old, modifier.span)
+        bound = resolve_type(old.constraint.base if old.constraint else old.type, own)
+        require_subtype(chosen, bound, self.context, self._elements_of, f"{new.type} for {old.name}", new.span)
+        return inheriting(new, old), scope
+
+    def _elements_of(self, cls: ast.Class) -> dict[str, Element]:
+        return Instance(self.context, cls, "", None, None).elements
 
     def _outer(self, declaration: ast.Component) -> Node:
         above = self.parent
@@ -186,6 +201,21 @@ class Instance:
             if declaration.replaceable:
                 hint = f"redeclare it: {declaration.name}(redeclare CLASS {declaration.name})"
             raise Diagnostic("R015", f"{cls.name} is partial and cannot be a component", declaration.span, hint)
+
+
+def _seen(cls: ast.Class, modifier: Modifier | None, context: Context) -> ast.Class:
+    """`cls` with the classes that `modifier` redeclares or modifies in it."""
+    library = context.library
+    redeclared: dict[str, ast.Class] = {}
+    for name, child in modifier.children.items() if modifier is not None else ():
+        if isinstance(child.redeclare, ast.Class):
+            scope = child.redeclared_in
+            redeclared[name] = view(library, child.redeclare, scope.cls, written=scope)
+        elif child.redeclare is None and child.children and child.tree is not None:
+            plain = own_or_inherited(library, cls, name)
+            if plain is not None:
+                redeclared[name] = modified(library, plain, child.tree, child.scope, child.scope.cls)
+    return view(library, cls, cls.parent, redeclared, cls.whole) if redeclared else cls
 
 
 Node = Instance | Leaf | ArrayNode | Absent

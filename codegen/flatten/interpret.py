@@ -6,13 +6,16 @@ from collections.abc import Sequence
 from dataclasses import replace
 from math import prod
 
+from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.asserts import lower_assert
 from lacuna.codegen.flatten.constants import AtRunTime
 from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.equations import origin_of
 from lacuna.codegen.flatten.function_locals import Local, Signature, declared_sizes, fit, signature_of, typed
 from lacuna.codegen.flatten.instance import package_of
-from lacuna.codegen.flatten.lower import iterate, lower, lower_results, lower_scalar
+from lacuna.codegen.flatten.iterators import iterate
+from lacuna.codegen.flatten.lower import lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.references import apply_subscripts
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.values import Array, Record, Value, elementwise, integers, scalars, shape_of, shape_text
@@ -45,7 +48,9 @@ def interpret(signature: Signature, arguments: dict[str, Value], context: Contex
         elif local.type.primitive is None:
             run.locals[local.name] = _blank_record(local, context)
         else:
-            shape = declared_sizes(local, scope, None)
+            if local.is_flexible:
+                run.flexible.add(local.name)
+            shape = tuple(0 if local.is_flexible else n for n in declared_sizes(local, scope, local.nothing))
             blank = unset(local.type.primitive)
             run.locals[local.name] = Array(shape, (blank,) * prod(shape)) if shape else blank
     run.block(signature.body)
@@ -77,6 +82,7 @@ class _Run:
         self.locals = values
         self.span = span
         self.inputs: frozenset[str] = frozenset()
+        self.flexible: set[str] = set()  # arrays declared with `:`, which take the size of what is assigned (12.4.5)
         self.steps = 0
         symbolic = any(isinstance(s, Expr) and s.op != "const" for v in values.values() for s in scalars(v))
         self.symbolic = symbolic
@@ -124,8 +130,9 @@ class _Run:
 
     def _procedure(self, item: ast.Procedure) -> None:
         if str(item.call.function) != "assert":
-            hint = "assign its result: y := f(x)"
-            raise Diagnostic("R056", f"a call of {item.call.function} is no statement here", item.span, hint)
+            if effect(item, self.scope):
+                raise AtRunTime("a call for its asserts", item.span)
+            return
         check = lower_assert(item.call, self.scope)
         if check.condition.op != "const":
             raise AtRunTime("an assert", item.span)
@@ -143,7 +150,7 @@ class _Run:
     def _for(self, item: ast.For, at: int) -> str:
         iterator = item.iterators[at]
         shadowed = self.locals.get(iterator.name)
-        values = iterate(iterator, self.scope)
+        values = iterate(iterator, self.scope, item.body)
         signal = ""
         for value in values:
             self.locals[iterator.name] = value
@@ -159,7 +166,7 @@ class _Run:
 
     def _if(self, item: ast.If) -> str:
         outcomes: list[tuple[Expr, dict[str, Value]]] = []
-        before = dict(self.locals)
+        before, whole = dict(self.locals), self.scope
         for written, body in item.branches:
             self._set(before)
             condition = TRUE if written is None else lower_scalar(written, self.scope, BOOLEAN)
@@ -167,11 +174,13 @@ class _Run:
                 continue
             if condition is TRUE and not outcomes:
                 return self.block(body)
+            self.scope = replace(whole, conditional=True)
             if self.block(body):
                 raise AtRunTime("leaving a branch early", item.span)
             outcomes.append((condition, dict(self.locals)))
             if condition is TRUE:
                 break
+        self.scope = whole
         if not outcomes:
             self._set(before)
             return ""
@@ -215,6 +224,9 @@ class _Run:
             return Record(old.name, old.fields | {name: self._updated(old.fields[name], target, at + 1, value, span)})
         subscripts = target.subscripts[at]
         if subscripts is None:
+            if target.names[at] in self.flexible and len(shape_of(old)) == len(shape_of(value)):
+                self.scope.context.spend(len(scalars(value)), span)
+                return value
             return conform(old, value, span, str(target))
         numbers = Array(shape_of(old), integers(list(range(prod(shape_of(old))))).items)
         picked = apply_subscripts(numbers, subscripts, self.scope, target)
@@ -227,6 +239,22 @@ class _Run:
         for position, new in zip(scalars(picked), scalars(value), strict=True):
             items[position.value] = conform(old.items[position.value], new, span, str(target))
         return Array(old.shape, tuple(items))
+
+
+def effect(item: ast.Procedure, scope: Scope) -> list[flat.Assert]:
+    """A call that stands alone: what is left of it is that it must not fail. Raises R056 for an operator."""
+    call = item.call
+    if str(call.function) in scope.context.lowering.functions or str(call.function) in ("reinit", "terminate"):
+        hint = "assert, reinit, terminate and functions can stand alone; reinit and terminate under a when"
+        raise Diagnostic("R056", f"a call of {call.function} is no statement here", item.span, hint)
+    conditions = []
+    for result in scope.context.lowering.results(call, scope):
+        for s in scalars(result):
+            if isinstance(s, Expr) and any(n.op == "call" and n.value in scope.context.functions for n in ex.walk(s)):
+                finite = ex.relation(">=", ex.call("abs", s), ex.ZERO) if s.type != BOOLEAN else s
+                conditions.append(finite if s.type != BOOLEAN else ex.logical_or(s, ex.logical_not(s)))
+    name = str(call.function)
+    return [flat.Assert(c, f"{name} fails", item.span, "error", origin_of(scope)) for c in conditions[:1]]
 
 
 def unknown_target(target: ast.Ref, names: dict[str, Value]) -> Diagnostic:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from math import prod
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.component import Component
 from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.enumerations import IndexType
 from lacuna.codegen.flatten.lower import modifier_value
 from lacuna.codegen.flatten.modifiers import Modifier
 from lacuna.codegen.flatten.types import ATTRIBUTES, Type
@@ -29,9 +31,10 @@ class Leaf:
         found: Type,
         shape: tuple[int, ...],
         modifier: Modifier,
+        index_types: tuple[IndexType, ...] = (),
     ) -> None:
         self.instance, self.declaration, self.name, self.type = instance, declaration, name, found
-        self.shape, self.modifier = shape, modifier
+        self.shape, self.modifier, self.index_types = shape, modifier, index_types
         self.span = declaration.span
         self.primitive = found.primitive
         self.variability = self._variability()
@@ -73,6 +76,10 @@ class Leaf:
             return self.text()
         if not self.shape:
             return ex.var(self.name, self.primitive)
+        return self._elements
+
+    @cached_property
+    def _elements(self) -> Array:
         return Array(self.shape, tuple(ex.var(n, self.primitive) for n in self.names))
 
     def text(self) -> Value:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.constants import is_known, known
-from lacuna.codegen.flatten.enumerations import literal, require_same
+from lacuna.codegen.flatten.enumerations import require_same
 from lacuna.codegen.flatten.modifiers import Modifier
-from lacuna.codegen.flatten.scope import Scope, enumeration
+from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.values import (
     Array,
     Record,
@@ -167,9 +168,17 @@ def _quotient(a: Value, b: Value, span: Span) -> Value:
 
 
 def _power(a: Value, b: Value, span: Span) -> Value:
-    if isinstance(a, Array) or isinstance(b, Array):
-        raise Diagnostic("R042", "a power of an array", span, ".^ works on every element")
-    return ex.power(a, b)
+    if not (isinstance(a, Array) or isinstance(b, Array)):
+        return ex.power(a, b)
+    whole = isinstance(b, Expr) and b.op == "const" and b.type == INTEGER and b.value >= 0
+    if not whole or len(shape_of(a)) != 2 or a.shape[0] != a.shape[1]:
+        hint = "a square matrix has powers to whole numbers from 0 known at translation; .^ works on every element"
+        raise Diagnostic("R042", "a power of an array", span, hint)
+    size = range(a.shape[0])
+    result: Value = Array(a.shape, tuple(ex.const(float(i == j)) for i in size for j in size))
+    for _ in range(b.value):
+        result = multiply(result, a, span)
+    return result
 
 
 _ARITHMETIC: dict[str, Callable[[Value, Value, Span], Value]] = {
@@ -190,6 +199,7 @@ def _if(e: ast.IfExpression, scope: Scope) -> Value:
             break
         if condition.op != "const":
             chosen.append((condition, value))
+            scope = replace(scope, conditional=True)
     otherwise = lower(last, scope)
     for condition, written in reversed(chosen):
         otherwise = _choice(condition, lower(written, scope), otherwise, written.span, scope)
@@ -220,42 +230,6 @@ def _matrix(e: ast.MatrixLiteral, scope: Scope) -> Value:
     return concatenate(1, rows, e.span)
 
 
-def range_values(e: ast.Range, scope: Scope) -> Array:
-    """The numbers of a range; its bounds are known at translation."""
-    parts = [e.first, e.step, e.last]
-    values = [known(lower_scalar(p, scope, REAL), scope, p.span, "a bound of the range") if p else None for p in parts]
-    first, last = values[0].value, values[2].value
-    step = values[1].value if values[1] is not None else 1
-    if step == 0:
-        raise Diagnostic("R047", "the step of a range is 0", e.span, "it counts up or down by a step other than 0")
-    count = max(0, int((last - first) / step + 1e-9) + 1) if (last - first) / step >= 0 else 0
-    scope.context.spend(count, e.span)
-    return Array((count,), tuple(ex.const(first + i * step) for i in range(count)))
-
-
-def iterate(iterator: ast.Iterator, scope: Scope) -> tuple[Value, ...]:
-    """The values a loop variable takes, in order."""
-    if iterator.range is None:
-        hint = "say what it runs over: for i in 1:n"
-        raise Diagnostic("P018", f"the loop variable {iterator.name} has no range", iterator.span, hint)
-    if isinstance(iterator.range, ast.Ref):
-        cls = enumeration(iterator.range, scope)
-        if cls is not None:
-            return tuple(literal(cls, number) for number in range(1, len(cls.literals) + 1))
-    value = lower(iterator.range, scope)
-    if not isinstance(value, Array):
-        raise Diagnostic("R047", f"{iterator.name} runs over a scalar", iterator.span, "write 1:n or an array")
-    scope.context.spend(value.shape[0], iterator.span)
-    return tuple(value.rows())
-
-
-def _comprehension(e: ast.Comprehension, scope: Scope) -> Value:
-    first, rest = e.iterators[-1], e.iterators[:-1]
-    inner = ast.Comprehension(e.span, e.body, rest) if rest else e.body
-    rows = [lower(inner, scope.with_locals(**{first.name: v})) for v in iterate(first, scope)]
-    return stack(rows, e.span)
-
-
 def _end(e: ast.End, scope: Scope) -> Value:
     if scope.end is None:
         raise Diagnostic("R048", "'end' as a value", e.span, "it stands for the last index, inside subscripts only")
@@ -271,13 +245,13 @@ def _colon(e: ast.Colon, scope: Scope) -> Value:
 
 
 def _partial_function(e: ast.PartialFunction, scope: Scope) -> Value:
-    hint = "call the function where it is needed"
-    raise Diagnostic("R090", "functions as arguments are outside the subset", e.span, hint)
+    raise Diagnostic("R090", f"the function {e.function} where a value is needed", e.span,
+                     "hand it to an input that is a function, or call it")  # fmt: skip
 
 
 OPERATORS: dict[type, Handler] = {  # names and calls have files of their own
     ast.PartialFunction: _partial_function,
     ast.Literal: _literal, ast.Unary: _unary, ast.Binary: _binary, ast.IfExpression: _if, ast.ArrayLiteral: _array,
-    ast.MatrixLiteral: _matrix, ast.Range: range_values, ast.Comprehension: _comprehension, ast.Colon: _colon,
+    ast.MatrixLiteral: _matrix, ast.Colon: _colon,
     ast.End: _end, ast.Tuple: _tuple,
 }  # fmt: skip

@@ -12,7 +12,7 @@ from lacuna.codegen.flatten.algorithms import flatten_algorithm
 from lacuna.codegen.flatten.connections import connection_equations
 from lacuna.codegen.flatten.constants import evaluate
 from lacuna.codegen.flatten.context import Context
-from lacuna.codegen.flatten.equations import Collected
+from lacuna.codegen.flatten.equations import Collected, check_discrete
 from lacuna.codegen.flatten.instance import ArrayNode, Instance
 from lacuna.codegen.flatten.language import LOWERING
 from lacuna.codegen.flatten.leaf import Leaf
@@ -43,7 +43,7 @@ def flatten(
         inside = library.models(cls)[:5] if cls.kind == "package" else []
         hint = f"name a model in it, such as {' or '.join(inside)}" if inside else "name a complete model"
         raise Diagnostic("F003", f"{cls.path} is a {what}, not a model to simulate", cls.span, hint)
-    context = Context(library, Path(cls.span.file).resolve().parent, LOWERING)
+    context = Context(library, Path(cls.span.file).resolve().parent, LOWERING, cls.path)
     top = Instance(context, cls, "", None, _outside_modifier(modifications or {}, cls.span))
     leaves, sections = _instantiate(top)
     context.finish()
@@ -58,7 +58,10 @@ def flatten(
     model.initial_equations = initial.equations
     model.asserts += initial.asserts
     model.functions = context.functions
-    mark_discrete(model, assigned([*model.whens, *(s for a in model.algorithms for s in a.statements)]))
+    at_events = assigned([*model.whens, *(s for a in model.algorithms for s in a.statements)])
+    with context.attempt():
+        check_discrete(body.equations, set(at_events), context)
+    mark_discrete(model, at_events)
     add_used_constants(model, context, list(_all_expressions(model)))
     for scalar in context.evaluated & model.variables.keys():
         model.variables[scalar].evaluated = True

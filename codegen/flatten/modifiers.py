@@ -20,7 +20,10 @@ class Modifier:
     each: bool = False
     final: bool = False
     children: dict[str, Modifier] = field(default_factory=dict)
-    redeclare: ast.Component | None = None
+    redeclare: ast.Component | ast.Class | None = None
+    redeclared_in: Scope | None = None  # the scope a redeclaration is written in
+    tree: ast.Modification | None = None  # as written
+    weak: bool = False  # of a part of a component that is bound as a whole from further outside
     index: tuple[int, ...] = ()
 
     @property
@@ -34,7 +37,8 @@ def from_tree(tree: ast.Modification, scope: Scope, each: bool = False, final: b
     for argument in tree.arguments:
         child = from_tree(argument.modification, scope, argument.each, argument.final)
         child.span = argument.span
-        child.redeclare = argument.redeclare
+        child.redeclare, child.tree = argument.redeclare, argument.modification
+        child.redeclared_in = scope if argument.redeclare is not None else None
         present = result.children.get(argument.name)
         if present is not None:
             if (present.value is not None and child.value is not None) or child.redeclare or present.redeclare:
@@ -55,14 +59,30 @@ def merge(outer: Modifier | None, inner: Modifier | None) -> Modifier | None:
         error.notes.append((inner.span, "made final here"))
         raise error
     source = outer if outer.value is not None else inner
-    result = replace(source, children=dict(inner.children), final=outer.final or inner.final)
-    result.redeclare = outer.redeclare or inner.redeclare
+    again = outer.redeclare is not None and inner.redeclare is not None
+    if again and not inner.redeclare.replaceable:
+        hint = "write redeclare replaceable there, or remove one of them"
+        error = Diagnostic("R033", "this was redeclared and is not replaceable any more", outer.span, hint)
+        error.notes.append((inner.span, "redeclared here"))
+        raise error
+    result = replace(source, children=_inner_children(outer, inner, again), final=outer.final or inner.final)
+    chosen = outer if outer.redeclare is not None else inner
+    result.redeclare, result.redeclared_in = chosen.redeclare, chosen.redeclared_in
     result.span = outer.span
-    if outer.redeclare is not None and outer.value is None:
-        result.scope = outer.scope
     for name, child in outer.children.items():
-        result.children[name] = merge(child, inner.children.get(name))
+        result.children[name] = merge(child, result.children.get(name))
     return result
+
+
+def _inner_children(outer: Modifier, inner: Modifier, again: bool) -> dict[str, Modifier]:
+    """What is left of the parts of `inner`: of a component redeclared again what its constraining clause says; of one
+    bound as a whole by `outer` attributes only."""
+    if again:
+        clause = inner.redeclare.constraint
+        return from_tree(clause.modification, inner.redeclared_in).children if clause is not None else {}
+    if outer.value is not None:
+        return {name: replace(child, weak=True) for name, child in inner.children.items()}
+    return dict(inner.children)
 
 
 def narrow(modifier: Modifier | None, index: tuple[int, ...]) -> Modifier | None:

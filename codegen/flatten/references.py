@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import prod
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.constants import is_known, known
 from lacuna.codegen.flatten.elements import at_index
-from lacuna.codegen.flatten.enumerations import literal
+from lacuna.codegen.flatten.enumerations import IndexType, enumeration_of, index_number, literal
 from lacuna.codegen.flatten.instance import Absent, ArrayNode, Instance, Node, package_of
 from lacuna.codegen.flatten.leaf import Leaf
 from lacuna.codegen.flatten.lower import lower
@@ -16,7 +15,7 @@ from lacuna.codegen.flatten.scope import Scope, find_class, find_first, own_or_i
 from lacuna.codegen.flatten.values import Array, Record, Value, elementwise, scalars, shape_of, stack
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
-from lacuna.codegen.symbolic.expr import INTEGER, Expr
+from lacuna.codegen.symbolic.expr import BOOLEAN, Expr
 from lacuna.codegen.syntax import ast
 
 
@@ -57,7 +56,7 @@ def _walk(node: Node, ref: ast.Ref, at: int, scope: Scope) -> Value:
         if not last:
             hint = f"{node.name} is a {node.primitive}"
             raise Diagnostic("R003", f"{node.name} has no element {ref.names[at + 1]}", ref.span, hint)
-        return apply_subscripts(node.value(), subscripts, scope, ref)
+        return apply_subscripts(node.value(), subscripts, scope, ref, node.index_types)
     if isinstance(node, ArrayNode):
         return _walk_array(node, ref, at, scope)
     assert isinstance(node, Instance)
@@ -90,7 +89,7 @@ def _field(node: Node, ref: ast.Ref, scope: Scope) -> Value:
 def _walk_array(node: Node, ref: ast.Ref, at: int, scope: Scope) -> Value:
     subscripts = ref.subscripts[at]
     part = replace(ref, names=ref.names[: at + 1])
-    picked = apply_subscripts(element_numbers(node), subscripts, scope, part)
+    picked = apply_subscripts(node.numbers, subscripts, scope, part, node.index_types)
     inner = ref.subscripts[:at] + (None,) + ref.subscripts[at + 1 :]
     plain = replace(ref, subscripts=inner)
     if isinstance(picked, Expr):
@@ -109,12 +108,15 @@ def _numbered(node: ArrayNode, number: Expr, ref: ast.Ref, at: int, scope: Scope
     return elementwise(lambda a, b: ex.if_else(condition, a, b), values, ref.span, "elements")
 
 
-def element_numbers(node: Node) -> Array:
-    return Array(node.shape, tuple(ex.const(i + 1) for i in range(prod(node.shape))))
-
-
-def apply_subscripts(value: Value, subscripts: tuple[ast.Expression, ...] | None, scope: Scope, ref: ast.Ref) -> Value:
-    """value[i, :, {1, 3}]: each subscript is a number, `:` or a vector of numbers; rows come first."""
+def apply_subscripts(
+    value: Value,
+    subscripts: tuple[ast.Expression, ...] | None,
+    scope: Scope,
+    ref: ast.Ref,
+    kinds: tuple[IndexType, ...] | None = None,
+) -> Value:
+    """value[i, :, {1, 3}]: each subscript is a number, `:` or a vector of numbers; rows come first. `kinds` are the
+    types of the dimensions; where they are not known (None), any type that can index will do."""
     if subscripts is None:
         return value
     shape = shape_of(value)
@@ -124,30 +126,50 @@ def apply_subscripts(value: Value, subscripts: tuple[ast.Expression, ...] | None
     if not subscripts:
         return value
     first, rest = subscripts[0], subscripts[1:]
-    rows = value.rows()
+    later = kinds[1:] if kinds is not None else None
     if isinstance(first, ast.Colon):
-        return stack([apply_subscripts(r, rest, scope, ref) for r in rows], ref.span)
-    index = lower(first, replace(scope, end=len(rows)))
-    for item in scalars(index):
-        if not isinstance(item, Expr) or item.type != INTEGER:
-            raise Diagnostic("R044", f"a subscript of {ref} is not an Integer", first.span, "use a whole number")
+        return _stacked([apply_subscripts(r, rest, scope, ref, later) for r in value.rows()], value, ref, len(rest))
+    index = _index(first, kinds, replace(scope, end=shape[0]), ref)
     if isinstance(index, Array):
-        picked = [_row(rows, i, scope, ref, first) for i in index.items]
-        return stack([apply_subscripts(r, rest, scope, ref) for r in picked], ref.span)
+        picked = [_row(value, i, scope, ref, first) for i in index.items]
+        return _stacked([apply_subscripts(r, rest, scope, ref, later) for r in picked], value, ref, len(rest))
     if index.op == "const" or (is_known(index, scope.context) and not scope.in_function):
-        return apply_subscripts(_row(rows, index, scope, ref, first), rest, scope, ref)
+        return apply_subscripts(_row(value, index, scope, ref, first), rest, scope, ref, later)
     if scope.in_function:
-        moved = at_index(rows[0], index) if rows else None
+        moved = at_index(value.row(0), index) if shape[0] else None
         if moved is not None:
-            return apply_subscripts(moved, rest, scope, ref)
-    return _choose([apply_subscripts(r, rest, scope, ref) for r in rows], index, first, scope)
+            return apply_subscripts(moved, rest, scope, ref, later)
+    return _choose([apply_subscripts(r, rest, scope, ref, later) for r in value.rows()], index, first, scope)
 
 
-def _row(rows: list[Value], index: Expr, scope: Scope, ref: ast.Ref, written: ast.Expression) -> Value:
+def _index(written: ast.Expression, kinds: tuple[IndexType, ...] | None, scope: Scope, ref: ast.Ref) -> Value:
+    """A subscript as a number, or a vector of numbers."""
+    index = lower(written, scope)
+    items = []
+    for item in scalars(index):
+        if not isinstance(item, Expr):
+            raise Diagnostic("R044", f"a subscript of {ref} is not an Integer", written.span, "use a whole number")
+        kind = None
+        if kinds is None:
+            kind = (item,) if item.type == BOOLEAN or enumeration_of(item, scope.context) else None
+        elif kinds:
+            kind = kinds[0]
+        items.append(index_number(item, kind, scope.context, written.span))
+    return Array(index.shape, tuple(items)) if isinstance(index, Array) else items[0]
+
+
+def _stacked(rows: list[Value], value: Array, ref: ast.Ref, subscripts_left: int) -> Value:
+    """The rows as one array; of no rows, the sizes of the dimensions without a subscript are kept."""
+    if rows:
+        return stack(rows, ref.span)
+    return Array((0, *value.shape[1 + subscripts_left :]), ())
+
+
+def _row(array: Array, index: Expr, scope: Scope, ref: ast.Ref, written: ast.Expression) -> Value:
     number = known(index, scope, written.span, "the subscript").value
-    if not 1 <= number <= len(rows):
-        raise Diagnostic("R045", f"{ref}[{number}] is outside 1..{len(rows)}", written.span, "arrays start at 1")
-    return rows[number - 1]
+    if not 1 <= number <= array.shape[0]:
+        raise Diagnostic("R045", f"{ref}[{number}] is outside 1..{array.shape[0]}", written.span, "arrays start at 1")
+    return array.row(number - 1)
 
 
 def _choose(rows: list[Value], index: Expr, written: ast.Expression, scope: Scope) -> Value:
@@ -205,7 +227,7 @@ def _constant_around(ref: ast.Ref, scope: Scope) -> Node | None:
                 if owner is not None and name in (package := package_of(scope.context, owner)).elements:
                     return package.child(name)
         if current is not scope.cls or scope.instance is None:
-            package = package_of(scope.context, current)
+            package = package_of(scope.context, current.whole or current)
             if name in package.elements and package.elements[name].declaration.variability == "constant":
                 return package.child(name)
         current = current.parent
@@ -228,3 +250,15 @@ def unknown_name(ref: ast.Ref, scope: Scope) -> Diagnostic:
     if not hint:
         hint = did_you_mean(ref.names[0], scope.context.lowering.functions, "declare it")
     return Diagnostic("R002", f"there is no variable {ref.names[0]}", ref.span, hint)
+
+
+def node_of(ref: ast.Ref, scope: Scope) -> Leaf | ArrayNode | None:
+    """The array that the names of `ref` mean, of arrays on the way the first element; None for anything else."""
+    if ref.names[0] in scope.locals or scope.instance is None or ref.absolute:
+        return None
+    node: Node | None = scope.instance.child(ref.names[0])
+    for name in ref.names[1:]:
+        if isinstance(node, ArrayNode) and node.items:
+            node = node.items[0]
+        node = node.child(name) if isinstance(node, Instance) else None
+    return node if isinstance(node, Leaf | ArrayNode) else None

@@ -8,6 +8,7 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.component import Component
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.values import Value
+from lacuna.codegen.flatten.views import constrain, is_specialised, member, modified, redeclarations, view
 from lacuna.codegen.library import HOME_PACKAGE, Library
 from lacuna.codegen.suggest import did_you_mean, nearest
 from lacuna.codegen.syntax import ast
@@ -24,6 +25,8 @@ class Scope:
     end: int | None = None  # the value of `end` inside subscripts
     in_function: bool = False
     initial: bool = False  # in an initial section
+    conditional: bool = False  # under a condition not known yet: what cannot be computed may never be asked for
+    message: bool = False  # in the text of an assert
 
     def with_locals(self, **values: Value) -> Scope:
         return replace(self, locals={**self.locals, **values})
@@ -31,21 +34,84 @@ class Scope:
 
 def own_or_inherited(library: Library, cls: ast.Class, name: str, depth: int = 0) -> ast.Class | None:
     """The class `name` among those declared in `cls`, its base classes and its imports."""
-    found = library.member(cls, name)
-    if found is not None or depth > 30:
-        return found
-    for base in base_classes(library, cls):
-        found = own_or_inherited(library, base, name, depth + 1)
-        if found is not None:
-            return found
-    return None
+    found = member(library, cls, name)
+    if found is None and depth <= 30:
+        for base in base_classes(library, cls):
+            found = own_or_inherited(library, base, name, depth + 1)
+            if found is not None:
+                break
+    if found is not None and name in cls.redeclared:
+        return constrain(library, cls.redeclared[name], found, by_element=False)
+    return found
 
 
 def base_classes(library: Library, cls: ast.Class) -> list[ast.Class]:
     """Classes that `cls` extends or is an alias of; primitive types are left out."""
-    references = [e.base for e in cls.extends] + ([cls.alias.base] if cls.alias else [])
-    found = [find_class(library, cls, r, of_base=True) for r in references if str(r) not in PRIMITIVES]
-    return [f for f in found if f is not None]
+    known = library.bases.get(id(cls))
+    if known is None:
+        found = [base_class(library, cls, *clause) for clause in base_clauses(cls)]
+        known = [f for f in found if f is not None]
+        if len(known) == len(found):
+            library.bases[id(cls)] = known
+            library.kept.append(cls)
+    return known
+
+
+def base_clauses(cls: ast.Class) -> list[tuple[ast.Ref, ast.Modification]]:
+    """What `cls` extends or is a short definition of, primitive types left out, with the modifications."""
+    clauses = [(e.base, e.modification) for e in cls.extends]
+    if cls.extends_same is not None:
+        clauses.insert(0, (ast.Ref(cls.span, (cls.name,), (None,)), cls.extends_same))
+    if cls.alias is not None:
+        clauses.append((cls.alias.base, cls.alias.modification))
+    return [(base, tree) for base, tree in clauses if str(base) not in PRIMITIVES]
+
+
+def base_class(library: Library, cls: ast.Class, ref: ast.Ref, tree: ast.Modification) -> ast.Class | None:
+    """The class that a clause of `cls` names, seen with what `cls` and the modifications there redeclare."""
+    if cls.extends_same is not None and tree is cls.extends_same:
+        base = _same_of_bases(library, cls)
+    elif cls.alias is not None and cls.alias.target is not None:
+        base = cls.alias.target
+    else:
+        base = _named_base(library, cls, ref)
+    if base is None:
+        return None
+    redeclared = {n: new for n, (new, _) in redeclarations(library, cls, tree).items()} | cls.redeclared
+    if not redeclared and not (is_specialised(cls) or (base.kind == "package" and tree.arguments)):
+        return base
+    for argument in tree.arguments:
+        plain = own_or_inherited(library, base, argument.name) if argument.redeclare is None else None
+        if plain is not None and argument.name not in redeclared:
+            redeclared[argument.name] = modified(library, plain, argument.modification, cls.written, cls)
+    return view(library, base, base.parent, redeclared, cls.whole or cls)
+
+
+def _named_base(library: Library, cls: ast.Class, ref: ast.Ref) -> ast.Class | None:
+    """The class of an extends clause (looked up among what `cls` declares and outside of it) or of a short definition
+    (looked up outside of it)."""
+    if id(cls) in library.resolving:
+        raise Diagnostic("R011", f"{cls.name} is defined by itself", ref.span, "break the circle")
+    library.resolving.add(id(cls))
+    try:
+        if cls.alias is not None and cls.parent is not None:
+            return find_class(library, cls.parent, ref)
+        return find_class(library, cls, ref, of_base=True)
+    finally:
+        library.resolving.discard(id(cls))
+
+
+def _same_of_bases(library: Library, cls: ast.Class) -> ast.Class | None:
+    """The inherited class that `model extends NAME` is an extension of."""
+    for base in base_classes(library, cls.parent) if cls.parent is not None else ():
+        plain = replace(base, redeclared={n: c for n, c in base.redeclared.items() if n != cls.name})
+        found = own_or_inherited(library, plain, cls.name)
+        if found is not None:
+            if not found.replaceable:
+                hint = "declare it with 'replaceable'"
+                raise Diagnostic("R033", f"{found.name} is not replaceable", cls.span, hint)
+            return found
+    return None
 
 
 def _imported(library: Library, cls: ast.Class, name: str) -> ast.Class | None:
@@ -77,7 +143,7 @@ def find_first(library: Library, cls: ast.Class, name: str, of_base: bool = Fals
     current: ast.Class | None = cls
     while current is not None:
         if current is cls and of_base:
-            found = library.member(current, name)
+            found = member(library, current, name)
         else:
             found = own_or_inherited(library, current, name)
         found = found or _imported(library, current, name)
@@ -155,3 +221,30 @@ def enumeration(ref: ast.Ref, scope: Scope) -> ast.Class | None:
         return None
     cls = find_class(scope.context.library, scope.cls, ref)
     return cls if cls is not None and cls.literals is not None else None
+
+
+def boolean_type(ref: ast.Ref, scope: Scope, depth: int = 0) -> bool:
+    """Does `ref` name the type Boolean, or one declared as it?"""
+    if scope.instance is not None and ref.names[0] in scope.instance.elements:
+        return False
+    cls = find_class(scope.context.library, scope.cls, ref)
+    if cls is None:
+        return str(ref) == "Boolean"
+    alias = cls.alias
+    return (
+        alias is not None
+        and not alias.dimensions
+        and depth < 30
+        and boolean_type(
+            alias.base, replace(scope, cls=cls.parent or scope.context.library.root, instance=None), depth + 1
+        )
+    )
+
+
+def literals_of(path: str, scope: Scope) -> list[str]:
+    """Names of the literals of the enumeration with this full name."""
+    names = path.split(".")
+    cls: ast.Class | None = scope.context.library.root
+    for name in names:
+        cls = own_or_inherited(scope.context.library, cls, name) if cls is not None else None
+    return [name for name, _ in cls.literals] if cls is not None and cls.literals else []

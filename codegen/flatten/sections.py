@@ -6,7 +6,8 @@ from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.asserts import lower_assert
 from lacuna.codegen.flatten.conditionals import flatten_if
-from lacuna.codegen.flatten.equations import Collected, continuous_equalities, unroll
+from lacuna.codegen.flatten.equations import Collected, equalities, unroll
+from lacuna.codegen.flatten.interpret import effect
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.when import flatten_when
 from lacuna.codegen.syntax import ast
@@ -21,7 +22,7 @@ def flatten_items(items: list[ast.Item], scope: Scope, out: Collected) -> None:
 
 def flatten_item(item: ast.Item, scope: Scope, out: Collected) -> None:
     if isinstance(item, ast.Equality):
-        out.equations += continuous_equalities(item, scope)
+        out.equations += equalities(item, scope)
     elif isinstance(item, ast.Connect):
         out.connections.append((item, scope))
     elif isinstance(item, ast.If):
@@ -33,19 +34,18 @@ def flatten_item(item: ast.Item, scope: Scope, out: Collected) -> None:
     elif isinstance(item, ast.When):
         out.whens.append(flatten_when(item, scope))
     else:
-        out.asserts.append(assertion(item, scope))
+        out.asserts += assertion(item, scope)
 
 
-def assertion(item: ast.Item, scope: Scope) -> flat.Assert:
-    """assert(condition, message, level) in an equation section. Raises R056 for anything else standing alone."""
+def assertion(item: ast.Item, scope: Scope) -> list[flat.Assert]:
+    """assert(condition, message, level), or a call of a function for what it asserts. Raises R056 for an operator."""
     call = item.call if isinstance(item, ast.Procedure) else None
     name = str(call.function) if call else ""
     if name == "assert":
-        return lower_assert(call, scope)
+        return [lower_assert(call, scope)]
     if name in ("reinit", "terminate"):
         hint = f"put it under a condition: when ... then {name}(...); end when;"
         raise Diagnostic("R056", f"{name} outside of when", item.span, hint)
     if name.startswith("Connections."):
         raise Diagnostic("R091", f"{name} is outside the subset", item.span, "write the equations out")
-    hint = "an equation has two sides; assert(...) can stand alone"
-    raise Diagnostic("R056", f"a call of {name} is no equation", item.span, hint)
+    return effect(item, scope)

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.evaluate import evaluate_dimensions
 from lacuna.codegen.flatten.modifiers import Modifier, from_tree, merge
-from lacuna.codegen.flatten.scope import PRIMITIVES, Scope, find_class, unknown_class
+from lacuna.codegen.flatten.scope import PRIMITIVES, Scope, base_class, find_class, unknown_class
 from lacuna.codegen.syntax import ast
 
 ATTRIBUTES = {
@@ -40,13 +41,21 @@ def resolve_type(reference: ast.Ref, scope: Scope, depth: int = 0) -> Type:
     cls = find_class(library, scope.cls, reference, of_base=depth > 0)
     if cls is None:
         raise unknown_class(library, scope.cls, reference, "type or class")
+    return type_of(cls, scope.context, depth)
+
+
+def type_of(cls: ast.Class, context: Context, depth: int = 0) -> Type:
+    """What a class is as the type of a component."""
     if cls.literals is not None:
         return Type("Integer", cls, tuple(name for name, _ in cls.literals))
-    inside = Scope(scope.context, cls, None)
+    inside = cls.written if isinstance(cls.written, Scope) else Scope(context, cls, None)
     if cls.alias is not None:
-        found = resolve_type(cls.alias.base, inside, depth + 1)
+        found = _of_alias(cls, context, depth)
         if found.primitive is None and not cls.alias.dimensions:
             return Type(None, cls)
+        if cls.constrained is not None:
+            tree, around = cls.constrained
+            found.modifier = merge(from_tree(tree, Scope(context, around, None)), found.modifier)
         found.modifier = merge(from_tree(cls.alias.modification, inside), found.modifier)
         found.dimensions = evaluate_dimensions(cls.alias.dimensions, inside, None, cls.name) + found.dimensions
         found.causality = cls.alias.causality or found.causality
@@ -57,6 +66,18 @@ def resolve_type(reference: ast.Ref, scope: Scope, depth: int = 0) -> Type:
             found.modifier = merge(from_tree(clause.modification, inside), found.modifier)
             return found
     return Type(None, cls)
+
+
+def _of_alias(cls: ast.Class, context: Context, depth: int) -> Type:
+    reference = cls.alias.base
+    if cls.alias.target is None and str(reference) in PRIMITIVES:
+        return Type(str(reference))
+    base = base_class(context.library, cls, reference, cls.alias.modification)
+    if base is None:
+        raise unknown_class(context.library, cls, reference, "type or class")
+    if depth > 20:
+        raise Diagnostic("R011", f"the type {reference} is defined by itself", reference.span, "break the circle")
+    return type_of(base, context, depth + 1)
 
 
 def _is_primitive(base: ast.Ref, scope: Scope, depth: int) -> bool:

@@ -22,8 +22,14 @@ class Array:
         """Along the first dimension."""
         if len(self.shape) == 1:
             return list(self.items)
+        return [self.row(i) for i in range(self.shape[0])]
+
+    def row(self, i: int) -> Value:
+        """Number `i`, from 0, along the first dimension."""
+        if len(self.shape) == 1:
+            return self.items[i]
         step = prod(self.shape[1:])
-        return [Array(self.shape[1:], self.items[i * step : (i + 1) * step]) for i in range(self.shape[0])]
+        return Array(self.shape[1:], self.items[i * step : (i + 1) * step])
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +40,23 @@ class Record:
     fields: dict[str, Value]
 
 
-Value = Expr | str | Array | Record
+@dataclass(frozen=True, slots=True)
+class FunctionValue:
+    """A function as a value, some of its inputs bound (Modelica 3.6, 12.4.2)."""
+
+    cls: object  # ast.Class
+    bound: dict[str, Value]
+
+
+@dataclass(frozen=True, slots=True)
+class ExternalValue:
+    """An external object: what its constructor made of its arguments."""
+
+    cls: object  # ast.Class
+    data: object
+
+
+Value = Expr | str | Array | Record | FunctionValue | ExternalValue
 
 
 def shape_of(value: Value) -> tuple[int, ...]:
@@ -51,7 +73,9 @@ def scalars(value: Value) -> list[Expr | str]:
         return list(value.items)
     if isinstance(value, Record):
         return [s for field in value.fields.values() for s in scalars(field)]
-    return [value]
+    if isinstance(value, FunctionValue):
+        return [s for bound in value.bound.values() for s in scalars(bound)]
+    return [] if isinstance(value, ExternalValue) else [value]
 
 
 def indices(shape: tuple[int, ...]) -> Iterator[tuple[int, ...]]:
@@ -66,7 +90,7 @@ def stack(rows: list[Value], span: Span) -> Array:
         found = " and ".join(shape_text(s) for s in sorted(shapes))
         hint = "every element of an array has the same size"
         raise Diagnostic("R040", f"the elements differ in size: {found}", span, hint)
-    if any(isinstance(r, Record) for r in rows):
+    if any(isinstance(r, Record | FunctionValue | ExternalValue) for r in rows):
         raise Diagnostic("R041", "an array of records cannot be used as a value", span, "use the fields one by one")
     shape = shapes.pop() if shapes else ()
     return Array((len(rows), *shape), tuple(s for r in rows for s in scalars(r)))
@@ -75,6 +99,8 @@ def stack(rows: list[Value], span: Span) -> Array:
 def elementwise(function: Callable[..., Expr], values: list[Value], span: Span, what: str) -> Value:
     """`function` on corresponding elements; scalars go with every element."""
     for v in values:
+        if isinstance(v, FunctionValue | ExternalValue):
+            raise Diagnostic("R041", f"{what} of a function or an external object", span, "it works on numbers")
         if isinstance(v, Record | str) or (isinstance(v, Array) and any(isinstance(i, str) for i in v.items)):
             found = "a record" if isinstance(v, Record) else "a String"
             raise Diagnostic("R041", f"{what} of {found}", span, "it works on numbers and Booleans")

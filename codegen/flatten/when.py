@@ -7,6 +7,7 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.asserts import lower_assert
 from lacuna.codegen.flatten.constants import is_known
 from lacuna.codegen.flatten.equations import check_target, check_types, equalities, origin_of, unroll
+from lacuna.codegen.flatten.interpret import effect
 from lacuna.codegen.flatten.lower import lower, lower_scalar
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.values import scalars, shape_of, shape_text
@@ -104,8 +105,7 @@ def procedure(item: ast.Procedure, scope: Scope) -> list[flat.Statement]:
         return [flat.Terminate(message, item.span)]
     if name == "reinit":
         return _reinit(call, scope)
-    hint = "only assert, terminate and reinit stand alone"
-    raise Diagnostic("R056", f"a call of {name} is no statement here", item.span, hint)
+    return [*effect(item, scope)]
 
 
 def _reinit(call: ast.Call, scope: Scope) -> list[flat.Statement]:

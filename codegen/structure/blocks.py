@@ -44,10 +44,9 @@ def strong_components(needs: Sequence[Sequence[int]]) -> list[list[int]]:
                 parent = work[-1][0]
                 low[parent] = min(low[parent], low[node])
             if low[node] == number[node]:
-                start = stack.index(node)
-                component = stack[start:]
-                del stack[start:]
-                for member in component:
-                    on_stack[member] = False
+                component = []
+                while on_stack[node]:
+                    component.append(stack.pop())
+                    on_stack[component[-1]] = False
                 components.append(sorted(component))
     return components

@@ -10,12 +10,13 @@ from dataclasses import dataclass, replace
 
 from lacuna.codegen.structure.blocks import strong_components
 from lacuna.codegen.structure.matching import Matching
+from lacuna.codegen.structure.reach import Reach, users_of
 from lacuna.codegen.structure.system import Row
 from lacuna.codegen.structure.tearing import Assignment, Tearing
 from lacuna.codegen.symbolic.affine import UNSAFE, isolate
 from lacuna.codegen.symbolic.differentiate import Differentiator
-from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, neg, substitute
-from lacuna.codegen.symbolic.leaves import leaves
+from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, neg
+from lacuna.codegen.symbolic.leaves import leaves, with_leaves
 
 
 @dataclass(eq=False)
@@ -102,26 +103,32 @@ def _is_linear(rows: list[Row], unknowns: set[Expr]) -> bool:
 def _linear(chain: list[Assignment], tears: list[Expr], residuals: list[Row]) -> LinearBlock:
     at_zero: dict[Expr, Expr] = dict.fromkeys(tears, ZERO)
     for step in chain:
-        at_zero[step.unknown] = substitute(step.value, at_zero)
-    right = [neg(substitute(row.residual, at_zero)) for row in residuals]
-    columns = [_column(tear, chain, residuals) for tear in tears]
-    matrix = [[column[k] for column in columns] for k in range(len(residuals))]
+        at_zero[step.unknown] = with_leaves(step.value, at_zero)
+    right = [neg(with_leaves(row.residual, at_zero)) for row in residuals]
+    matrix = _jacobian(tears, chain, residuals)
     return LinearBlock(tears, matrix, right, chain, residuals)
 
 
-def _column(tear: Expr, chain: list[Assignment], residuals: list[Row]) -> list[Expr]:
-    """d residuals / d tear, through the chain."""
-    seeds = {tear: ONE}
-    differentiate = Differentiator(lambda n: seeds.get(n, ZERO))
-    for step in chain:
-        seeds[step.unknown] = differentiate(step.value)
-    return [differentiate(row.residual) for row in residuals]
+def _jacobian(tears: list[Expr], chain: list[Assignment], residuals: list[Row]) -> list[list[Expr]]:
+    """d residuals / d tears, through the chain."""
+    matrix: list[list[Expr]] = [[ZERO] * len(tears) for _ in residuals]
+    users = users_of(leaves(step.value) for step in chain), users_of(row.leaves for row in residuals)
+    for column, tear in enumerate(tears):
+        seeds = {tear: ONE}
+        differentiate = Differentiator(lambda n, seeds=seeds: seeds.get(n, ZERO), seeds.keys())
+        steps, rows = Reach(users[0], seeds), Reach(users[1], seeds)
+        for k in steps:
+            unknown = chain[k].unknown
+            seeds[unknown] = differentiate(chain[k].value)
+            steps.add(unknown)
+            rows.add(unknown)
+        for k in rows:
+            matrix[k][column] = differentiate(residuals[k].residual)
+    return matrix
 
 
 def _nonlinear(chain: list[Assignment], tears: list[Expr], residuals: list[Row]) -> NonlinearBlock:
-    columns = [_column(tear, chain, residuals) for tear in tears]
-    jacobian = [[column[k] for column in columns] for k in range(len(residuals))]
-    return NonlinearBlock(tears, chain, residuals, jacobian)
+    return NonlinearBlock(tears, chain, residuals, _jacobian(tears, chain, residuals))
 
 
 def unknowns_of(step: Step) -> list[Expr]:

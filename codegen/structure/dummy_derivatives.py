@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import reduce
+import heapq
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
@@ -96,9 +97,10 @@ def _choose_dummies(
 def _watches(pivots: dict[Row, Expr], states: list[Expr], model: flat.FlatModel) -> list[flat.Assert]:
     """Asserts that the pivots which vary stay large enough beside those of the derivatives of states."""
     found = []
+    position = {v: k for k, v in enumerate(states)}
     for row, dummy in pivots.items():
         pivot = partial(row.residual, dummy)
-        beside = [v for v in states if v in row.leaves]
+        beside = sorted((v for v in row.leaves if v in position), key=position.__getitem__)
         if is_parametric(pivot, model.variables) or not beside:
             continue
         squares = [mul(slope, slope) for slope in (partial(row.residual, v) for v in beside)]
@@ -124,30 +126,46 @@ def _pivots(
     reset: set[str],
 ) -> dict[Row, Expr]:
     """For each row one of the candidates, with a regular Jacobian at the start values (Gaussian elimination)."""
-    matrix = [[_entry(row, v, values) for v in candidates] for row in rows]
-    scale = [max(map(abs, line), default=0.0) or 1.0 for line in matrix]
-    matrix = [[a / s for a in line] for line, s in zip(matrix, scale, strict=True)]
+    column = {v: k for k, v in enumerate(candidates)}
+    matrix = [_scaled({column[n]: _entry(row, n, values) for n in row.leaves if n in column}) for row in rows]
+    users: list[set[int]] = [set() for _ in candidates]
+    for r, line in enumerate(matrix):
+        for c in line:
+            users[c].add(r)
     keys = [_keep(model, v, variables[v], reset) for v in candidates]
+
+    def entry(r: int, c: int) -> tuple:
+        """Sorts first: the weakest candidate, of those the largest pivot, of those the last declared."""
+        return keys[c], -abs(matrix[r][c]), -c, r
+
+    queue = [entry(r, c) for r, line in enumerate(matrix) for c in line if abs(line[c]) > PIVOT]
+    heapq.heapify(queue)
     chosen: dict[Row, Expr] = {}
-    left_rows, left_columns = list(range(len(rows))), list(range(len(candidates)))
-    while left_rows:
-        good = [(r, c) for c in left_columns for r in left_rows if abs(matrix[r][c]) > PIVOT]
-        if not good:
-            _refuse(rows, candidates)
-        weakest = min(keys[c] for _, c in good)
-        r, c = max(((r, c) for r, c in good if keys[c] == weakest), key=lambda p: (abs(matrix[p[0]][p[1]]), p[1]))
-        left_rows.remove(r)
-        left_columns.remove(c)
+    while queue:
+        found = heapq.heappop(queue)
+        c, r = -found[2], found[3]
+        if rows[r] in chosen or c not in matrix[r] or entry(r, c) != found:
+            continue  # eliminated, or another number by now
         chosen[rows[r]] = candidates[c]
-        for other in left_rows:
-            factor = matrix[other][c] / matrix[r][c]
-            matrix[other] = [a - factor * b for a, b in zip(matrix[other], matrix[r], strict=True)]
+        pivot = matrix[r].pop(c)
+        for other in sorted(o for o in users[c] if rows[o] not in chosen):
+            factor = matrix[other].pop(c) / pivot
+            for k, a in matrix[r].items():
+                matrix[other][k] = matrix[other].get(k, 0.0) - factor * a
+                users[k].add(other)
+                if abs(matrix[other][k]) > PIVOT:
+                    heapq.heappush(queue, entry(other, k))
+    if len(chosen) < len(rows):
+        _refuse(rows, candidates)
     return chosen
 
 
+def _scaled(line: dict[int, float]) -> dict[int, float]:
+    scale = max(map(abs, line.values()), default=0.0) or 1.0
+    return {c: a / scale for c, a in line.items()}
+
+
 def _entry(row: Row, v: Expr, values: DeclaredValues) -> float:
-    if v not in row.leaves:
-        return 0.0
     value = values(partial(row.residual, v))
     return 1.0 if value is None else float(value)
 

@@ -72,6 +72,7 @@ class _Pantelides:
         self.derivative_of: dict[Row, Row] = {}
         self.has_derivative: set[Expr] = set()  # variables whose derivative is in the system too
         self.row_of: dict[Expr, Row] = {}
+        self.variable_of: dict[Row, Expr] = {}
         for row in rows:
             self._note(row)
 
@@ -112,12 +113,14 @@ class _Pantelides:
         return False
 
     def _flip(self, v: Expr, reached_from: dict[Expr, Row]) -> None:
-        matched = {row: variable for variable, row in self.row_of.items()}
         while v is not None:
             row = reached_from[v]
-            before = matched.get(row)
-            self.row_of[v] = row
+            before = self.variable_of.get(row)
+            self._match(v, row)
             v = before
+
+    def _match(self, v: Expr, row: Row) -> None:
+        self.row_of[v], self.variable_of[row] = row, v
 
     def _differentiate_all(self, rows: list[Row], variables: list[Expr]) -> None:
         for row in rows:
@@ -130,4 +133,6 @@ class _Pantelides:
             self._note(self.derivative_of[row])
         for v in variables:
             if v in self.row_of:
-                self.row_of[der(v)] = self.derivative_of[self.row_of.pop(v)]
+                row = self.row_of.pop(v)
+                del self.variable_of[row]
+                self._match(der(v), self.derivative_of[row])

@@ -63,13 +63,15 @@ class Matching:
 
     def overdetermined(self, unmatched_rows: Sequence[int]) -> tuple[list[int], list[int]]:
         """(rows, columns) reached by alternating paths from unmatched rows: more equations than unknowns."""
-        rows, columns = list(unmatched_rows), []
-        for row in rows:
+        rows, columns = dict.fromkeys(unmatched_rows), dict[int, None]()
+        queue = list(rows)
+        for row in queue:
             for column in self.columns[row]:
-                if column not in columns:
-                    columns.append(column)
-                    if self.row_of[column] >= 0 and self.row_of[column] not in rows:
-                        rows.append(self.row_of[column])
+                owner = self.row_of[column]
+                if column not in columns and owner >= 0 and owner not in rows:
+                    rows[owner] = None
+                    queue.append(owner)
+                columns[column] = None
         return sorted(rows), sorted(columns)
 
     def underdetermined(self, unmatched_columns: Sequence[int]) -> tuple[list[int], list[int]]:
@@ -78,11 +80,13 @@ class Matching:
         for row, columns in enumerate(self.columns):
             for column in columns:
                 users.setdefault(column, []).append(row)
-        rows, columns = [], list(unmatched_columns)
-        for column in columns:
+        rows, columns = dict[int, None](), dict.fromkeys(unmatched_columns)
+        queue = list(columns)
+        for column in queue:
             for row in users.get(column, ()):
-                if row not in rows:
-                    rows.append(row)
-                    if self.column_of[row] >= 0 and self.column_of[row] not in columns:
-                        columns.append(self.column_of[row])
+                owned = self.column_of[row]
+                if row not in rows and owned >= 0 and owned not in columns:
+                    columns[owned] = None
+                    queue.append(owned)
+                rows[row] = None
         return sorted(rows), sorted(columns)

@@ -5,12 +5,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import reduce
+from operator import or_
 
 from lacuna.codegen.structure.causal import LinearBlock, Step, unknowns_of
+from lacuna.codegen.structure.reach import Reach, Users, users_of
 from lacuna.codegen.structure.system import Row, System
-from lacuna.codegen.structure.tearing import Assignment, Tearing
+from lacuna.codegen.structure.tearing import Assignment, Tearing, Torn
 from lacuna.codegen.symbolic.differentiate import Differentiator
-from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, is_const, substitute, var
+from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, der, is_const, substitute, var
 from lacuna.codegen.symbolic.leaves import leaves
 
 
@@ -26,11 +29,13 @@ class ResidualForm:
 def residual_form(system: System, explicit: Sequence[Step], tearing: Tearing) -> ResidualForm:
     """Derivatives that equal a state (speeds) are taken from it everywhere but in the equation that says so. Where the
     sequence would amplify rounding, unknowns of linear blocks of the explicit form are left to the integrator whole."""
-    speeds = dict(filter(None, (_speed(row, system) for row in system.rows)))
-    rows = [row if _speed(row, system) else _with_speeds(row, speeds) for row in system.rows]
+    states = set(system.states)
+    speeds = dict(filter(None, (_speed(row, states) for row in system.rows)))
+    rows = [row if _speed(row, states) else _with_speeds(row, speeds) for row in system.rows]
     rough = [d for d in system.derivatives if d not in speeds]
     algebraics = [var(n) for n in system.algebraics]
-    torn = tearing.tear(rows, algebraics, rough)
+    orders = (tearing.tear(rows, algebraics, rough, values_first=first) for first in (False, True))
+    torn = min(orders, key=lambda torn: nonzeros(torn, system))
     if tearing.amplifies(torn, map(var, system.states)):
         blocks = [unknowns_of(step) for step in explicit if isinstance(step, LinearBlock)]
         torn = tearing.tear(rows, algebraics, rough, [u for block in blocks for u in block if u.op == "var"])
@@ -38,16 +43,31 @@ def residual_form(system: System, explicit: Sequence[Step], tearing: Tearing) ->
     return ResidualForm(used, torn.tears, torn.residuals)
 
 
-def _speed(row: Row, system: System) -> tuple[Expr, Expr] | None:
+def nonzeros(torn: Torn, system: System) -> int:
+    """Entries of the Jacobian that the integrator would see: a sum of currents carried along a ladder, say, makes each
+    equation depend on all derivatives before it, where differences of voltages know their neighbours only."""
+    columns = {var(name): 1 << k for k, name in enumerate(system.states)}
+    columns |= {der(n): bit for n, bit in columns.items()}
+    columns |= {tear: 1 << k for k, tear in enumerate(torn.tears, len(system.states))}
+
+    def of(used: Iterable[Expr]) -> int:
+        return reduce(or_, (columns.get(n, 0) for n in used), 0)
+
+    for step in torn.assignments:
+        columns[step.unknown] = of(leaves(step.value))
+    return sum(of(row.leaves).bit_count() for row in torn.residuals)
+
+
+def _speed(row: Row, states: set[str]) -> tuple[Expr, Expr] | None:
     """(der(x), w) of an equation w = der(x) between states."""
     for derivative, value in ((row.lhs, row.rhs), (row.rhs, row.lhs)):
-        if derivative.op == "der" and value.op == "var" and value.value in system.states:
+        if derivative.op == "der" and value.op == "var" and value.value in states:
             return derivative, value
     return None
 
 
 def _with_speeds(row: Row, speeds: dict[Expr, Expr]) -> Row:
-    if row.leaves.isdisjoint(speeds):
+    if not any(n in speeds for n in row.leaves):
         return row
     return Row(substitute(row.lhs, speeds), substitute(row.rhs, speeds), row.source, row.integral)
 
@@ -79,19 +99,21 @@ def jacobian(form: ResidualForm, system: System) -> Jacobian:
     """Forward differentiation through the assigned sequence, one column at a time. The state x and its
     derivative share a column: their seeds are 1 and cj."""
     result = Jacobian([], [])
-    used = form.assignments
+    users = (users_of(leaves(s.value) for s in form.assignments), users_of(leaves(r.residual) for r in form.residuals))
     for name, derivative in zip(system.states, system.derivatives, strict=True):
-        result.entries.append(_column({var(name): ONE, derivative: CJ}, used, form.residuals, result, name))
+        result.entries.append(_column({var(name): ONE, derivative: CJ}, form, users, result, name))
     for tear in form.tears:
-        result.entries.append(_column({tear: ONE}, used, form.residuals, result, str(tear.value)))
+        result.entries.append(_column({tear: ONE}, form, users, result, str(tear.value)))
     return result
 
 
 def _column(
-    seeds: dict[Expr, Expr], chain: list[Assignment], residuals: list[Row], result: Jacobian, name: str
+    seeds: dict[Expr, Expr], form: ResidualForm, users: tuple[Users, Users], result: Jacobian, name: str
 ) -> list[tuple[int, Expr]]:
-    differentiate = Differentiator(lambda n: seeds.get(n, ZERO))
-    for step in chain:
+    differentiate = Differentiator(lambda n: seeds.get(n, ZERO), seeds.keys())
+    chain, rows = Reach(users[0], seeds), Reach(users[1], seeds)
+    for k in chain:
+        step = form.assignments[k]
         value = differentiate(step.value)
         if is_const(value, 0):
             continue
@@ -100,5 +122,7 @@ def _column(
             result.tangents.append((tangent, value))
             value = tangent
         seeds[step.unknown] = value
-    columns = ((k, differentiate(row.residual)) for k, row in enumerate(residuals))
+        chain.add(step.unknown)
+        rows.add(step.unknown)
+    columns = ((k, differentiate(form.residuals[k].residual)) for k in rows)
     return [(k, value) for k, value in columns if not is_const(value, 0)]

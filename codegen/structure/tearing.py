@@ -11,9 +11,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from functools import cache
+import heapq
 
+from lacuna.codegen.structure.reach import Reach, Users, users_of
 from lacuna.codegen.structure.system import DeclaredValues, Row
-from lacuna.codegen.symbolic.affine import UNSAFE, division_rank, isolate
+from lacuna.codegen.symbolic.affine import UNSAFE, division_rank, isolate, nonlinear
 from lacuna.codegen.symbolic.differentiate import partial
 from lacuna.codegen.symbolic.expr import Expr, div
 
@@ -42,7 +45,6 @@ class Tearing:
     def __init__(self, values: DeclaredValues):
         self._values = values
         self._explicit: dict[tuple[Row, Expr], tuple[int, Expr | None]] = {}
-        self._linear: dict[tuple[Row, Expr], bool] = {}
 
     def explicit(self, row: Row, unknown: Expr) -> tuple[int, Expr | None]:
         """(rank, value) of `unknown` from `row`; rank UNSAFE and None where it may not be used."""
@@ -53,58 +55,20 @@ class Tearing:
             self._explicit[key] = (rank, div(*parts) if rank < UNSAFE else None)
         return self._explicit[key]
 
-    def _is_linear(self, row: Row, unknown: Expr) -> bool:
-        key = (row, unknown)
-        if key not in self._linear:
-            self._linear[key] = isolate(row.lhs, row.rhs, unknown) is not None
-        return self._linear[key]
+    def is_linear(self, row: Row, unknown: Expr) -> bool:
+        return unknown not in nonlinear(row.lhs) and unknown not in nonlinear(row.rhs)
 
     def tear(
-        self, rows: Sequence[Row], unknowns: Sequence[Expr], rough: Iterable[Expr] = (), given: Sequence[Expr] = ()
+        self,
+        rows: Sequence[Row],
+        unknowns: Sequence[Expr],
+        rough: Iterable[Expr] = (),
+        given: Sequence[Expr] = (),
+        values_first: bool = False,
     ) -> Torn:
         """Order `rows` for `unknowns`, of which `given` are tears from the start; every leaf that is not among them is
-        known, `rough` leaves only roughly."""
-        position = {u: k for k, u in enumerate(unknowns)}
-        missing = {row: {u for u in row.leaves if u in position} for row in rows}
-        users: dict[Expr, list[Row]] = {u: [] for u in unknowns}
-        for row in rows:
-            for u in missing[row]:
-                users[u].append(row)
-        number = {row: k for k, row in enumerate(rows)}
-        torn = Torn()
-        ready = [row for row in rows if len(missing[row]) <= 1]
-
-        def settle(unknown: Expr) -> None:
-            del users_left[unknown]
-            for row in users[unknown]:
-                missing[row].discard(unknown)
-                if row in unused and len(missing[row]) == 1:
-                    ready.append(row)
-
-        users_left, unused, rough = dict(users), dict.fromkeys(rows), set(rough)
-
-        def spoils(row: Row, unknown: Expr) -> bool:
-            """Whether `row` would carry rough values through `unknown` into a nonlinear equation."""
-            others = (other for other in users[unknown] if other in unused and other is not row)
-            return not rough.isdisjoint(row.leaves) and not all(self._is_linear(other, unknown) for other in others)
-
-        for unknown in given:
-            torn.tears.append(unknown)
-            settle(unknown)
-        while users_left:
-            choice = self._best(ready, missing, unused, number, spoils)
-            if choice is None:
-                unknown = min(users_left, key=lambda u: (-sum(r in unused for r in users[u]), position[u]))
-                torn.tears.append(unknown)
-            else:
-                row, unknown, value = choice
-                torn.assignments.append(Assignment(unknown, value, row))
-                del unused[row]
-                if not rough.isdisjoint(row.leaves):
-                    rough.add(unknown)
-            settle(unknown)
-        torn.residuals = list(unused)
-        return torn
+        known, `rough` leaves only roughly. `values_first`: rows without derivatives before rows without divisions."""
+        return _Order(self, rows, unknowns, rough, values_first).run(given)
 
     def amplifies(self, torn: Torn, known: Iterable[Expr] = ()) -> bool:
         """Whether the chain of assignments blows up rounding of the tears or of `known` leaves.
@@ -112,33 +76,126 @@ class Tearing:
         A long chain may do so without bound, as the recursion along a ladder of resistors does; then a block is better
         solved whole. Only quantities of one unit are compared; slopes are those at the declared values.
         """
-        return any(self._largest_slope(torn, leaf) > AMPLIFICATION for leaf in (*torn.tears, *known))
+        users = users_of(step.row.leaves for step in torn.assignments)
+        place = {step.unknown: k for k, step in enumerate(torn.assignments)}
+        own = cache(lambda k, n: self._values(partial(torn.assignments[k].value, n)))
+        return any(self._largest_slope(torn, leaf, users, place, own) > AMPLIFICATION for leaf in (*torn.tears, *known))
 
-    def _largest_slope(self, torn: Torn, leaf: Expr) -> float:
+    def _largest_slope(
+        self, torn: Torn, leaf: Expr, users: Users, place: dict[Expr, int], own: Callable[[int, Expr], float | None]
+    ) -> float:
         slopes, largest = {leaf: 1.0}, 0.0
-        for step in torn.assignments:
-            used = [n for n in slopes if n in step.row.leaves and n is not step.unknown]
-            parts = [(self._values(partial(step.value, n)), slopes[n]) for n in used]
-            if used:
-                slopes[step.unknown] = sum(own * before for own, before in parts if own is not None)
-                if step.unknown.op == leaf.op and self._values.unit(step.unknown) == self._values.unit(leaf):
-                    largest = max(largest, abs(slopes[step.unknown]))
+        reach = Reach(users, [leaf])
+        for k in reach:
+            step = torn.assignments[k]
+            used = sorted((n for n in step.row.leaves if n in slopes and n is not step.unknown),
+                          key=lambda n: place.get(n, -1))  # fmt: skip
+            parts = [(own(k, n), slopes[n]) for n in used]
+            slopes[step.unknown] = sum(slope * before for slope, before in parts if slope is not None)
+            reach.add(step.unknown)
+            if step.unknown.op == leaf.op and self._values.unit(step.unknown) == self._values.unit(leaf):
+                largest = max(largest, abs(slopes[step.unknown]))
         return largest
 
-    def _best(
+
+class _Order:
+    """One run of tearing. Two heaps hold what may come next, so that a step costs what its row and unknown hold:
+    rows with one unknown left, constants before parameters as divisors, values before derivatives; and unknowns by
+    the equations that still use them."""
+
+    def __init__(
         self,
-        ready: list[Row],
-        missing: dict[Row, set[Expr]],
-        unused: dict[Row, None],
-        number: dict[Row, int],
-        spoils: Callable[[Row, Expr], bool],
-    ) -> tuple[Row, Expr, Expr] | None:
-        """The explicit equation to use next: constants before parameters as divisors, short before long."""
-        ready[:] = [row for row in ready if row in unused and len(missing[row]) == 1]
-        found = []
-        for row in ready:
-            (unknown,) = missing[row]
-            rank, value = self.explicit(row, unknown)
-            if value is not None and not spoils(row, unknown):
-                found.append(((rank, any(n.op == "der" for n in row.leaves), number[row]), row, unknown, value))
-        return min(found, key=lambda f: f[0])[1:] if found else None
+        tearing: Tearing,
+        rows: Sequence[Row],
+        unknowns: Sequence[Expr],
+        rough: Iterable[Expr],
+        values_first: bool,
+    ):
+        self._tearing, self._rows, self._rough = tearing, rows, set(rough)
+        self._values_first = values_first
+        self._open = dict.fromkeys(unknowns)
+        self._missing = {row: {u for u in row.leaves if u in self._open} for row in rows}
+        self._users: dict[Expr, list[Row]] = {u: [] for u in unknowns}
+        for row in rows:
+            for u in self._missing[row]:
+                self._users[u].append(row)
+        self._number = {row: k for k, row in enumerate(rows)}
+        self._unused = dict.fromkeys(rows)
+        self._uses = {u: len(users) for u, users in self._users.items()}
+        self._tears = [(-self._uses[u], k, u) for k, u in enumerate(unknowns)]
+        heapq.heapify(self._tears)
+        self._ready: list[tuple[tuple[int, int, int], Row, Expr, Expr]] = []
+        self._torn = Torn()
+
+    def run(self, given: Sequence[Expr]) -> Torn:
+        torn = self._torn
+        for row in self._rows:
+            self._offer(row)
+        for unknown in given:
+            torn.tears.append(unknown)
+            self._settle(unknown)
+        while self._open:
+            choice = self._best()
+            if choice is None:
+                unknown = self._most_used()
+                torn.tears.append(unknown)
+            else:
+                row, unknown, value = choice
+                torn.assignments.append(Assignment(unknown, value, row))
+                self._use(row)
+                if not self._rough.isdisjoint(row.leaves):
+                    self._rough.add(unknown)
+            self._settle(unknown)
+        torn.residuals = list(self._unused)
+        return torn
+
+    def _offer(self, row: Row) -> None:
+        """Enter a row with one unknown left as a way to compute it, if it is explicit in it."""
+        if len(self._missing[row]) != 1:
+            return
+        (unknown,) = self._missing[row]
+        rank, value = self._tearing.explicit(row, unknown)
+        if value is not None:
+            derivatives = any(n.op == "der" for n in row.leaves)
+            ranks = (derivatives, rank) if self._values_first else (rank, derivatives)
+            key = (*ranks, self._number[row])
+            heapq.heappush(self._ready, (key, row, unknown, value))
+
+    def _settle(self, unknown: Expr) -> None:
+        del self._open[unknown]
+        for row in self._users[unknown]:
+            self._missing[row].discard(unknown)
+            if row in self._unused:
+                self._offer(row)
+
+    def _use(self, row: Row) -> None:
+        del self._unused[row]
+        for n in row.leaves:
+            if n in self._uses:
+                self._uses[n] -= 1
+
+    def _best(self) -> tuple[Row, Expr, Expr] | None:
+        """The explicit equation to use next. One that spoils does so as long as its unknown is open: the equations
+        that it would spoil cannot be used before."""
+        while self._ready:
+            _, row, unknown, value = heapq.heappop(self._ready)
+            if unknown in self._open and not self._spoils(row, unknown):
+                return row, unknown, value
+        return None
+
+    def _spoils(self, row: Row, unknown: Expr) -> bool:
+        """Whether `row` would carry rough values through `unknown` into a nonlinear equation."""
+        if self._rough.isdisjoint(row.leaves):
+            return False
+        others = (other for other in self._users[unknown] if other in self._unused and other is not row)
+        return not all(self._tearing.is_linear(other, unknown) for other in others)
+
+    def _most_used(self) -> Expr:
+        """The open unknown that most unused equations have, the first of them; counts in the heap may be old."""
+        while True:
+            uses, k, unknown = heapq.heappop(self._tears)
+            if unknown not in self._open:
+                continue
+            if -uses == self._uses[unknown]:
+                return unknown
+            heapq.heappush(self._tears, (-self._uses[unknown], k, unknown))

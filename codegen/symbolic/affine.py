@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, add, div, if_else, is_const, mul, neg, sub
-from lacuna.codegen.symbolic.leaves import depends, leaves
+from lacuna.codegen.symbolic.leaves import LEAF_OPS, depends, leaves
 
 Coefficients = tuple[Expr, Expr]
 
@@ -48,6 +48,30 @@ def _affine(e: Expr, v: Expr, memo: dict[Expr, Coefficients | None]) -> Coeffici
             return mul(b1, a2), mul(b1, b2)
         return (mul(a1, b2), mul(b1, b2)) if is_const(a2, 0) else None
     return (div(a1, b2), div(b1, b2)) if is_const(a2, 0) else None
+
+
+def nonlinear(e: Expr) -> frozenset[Expr]:
+    """The leaves in which `e` is not affine; memoised on the hash-consed nodes."""
+    found = _nonlinear.get(e)
+    if found is None:
+        found = _nonlinear[e] = _leaves_of_nonlinear(e)
+    return found
+
+
+_nonlinear: dict[Expr, frozenset[Expr]] = {}
+
+
+def _leaves_of_nonlinear(e: Expr) -> frozenset[Expr]:
+    if e.op in LEAF_OPS or e.op == "const":
+        return frozenset()
+    if e.op not in ("+", "-", "neg", "*", "/", "if"):
+        return leaves(e)
+    inside = frozenset().union(*map(nonlinear, e.args))
+    if e.op == "*":
+        return inside | (leaves(e.args[0]) & leaves(e.args[1]))
+    if e.op == "/":
+        return inside | leaves(e.args[1])
+    return inside | leaves(e.args[0]) if e.op == "if" else inside
 
 
 def isolate(lhs: Expr, rhs: Expr, v: Expr) -> tuple[Expr, Expr] | None:

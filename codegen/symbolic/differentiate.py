@@ -8,6 +8,7 @@ Relations, floor, ceil, integer, div, sign and pre-values are piecewise constant
 from __future__ import annotations
 
 from collections.abc import Callable
+from collections.abc import Set as AbstractSet
 
 from lacuna.codegen.symbolic.expr import (  # fmt: skip
     BUILTINS,
@@ -30,7 +31,7 @@ from lacuna.codegen.symbolic.expr import (  # fmt: skip
     special,
     sub,
 )
-from lacuna.codegen.symbolic.leaves import LEAF_OPS
+from lacuna.codegen.symbolic.leaves import LEAF_OPS, leaves
 
 TANGENT = ":tangent"  # suffix of the name of a function's directional derivative
 
@@ -63,10 +64,13 @@ _STEPWISE = ("sign", "floor", "ceil", "integer", "div")
 
 
 class Differentiator:
-    """Directional derivative for fixed seeds; `seed(leaf)` is the derivative of a leaf. Reuse it: it memoises."""
+    """Directional derivative for fixed seeds; `seed(leaf)` is the derivative of a leaf. Reuse it: it memoises.
 
-    def __init__(self, seed: Callable[[Expr], Expr]):
-        self._seed = seed
+    `active`, where it is known, holds the leaves whose seeds are not zero: what has none of them is not looked into.
+    """
+
+    def __init__(self, seed: Callable[[Expr], Expr], active: AbstractSet[Expr] | None = None):
+        self._seed, self._active = seed, active
         self._memo: dict[Expr, Expr] = {}
 
     def __call__(self, e: Expr) -> Expr:
@@ -80,6 +84,8 @@ class Differentiator:
             return ZERO
         if e.op in LEAF_OPS:
             return self._seed(e) if e.type == REAL else ZERO
+        if self._active is not None and self._active.isdisjoint(leaves(e)):
+            return ZERO
         return getattr(self, "_" + _RULES[e.op])(e)
 
     def _sum(self, e: Expr) -> Expr:
@@ -161,4 +167,4 @@ _RULES = {
 
 def partial(e: Expr, leaf: Expr) -> Expr:
     """d e / d leaf, other leaves held."""
-    return Differentiator(lambda n: ONE if n is leaf else ZERO)(e)
+    return Differentiator(lambda n: ONE if n is leaf else ZERO, {leaf})(e)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lacuna.codegen.symbolic.expr import Expr
+from lacuna.codegen.symbolic.expr import Expr, transform
 
 LEAF_OPS = frozenset(("var", "der", "pre", "time", "rel", "tick", "initial", "terminal"))
 
@@ -23,6 +23,11 @@ def leaves(e: Expr) -> frozenset[Expr]:
             found = parts[0] if len(parts) == 1 else frozenset().union(*parts)
         _memo[e] = found
     return found
+
+
+def with_leaves(e: Expr, values: dict[Expr, Expr]) -> Expr:
+    """`e` with leaves replaced by values. A leaf is whole: what stands for `x` does not stand inside `der(x)`."""
+    return transform(e, lambda n: values.get(n, n) if n.op in LEAF_OPS else None, {})
 
 
 def depends(e: Expr, leaf: Expr) -> bool:

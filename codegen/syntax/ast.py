@@ -217,6 +217,7 @@ class Alias:
     dimensions: list[Expression]
     modification: Modification
     causality: str = ""
+    target: Class | None = None  # the class meant, where no name was written
 
 
 @dataclass(slots=True, eq=False)
@@ -250,6 +251,12 @@ class Class:
     annotation: Modification | None = None
     parent: Class | None = None
     within: str = ""
+    # Of a class as seen from another (flatten/views.py):
+    origin: Class | None = None
+    redeclared: dict[str, Class] = field(default_factory=dict)
+    whole: Class | None = None
+    written: object = None  # the scope of its modifications
+    constrained: tuple[Modification, Class] | None = None  # of a constraining clause, and where that stands
 
     @property
     def path(self) -> str:

@@ -214,7 +214,7 @@ class ExpressionParser(ArgumentParser):
         return ast.Comprehension(self.span_from(start), body, iterators)
 
     def iterators(self) -> list[ast.Iterator]:
-        """i in 1:n, j in 1:m"""
+        """i in 1:n, j in 1:m, or k: what k runs over follows from what it indexes"""
         result = []
         while True:
             start = self.at

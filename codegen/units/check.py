@@ -18,7 +18,7 @@ from lacuna.codegen.units.inference import (
     of_variable,
     over,
 )
-from lacuna.codegen.units.unit import Unit, parse_unit
+from lacuna.units import Unit, parse_unit
 
 MAX_FINDINGS = 10
 Argument = tuple[Expr, str, str, Span]  # value, declared unit, which input of which function, where

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from fractions import Fraction
 
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, RELATIONS, Expr, to_text
-from lacuna.codegen.units.unit import DIMENSIONLESS, Unit, parse_unit
+from lacuna.units import DIMENSIONLESS, Unit, parse_unit
 
 SECOND = parse_unit("s")
 _COUNT = Unit(DIMENSIONLESS.exponents, None)

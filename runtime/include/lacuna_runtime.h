@@ -54,6 +54,7 @@ typedef struct {
   long steps, error_test_fails, rhs, residuals, jacobians, root_evaluations;
   long newton_iterations, newton_fails;
   long state_events, time_events, sample_events, input_jumps, event_passes, restarts;
+  long tangents; /* evaluations of the model's derivatives, all columns at once */
 } rt_counters;
 
 typedef enum { RT_EVENT_STATE, RT_EVENT_TIME, RT_EVENT_SAMPLE, RT_EVENT_TERMINATE } rt_event_kind;
@@ -64,6 +65,19 @@ typedef struct {
   int index;     /* relation, relation, sample or message */
   int direction; /* of a relation: +1 it became true, -1 false */
 } rt_event_entry;
+
+/* Where sensitivities are not what they seem, because the order of events is about to change. */
+typedef enum {
+  RT_FLAG_GRAZING,  /* `relation` only touches its threshold: from here on there are no sensitivities */
+  RT_FLAG_ORDER,    /* two events at one instant, as far as it is known, that move differently with a parameter */
+  RT_FLAG_NONFINITE /* a derivative is infinite or overflows: from here on there are no sensitivities */
+} rt_flag_kind;
+
+typedef struct {
+  double time;
+  int kind;            /* rt_flag_kind */
+  int relation, other; /* -1: none, or an event that is no relation's */
+} rt_flag;
 
 typedef struct {
   const char *solver; /* "ida", "dopri5", "rodas4", "rk4", "euler" */
@@ -104,6 +118,10 @@ RT_API rt_status rt_session_outputs(rt_session *session, int n, const int *varia
  * interval <= 0 too: at the end of every step. */
 RT_API rt_status rt_session_grid(rt_session *session, int n, const double *times, double interval);
 
+/* The next runs also give the derivatives of all outputs by these: rows of parameters, or of states for their initial
+ * values. n = 0: none. Refused, with the variable's name, where nothing depends on one of them smoothly. */
+RT_API rt_status rt_session_sensitivities(rt_session *session, int n, const int *variables);
+
 /* Run from `start` to `stop`. Always gives a result (NULL only without memory): see rt_result_failure. */
 RT_API rt_result *rt_session_run(rt_session *session, double start, double stop);
 
@@ -115,6 +133,12 @@ RT_API size_t rt_result_rows(const rt_result *result);
 RT_API const double *rt_result_time(const rt_result *result);               /* [rows] */
 RT_API const unsigned char *rt_result_event_flags(const rt_result *result); /* [rows] 1: row at an event */
 RT_API const double *rt_result_column(const rt_result *result, int column); /* [rows] of the column-th output */
+/* [rows] derivative of the column-th output by the k-th of the variables asked for, at fixed time; not a number where
+ * it does not exist any more (see the flags). */
+RT_API const double *rt_result_sensitivity(const rt_result *result, int column, int k);
+/* [n] how far each may change, to first order, before two events of the run meet. */
+RT_API const double *rt_result_margins(const rt_result *result);
+RT_API const rt_flag *rt_result_flags(const rt_result *result, size_t *count);
 RT_API const double *rt_result_parameters(const rt_result *result); /* [n_p] values used, dependent ones computed */
 RT_API const rt_event_entry *rt_result_events(const rt_result *result, size_t *count);
 

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 3
+#define MDL_ABI_VERSION 4
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
@@ -104,6 +104,8 @@ typedef struct {
   int is_time; /* 1: depends on time, parameters and discretes only; switched by a time event, not a root */
 } mdl_relation;
 
+struct mdl_tangents;
+
 typedef struct mdl_descriptor {
   int abi_version;
   const char *name;
@@ -165,6 +167,8 @@ typedef struct mdl_descriptor {
 
   /* Check the other asserts at an accepted point; < 0 with m->failure set where one is violated. */
   int (*check)(mdl_data *m, double t, const double *x, const double *xdot, const double *v);
+
+  const struct mdl_tangents *tangents; /* derivatives (mdl_tangent.h); NULL where they were not asked for */
 } mdl_descriptor;
 
 typedef const mdl_descriptor *(*mdl_descriptor_fn)(void);

@@ -41,8 +41,7 @@ static int attempt(rt_session *s, rt_onestep *o, double h) {
 }
 
 /* x0 + s (r1 + (1 - s) (r2 + s (r3 + (1 - s) r4))), expanded in powers of s. */
-static void dense(const rt_session *s, const rt_onestep *o, rt_dense *out) {
-  int n = s->d->n_x;
+static void dense(int n, const rt_onestep *o, rt_dense *out) {
   out->degree = 4;
   for (int i = 0; i < n; i++) {
     double r1 = o->x1[i] - o->x0[i], r2 = o->h * o->f0[i] - r1, r3 = r1 - o->h * o->f1[i] - r2, r4 = 0;
@@ -64,20 +63,24 @@ static const rt_scheme scheme = {.stages = STAGES,
                                  .max_factor = 10,
                                  .ends_are_stages = true,
                                  .attempt = attempt,
-                                 .dense = dense};
+                                 .dense = dense,
+                                 .nodes = c,
+                                 .weights = &a[0][0],
+                                 .error_weights = e};
 
 static void *create(rt_session *s) {
   return rt_onestep_create(s, &scheme);
 }
 
-const rt_method rt_method_dopri5 = {"dopri5",
-                                    false,
-                                    false,
-                                    create,
-                                    rt_onestep_destroy,
-                                    rt_onestep_begin,
-                                    rt_onestep_restart,
-                                    rt_onestep_step,
-                                    rt_onestep_dense,
-                                    NULL,
-                                    rt_onestep_count};
+const rt_method rt_method_dopri5 = {
+    .name = "dopri5",
+    .create = create,
+    .destroy = rt_onestep_destroy,
+    .begin = rt_onestep_begin,
+    .restart = rt_onestep_restart,
+    .step = rt_onestep_step,
+    .dense = rt_onestep_dense,
+    .count = rt_onestep_count,
+    .sensitivities = rt_onestep_sensitivities,
+    .dense_tangent = rt_onestep_dense_tangent,
+};

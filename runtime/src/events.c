@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "session.h"
+#include "sensitivity.h"
 
 enum {
   MAX_PASSES = 100,
@@ -92,11 +92,12 @@ static int pass(rt_session *s, int sweeps) {
     switched |= rt_clock_relations(s);
     if (switched && k % SWEEPS_OF_A_CYCLE == SWEEPS_OF_A_CYCLE - 1) start_again(s);
     memcpy(s->d_swept, m->d, (size_t)s->d->n_d * sizeof *m->d);
-    if (sweep(s)) return -1;
+    if (sweep(s) || rt_jump_sweep(s, k == 0)) return -1;
     settled = !switched && same(m->d, s->d_swept, s->d->n_d);
     changed |= switched;
   }
   memcpy(m->x, s->x_swept, (size_t)s->d->n_x * sizeof *m->x);
+  rt_jump_accept(s);
   s->reinitialised |= m->reinitialised != 0;
   return changed || !settled || m->reinitialised || !same(m->d, m->pre_d, s->d->n_d);
 }
@@ -167,6 +168,7 @@ static bool differs(const rt_session *s, const double *x, const double *xdot, co
 /* Has the event changed what is integrated? It has not if x, x' and z are the same as before, to the last bit, both
  * here and with the new relations at the end of the step that the event cut short. Then that step stands. */
 static bool is_inconsequential(rt_session *s) {
+  if (s->sensitivities) return false; /* they may have jumped where the run itself has not */
   if (s->pending & RT_PENDING_KINK || differs(s, s->x_before, s->xdot_before, s->v_before)) return false;
   bool cut = s->t < s->t_end, switched = memcmp(s->data.rel, s->rel_before, (size_t)s->d->n_rel) != 0;
   if (!cut) return !switched;
@@ -189,11 +191,14 @@ rt_status rt_event(rt_session *s) {
   double since = s->t - s->last_event;
   s->last_event = s->t;
   remember(s);
+  if ((status = rt_jump_measure(s))) return status;
   if (s->pending & RT_PENDING_JUMP) s->result->counters.input_jumps++;
   rt_inputs_begin(s, s->t);
   if (s->pending & RT_PENDING_STATE) switch_relations(s);
   if (s->pending & (RT_PENDING_TIME | RT_PENDING_SAMPLE)) rt_clock_tick(s);
-  if ((status = rt_iterate_event(s)) || (status = check_chattering(s, since))) return status;
+  rt_jump_begin(s);
+  if ((status = rt_iterate_event(s)) || (status = rt_jump_end(s)) || (status = check_chattering(s, since)))
+    return status;
   memset(s->flip, 0, (size_t)s->d->n_rel);
   if (record && (status = rt_record_event_row(s))) return status;
   if (s->data.terminated) rt_result_log(s->result, s->t, RT_EVENT_TERMINATE, s->data.terminated - 1, 1);

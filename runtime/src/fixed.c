@@ -6,8 +6,7 @@ static int euler_attempt(rt_session *s, rt_onestep *o, double h) {
   return rt_explicit_stage(s, o, h, 1, 1, b);
 }
 
-static void euler_dense(const rt_session *s, const rt_onestep *o, rt_dense *dense) {
-  int n = s->d->n_x;
+static void euler_dense(int n, const rt_onestep *o, rt_dense *dense) {
   dense->degree = 1;
   for (int i = 0; i < n; i++) {
     dense->c[i] = o->x0[i];
@@ -25,8 +24,7 @@ static int rk4_attempt(rt_session *s, rt_onestep *o, double h) {
 }
 
 /* Cubic Hermite polynomial through both ends of the step: local error O(h^4), so one event does not cost the order. */
-static void rk4_dense(const rt_session *s, const rt_onestep *o, rt_dense *dense) {
-  int n = s->d->n_x;
+static void rk4_dense(int n, const rt_onestep *o, rt_dense *dense) {
   dense->degree = 3;
   for (int i = 0; i < n; i++) {
     double rise = o->x1[i] - o->x0[i], f0 = o->h * o->f0[i], f1 = o->h * o->f1[i];
@@ -47,25 +45,25 @@ static void *create_rk4(rt_session *s) {
   return rt_onestep_create(s, &rk4);
 }
 
-const rt_method rt_method_euler = {"euler",
-                                   true,
-                                   false,
-                                   create_euler,
-                                   rt_onestep_destroy,
-                                   rt_onestep_begin,
-                                   rt_onestep_restart,
-                                   rt_onestep_step,
-                                   rt_onestep_dense,
-                                   NULL,
-                                   rt_onestep_count};
-const rt_method rt_method_rk4 = {"rk4",
-                                 true,
-                                 false,
-                                 create_rk4,
-                                 rt_onestep_destroy,
-                                 rt_onestep_begin,
-                                 rt_onestep_restart,
-                                 rt_onestep_step,
-                                 rt_onestep_dense,
-                                 NULL,
-                                 rt_onestep_count};
+const rt_method rt_method_euler = {
+    .name = "euler",
+    .needs_step = true,
+    .create = create_euler,
+    .destroy = rt_onestep_destroy,
+    .begin = rt_onestep_begin,
+    .restart = rt_onestep_restart,
+    .step = rt_onestep_step,
+    .dense = rt_onestep_dense,
+    .count = rt_onestep_count,
+};
+const rt_method rt_method_rk4 = {
+    .name = "rk4",
+    .needs_step = true,
+    .create = create_rk4,
+    .destroy = rt_onestep_destroy,
+    .begin = rt_onestep_begin,
+    .restart = rt_onestep_restart,
+    .step = rt_onestep_step,
+    .dense = rt_onestep_dense,
+    .count = rt_onestep_count,
+};

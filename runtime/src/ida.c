@@ -243,4 +243,15 @@ static void point(rt_session *s, void *p, double t, double *x) {
   memcpy(x, N_VGetArrayPointer(m->work), (size_t)s->d->n_x * sizeof *x);
 }
 
-const rt_method rt_method_ida = {"ida", false, true, create, destroy, begin, restart, step, dense, point, count};
+const rt_method rt_method_ida = {
+    .name = "ida",
+    .multistep = true,
+    .create = create,
+    .destroy = destroy,
+    .begin = begin,
+    .restart = restart,
+    .step = step,
+    .dense = dense,
+    .point = point,
+    .count = count,
+};

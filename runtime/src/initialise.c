@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "session.h"
+#include "sensitivity.h"
 
 enum { MAX_ITERATIONS = 50 };
 
@@ -39,7 +39,7 @@ static rt_status set_parameters_and_starts(rt_session *s) {
   memcpy(s->data.p, s->p_run, (size_t)s->d->n_p * sizeof *s->p_run);
   if (s->d->parameters(&s->data)) return rt_fail_model(s, s->start, "computing parameters");
   if (s->d->starts(&s->data)) return rt_fail_model(s, s->start, "computing start values");
-  return RT_OK;
+  return s->sensitivities ? rt_tangent_start(s) : RT_OK;
 }
 
 /* At the start there is no history: a relation is exactly what its guard says. */
@@ -66,11 +66,16 @@ static rt_status solve_initial_equations(rt_session *s) {
   for (int i = 0; i < MAX_ITERATIONS; i++) {
     rt_inputs_at(s, s->t);
     if (s->d->initial_system(m, s->t)) return fail_initialisation(s);
+    if (rt_tangent_initial(s, true)) return s->failure.status;
     for (int k = 0; k < s->n_initial; k++)
       m->x[s->initial_index[k]] = s->initial_value[k];
     if (rt_evaluate(s)) return fail_initialisation(s);
+    if (rt_tangent_initial(s, false)) return s->failure.status;
     bool changed = settle_relations(s);
+    memcpy(s->when_before, m->when, (size_t)s->d->n_when);
+    memcpy(s->x_swept, m->x, (size_t)s->d->n_x * sizeof *m->x);
     if (s->d->event(m, s->t, m->x, m->xdot, m->v)) return fail_initialisation(s);
+    if (rt_tangent_initial_event(s)) return s->failure.status;
     changed |= memcmp(m->d, m->pre_d, (size_t)s->d->n_d * sizeof *m->d) != 0;
     memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
     if (!changed) return RT_OK;
@@ -96,6 +101,6 @@ rt_status rt_initialise(rt_session *s) {
   if (status) return status;
   rt_inputs_reset(s);
   rt_inputs_begin(s, s->start);
-  if ((status = solve_initial_equations(s))) return status;
-  return first_events(s);
+  if ((status = solve_initial_equations(s)) || (status = first_events(s))) return status;
+  return s->sensitivities ? rt_tangent_begin(s) : RT_OK;
 }

@@ -44,6 +44,16 @@ void rt_inputs_at(rt_session *s, double t) {
   s->input_time = t;
 }
 
+/* Slope of input i at the end of the last step, as that step has seen it (per s). */
+double rt_input_slope(const rt_session *s, int i) {
+  const rt_input *in = &s->inputs[i];
+  if (!in->n || in->interpolation == RT_HOLD) return 0;
+  int k = sample_at(in, in->cursor, s->t);
+  if (k > 0 && in->time[k] >= s->t) k--;
+  if (k + 1 == in->n || s->t < in->time[k]) return 0;
+  return (in->values[k + 1] - in->values[k]) / (in->time[k + 1] - in->time[k]);
+}
+
 /* Does the slope change at sample k? One-step methods land on every kink that is more than rounding, because it would
  * cost them their order. A multistep method restarts at a kink that is larger than its tolerance, and steps over
  * smaller ones. */

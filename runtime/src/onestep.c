@@ -30,6 +30,7 @@ void *rt_onestep_create(rt_session *s, const rt_scheme *scheme) {
 
 void rt_onestep_destroy(void *memory) {
   rt_onestep *o = memory;
+  rt_onestep_tangent_free(o);
   free(o->work);
   free(o->x0);
   free(o);
@@ -122,6 +123,7 @@ static void accept(rt_session *s, rt_onestep *o, double t, double h) {
   }
   o->h = h;
   s->t = t;
+  if (o->tangent) rt_onestep_tangent_accept(s, o);
   s->result->counters.steps++;
 }
 
@@ -144,6 +146,10 @@ rt_status rt_onestep_step(rt_session *s, void *memory, double limit) {
     if (!status) status = rt_check_finite(s, o->f1);
     if (status < 0 || (status > 0 && !adaptive)) return rt_fail_model(s, s->t, "stepping");
     double square = status == 0 && adaptive ? mean_square(s, o, o->error) : 0;
+    if (status == 0 && square <= 1 && o->tangent) {
+      status = rt_onestep_tangent_step(s, o, h, adaptive ? &square : NULL);
+      if (status < 0 || (status > 0 && !adaptive)) return rt_fail_model(s, s->t, "stepping with sensitivities");
+    }
     if (status == 0 && square <= 1) {
       if (adaptive) control(o, h, square, rejected, h < o->h_next);
       accept(s, o, h == remaining ? limit : s->t + h, h);
@@ -161,7 +167,7 @@ void rt_onestep_dense(rt_session *s, void *memory, rt_dense *dense) {
   const rt_onestep *o = memory;
   dense->t0 = o->t0;
   dense->h = o->h;
-  o->scheme->dense(s, o, dense);
+  o->scheme->dense(s->d->n_x, o, dense);
 }
 
 void rt_onestep_count(rt_session *s, void *memory) {

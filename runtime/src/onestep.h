@@ -2,6 +2,8 @@
 #ifndef RT_ONESTEP_H
 #define RT_ONESTEP_H
 
+#include <string.h>
+
 #include "session.h"
 
 struct rt_onestep;
@@ -15,7 +17,10 @@ typedef struct {
   size_t (*work_size)(const mdl_descriptor *d); /* bytes of work space; NULL: none */
   /* From (t0, x0, f0) a step h: x1, f1 = f(t0 + h, x1) and the local error, of no use where order is 0. */
   int (*attempt)(rt_session *s, struct rt_onestep *o, double h);
-  void (*dense)(const rt_session *s, const struct rt_onestep *o, rt_dense *dense);
+  void (*dense)(int n, const struct rt_onestep *o, rt_dense *dense); /* of a system of n equations */
+  /* Coefficients of an explicit scheme whose variational equations can be integrated along: nodes [stages], rows of
+   * weights [stages * (stages - 1)], weights of the error [stages]. NULL: they cannot. */
+  const double *nodes, *weights, *error_weights;
 } rt_scheme;
 
 typedef struct rt_onestep {
@@ -26,6 +31,8 @@ typedef struct rt_onestep {
   double *x0, *f0, *x1, *f1;     /* [n_x] */
   double *k;                     /* [stages * n_x] */
   double *error;                 /* [n_x] */
+  struct rt_onestep *tangent;    /* the variational equations, a system of n_x * columns; NULL: none */
+  double *stage_x, *stage_v;     /* [stages * n_x], [stages * n_v] points of the stages, kept for them */
 } rt_onestep;
 
 void *rt_onestep_create(rt_session *s, const rt_scheme *scheme);
@@ -35,6 +42,13 @@ rt_status rt_onestep_restart(rt_session *s, void *memory);
 rt_status rt_onestep_step(rt_session *s, void *memory, double limit);
 void rt_onestep_dense(rt_session *s, void *memory, rt_dense *dense);
 void rt_onestep_count(rt_session *s, void *memory);
+
+/* onestep_tangent.c */
+bool rt_onestep_sensitivities(rt_session *s, void *memory);
+int rt_onestep_tangent_step(rt_session *s, rt_onestep *o, double h, double *square);
+void rt_onestep_tangent_accept(rt_session *s, rt_onestep *o);
+void rt_onestep_dense_tangent(rt_session *s, void *memory, rt_dense *dense);
+void rt_onestep_tangent_free(rt_onestep *o);
 
 /* x1 = x0 + sum_j (h a_j) k_j over the first n stages. Inline, so that a known n unrolls. */
 static inline const double *rt_stage(const rt_session *s, rt_onestep *o, double h, int n, const double *a) {
@@ -52,7 +66,13 @@ static inline const double *rt_stage(const rt_session *s, rt_onestep *o, double 
 
 /* Explicit stage j at t0 + c h: k_j = f(t0 + c h, x0 + h sum_l a_l k_l), l < j. */
 static inline int rt_explicit_stage(rt_session *s, rt_onestep *o, double h, int j, double c, const double *a) {
-  return rt_rhs(s, o->t0 + c * h, rt_stage(s, o, h, j, a), o->k + j * s->d->n_x, s->data.v);
+  const double *x = rt_stage(s, o, h, j, a);
+  int status = rt_rhs(s, o->t0 + c * h, x, o->k + j * s->d->n_x, s->data.v);
+  if (o->tangent) {
+    memcpy(o->stage_x + j * s->d->n_x, x, (size_t)s->d->n_x * sizeof *x);
+    memcpy(o->stage_v + j * s->d->n_v, s->data.v, (size_t)s->d->n_v * sizeof *x);
+  }
+  return status;
 }
 
 #endif

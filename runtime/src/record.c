@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "session.h"
+#include "sensitivity.h"
 
 static bool on_grid(const rt_recorder *r) {
   return r->n_grid > 0 || r->interval > 0;
@@ -27,9 +27,23 @@ static rt_status reserve(rt_session *s, size_t rows) {
   return rt_fail(s, RT_MEMORY, s->t, -1, NULL, "out of memory for results");
 }
 
-/* A row from the complete point (t, x, xdot, v). */
+/* The derivatives of the row's outputs, one column of the result for each output and parameter. */
+static void write_tangents(rt_session *s, size_t row, const mdl_tangent *at) {
+  const rt_sensitivities *f = s->sensitivities;
+  mdl_lanes *const storage[] = {[MDL_STATE] = at->x,     [MDL_ALGEBRAIC] = at->v, [MDL_DISCRETE] = at->d,
+                                [MDL_PARAMETER] = at->p, [MDL_INPUT] = NULL,      [MDL_DERIVATIVE] = at->xdot};
+  double **column = s->result->columns + s->recorder.n;
+  for (int j = 0; j < s->recorder.n; j++) {
+    const rt_output *o = &s->recorder.outputs[j];
+    const double *tangents = o->storage == MDL_INPUT ? NULL : rt_rows(storage[o->storage]) + o->index * f->columns;
+    for (int k = 0; k < f->n; k++)
+      (*column++)[row] = f->lost ? NAN : tangents ? o->sign * tangents[k] : 0;
+  }
+}
+
+/* A row from the complete point (t, x, xdot, v), with its tangents where there are any. */
 static rt_status write_row(rt_session *s, double t, const double *x, const double *xdot, const double *v,
-                           unsigned char event) {
+                           const mdl_tangent *tangents, unsigned char event) {
   const mdl_data *m = &s->data;
   const double *storage[] = {[MDL_STATE] = x,        [MDL_ALGEBRAIC] = v, [MDL_DISCRETE] = m->d,
                              [MDL_PARAMETER] = m->p, [MDL_INPUT] = m->u,  [MDL_DERIVATIVE] = xdot};
@@ -42,8 +56,24 @@ static rt_status write_row(rt_session *s, double t, const double *x, const doubl
     const rt_output *o = &s->recorder.outputs[j];
     result->columns[j][result->rows] = o->sign * storage[o->storage][o->index];
   }
+  if (tangents) write_tangents(s, result->rows, tangents);
   result->rows++;
   return RT_OK;
+}
+
+/* Tangents at the session's point; NULL where none are asked for. */
+static const mdl_tangent *present_tangents(const rt_session *s) {
+  return s->sensitivities ? &s->sensitivities->at : NULL;
+}
+
+static rt_status tangents_inside(rt_session *s, double t, const mdl_tangent **tangents) {
+  const rt_recorder *r = &s->recorder;
+  *tangents = NULL;
+  if (!s->sensitivities) return RT_OK;
+  *tangents = &s->sensitivities->inside;
+  rt_tangent_inside(s, t);
+  if (!r->needs_rhs || !rt_tangent_inside_point(s, t, r->x, r->xdot, r->v)) return RT_OK;
+  return rt_fail_model(s, t, "differentiating outputs");
 }
 
 /* A row inside the last step. States come from its polynomial; what else is wanted is computed from them by the
@@ -57,7 +87,9 @@ static rt_status write_interpolated(rt_session *s, double t, bool alone) {
   } else {
     rt_inputs_at(s, t);
   }
-  return write_row(s, t, r->x, r->xdot, r->v, 0);
+  const mdl_tangent *tangents;
+  rt_status status = tangents_inside(s, t, &tangents);
+  return status ? status : write_row(s, t, r->x, r->xdot, r->v, tangents, 0);
 }
 
 /* All rows inside the last step, column by column: the cheap way where nothing but states changes inside a step. */
@@ -91,11 +123,11 @@ rt_status rt_record_grid(rt_session *s, bool closed) {
   rt_status status = RT_OK;
   if (!on_grid(r)) return status;
   double inside = s->t - s->clock.tolerance, end = closed ? s->t + s->clock.tolerance : inside;
-  if (!r->needs_point && grid_time(s, r->next + 1) < inside) status = write_columns(s, inside);
+  if (!r->needs_point && !s->sensitivities && grid_time(s, r->next + 1) < inside) status = write_columns(s, inside);
   for (double t = grid_time(s, r->next); !status && t <= end; t = grid_time(s, ++r->next)) {
     if (t >= inside) {
       rt_inputs_at(s, s->t);
-      status = write_row(s, t, s->data.x, s->data.xdot, s->data.v, 0);
+      status = write_row(s, t, s->data.x, s->data.xdot, s->data.v, present_tangents(s), 0);
     } else {
       status = write_interpolated(s, t, grid_time(s, r->next + 1) > end);
     }
@@ -107,7 +139,7 @@ rt_status rt_record_grid(rt_session *s, bool closed) {
 rt_status rt_record_step(rt_session *s) {
   if (on_grid(&s->recorder)) return rt_record_grid(s, !s->pending);
   bool event_rows_follow = s->options.record_events && s->pending & ~RT_PENDING_INPUT;
-  return event_rows_follow ? RT_OK : write_row(s, s->t, s->data.x, s->data.xdot, s->data.v, 0);
+  return event_rows_follow ? RT_OK : write_row(s, s->t, s->data.x, s->data.xdot, s->data.v, present_tangents(s), 0);
 }
 
 /* A row at an event, before or after it; after it, it stands for a grid point at the same instant too. */
@@ -115,5 +147,5 @@ rt_status rt_record_event_row(rt_session *s) {
   while (on_grid(&s->recorder) && grid_time(s, s->recorder.next) <= s->t + s->clock.tolerance)
     s->recorder.next++;
   rt_inputs_at(s, s->t);
-  return write_row(s, s->t, s->data.x, s->data.xdot, s->data.v, 1);
+  return write_row(s, s->t, s->data.x, s->data.xdot, s->data.v, present_tangents(s), 1);
 }

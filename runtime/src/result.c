@@ -3,13 +3,15 @@
 
 #include "session.h"
 
-rt_result *rt_result_new(int columns, int parameters, size_t capacity) {
+rt_result *rt_result_new(int columns, int sensitivities, int parameters, size_t capacity) {
   rt_result *r = calloc(1, sizeof *r);
   if (!r) return NULL;
-  r->n = columns;
-  r->columns = calloc((size_t)columns + 1, sizeof *r->columns);
+  r->n = columns * (1 + sensitivities);
+  r->n_sensitivities = sensitivities;
+  r->columns = calloc((size_t)r->n + 1, sizeof *r->columns);
   r->parameters = calloc((size_t)parameters + 1, sizeof *r->parameters);
-  if (r->columns && r->parameters && rt_result_reserve(r, capacity)) return r;
+  r->margins = calloc((size_t)sensitivities + 1, sizeof *r->margins);
+  if (r->columns && r->parameters && r->margins && rt_result_reserve(r, capacity)) return r;
   rt_result_free(r);
   return NULL;
 }
@@ -23,6 +25,8 @@ void rt_result_free(rt_result *r) {
   free(r->event);
   free(r->events);
   free(r->parameters);
+  free(r->margins);
+  free(r->flags);
   free(r);
 }
 
@@ -53,6 +57,16 @@ bool rt_result_log(rt_result *r, double time, int kind, int index, int direction
   return true;
 }
 
+bool rt_result_flag(rt_result *r, double time, rt_flag_kind kind, int relation, int other) {
+  if (r->n_flags == r->flags_capacity) {
+    size_t capacity = r->flags_capacity ? 2 * r->flags_capacity : 16;
+    if (!grow(&r->flags, capacity * sizeof *r->flags)) return false;
+    r->flags_capacity = capacity;
+  }
+  r->flags[r->n_flags++] = (rt_flag){.time = time, .kind = kind, .relation = relation, .other = other};
+  return true;
+}
+
 const rt_failure *rt_result_failure(const rt_result *r) {
   return &r->failure;
 }
@@ -72,7 +86,20 @@ const unsigned char *rt_result_event_flags(const rt_result *r) {
   return r->event;
 }
 const double *rt_result_column(const rt_result *r, int column) {
-  return column >= 0 && column < r->n ? r->columns[column] : NULL;
+  return column >= 0 && column < r->n / (1 + r->n_sensitivities) ? r->columns[column] : NULL;
+}
+
+const double *rt_result_sensitivity(const rt_result *r, int column, int k) {
+  int outputs = r->n / (1 + r->n_sensitivities);
+  bool valid = column >= 0 && column < outputs && k >= 0 && k < r->n_sensitivities;
+  return valid ? r->columns[outputs + column * r->n_sensitivities + k] : NULL;
+}
+const double *rt_result_margins(const rt_result *r) {
+  return r->margins;
+}
+const rt_flag *rt_result_flags(const rt_result *r, size_t *count) {
+  *count = r->n_flags;
+  return r->flags;
 }
 
 const double *rt_result_parameters(const rt_result *r) {

@@ -152,8 +152,7 @@ static int attempt(rt_session *s, rt_onestep *o, double h) {
 }
 
 /* x0 (1 - s) + s (x1 + (1 - s) (r2 + s r3)), expanded in powers of s. */
-static void dense(const rt_session *s, const rt_onestep *o, rt_dense *out) {
-  int n = s->d->n_x;
+static void dense(int n, const rt_onestep *o, rt_dense *out) {
   out->degree = 3;
   for (int i = 0; i < n; i++) {
     double r2 = 0, r3 = 0;
@@ -187,5 +186,12 @@ static rt_status begin(rt_session *s, void *memory) {
 }
 
 const rt_method rt_method_rodas4 = {
-    "rodas4",         false, false,           create, rt_onestep_destroy, begin, rt_onestep_restart, rt_onestep_step,
-    rt_onestep_dense, NULL,  rt_onestep_count};
+    .name = "rodas4",
+    .create = create,
+    .destroy = rt_onestep_destroy,
+    .begin = begin,
+    .restart = rt_onestep_restart,
+    .step = rt_onestep_step,
+    .dense = rt_onestep_dense,
+    .count = rt_onestep_count,
+};

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "session.h"
+#include "sensitivity.h"
 
 static const rt_method *const methods[] = {&rt_method_ida, &rt_method_dopri5, &rt_method_rodas4, &rt_method_rk4,
                                            &rt_method_euler};
@@ -29,7 +29,8 @@ static bool allocate_numbers(rt_session *s) {
   const mdl_descriptor *d = s->d;
   mdl_data *m = &s->data;
   rt_recorder *r = &s->recorder;
-  double **parameters[] = {&m->p, &s->p_run}, **inputs[] = {&m->u}, **discrete[] = {&m->d, &m->pre_d, &s->d_swept};
+  double **parameters[] = {&m->p, &s->p_run}, **inputs[] = {&m->u},
+         **discrete[] = {&m->d, &m->pre_d, &s->d_swept, &s->d_before, &s->d_after};
   double **unknowns[] = {&s->atol, &s->y, &s->yp}, **samples[] = {&s->clock.first, &s->clock.interval};
   double **algebraic[] = {&m->v, &s->v_trial, &s->v_before, &s->v_end, &r->v}, **dense[] = {&s->dense.c};
   double **states[] = {&m->x,           &m->xdot,  &s->initial_value, &s->x_trial, &s->xdot_trial, &s->x_before,
@@ -130,6 +131,7 @@ rt_session *rt_session_new(const rt_model *model, const rt_options *options, cha
 
 void rt_session_free(rt_session *s) {
   if (!s) return;
+  rt_sensitivities_free(s);
   if (s->memory) s->method->destroy(s->memory);
   free(s->inputs);
   free(s->clock.next);

@@ -70,8 +70,10 @@ typedef struct {
   rt_status (*step)(struct rt_session *, void *memory, double limit);
   void (*dense)(struct rt_session *, void *memory, rt_dense *dense);
   void (*point)(struct rt_session *, void *memory, double t,
-                double *x);                         /* cheaper than dense for one point; may be NULL */
-  void (*count)(struct rt_session *, void *memory); /* add the method's own counters to the result */
+                double *x);                                 /* cheaper than dense for one point; may be NULL */
+  void (*count)(struct rt_session *, void *memory);         /* add the method's own counters to the result */
+  bool (*sensitivities)(struct rt_session *, void *memory); /* get ready for those of the session, or for none */
+  void (*dense_tangent)(struct rt_session *, void *memory, rt_dense *dense); /* as dense, of the states' tangents */
 } rt_method;
 
 extern const rt_method rt_method_ida, rt_method_dopri5, rt_method_rodas4, rt_method_rk4, rt_method_euler;
@@ -84,6 +86,8 @@ enum {
   RT_PENDING_KINK = 16, /* of a linear input, where the method restarts at kinks */
   RT_PENDING_INPUT = RT_PENDING_JUMP | RT_PENDING_KINK
 };
+
+typedef struct rt_sensitivities rt_sensitivities; /* sensitivity.h */
 
 struct rt_session {
   const rt_model *model;
@@ -118,6 +122,7 @@ struct rt_session {
   double *g_span, *g_travel;  /* [n_rel] largest |g| of the run, and since the relation last switched */
   double *x_trial, *xdot_trial, *v_trial;
   double *x_before, *xdot_before, *v_before;
+  double *d_before, *d_after;             /* discrete variables before an event; and aside while it is differentiated */
   double *x_swept, *d_swept;              /* states after a sweep of an event, discrete variables before it */
   unsigned char *rel_swept, *when_before; /* relations before a sweep, when conditions before its pass */
   double *g_lowest;                       /* [n_rel] furthest on the other side since it switched, where rebound */
@@ -129,6 +134,7 @@ struct rt_session {
   double last_event; /* time of the last event (s) */
   int futile_events; /* consecutive events that got nowhere, see check_chattering */
   rt_recorder recorder;
+  rt_sensitivities *sensitivities; /* NULL: none are asked for */
   rt_failure failure;
   rt_result *result;
 };
@@ -168,6 +174,7 @@ void rt_inputs_begin(rt_session *s, double t);
 void rt_inputs_at(rt_session *s, double t);
 double rt_inputs_next_break(rt_session *s);
 int rt_inputs_due(rt_session *s);
+double rt_input_slope(const rt_session *s, int i);
 
 /* clock.c */
 rt_status rt_clock_begin(rt_session *s);
@@ -213,10 +220,15 @@ struct rt_result {
   double *parameters; /* [n_p] */
   size_t n_events, events_capacity;
   rt_event_entry *events;
+  int n_sensitivities; /* of each output; their columns follow those of the outputs */
+  double *margins;     /* [n_sensitivities] */
+  size_t n_flags, flags_capacity;
+  rt_flag *flags;
 };
-rt_result *rt_result_new(int columns, int parameters, size_t capacity);
+rt_result *rt_result_new(int columns, int sensitivities, int parameters, size_t capacity);
 bool rt_result_reserve(rt_result *r, size_t rows);
 bool rt_result_log(rt_result *r, double time, int kind, int index, int direction);
+bool rt_result_flag(rt_result *r, double time, rt_flag_kind kind, int relation, int other);
 
 /* linear.c: dense n x n systems by LU with partial pivoting, column-major */
 int rt_lu_factor(int n, double *a, int *pivot);

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "session.h"
+#include "sensitivity.h"
 
 enum { MAX_TINY_STEPS = 100 };
 
@@ -31,10 +31,11 @@ static rt_status move_on(rt_session *s) {
     rt_resume_step(s);
     return RT_OK;
   }
-  if (s->options.max_steps > 0 && s->steps_taken++ >= s->options.max_steps)
+  if (s->steps_taken++ >= s->options.max_steps && s->options.max_steps > 0)
     return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "more than %ld steps up to time %.9g s", s->options.max_steps,
                    s->t);
   s->dense.valid = false;
+  if (s->sensitivities) s->sensitivities->dense.valid = false;
   rt_status status = s->method->step(s, s->memory, rt_clock_limit(s));
   s->t_end = s->t;
   s->tiny_steps = s->t - s->t_previous < rt_smallest_step(s) ? s->tiny_steps + 1 : 0;
@@ -45,6 +46,7 @@ static rt_status move_on(rt_session *s) {
 static rt_status advance(rt_session *s) {
   rt_status status = move_on(s);
   if (!status) status = rt_find_state_event(s);
+  if (!status) status = rt_tangent_follow(s);
   if (!status) status = check_asserts(s);
   if (status) return status;
   s->pending |= rt_clock_due(s);
@@ -61,6 +63,8 @@ static rt_status finish(rt_session *s, rt_status status) {
   }
   if (!status) status = rt_record_grid(s, true);
   memcpy(s->result->parameters, s->data.p, (size_t)s->d->n_p * sizeof *s->data.p);
+  if (s->sensitivities)
+    memcpy(s->result->margins, s->sensitivities->margin, (size_t)s->sensitivities->n * sizeof(double));
   s->result->failure = s->failure;
   return status;
 }
@@ -76,7 +80,7 @@ rt_result *rt_session_run(rt_session *s, double start, double stop) {
   s->start = start;
   s->stop = stop;
   s->failure = (rt_failure){.status = RT_OK, .variable = -1};
-  s->result = rt_result_new(s->recorder.n, s->d->n_p, expected_rows(s));
+  s->result = rt_result_new(s->recorder.n, s->sensitivities ? s->sensitivities->n : 0, s->d->n_p, expected_rows(s));
   if (!s->result) return NULL;
   rt_status status = begin(s);
   while (!status && s->t < s->stop && !s->data.terminated)

@@ -27,7 +27,9 @@ def imports(path: Path) -> Iterator[tuple[int, str]]:
             yield from ((node.lineno, alias.name) for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
             base = package[: len(package) - node.level + 1] if node.level else ()
-            yield node.lineno, ".".join([*base, *([node.module] if node.module else [])])
+            module = ".".join([*base, *([node.module] if node.module else [])])
+            # `from lacuna import runtime` is an import of lacuna.runtime
+            yield from ((node.lineno, f"lacuna.{alias.name}" if module == "lacuna" else module) for alias in node.names)
 
 
 def includes(path: Path) -> list[str]:

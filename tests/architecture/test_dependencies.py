@@ -1,12 +1,14 @@
-"""Dependencies point one way: discovery -> (codegen, runtime, analysis); analysis -> runtime; runtime -> the ABI;
-codegen -> nothing. The command line and the bench stand on top, and nobody stands on them."""
+"""Dependencies point one way: cli -> lacuna -> discovery -> (codegen, runtime, analysis); analysis -> runtime;
+runtime -> the ABI; codegen -> nothing. The bench stands on top, too, and nobody stands on it or on the command line."""
 
 from __future__ import annotations
 
+import ast
 from pathlib import Path
 
 import pytest
 
+import lacuna
 from tests.architecture.sources import ROOT, files, imports, includes
 
 STAGES = ("codegen", "runtime", "analysis", "discovery")
@@ -15,14 +17,15 @@ PYTHON_MAY_IMPORT = {
     "runtime": set(),
     "analysis": {"runtime"},
     "discovery": {"codegen", "runtime", "analysis"},
-    "cli": set(STAGES),
+    "lacuna": set(STAGES),  # the public face
+    "cli": set(),  # `import lacuna`, and nothing else: what the command line can do, a script can
     "bench": set(STAGES),
     # The proof conceals physics with code of its own; it shares none with what it judges.
     "tests/proof": set(),
 }
-PROJECT = {*STAGES, "cli", "bench", "tests"}
-# What every stage may know of the package: its name, where its libraries are, what an extra brings.
-FACE = {"lacuna", "lacuna.native", "lacuna.extras"}
+PROJECT = {*STAGES, "lacuna", "cli", "bench", "tests"}
+# What every stage may know of the package: its name, where its libraries are, what an extra brings, units of measure.
+FACE = {"lacuna", "lacuna.native", "lacuna.extras", "lacuna.units", "lacuna.recorded_units"}
 
 C_MAY_INCLUDE = {
     "runtime": ("runtime", ("ida/", "nvector/", "sunmatrix/", "sunlinsol/", "sundials/")),
@@ -34,8 +37,10 @@ C_SUFFIXES = (".c", ".h", ".cpp", ".hpp")
 
 
 def stage(module: str) -> str:
-    """The folder of a module: lacuna.codegen.flat is in codegen, tests.models in tests."""
-    return module.removeprefix("lacuna.").split(".")[0]
+    """The folder of a module: lacuna.codegen.flat is in codegen, lacuna.models in lacuna, tests.models in tests."""
+    first, _, rest = module.partition(".")
+    inner = rest.split(".")[0]
+    return inner if first == "lacuna" and inner in PROJECT else first
 
 
 def forbidden_imports(folder: str) -> list[str]:
@@ -52,6 +57,17 @@ def forbidden_imports(folder: str) -> list[str]:
 @pytest.mark.parametrize("folder", PYTHON_MAY_IMPORT)
 def test_python_imports_point_one_way(folder: str) -> None:
     assert forbidden_imports(folder) == []
+
+
+def test_the_command_line_uses_public_names_only() -> None:
+    used = {
+        node.attr
+        for path in files("cli", ".py")
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name) and node.value.id == "lacuna"
+    }
+    assert used
+    assert used - {*lacuna.__all__, "__version__"} == set()
 
 
 def own_headers(folder: str) -> set[str]:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lacuna.discovery.cases import CaseError, load
-from lacuna.discovery.units import UnitError, to_si
+from lacuna.recorded_units import UnitError, to_si
 
 
 def test_units_lead_to_si() -> None:
@@ -16,6 +16,10 @@ def test_units_lead_to_si() -> None:
     assert to_si("mA") == (1e-3, "A")
     assert to_si("N.m.s/rad") == (1.0, "N.m.s/rad")
     assert to_si("rpm") == (pytest.approx(np.pi / 30), "rad/s")
+    assert to_si("bar") == (1e5, "Pa")
+    assert to_si("l/min") == (pytest.approx(1e-3 / 60), "m3/s")
+    assert to_si("kN") == (1e3, "N")
+    assert to_si("W/(m2.K)") == (1.0, "W/(m2.K)")
     with pytest.raises(UnitError, match="furlong"):
         to_si("furlong")
 

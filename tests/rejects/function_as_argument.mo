@@ -1,6 +1,6 @@
 // code: R090
 // line: 7
-// hint: call the function
+// hint: an input that is a function
 model M
   Real x;
 equation

@@ -2,10 +2,10 @@
 // line: 8
 // hint: function
 model M
-  Integer n;
+  Real x;
 algorithm
-  n := 0;
-  while n < 3 loop
-    n := n + 1;
+  x := 0;
+  while x < time loop
+    x := x + 1;
   end while;
 end M;

@@ -1,10 +1,10 @@
-// code: P018
+// code: R047
 // line: 7
-// hint: for i in 1:n
+// hint: say what it runs over
 model M
   Real x[3];
 equation
   for i loop
-    x[i] = time;
+    x[2*i] = time;
   end for;
 end M;

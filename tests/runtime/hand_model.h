@@ -138,7 +138,8 @@ template <class M> struct Generated {
                                      M::time_relations,
                                      M::next_time_event,
                                      M::event,
-                                     M::check};
+                                     M::check,
+                                     nullptr};
     return &d;
   }
 };

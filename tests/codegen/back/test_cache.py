@@ -65,6 +65,7 @@ def _checkout(folder: Path, gain: int) -> Path:
     shutil.copytree(ROOT / "codegen", package / "codegen", ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copytree(ROOT / "runtime" / "include", package / "runtime" / "include")
     (package / "__init__.py").touch()
+    shutil.copy(ROOT / "lacuna" / "units.py", package)
     (package / "model").mkdir()
     (package / "model" / "package.mo").write_text("package Lacuna\nend Lacuna;\n")
     (package / "model" / "Decay.mo").write_text(f"within Lacuna;\n{MODEL.replace('k = 2', f'k = {gain}')}")
@@ -79,16 +80,51 @@ def _compiled_in(checkout: Path, cache_directory: Path) -> str:
     return subprocess.run(command, cwd=checkout, check=True, capture_output=True, text=True).stdout.strip()
 
 
-def test_checkouts_that_share_a_cache_keep_their_own_models(tmp_path: Path) -> None:
-    one, two = _checkout(tmp_path / "one", 2), _checkout(tmp_path / "two", 3)
+def test_checkouts_share_a_cache_and_what_is_equal_in_it(tmp_path: Path) -> None:
+    one, two, like_one = (
+        _checkout(tmp_path / "one", 2),
+        _checkout(tmp_path / "two", 3),
+        _checkout(tmp_path / "three", 2),
+    )
     shared = tmp_path / "cache"
-    paths = [_compiled_in(checkout, shared) for checkout in (one, two, one, two)]
-    assert paths[:2] == paths[2:]
-    for path, checkout, other in ((paths[0], one, two), (paths[1], two, one)):
-        text = Path(path).with_suffix(".c").read_text()
-        assert f"{checkout}/lacuna/model/Decay.mo" in text
-        assert str(other) not in text
+    paths = [_compiled_in(checkout, shared) for checkout in (one, two, one, two, like_one)]
+    assert paths[:2] == paths[2:4]
     assert paths[0] != paths[1]
+    assert paths[4] == paths[0]
+    for path, gain in zip(paths[:2], ("2.0", "3.0"), strict=True):
+        text = Path(path).with_suffix(".c").read_text()
+        assert '"model/Decay.mo"' in text
+        assert str(tmp_path) not in text
+        assert f'"k", "", "", "model/Decay.mo", 3, MDL_REAL, MDL_PARAMETER, 0, 1, 1, 0, {gain}' in text
+
+
+def test_a_file_that_now_wins_a_look_up_makes_the_model_new(tmp_path: Path) -> None:
+    first, second = tmp_path / "first", tmp_path / "second"
+    for folder in (first, second):
+        folder.mkdir()
+    (second / "Gain.mo").write_text("model Gain constant Real k = 2; end Gain;")
+    model = write_model(tmp_path, "model Uses extends Gain; Real y = k*time; end Uses;")
+    search, store = [str(first), str(second)], str(tmp_path / "cache")
+
+    def compiled() -> tuple[bool, str]:
+        found = compile_model(model, cache_directory=store, search_path=search)
+        return found.report.cached, Path(found.path).with_suffix(".c").read_text()
+
+    assert [compiled()[0], compiled()[0]] == [False, True]
+    (first / "Gain.mo").write_text("model Gain constant Real k = 7; end Gain;")
+    cached, text = compiled()
+    assert not cached
+    assert "7" in text[text.index("static int mdl_rhs") : text.index("static int mdl_initial_system")]
+    assert compiled()[0]
+
+
+def test_another_compiler_makes_libraries_new(model: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    first = compile_model(model, cache_directory=str(tmp_path))
+    monkeypatch.setattr(cache, "compiler", lambda: "another")
+    again = compile_model(model, cache_directory=str(tmp_path))
+    assert not again.report.cached
+    assert again.path != first.path
+    assert again.hash == first.hash  # the C is the same
 
 
 def test_equal_input_gives_equal_bytes(model: str) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from lacuna.codegen.errors import Diagnostic
-from lacuna.codegen.units.unit import format_unit, parse_unit
+from lacuna.units import format_unit, parse_unit
 from tests.codegen.front.helpers import flatten_text
 
 

@@ -1,5 +1,4 @@
 /* Diode: generated from
- *   package.mo  sha256 f568f6868f6a2199c591c104f376c5602cb15ccb75a95176575c1ab329782a04
  *   Diode.mo  sha256 969152f98ee883e40d11b6d751fe55022a837a19c084de58f5d12601fd5d6e29
  * Do not edit: edit the model. */
 #include "mdl_abi.h"

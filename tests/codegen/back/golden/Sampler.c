@@ -1,5 +1,4 @@
 /* Sampler: generated from
- *   package.mo  sha256 f568f6868f6a2199c591c104f376c5602cb15ccb75a95176575c1ab329782a04
  *   Sampler.mo  sha256 99b7a74781a01244b3ebd5b1ed750f78489854a581787f04efdbfddd3eb1455f
  * Do not edit: edit the model. */
 #include "mdl_abi.h"

@@ -1,5 +1,4 @@
 /* Shaft: generated from
- *   package.mo  sha256 f568f6868f6a2199c591c104f376c5602cb15ccb75a95176575c1ab329782a04
  *   Shaft.mo  sha256 4c10dce42d715c8ccc037fbde8f169032c84d7bf347dbe36ef27eb0767ecfb69
  * Do not edit: edit the model. */
 #include "mdl_abi.h"

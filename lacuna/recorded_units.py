@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 import math
 import re
 
-_PREFIX = {"": 1.0, "n": 1e-9, "u": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6}
+from lacuna.units import format_unit, parse_unit
 
-# symbol -> (factor, SI unit); prefixes apply to those in _PREFIXABLE only
+# Symbols whose SI unit keeps the radian or the degree Celsius, which exponents do not show.
 _ATOMS: dict[str, tuple[float, str]] = {
-    "1": (1.0, "1"), "rad": (1.0, "rad"), "deg": (math.pi / 180, "rad"), "rev": (2 * math.pi, "rad"),
-    "rpm": (math.pi / 30, "rad/s"), "%": (0.01, "1"), "min": (60.0, "s"), "degC": (1.0, "degC"),
-    "V": (1.0, "V"), "A": (1.0, "A"), "N": (1.0, "N"), "m": (1.0, "m"), "s": (1.0, "s"), "W": (1.0, "W"),
-    "g": (1e-3, "kg"), "K": (1.0, "K"), "Hz": (1.0, "Hz"), "Pa": (1.0, "Pa"), "H": (1.0, "H"),
-    "ohm": (1.0, "ohm"), "J": (1.0, "J"), "C": (1.0, "C"), "F": (1.0, "F"), "T": (1.0, "T"), "Wb": (1.0, "Wb"),
+    "deg": (math.pi / 180, "rad"), "rev": (2 * math.pi, "rad"), "rpm": (math.pi / 30, "rad/s"),
+    "%": (0.01, "1"), "degC": (1.0, "degC"), "ohm": (1.0, "ohm"),
 }  # fmt: skip
-_PREFIXABLE = {"V", "A", "N", "m", "s", "W", "g", "Hz", "Pa", "H", "ohm", "J", "rad", "F", "T", "Wb", "C"}
 _FACTOR = re.compile(r"^(?P<symbol>[A-Za-z%]+|1)(?P<power>-?\d+)?$")
 
 
@@ -28,11 +25,19 @@ class UnitError(ValueError):
 def _atom(symbol: str) -> tuple[float, str]:
     if symbol in _ATOMS:
         return _ATOMS[symbol]
-    prefix, rest = symbol[:1], symbol[1:]
-    if prefix in _PREFIX and rest in _PREFIXABLE:
-        factor, si = _ATOMS[rest]
-        return _PREFIX[prefix] * factor, si
-    raise UnitError(f'unit "{symbol}" is not known')
+    if symbol.endswith("rad") and len(symbol) == 4:  # mrad, urad: no prefix in the language, common in recordings
+        return _atom(symbol[0] + "m")[0], "rad"
+    if symbol.endswith("ohm"):
+        return _atom(symbol[:-3] + "Ohm")[0], "ohm"
+    try:
+        unit = parse_unit(symbol)
+    except ValueError as error:
+        raise UnitError(f'unit "{symbol}" is not known') from error
+    return (
+        (1.0, symbol)
+        if unit.factor == 1.0
+        else (float(unit.factor or 1.0), format_unit(replace(unit, factor=1.0, text="")))
+    )
 
 
 def to_si(unit: str) -> tuple[float, str]:
@@ -55,14 +60,14 @@ def to_si(unit: str) -> tuple[float, str]:
             factor *= scale ** (sign * power)
             symbols.append(si if power == 1 else f"{si}{power}")
         parts.append(".".join(symbols))
-    return factor, parts[0] + (f"/{parts[1]}" if parts[1] else "")
+    below = f"({parts[1]})" if "." in parts[1] else parts[1]
+    return factor, (parts[0] or "1") + (f"/{below}" if below else "")
 
 
 def same_unit(model: str, column: str) -> bool:
-    """Whether two SI units agree as text, up to order and the names of one."""
-
-    def parts(unit: str) -> tuple[list[str], list[str]]:
-        top, _, bottom = unit.replace("Ohm", "ohm").replace("(", "").replace(")", "").partition("/")
-        return sorted(t for t in top.split(".") if t not in ("", "1")), sorted(b for b in bottom.split(".") if b)
-
-    return not model or parts(model) == parts(column)
+    """Whether an SI unit of a column is that of a variable: one dimension, and of temperatures one zero."""
+    if not model:
+        return True
+    if ("degC" in model) != ("degC" in column):
+        return False  # the scales differ by more than a factor, which is all that a column is converted by
+    return parse_unit(model.replace("ohm", "Ohm")).same(parse_unit(column.replace("ohm", "Ohm")))

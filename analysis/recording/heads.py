@@ -1,0 +1,81 @@
+"""What the head of a column says: a name and a unit, in the ways people write them.
+
+    n (rpm)    Time [s]    I_A/mA    u {V}    p, bar    t_s
+
+The last is only believed where the rest of the name is one that can stand alone and the end is a unit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import re
+
+from lacuna.recorded_units import UnitError, to_si
+
+# How loggers write units that the language writes otherwise.
+_SPELLINGS = {
+    "°C": "degC", "℃": "degC", "C°": "degC", "grad C": "degC", "°": "deg", "Ω": "Ohm", "Nm": "N.m", "mNm": "mN.m",
+    "Nmm": "N.mm", "1/min": "rpm", "min-1": "rpm", "min^-1": "rpm", "U/min": "rpm", "r/min": "rpm",
+    "rev/min": "rpm", "RPM": "rpm", "sec": "s", "secs": "s", "seconds": "s", "msec": "ms", "µs": "us", "μs": "us",
+    "-": "1", "": "1", "Volt": "V", "Amp": "A", "Amps": "A", "lpm": "l/min",
+    "ltr/min": "l/min", "hours": "h", "minutes": "min",
+}  # fmt: skip
+_BRACKETS = re.compile(
+    r"^(?P<name>.*?\S)\s*(?:\[(?P<a>[^\]]*)\]|\((?P<b>[^)]*(?:\([^)]*\)[^)]*)?)\)|\{(?P<c>[^}]*)\}|<(?P<d>[^>]*)>)$"
+)
+_TIME = re.compile(
+    r"^(time|t|zeit|temps|tiempo|tempo|timestamp|time[ _]?stamp|elapsed([ _]time)?|seconds|sec)$", re.IGNORECASE
+)
+
+
+@dataclass(frozen=True)
+class Head:
+    """`unit` is None where the head says none; `sure` is False where it was only inferred."""
+
+    text: str
+    name: str
+    unit: str | None
+    sure: bool = True
+
+    @property
+    def is_time(self) -> bool:
+        return _TIME.match(self.name) is not None
+
+
+def known_unit(text: str) -> str | None:
+    """`text` as the language writes it, or None where it is no unit."""
+    spelt = text.strip()
+    spelt = (
+        _SPELLINGS.get(spelt, spelt)
+        .replace("µ", "u")
+        .replace("μ", "u")
+        .replace("²", "2")
+        .replace("³", "3")
+        .replace("·", ".")
+    )
+    try:
+        to_si(spelt)
+    except UnitError:
+        return None
+    return spelt
+
+
+def read_head(text: str, unit_row: str = "") -> Head:
+    """The name and the unit of a column from its head, and from the cell of the row of units where there is one."""
+    text = text.strip()
+    if unit_row.strip():
+        unit = known_unit(unit_row)
+        return Head(text, text, unit, unit is not None)
+    if match := _BRACKETS.match(text):
+        said = next(g for g in (match["a"], match["b"], match["c"], match["d"]) if g is not None)
+        if (unit := known_unit(said)) is not None:
+            return Head(text, match["name"].strip(), unit)
+    for separator in (" in ", "/", ","):  # I_A/mA, but not a/b of two names: what follows must be a unit
+        name, found, said = text.partition(separator)
+        unit = known_unit(said) if found and said.strip() else None
+        if unit is not None and name.strip():
+            return Head(text, name.strip(), unit)
+    name, found, said = text.rpartition("_")
+    if found and len(name) > 0 and said not in ("1", "") and (unit := known_unit(said)) is not None:
+        return Head(text, name, unit, sure=False)
+    return Head(text, text, None, sure=False)

@@ -1,0 +1,129 @@
+"""What a command answers: printed as text, as JSON, or not at all. What a user did wrong is said in a sentence and exit
+status 1; a traceback is for our own mistakes only."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+import functools
+import inspect
+import json as json_text
+import math
+import os
+from pathlib import Path
+from typing import Annotated, Any, get_type_hints
+
+from rich.console import Console, RenderableType
+import typer
+
+import lacuna
+
+WIDTH = 110  # columns, where the terminal has fewer or there is none: broken words help nobody
+_silent: ContextVar[bool] = ContextVar("silent", default=False)
+
+Json = Annotated[bool, typer.Option("--json", help="Print the answer as JSON, and nothing else on standard output")]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but warnings and errors")]
+_EVERYWHERE = {"json": Json, "quiet": Quiet}
+
+
+@dataclass
+class Answer:
+    """`data` is what --json prints, `parts` what a terminal shows; `failure` ends the command with status 1."""
+
+    data: dict[str, Any]
+    parts: list[RenderableType] = field(default_factory=list)
+    written: list[Path] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+    failure: str = ""
+
+
+def answered(command: Callable[..., Answer]) -> Callable[..., None]:
+    """A command that prints its answer, with options --json and --quiet; LACUNA_DEBUG=1 shows tracebacks, too."""
+
+    @functools.wraps(command)
+    def run(*args: Any, json: bool = False, quiet: bool = False, **kwargs: Any) -> None:
+        token = _silent.set(json or quiet)
+        try:
+            _print(command(*args, **kwargs), json, quiet)
+        except KeyboardInterrupt:
+            typer.echo("interrupted", err=True)
+            raise typer.Exit(130) from None
+        except Exception as error:
+            if isinstance(error, typer.Exit) or os.environ.get("LACUNA_DEBUG") or not lacuna.is_user_error(error):
+                raise
+            _fail(lacuna.message_of(error), {}, json)
+        finally:
+            _silent.reset(token)
+
+    hints = get_type_hints(command, include_extras=True) | _EVERYWHERE | {"return": None}
+    own = [p.replace(annotation=hints[n]) for n, p in inspect.signature(command).parameters.items()]
+    more = [
+        inspect.Parameter(n, inspect.Parameter.KEYWORD_ONLY, default=False, annotation=a)
+        for n, a in _EVERYWHERE.items()
+    ]
+    run.__signature__ = inspect.Signature([*own, *more])  # type: ignore[attr-defined]
+    run.__annotations__ = hints
+    return run
+
+
+def _print(answer: Answer, json: bool, quiet: bool) -> None:
+    for warning in answer.warnings:
+        typer.echo(warning, err=True)
+    data = answer.data | {"warnings": answer.warnings, "written": [str(path) for path in answer.written]}
+    if answer.failure:
+        _show(answer, quiet or json)
+        _fail(f"error: {answer.failure}", data, json)
+    if json:
+        _echo(data)
+    _show(answer, quiet or json)
+
+
+def _show(answer: Answer, silent: bool) -> None:
+    if silent:
+        return
+    console = Console(width=max(Console().width, WIDTH))
+    for part in answer.parts:
+        if isinstance(part, str):
+            typer.echo(part)
+        else:
+            console.print(part)
+    for path in answer.written:
+        typer.echo(f"written: {path}")
+
+
+def _fail(message: str, data: dict[str, Any], json: bool) -> None:
+    typer.echo(message, err=True)
+    if json:
+        _echo(data | {"error": message.removeprefix("error: ")})
+    raise typer.Exit(1)
+
+
+def _echo(data: dict[str, Any]) -> None:
+    typer.echo(json_text.dumps(_finite(data), indent=2, ensure_ascii=False, default=str))
+
+
+def _finite(value: Any) -> Any:
+    """JSON has no NaN or infinity: they become null."""
+    if isinstance(value, dict):
+        return {str(k): _finite(v) for k, v in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(v) for v in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+@contextmanager
+def progress() -> Iterator[lacuna.Progress]:
+    """A callback that draws a bar where standard error is a terminal, and nothing elsewhere."""
+    from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    console = Console(stderr=True)
+    columns = (SpinnerColumn(), TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=console, transient=True, disable=_silent.get() or not console.is_terminal) as bar:
+        task = bar.add_task("", total=None)
+
+        def tell(text: str, share: float | None) -> None:
+            bar.update(task, description=text, total=None if share is None else 1.0, completed=share or 0.0)
+
+        yield tell

@@ -1,0 +1,48 @@
+"""New cases: `lacuna.new_case(model, recordings, out)`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from lacuna.extras import names_missing_packages
+from lacuna.notebook import page, paragraph, table
+
+
+@dataclass(frozen=True)
+class Drafted:
+    """A case folder that was written: what each column was taken for, and what a human should look at.
+
+    `columns` holds (column, variable, unit, role), "" where nothing fits; `unsure` the sentences marked in case.toml.
+    """
+
+    folder: Path
+    columns: tuple[tuple[str, str, str, str], ...]
+    unsure: tuple[str, ...]
+
+    def _repr_html_(self) -> str:
+        rows = table(("column", "variable", "unit", "role"), self.columns)
+        return page(f"case {self.folder}", rows, *(paragraph(sentence) for sentence in self.unsure))
+
+
+@names_missing_packages
+def new_case(
+    model: str | Path, recordings: Iterable[str | Path], out: str | Path, *, libraries: Iterable[str | Path] = ()
+) -> Drafted:
+    """Write a case for `explain` from a model and recordings as loggers wrote them.
+
+    Columns are matched to variables by name and unit, units are proposed, noise is estimated, recordings are divided
+    into those that are fitted and those that judge; `out`/case.toml says what was assumed. Raises a user error where
+    the files are no recordings of this model; then nothing is written.
+    """
+    from lacuna.discovery.draft.case import new_case as draft
+
+    made = draft(str(model), [Path(path) for path in recordings], Path(out), [Path(path) for path in libraries])
+    columns = tuple(
+        (m.head.text, m.target.name, m.head.unit or m.target.unit, "input" if m.target.is_input else "output")
+        if m.target
+        else (m.head.text, "", m.head.unit or "", "")
+        for m in made.matches
+    )
+    return Drafted(made.path.parent, columns, made.unsure)

@@ -1,0 +1,31 @@
+"""What a user can put right is said in a sentence; every stage marks such exceptions with `user_error = True`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+class UserError(Exception):
+    """Something that the caller can put right; the message says what and how."""
+
+    user_error = True
+
+
+def is_user_error(error: BaseException) -> bool:
+    """Whether the message is all that a user needs: refusals of any stage, files that cannot be read."""
+    return isinstance(error, OSError) or bool(getattr(error, "user_error", False))
+
+
+def message_of(error: BaseException) -> str:
+    """The message of a user's error; a finding about a model has its place, code and hint."""
+    if isinstance(error, OSError) and error.filename:
+        return f"error: {error.filename}: {error.strerror}"
+    text = str(error)
+    return text if "error[" in text.splitlines()[0] or text.startswith("error") else f"error: {text}"
+
+
+def nearest(name: str, valid: Iterable[str]) -> str:
+    """The end of a refusal of `name`: the valid names that may be meant, or else some that there are."""
+    from lacuna.runtime.errors import suggestion
+
+    return suggestion(name, valid)

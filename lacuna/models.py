@@ -1,0 +1,271 @@
+"""Models: found, translated, looked at, simulated."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+import time
+from typing import Literal
+
+import numpy as np
+
+from lacuna.codegen.compile import CompiledModel, compile_model, translate
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flat.text import dump_flat
+from lacuna.codegen.flatten import flatten
+from lacuna.codegen.library import Library
+from lacuna.codegen.report import dump as dump_structure
+from lacuna.codegen.search_path import search_path
+from lacuna.errors import UserError
+from lacuna.inputs import Input, as_inputs
+from lacuna.notebook import page, table
+from lacuna.results import IncompleteRun, Result
+import lacuna.runtime as runtime
+
+Units = Literal["error", "warn"]
+Solver = Literal["ida", "dopri5", "rodas4", "rk4", "euler"]
+Dump = Literal["flat", "structure", "c"]
+POINTS = 500  # rows of a run whose model and caller name no interval, as Modelica tools have it
+NO_VALUE = "F023"  # the code of a parameter without a value, which the caller may give
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where a model comes from: `name` as `load` takes it, where classes are looked up, what unit errors are."""
+
+    name: str
+    path: tuple[str, ...]
+    units: Units = "error"
+
+    @classmethod
+    def of(cls, model: str | Path, class_name: str, libraries: Iterable[str | Path], units: Units = "error") -> Source:
+        name = f"{model}:{class_name}" if class_name else str(model)
+        return cls(name, tuple(search_path(libraries)), units)
+
+    def compiled(self, modifications: Mapping[str, float] | None = None) -> CompiledModel:
+        return compile_model(
+            self.name, search_path=list(self.path), modifications=dict(modifications or {}), units=self.units
+        )
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What a check found: a flat model's size, and warnings with file, line and hint."""
+
+    name: str
+    variables: int
+    states: int
+    equations: int
+    warnings: tuple[str, ...]
+
+    def _repr_html_(self) -> str:
+        rows = [("variables", self.variables), ("continuous", self.states), ("equations", self.equations)]
+        return page(self.name, table(("", ""), rows), *(f"<pre>{w}</pre>" for w in self.warnings))
+
+
+def check(
+    model: str | Path, *, class_name: str = "", libraries: Iterable[str | Path] = (), units: Units = "error"
+) -> Finding:
+    """The front end alone: names, types, units, structure of the language. Raises Diagnostic with all findings."""
+    source = Source.of(model, class_name, libraries, units)
+    flat = flatten(Library(source.path), source.name, units=units)
+    continuous = sum(v.variability == "continuous" for v in flat.variables.values())
+    return Finding(flat.name, len(flat.variables), continuous, len(flat.equations), tuple(map(str, flat.warnings)))
+
+
+def dump(
+    model: str | Path,
+    what: Dump,
+    *,
+    class_name: str = "",
+    libraries: Iterable[str | Path] = (),
+    units: Units = "error",
+) -> str:
+    """What the passes made of a model, as text: its flat equations (also where later passes refuse it), its structure,
+    or the generated C. Raises Diagnostic where the model is wrong."""
+    source = Source.of(model, class_name, libraries, units)
+    if what == "flat":
+        return dump_flat(flatten(Library(source.path), source.name, units=units))
+    return dump_structure(translate(source.name, search_path=list(source.path), units=units)[0], what)
+
+
+def load(
+    model: str | Path,
+    *,
+    class_name: str = "",
+    libraries: Iterable[str | Path] = (),
+    parameters: Mapping[str, float] | None = None,
+    units: Units = "error",
+) -> Model:
+    """Translate and compile a model; at once where nothing that it was made from has changed.
+
+    `model` is a full name (`Lacuna.` may be left out), a .mo file, or the folder of a package; `class_name` picks a
+    class in a file or package. `libraries` are folders of packages, folders around them, or .mo files; MODELICAPATH
+    and the package Lacuna come after them. `parameters` are values other than declared (SI units) for every run.
+    Raises Diagnostic with file, line and hint where the model is wrong, UserError for an unknown parameter.
+    """
+    source = Source.of(model, class_name, libraries, units)
+    try:
+        return Model(source, source.compiled()).with_parameters(parameters or {})
+    except Diagnostic as finding:
+        if finding.code != NO_VALUE or not parameters:
+            raise
+        return Model(source, source.compiled(parameters), parameters)
+
+
+class Model:
+    """A translated model. Read-only: runs in many threads may use it at once."""
+
+    def __init__(
+        self, source: Source, compiled: CompiledModel, fixed: Mapping[str, float] | None = None,
+        values: Mapping[str, float] | None = None,
+    ) -> None:  # fmt: skip
+        self._source, self._compiled = source, compiled
+        self._fixed, self._values = dict(fixed or {}), dict(values or {})  # part of the structure; set for every run
+        self._model = runtime.Model(compiled.path)
+
+    @property
+    def name(self) -> str:
+        """Full name of the class."""
+        return self._model.name
+
+    @property
+    def variables(self) -> dict[str, runtime.Variable]:
+        """Every variable by full name, in order of declaration, with unit, description, bounds and source line."""
+        return self._model.variables
+
+    @property
+    def parameters(self) -> dict[str, runtime.Variable]:
+        """The variables that `parameters` may set; `start` is the declared value."""
+        return {n: v for n, v in self.variables.items() if v.kind == "parameter" and (v.settable or n in self._fixed)}
+
+    @property
+    def inputs(self) -> dict[str, runtime.Variable]:
+        return self._model.inputs
+
+    @property
+    def states(self) -> dict[str, runtime.Variable]:
+        return self._model.states
+
+    @property
+    def start_time(self) -> float:
+        """s, of the model's experiment; so are `stop_time` (s), `tolerance` and `interval` (s, 0 where not given)."""
+        return float(self._model.start_time)
+
+    @property
+    def stop_time(self) -> float:
+        return float(self._model.stop_time)
+
+    @property
+    def tolerance(self) -> float:
+        return float(self._model.tolerance)
+
+    @property
+    def interval(self) -> float:
+        return float(self._model.interval)
+
+    @property
+    def warnings(self) -> list[str]:
+        """Of the translation, each with file and line."""
+        return [str(warning) for warning in self._compiled.report.warnings]
+
+    @property
+    def seconds(self) -> dict[str, float]:
+        """Of each pass of the translation; empty where the model was compiled before."""
+        return dict(self._compiled.report.seconds)
+
+    @property
+    def library(self) -> Path:
+        """The compiled model, a shared library."""
+        return Path(self._compiled.path)
+
+    @property
+    def translated(self) -> runtime.Model:
+        """The model as the runtime has it, for sessions that run it again and again."""
+        return self._model
+
+    def run_at(self, times: np.ndarray, outputs: Sequence[str], inputs: Mapping[str, Input]) -> runtime.Result:
+        """A run with rows at `times` (s, [rows]) and nothing else."""
+        self._refuse_parameters(inputs)
+        return runtime.simulate(
+            self._model, parameters=self._values, inputs=as_inputs(inputs), start=float(times[0]),
+            stop=float(times[-1]), output_times=times, outputs=outputs, events=False,
+        )  # fmt: skip
+
+    def with_parameters(self, parameters: Mapping[str, float]) -> Model:
+        """The same model with other values; translated anew where one of them decides its structure."""
+        if not parameters:
+            return self
+        known = {n: v for n, v in self.variables.items() if v.kind == "parameter"}
+        for name in parameters:
+            self._refuse_input(name)
+        settable = {n: float(v) for n, v in parameters.items() if self._model.variable(n, "parameter", known).settable}
+        fixed = self._fixed | {n: float(v) for n, v in parameters.items() if n not in settable}
+        compiled = self._source.compiled(fixed) if fixed != self._fixed else self._compiled
+        return Model(self._source, compiled, fixed, self._values | settable)
+
+    def _refuse_input(self, name: str) -> None:
+        if name in self.inputs:
+            raise UserError(f"{name} is an input of {self.name}, not a parameter: drive it by inputs, or -u {name}=...")
+
+    def simulate(
+        self,
+        *,
+        stop: float | None = None,
+        start: float | None = None,
+        inputs: Mapping[str, Input] | None = None,
+        parameters: Mapping[str, float] | None = None,
+        initial: Mapping[str, float] | None = None,
+        solver: Solver = "ida",
+        rtol: float | None = None,
+        atol: float | None = None,
+        step: float | None = None,
+        interval: float | None = None,
+        outputs: Sequence[str] | None = None,
+        event_rows: bool = False,
+        locate_events: bool = True,
+    ) -> Result:
+        """Simulate from `start` to `stop` (s; default: the model's experiment).
+
+        `inputs` drive inputs by constants, (times, values) or recordings; those not named keep their start value.
+        `parameters` replace declared values, `initial` the start values of states. Rows come every `interval` (s; by
+        default the model's own, else 500 over the run), with `event_rows` also before and after each event. `outputs`
+        restricts what is recorded. `rtol`: relative tolerance (default: the model's, else 1e-6); `atol`: absolute, for
+        each unit of a variable's nominal value (default 0.01 rtol). `step` (s) is that of the fixed-step solvers;
+        without `locate_events` they take events at its end.
+
+        Raises UserError or SimulationError for what cannot be used, IncompleteRun (with what there is) where the run
+        ends early.
+        """
+        model = self.with_parameters(parameters or {})
+        begin, end = (
+            model.start_time if start is None else start,
+            model.stop_time if stop is None else stop,
+        )
+        model._refuse_parameters(inputs or {})
+        clock = time.perf_counter()
+        run = runtime.simulate(
+            model._model, parameters=model._values, inputs=as_inputs(inputs or {}), initial=initial, start=begin,
+            stop=end, solver=solver, rtol=rtol, atol=atol, step=step, locate_events=locate_events, outputs=outputs,
+            interval=interval if interval is not None else model.interval or (end - begin) / POINTS, events=event_rows,
+        )  # fmt: skip
+        result = Result(run, None if outputs is None else list(outputs), time.perf_counter() - clock)
+        if not result.complete:
+            raise IncompleteRun(result)
+        return result
+
+    def _refuse_parameters(self, inputs: Iterable[str]) -> None:
+        for name in inputs:
+            if name in self.parameters:
+                raise UserError(f"{name} is a parameter of {self.name}, not an input: set it by parameters, or -p")
+
+    def __repr__(self) -> str:
+        return f"<Model {self.name}: {self._model.n_states} states, {len(self.variables)} variables>"
+
+    def _repr_html_(self) -> str:
+        head = ("parameter", "value", "unit", "")
+        rows = [(n, self._values.get(n, v.start), v.unit, v.description) for n, v in self.parameters.items()]
+        driven = [(n, v.unit, v.description) for n, v in self.inputs.items()]
+        size = f"{self.name}: {self._model.n_states} states, {len(self.variables)} variables"
+        return page(size, table(head, rows), *([table(("input", "unit", ""), driven)] if driven else []))

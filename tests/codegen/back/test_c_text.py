@@ -1,0 +1,62 @@
+"""What users wrote stays data in the C of a model: every character of a string, every name of a function."""
+
+from __future__ import annotations
+
+import ctypes
+from pathlib import Path
+
+import pytest
+
+from lacuna.codegen.cache import compile_c
+from lacuna.codegen.compile import compile_model
+from lacuna.codegen.emit.c_text import c_comment, c_string
+from lacuna.codegen.emit.expression import function_name
+from lacuna.runtime import Model, simulate
+from tests.codegen.generated import write_model
+
+HARD = ["", "\a1", "\v7f", "a\x017", "\\", '"', "???/", "??/\n", "??=??(??<", "\\?", "?\\?", "%s", "*/ x /*", "\x7f",
+        "\x80\x9f", "µΩ°", "\u202e", "\u2028", "\U0001f600", "\ufeff", "??" * 9]  # fmt: skip
+TRIGRAPHS = [f"?{'?' * k}{c}9" for k in (1, 2) for c in "=/'()!<>-?"]
+
+
+def test_strings_come_back_byte_for_byte(tmp_path: Path) -> None:
+    texts = [*(chr(code) + tail for code in range(1, 256) for tail in ("", "0", "f")), *HARD, *TRIGRAPHS]
+    rows = ",\n".join(f"  {c_string(text)} /* {c_comment(text)} */" for text in texts)
+    source = f"const char *const texts[] = {{\n{rows}\n}};\n"
+    (tmp_path / "texts.c").write_text(source, encoding="utf-8")
+    compile_c(tmp_path / "texts.c", tmp_path / "texts.so")
+    found = (ctypes.c_char_p * len(texts)).in_dll(ctypes.CDLL(str(tmp_path / "texts.so")), "texts")
+    assert list(found) == [text.encode() for text in texts]
+
+
+@pytest.mark.parametrize("text", ["a */ b", "/* a", "*//*", "/*/", "a\\", "??/", "x\u202ey"])
+def test_a_comment_cannot_be_left(text: str) -> None:
+    comment = c_comment(text)
+    assert "*/" not in comment
+    assert "/*" not in comment
+    assert "??/" not in comment
+    assert comment.isprintable()
+
+
+def test_functions_have_names_of_their_own() -> None:
+    names = ["P.a_b", "P.a.b", "P_a.b", "P.a_.b", "P.a._b", "f[2]", "f.2", "f[2,3]", "f[23]", "f:tangent", "f.tangent",
+             "f_all", "f.all", "f", "P.'a.b'", "P.a_05f_b", "P.a__b"]  # fmt: skip
+    taken = [function_name(name, whole) for name in names for whole in (False, True)]
+    assert len(set(taken)) == len(taken)
+    assert all(name.isidentifier() and name.isascii() for name in taken)
+
+
+def test_functions_that_differ_in_a_dot_are_both_called(tmp_path: Path) -> None:
+    body = (
+        "input Real x; output Real y; protected Real r; algorithm r := x; while r > 1 loop r := r - {step}; end while; "
+    )
+    one, other = (body.format(step=step) + "y := r;" for step in (1, 0.25))
+    model = write_model(tmp_path, f"""model Names
+  package a function b {one} end b; end a;
+  function a_b {other} end a_b;
+  Real u = a.b(3.6 + 0*time), w = a_b(3.6 + 0*time);
+end Names;""")  # fmt: skip
+    compiled = Model(compile_model(model, cache_directory=str(tmp_path)).path)
+    result = simulate(compiled, stop=1.0)
+    assert result["u"][-1] == pytest.approx(0.6)
+    assert result["w"][-1] == pytest.approx(0.85)
