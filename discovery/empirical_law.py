@@ -92,15 +92,13 @@ def _free(law: Law, attachment: Attachment, start: dict[str, float]) -> list[Fre
 
 def simplified(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> Candidate:
     """The law without coefficients that may be zero, and with whole exponents and orders where the data allows them."""
+    shorter: list[Proposal] = []
     for simpler in _simpler(best):
-        candidate = fitted_law(case, amendment, base, simpler.law, simpler.start, best.candidate.fit.point)
-        if candidate is None:
-            continue
-        correlation = best.candidate.fit.correlation()
-        if score(candidate, base, correlation) < score(best.candidate, base, correlation):
-            simpler.candidate = candidate
-            return simplified(case, amendment, base, simpler)
-    return best.candidate
+        simpler.candidate = fitted_law(case, amendment, base, simpler.law, simpler.start, best.candidate.fit.point)
+        shorter += [simpler] if simpler.candidate is not None else []
+    correlation = best.candidate.fit.correlation()
+    chosen = min([best, *shorter], key=lambda p: score(p.candidate, base, correlation))
+    return best.candidate if chosen is best else simplified(case, amendment, base, chosen)
 
 
 def _simpler(proposal: Proposal) -> list[Proposal]:
@@ -113,9 +111,7 @@ def _simpler(proposal: Proposal) -> list[Proposal]:
     found = []
     for name, shape in law.shapes().items():
         near = [s for s in shape.simple if abs(s - values[name]) < SIGNIFICANT * errors[prefix + name] + 0.02 * s]
-        if near:
-            nearest = min(near, key=lambda s: abs(s - values[name]))
-            found.append(_with_fixed(law, values, name, nearest))
+        found += [_with_fixed(law, values, name, s) for s in near]
     numbered = law.numbered()
     for k, (c, _, _) in enumerate(numbered):
         if len(numbered) > 1 and abs(values[c]) < SIGNIFICANT * errors[prefix + c]:

@@ -1,8 +1,8 @@
 """The equations of a model linearised along its trajectory: how states and outputs answer to inputs and parameters.
 
 With rows F(u; x, p, q) = 0 in the unknowns u = (der(x), algebraic variables), inputs q and parameters p, the first
-variation is M du + F_x dx + F_q dq + F_p dp = 0, M = dF/du. The derivatives are the engine's symbolic ones, evaluated at
-all samples of a trajectory at once; nothing is differenced.
+variation is M du + F_x dx + F_q dq + F_p dp = 0, M = dF/du. The derivatives are the symbolic ones of the generator,
+evaluated at all samples of a trajectory at once; nothing is differenced.
 """
 
 from __future__ import annotations

@@ -8,13 +8,14 @@ import numpy as np
 
 from lacuna.discovery.cases import Case, Recording
 from lacuna.discovery.efforts.opened import Opened, Place
-from lacuna.discovery.efforts.smoother import Evidence, Latent, Piece, course, evidence
+from lacuna.discovery.efforts.smoother import Latent, Piece, course, evidence, thinned
 from lacuna.discovery.fit import Fit
 from lacuna.discovery.least_squares import Free
 from lacuna.runtime import RecordedInput
 
 SIZES = 10.0 ** np.arange(-1.0, 2.1, 0.5)  # of the effort that would explain the misfit by itself: half decades
 TIMES = (1 / 300, 1 / 50, 1 / 8)  # of the longest recording: shorter is noise, longer is a constant
+SAMPLES = 1500  # of all recordings together, that hypotheses are weighed on: locating needs no more
 ROUNDS = 2  # linearisations: about the believed model, then about the effort that was found
 
 
@@ -82,9 +83,10 @@ class Locator:
     def ranked(self) -> list[Site]:
         """Places and sensors, best first."""
         hypotheses, owners = self._hypotheses()
-        found = evidence(self.pieces, hypotheses)
+        thin = thinned_all(self.pieces)
+        found = evidence(thin, hypotheses)
         null = float(found.log[-1])
-        samples = sum(np.isfinite(p.data[:, :, 0]).sum() for p in self.pieces)
+        samples = sum(np.isfinite(p.data[:, :, 0]).sum() for p in thin)
         whole = max(-0.5 * samples - null, 1e-9)
         result = []
         for owner in dict.fromkeys(owners[:-1]):
@@ -138,12 +140,17 @@ class Locator:
             pieces = [
                 self.piece(point, r, (site.place.column, e)) for r, (e, _) in zip(self.case.fit, efforts, strict=True)
             ]
-            found: Evidence = evidence(pieces, latent)
-            mean = found.mean[0]
+            mean = evidence(thinned_all(pieces), latent).mean[0]
         site.effort = {
             r.name: (r.time, e, s) for r, (e, s) in zip(self.case.fit, efforts, strict=True)
         }  # fmt: skip
         return Guided(point, pieces, [e for e, _ in efforts], mean, latent)
+
+
+def thinned_all(pieces: list[Piece]) -> list[Piece]:
+    """The recordings with so few samples that a search over many hypotheses is quick."""
+    every = -(-sum(len(p.along.time) for p in pieces) // SAMPLES)
+    return [thinned(p, every) for p in pieces]
 
 
 def _values(free: list[Free], sigma: np.ndarray, mean: np.ndarray) -> dict[str, float]:

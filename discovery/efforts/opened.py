@@ -16,13 +16,13 @@ from lacuna.codegen.compile import translate
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.library import Library
 from lacuna.codegen.units.inference import UnitInference, of_variable
-from lacuna.codegen.units.unit import Unit
 from lacuna.discovery.amend import Amendment
 from lacuna.discovery.cases import Case
 from lacuna.discovery.efforts.insertion import probe
 from lacuna.discovery.efforts.linear import Along, Linear
 from lacuna.discovery.efforts.sites import Site, read
 from lacuna.discovery.machine import Machine, write_source
+from lacuna.units import Unit
 
 ALIKE = 1e-5  # of a direction, by which two places may differ: rounding of the linearisation
 SILENT = 1e-9  # share of the strongest place's effect, below which a place has none

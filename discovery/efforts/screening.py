@@ -13,18 +13,22 @@ from dataclasses import replace
 import numpy as np
 
 from lacuna.discovery.efforts.linear import Along
-from lacuna.discovery.efforts.located import Guided, Locator, Site
-from lacuna.discovery.efforts.smoother import Whitener
+from lacuna.discovery.efforts.located import Guided, Locator, Site, thinned_all
+from lacuna.discovery.efforts.smoother import Latent, Piece, Whitener
 from lacuna.discovery.efforts.terms import groups, variables
 from lacuna.discovery.law import Law
 from lacuna.discovery.law import Site as LawSite
 from lacuna.discovery.law_screen import Proposal
 from lacuna.discovery.law_terms import Group
 
-DISCREPANCIES = (1.0, 0.1, 0.01)  # of the located effort's size, that a law may leave
+DISCREPANCIES = (0.3, 0.03)  # of the located effort's size, that a law may leave
+NEAR = 5.0  # believed sigmas, within which parameters are looked for
+KINDS = 40  # kinds of terms that are kept
 FAMILIES = 12  # kinds of terms whose shapes are refined
 ZOOMS, FINE = 3, 9  # times that a shape is refined, and values each time; each is a quarter of the last one's spacing
-FIRST = 6  # terms that a second one is looked for beside
+FIRST = 12  # terms that a second one is looked for beside
+CHECKED = 400  # pairs that are looked through for those
+PAIRS = 6  # kinds of pairs whose shapes are refined
 DEPENDENT = 1e-6  # share of a column that is left beside the others, below which it is none of its own
 
 
@@ -37,8 +41,10 @@ class Regression:
 
     def __init__(self, guided: Guided, place: LawSite, column: int) -> None:
         self.guided, self.place, self.column = guided, place, column
+        self.thin = thinned_all(guided.pieces)
+        self.every = -(-len(guided.pieces[0].along.time) // len(self.thin[0].along.time))
         self.groups: list[Group] = []
-        self.metrics = [_Metric(guided, share) for share in DISCREPANCIES]
+        self.metrics = [_Metric(self.thin, guided.latent, share) for share in DISCREPANCIES]
         self.rows = len(self.metrics[0].target)
 
     def add(self, groups: list[Group]) -> range:
@@ -49,7 +55,8 @@ class Regression:
             with np.errstate(all="ignore"):
                 courses = np.column_stack([c for group in groups for c in group.values(path, self.place.sizes)])
             courses = np.nan_to_num(courses, nan=0.0, posinf=0.0, neginf=0.0)
-            answers.append(piece.along.response(np.full(courses.shape[1], self.column), courses))
+            columns = np.full(courses.shape[1], self.column)
+            answers.append(piece.along.response(columns, courses, every=self.every))
         for metric in self.metrics:
             metric.add(answers, [len(group.texts) for group in groups])
         begin = len(self.groups)
@@ -66,43 +73,80 @@ class Regression:
         return len(self.groups[group].texts) + len(self.groups[group].shapes)
 
     def coefficients(self, chosen: tuple[int, ...]) -> np.ndarray:
-        metric = min(self.metrics, key=lambda m: m.deviances(chosen[:-1], chosen[-1:])[0])
-        columns = np.column_stack([metric.columns[g] for g in chosen])
-        size = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
-        return np.linalg.lstsq(columns / size, metric.target, rcond=1e-9)[0] / size
+        return self._best_metric(chosen).coefficients(chosen)
+
+    def _best_metric(self, chosen: tuple[int, ...]) -> _Metric:
+        return min(self.metrics, key=lambda m: m.deviances(chosen[:-1], chosen[-1:])[0])
+
+    def plausible(self, chosen: tuple[int, ...]) -> bool:
+        """Whether the parameters stay near what is believed of them. To first order anything can be had by parameters
+        that no machine has: a term of the balance taken away whole, its inertia with it."""
+        metric = self._best_metric(chosen)
+        return bool(np.all(np.abs(metric.parameters(chosen)) < NEAR))
 
 
 class _Metric:
     """The regression with what a law leaves as an effort of `share` of the size of the one that was located."""
 
-    def __init__(self, guided: Guided, share: float) -> None:
-        latent = replace(guided.latent, size=share * guided.latent.size)
-        self.whiteners = [Whitener(p, latent) for p in guided.pieces]
+    def __init__(self, pieces: list[Piece], located: Latent, share: float) -> None:
+        latent = replace(located, size=share * located.size)
+        self.whiteners = [Whitener(p, latent) for p in pieces]
         self.logdet = sum(w.logdet for w in self.whiteners)
-        rows = np.concatenate([w(p.data) for w, p in zip(self.whiteners, guided.pieces, strict=True)])
+        rows = np.concatenate([w(p.data) for w, p in zip(self.whiteners, pieces, strict=True)])
         count = rows.shape[1] - 1
-        self.basis, _ = np.linalg.qr(np.vstack([-rows[:, 1:], np.eye(count)]))
-        self.target = self._beside(rows[:, :1])[:, 0]
+        self.basis, self.triangle = np.linalg.qr(np.vstack([-rows[:, 1:], np.eye(count)]))
+        target, share = self._beside(rows[:, :1])
+        self.target, self.target_share = target[:, 0], share[:, 0]
         self.columns: list[np.ndarray] = []  # (rows, terms) of each group
+        self.shares: list[np.ndarray] = []  # (parameters, terms): what the parameters' basis has of each
 
-    def _beside(self, rows: np.ndarray) -> np.ndarray:
-        full = np.vstack([rows, np.zeros((self.basis.shape[1], rows.shape[1]))])
-        return full - self.basis @ (self.basis.T @ full)
+    def _beside(self, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """(what is left beside the parameters, what their basis takes)."""
+        count = self.basis.shape[1]
+        share = self.basis[: len(rows)].T @ rows
+        full = np.vstack([rows, np.zeros((count, rows.shape[1]))])
+        full -= self.basis @ share
+        return full, share
+
+    def coefficients(self, chosen: tuple[int, ...]) -> np.ndarray:
+        columns = np.column_stack([self.columns[g] for g in chosen])
+        size = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
+        return np.linalg.lstsq(columns / size, self.target, rcond=1e-9)[0] / size
+
+    def parameters(self, chosen: tuple[int, ...]) -> np.ndarray:
+        """Where the parameters go with these groups, in believed sigmas from what is believed."""
+        taken = np.column_stack([self.shares[g] for g in chosen]) @ self.coefficients(chosen)
+        return np.linalg.solve(self.triangle, self.target_share - taken)
 
     def add(self, answers: list[np.ndarray], terms: list[int]) -> None:
-        columns = self._beside(np.concatenate([w(a) for w, a in zip(self.whiteners, answers, strict=True)]))
+        columns, shares = self._beside(np.concatenate([w(a) for w, a in zip(self.whiteners, answers, strict=True)]))
         at = 0
         for count in terms:
             self.columns.append(columns[:, at : at + count])
+            self.shares.append(shares[:, at : at + count])
             at += count
 
-    def deviances(self, chosen: tuple[int, ...], others: Sequence[int]) -> list[float]:
+    def deviances(self, chosen: tuple[int, ...], others: Sequence[int]) -> np.ndarray:
+        """(len(others),) of the chosen groups with each of the others."""
         target, basis = self.target, None
         if chosen:
             basis, _ = np.linalg.qr(np.column_stack([self.columns[g] for g in chosen]))
             target = target - basis @ (basis.T @ target)
-        whole = float(target @ target) + self.logdet
-        return [whole - _taken(target, basis, self.columns[g]) for g in others]
+        taken = np.zeros(len(others))
+        plain = [k for k, g in enumerate(others) if self.columns[g].shape[1] == 1]
+        if plain:
+            taken[plain] = _taken_singly(target, basis, np.column_stack([self.columns[others[k]] for k in plain]))
+        for k, g in enumerate(others):
+            if self.columns[g].shape[1] > 1:
+                taken[k] = _taken(target, basis, self.columns[g])
+        return float(target @ target) + self.logdet - taken
+
+
+def _taken_singly(target: np.ndarray, basis: np.ndarray | None, columns: np.ndarray) -> np.ndarray:
+    """Square sums (j,) that each of the columns (rows, j) takes away alone beside `basis`."""
+    norms = np.einsum("ij,ij->j", columns, columns)
+    left = norms - (np.sum((basis.T @ columns) ** 2, axis=0) if basis is not None else 0.0)
+    return np.where(left > DEPENDENT * norms, (columns.T @ target) ** 2 / np.maximum(left, 1e-300), 0.0)
 
 
 def _taken(target: np.ndarray, basis: np.ndarray | None, block: np.ndarray) -> float:
@@ -147,7 +191,8 @@ def _refined(regression: Regression, every: range) -> list[tuple[int, ...]]:
     scored = dict(zip(every, regression.scores((), every), strict=True))
     best: dict[tuple[str, ...], int] = {}
     for g in sorted(scored, key=lambda g: scored[g]):
-        best.setdefault(regression.groups[g].texts, g)
+        if len(best) < KINDS and regression.groups[g].texts not in best and regression.plausible((g,)):
+            best[regression.groups[g].texts] = g
     kinds = list(best.values())
     for zoom in range(ZOOMS):
         finer = [(g, n) for g in kinds[:FAMILIES] for n in _finer(regression.groups[g], zoom)]
@@ -157,7 +202,7 @@ def _refined(regression: Regression, every: range) -> list[tuple[int, ...]]:
         for (g, _), n, score in zip(finer, added, regression.scores((), added), strict=True):
             scored[n] = score
             k = next(k for k, old in enumerate(kinds) if regression.groups[old].texts == regression.groups[g].texts)
-            if scored[n] < scored[kinds[k]]:
+            if scored[n] < scored[kinds[k]] and regression.plausible((n,)):
                 kinds[k] = n
     kinds.sort(key=lambda g: scored[g])
     return [(g,) for g in kinds]
@@ -182,9 +227,31 @@ def _doubled(regression: Regression, single: list[tuple[int, ...]], every: range
         for other, score in zip(others, regression.scores(first, others), strict=True):
             scored[(*first, other)] = score
     kinds: dict[frozenset, tuple[int, ...]] = {}
-    for key in sorted(scored, key=lambda k: scored[k]):
-        kinds.setdefault(frozenset(regression.groups[g].texts for g in key), key)
-    return list(kinds.values())
+    for key in sorted(scored, key=lambda k: scored[k])[:CHECKED]:
+        kind = frozenset(regression.groups[g].texts for g in key)
+        if len(kinds) < PAIRS and kind not in kinds and regression.plausible(key):
+            kinds[kind] = key
+    better = _refined_pairs(regression, [(key, scored[key]) for key in kinds.values()])
+    return [pair for pair, _ in sorted(better, key=lambda b: b[1])]
+
+
+def _refined_pairs(
+    regression: Regression, pairs: list[tuple[tuple[int, ...], float]]
+) -> list[tuple[tuple[int, ...], float]]:  # fmt: skip
+    """Pairs with their scores, the shape of either group refined beside the other's."""
+    for zoom in range(2):
+        for k in (0, 1):
+            finer = [_finer(regression.groups[pair[k]], zoom) for pair, _ in pairs]
+            added = iter(regression.add([g for group in finer for g in group]) if any(finer) else ())
+            for n, ((pair, score), group) in enumerate(zip(pairs, finer, strict=True)):
+                own = [next(added) for _ in group]
+                scores = regression.scores((pair[1 - k],), own) if own else [score]
+                best = int(np.argmin(scores))
+                if scores[best] < score:
+                    trial = (own[best], pair[1]) if k == 0 else (pair[0], own[best])
+                    if regression.plausible(trial):
+                        pairs[n] = trial, scores[best]
+    return pairs
 
 
 def _proposal(regression: Regression, chosen: tuple[int, ...]) -> Proposal:

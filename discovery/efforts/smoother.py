@@ -10,7 +10,8 @@ hypotheses (place, s, l) run side by side.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -150,11 +151,13 @@ class Whitener:
         self.seen = np.isfinite(piece.data).all(axis=2)
         self.logdet = 0.0
         self.steps: list[tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]] = []
+        self.covers: list[np.ndarray] = []  # of states and effort before each sample is read
         _, cover = chain.begin()
         for k in range(chain.n):
             read, _, _ = chain.read(k)
             gain, whitener, logdet = _gain(cover, read, chain.noise)
             self.logdet += float(logdet[0])
+            self.covers.append(cover[0])
             cover = _joseph(cover, gain, read, chain.noise)
             move, added = chain.move(k) if k < chain.n - 1 else (np.eye(chain.x + 1)[None], 0.0)
             cover = move @ cover @ np.swapaxes(move, 1, 2)
@@ -163,44 +166,58 @@ class Whitener:
 
     def __call__(self, columns: np.ndarray) -> np.ndarray:
         """(rows, j): innovations of columns (n, y, j) in units of their standard deviations; rows of samples alone."""
+        return self._filtered(columns)[0][self.seen]
+
+    def _filtered(self, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """(innovations (n, y, j), states before each sample (n, x + 1, j))."""
         state = np.zeros((len(self.steps[0][3]), columns.shape[2]))
-        white = np.empty(columns.shape)
+        white, states = np.empty(columns.shape), np.empty((len(columns), *state.shape))
         for k, (read, whitener, gain, move) in enumerate(self.steps):
+            states[k] = state
             innovation = np.where(self.seen[k][:, None], columns[k] - read @ state, 0.0)
             white[k] = whitener @ innovation
             state = move @ (state + gain @ innovation)
-        return white[self.seen]
+        return white, states
+
+    def effort(self, readings: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """(effort (n,), its standard deviation (n,)) from readings (n, y), backwards, no inverses (de Jong 1989)."""
+        white, states = self._filtered(readings[:, :, None])
+        pull, weight = np.zeros(len(self.covers[0])), np.zeros_like(self.covers[0])
+        result = np.empty((len(states), 2))
+        for k in reversed(range(len(states))):
+            read, whitener, gain, move = self.steps[k]
+            scaled = whitener @ read
+            keep = move - move @ gain @ read
+            pull = scaled.T @ white[k, :, 0] + keep.T @ pull
+            weight = scaled.T @ scaled + keep.T @ weight @ keep
+            row = self.covers[k][-1]
+            variance = self.covers[k][-1, -1] - row @ weight @ row
+            result[k] = states[k, -1, 0] + row @ pull, np.sqrt(max(variance, 0.0))
+        return result[:, 0], result[:, 1]
 
 
 def course(piece: Piece, latent: Latent, mean: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(effort (n,), its standard deviation (n,)) of one hypothesis, the parameters at `mean` (in units of belief).
+    """(effort (n,), its standard deviation (n,)) of one hypothesis, the parameters at `mean` (in units of belief)."""
+    left = piece.data[:, :, 0] + piece.data[:, :, 1:] @ mean
+    return Whitener(piece, latent).effort(left)
 
-    Rauch, Tung, Striebel (1965).
-    """
-    data = piece.data[:, :, :1] + piece.data[:, :, 1:] @ mean[:, None] if len(mean) else piece.data
-    chain = _Chain(Piece(piece.along, data, piece.noise, piece.start), latent)
-    state, cover = chain.begin()
-    filtered, predicted, moves = [], [], []
-    for k in range(chain.n):
-        predicted.append((state, cover))
-        read, seen, value = chain.read(k)
-        gain, _, _ = _gain(cover, read, chain.noise)
-        state = state + gain @ np.where(seen[None, :, None], value[None] - read @ state, 0.0)
-        cover = _joseph(cover, gain, read, chain.noise)
-        filtered.append((state, cover))
-        if k < chain.n - 1:
-            move, added = chain.move(k)
-            moves.append(move)
-            state = move @ state
-            cover = move @ cover @ np.swapaxes(move, 1, 2)
-            cover[:, -1, -1] += added
-    state, cover = filtered[-1]
-    result = np.empty((chain.n, 2))
-    for k in reversed(range(chain.n)):
-        if k < chain.n - 1:
-            (fs, fc), (ps, pc) = filtered[k], predicted[k + 1]
-            back = np.swapaxes(np.linalg.pinv(pc, hermitian=True) @ moves[k] @ fc, 1, 2)
-            state = fs + back @ (state - ps)
-            cover = fc + back @ (cover - pc) @ np.swapaxes(back, 1, 2)
-        result[k] = state[0, -1, 0], np.sqrt(max(cover[0, -1, -1], 0.0))
-    return result[:, 0], result[:, 1]
+
+def thinned(piece: Piece, every: int) -> Piece:
+    """The same with one sample in `every`, efforts held in between; no more is lost than the readings left out."""
+    if every <= 1:
+        return piece
+    along, n = piece.along, len(piece.along.time)
+    kept = np.arange(0, n, every)
+    steps, drives = [], []
+    for begin, end in pairwise(kept):
+        step, drive = along.step[begin], along.drive[begin]
+        for k in range(begin + 1, end):
+            step, drive = along.step[k] @ step, along.step[k] @ drive + along.drive[k]
+        steps.append(step)
+        drives.append(drive)
+    x, b = along.drive.shape[1:]
+    thin = replace(
+        along, time=along.time[kept], step=np.array(steps).reshape(-1, x, x), drive=np.array(drives).reshape(-1, x, b),
+        read=along.read[kept], feed=along.feed[kept], direct=along.direct[kept],
+    )  # fmt: skip
+    return Piece(thin, piece.data[kept], piece.noise, piece.start)

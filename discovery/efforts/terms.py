@@ -12,16 +12,18 @@ from collections.abc import Sequence
 import numpy as np
 
 from lacuna.codegen.units.inference import SECOND
-from lacuna.codegen.units.unit import parse_unit
 from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.law_terms import DRY, Group, Shape, Variable
+from lacuna.units import parse_unit
 
 MOST = 12  # variables at a place, the nearest first: their pairs are what a search costs
 SAME = 1e-3  # of their largest value, within which two variables are one, but for a factor
 MOVES = 1e-6  # share of its largest value that a variable must move by
+LEAST = 1.5  # cycles over the range: less of a wave is a bend, which powers say with fewer numbers
 CYCLES = 30  # of a wave along a variable, over the range that it has
 TURN = 1.6  # rad from one wave number to the next at the ends of the range: so that none is missed
-_WHOLE = (1 / 3, 0.5, 2 / 3, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0)
+EXPONENTS = (0.5, 1.5, 2.0, 3.0, 4.0)
+_WHOLE = (1 / 3, 2 / 3, 1.0, 7 / 4, *EXPONENTS, 5.0)
 
 
 def variables(
@@ -87,7 +89,7 @@ def groups(found: Sequence[Variable], ranges: dict[str, tuple[float, float]]) ->
 
 def _of_one_sign(v: Variable) -> list[Group]:
     x = v.scaled
-    power = [Group((f"abs{x}^{{p}}",), (Shape("p", "1", p, 0.1, 8.0, _WHOLE, 0.75),)) for p in (0.5, 2.0, 3.0, 4.0)]
+    power = _powers(f"abs{x}")
     bend = [
         Group((f"exp({{q}}*{x})",), (Shape("q", "1", q, min(q / 9, q * 9), max(q / 9, q * 9), (), 3.0),))
         for q in (-4, 4)
@@ -99,6 +101,12 @@ def _of_one_sign(v: Variable) -> list[Group]:
     return [Group((x,)), *power, *bend, *ends]
 
 
+def _powers(base: str) -> list[Group]:
+    """Powers with the exponents that physics has, and with any other."""
+    free = [Group((f"{base}^{{p}}",), (Shape("p", "1", p, 0.1, 8.0, _WHOLE, 0.75),)) for p in (0.75, 2.5, 5.0)]
+    return [*(Group((f"{base}^{p:.4g}",)) for p in EXPONENTS), *free]
+
+
 def _alone(v: Variable) -> list[Group]:
     x, sign = v.scaled, f"sign({v.local})"
     power = [
@@ -108,7 +116,9 @@ def _alone(v: Variable) -> list[Group]:
         Group((f"exp({{q}}*{x})",), (Shape("q", "1", q, min(q / 9, q * 9), max(q / 9, q * 9), (), 3.0),))
         for q in (-4, 4)
     ]
-    reach = [Group((f"tanh({{q}}*{x})",), (Shape("q", "1", 5.0, 0.5, 50.0, (), 4.0),))]
+    reach = [
+        Group((f"tanh({{q}}*{x})",), (Shape("q", "1", q, 0.5, 5e3, (), 0.8 * q),)) for q in (3.0, 15.0, 75.0, 375.0)
+    ]
     ends = [
         Group((f"(abs({side}{x} - {{q}}) + {side}{x} - {{q}})",), (Shape("q", "1", q, -0.99, 0.99, (), 0.25),))
         for side in ("", "-") for q in (0.0, 0.5)
@@ -123,7 +133,7 @@ def _alone(v: Variable) -> list[Group]:
 def _waves(v: Variable, span: float) -> list[Group]:
     """Waves along a variable: sine and cosine, the wave numbers so close that the next is never out of step."""
     step = TURN / max(span, 1e-9)
-    numbers = np.arange(2 * step, 2 * np.pi * CYCLES / max(span, 1e-9), step)
+    numbers = np.arange(2 * np.pi * LEAST / max(span, 1e-9), 2 * np.pi * CYCLES / max(span, 1e-9), step)
     return [
         Group(
             (f"sin({{k}}*{v.scaled})", f"cos({{k}}*{v.scaled})"),
