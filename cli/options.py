@@ -23,7 +23,8 @@ Libraries = Annotated[
     ),
 ]  # fmt: skip
 Units = Annotated[
-    Literal["error", "warn"], typer.Option(help="What a dimensionally inconsistent equation is: an error or a warning")
+    Literal["error", "warn", "all"],
+    typer.Option(help="An inconsistent equation is an error, a warning, or (all) an error in libraries, too"),
 ]
 Parameters = Annotated[
     list[str] | None,

@@ -11,7 +11,9 @@ from typing import TypeVar
 
 from lacuna.codegen import cache, flat
 from lacuna.codegen.dae import events, hybrid
-from lacuna.codegen.dae.initial import discrete_starts, initial_system
+from lacuna.codegen.dae.discrete_starts import discrete_starts
+from lacuna.codegen.dae.free_parameters import free_parameters
+from lacuna.codegen.dae.initial import initial_system
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.storage import Storage
 from lacuna.codegen.emit.source import generate
@@ -25,7 +27,7 @@ from lacuna.codegen.structure.index_reduction import reduce_index
 from lacuna.codegen.structure.residual_form import jacobian, residual_form
 from lacuna.codegen.structure.system import DeclaredValues
 from lacuna.codegen.structure.tearing import Tearing
-from lacuna.codegen.symbolic.expr import Expr
+from lacuna.codegen.symbolic.expr import Expr, own_table
 
 T = TypeVar("T")
 _translating = threading.Lock()  # expressions are shared by all threads; one translation at a time keeps them unique
@@ -58,6 +60,7 @@ class CompiledModel:
 def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     """The structural passes, in order."""
     sys.setrecursionlimit(max(sys.getrecursionlimit(), 20000))
+    declared = report.run("initial system", free_parameters, declared)
     aliases = report.run("aliases", eliminate_aliases, declared)
     frozen = report.run("hybrid", hybrid.analyse, aliases.model)
     model = report.run("initial system", discrete_starts, frozen.model)
@@ -113,7 +116,7 @@ def compile_model(
     found = store.find(request)
     if found:
         return CompiledModel(found.name, found.library, found.hash, Report(cached=True, warnings=found.warnings))
-    with _translating:
+    with _translating, own_table():
         prepared, report = translate(name, search_path=search_path, modifications=modifications, units=units)
         prepared.hash = cache.content_hash(prepared.declared, modifications, units, sensitivities)
         source = report.run("C", generate, prepared, sensitivities)

@@ -12,7 +12,15 @@ import hashlib
 from pathlib import Path
 
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.search_path import PACKAGE_FILE, names_in, outermost, package_in, search_path, split_name
+from lacuna.codegen.search_path import (
+    MODEL_FOLDER,
+    PACKAGE_FILE,
+    names_in,
+    outermost,
+    package_in,
+    search_path,
+    split_name,
+)
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.syntax import ast, parse
 
@@ -48,6 +56,8 @@ class Library:
         self._folders: dict[int, Path] = {}  # id of a package class -> its folder
         self._parsed: dict[Path, list[ast.Class]] = {}
         self._members: dict[tuple[int, str], ast.Class | None] = {}  # None where there is no file
+        self._own: set[Path] = set()  # files and package folders that were named by their path
+        self._packages: dict[str, str] = {}  # see foreign_package
         self.views: dict[tuple[object, ...], ast.Class] = {}  # see flatten/views.py
         self.bases: dict[int, list[ast.Class]] = {}  # of classes that were asked for, by identity
         self.resolving: set[int] = set()  # classes whose bases are being looked up, by identity
@@ -62,6 +72,10 @@ class Library:
     def folders(self) -> list[Path]:
         """Folders of the packages seen so far, outermost first."""
         return list(self._folders.values())
+
+    def folder_of(self, cls: ast.Class) -> Path | None:
+        """The folder of a package that is one."""
+        return self._folders.get(id(cls))
 
     def parse_file(self, path: Path) -> list[ast.Class]:
         """The classes of one file, each time the same objects. Raises F001 when it cannot be read."""
@@ -178,6 +192,7 @@ class Library:
 
     def _of_file(self, path: Path) -> ast.Class:
         resolved = path.resolve()
+        self._own.add(outermost(resolved.parent) or resolved)
         folder = resolved if resolved.is_dir() else resolved.parent
         top = outermost(folder)
         if top is not None:
@@ -216,6 +231,20 @@ class Library:
         if place not in self._places:
             self._places.insert(0 if first else len(self._places), place)
         self._members = {key: found for key, found in self._members.items() if key[0] != id(self.root)}
+
+    def foreign_package(self, file: str) -> str:
+        """The top-level package that `file` belongs to where that is a library found by the search path; "" for a model
+        named by its path, for what lies beside it and for package Lacuna."""
+        if file not in self._packages:
+            path = Path(file)
+            top = outermost(path.parent) or path
+            single = top == path and not (top.parent in self._places and self._holds_package(top))
+            own = not file or top in self._own or top == MODEL_FOLDER or single
+            self._packages[file] = "" if own else top.stem.split(" ")[0]
+        return self._packages[file]
+
+    def _holds_package(self, file: Path) -> bool:
+        return all(cls.kind in ("package", "record") for cls in self._parsed.get(file, ()))
 
     def all_classes(self, cls: ast.Class | None = None) -> list[ast.Class]:
         """Every class below `cls` (default: everything), packages first; reads all files."""

@@ -16,12 +16,16 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from lacuna.campaigns import Sweep, sweep
     from lacuna.comparisons import Agreement, Comparison, compare, compare_with_file
+    from lacuna.degradation import degradation_laws
     from lacuna.diagnoses import Case, Explanation, Verdict, explain, open_case
+    from lacuna.drafts import Drafted, convert, new_case
     from lacuna.errors import UserError, is_user_error, message_of, nearest
+    from lacuna.examples import copy_examples
     from lacuna.faults import Assessment, CombinedMap, OperatingMap, assess, combined_maps, maps
     from lacuna.inputs import Input, recorded
     from lacuna.listings import Entry, list_effects, list_models, list_solvers
     from lacuna.models import Finding, Model, check, dump, load
+    from lacuna.prognosis import Prognosis, forecast
     from lacuna.progress import Progress
     from lacuna.results import IncompleteRun, Result
 
@@ -29,12 +33,16 @@ _HOMES = {
     "campaigns": ("Sweep", "sweep"),
     "comparisons": ("Agreement", "Comparison", "compare", "compare_with_file"),
     "diagnoses": ("Case", "Explanation", "Verdict", "explain", "open_case"),
+    "drafts": ("Drafted", "convert", "new_case"),
     "errors": ("UserError", "is_user_error", "message_of", "nearest"),
+    "examples": ("copy_examples",),
     "faults": ("Assessment", "CombinedMap", "OperatingMap", "assess", "combined_maps", "maps"),
     "inputs": ("Input", "recorded"),
     "listings": ("Entry", "list_effects", "list_models", "list_solvers"),
     "models": ("Finding", "Model", "check", "dump", "load"),
     "progress": ("Progress",),
+    "degradation": ("degradation_laws",),
+    "prognosis": ("Prognosis", "forecast"),
     "results": ("IncompleteRun", "Result"),
 }
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
@@ -46,6 +54,7 @@ __all__ = [
     "Case",
     "CombinedMap",
     "Comparison",
+    "Drafted",
     "Entry",
     "Explanation",
     "Finding",
@@ -53,6 +62,7 @@ __all__ = [
     "Input",
     "Model",
     "OperatingMap",
+    "Prognosis",
     "Progress",
     "Result",
     "Sweep",
@@ -63,8 +73,12 @@ __all__ = [
     "combined_maps",
     "compare",
     "compare_with_file",
+    "convert",
+    "copy_examples",
+    "degradation_laws",
     "dump",
     "explain",
+    "forecast",
     "is_user_error",
     "list_effects",
     "list_models",
@@ -73,6 +87,7 @@ __all__ = [
     "maps",
     "message_of",
     "nearest",
+    "new_case",
     "open_case",
     "recorded",
     "sweep",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 import time
 from typing import Literal
@@ -43,10 +44,11 @@ class Source:
         name = f"{model}:{class_name}" if class_name else str(model)
         return cls(name, tuple(search_path(libraries)), units)
 
-    def compiled(self, modifications: Mapping[str, float] | None = None) -> CompiledModel:
+    def compiled(self, modifications: Mapping[str, float] | None = None, sensitivities: bool = False) -> CompiledModel:
         return compile_model(
-            self.name, search_path=list(self.path), modifications=dict(modifications or {}), units=self.units
-        )
+            self.name, search_path=list(self.path), modifications=dict(modifications or {}), units=self.units,
+            sensitivities=sensitivities,
+        )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -185,6 +187,11 @@ class Model:
         """The model as the runtime has it, for sessions that run it again and again."""
         return self._model
 
+    @cached_property
+    def differentiated(self) -> runtime.Model:
+        """The same with its derivatives, which runs with `sensitivities` need; translated when first asked for."""
+        return runtime.Model(self._source.compiled(self._fixed, sensitivities=True).path)
+
     def run_at(self, times: np.ndarray, outputs: Sequence[str], inputs: Mapping[str, Input]) -> runtime.Result:
         """A run with rows at `times` (s, [rows]) and nothing else."""
         self._refuse_parameters(inputs)
@@ -225,6 +232,7 @@ class Model:
         outputs: Sequence[str] | None = None,
         event_rows: bool = False,
         locate_events: bool = True,
+        sensitivities: Sequence[str] = (),
     ) -> Result:
         """Simulate from `start` to `stop` (s; default: the model's experiment).
 
@@ -233,22 +241,23 @@ class Model:
         default the model's own, else 500 over the run), with `event_rows` also before and after each event. `outputs`
         restricts what is recorded. `rtol`: relative tolerance (default: the model's, else 1e-6); `atol`: absolute, for
         each unit of a variable's nominal value (default 0.01 rtol). `step` (s) is that of the fixed-step solvers;
-        without `locate_events` they take events at its end.
+        without `locate_events` they take events at its end. `sensitivities` names parameters, and states for their
+        initial values, by which all outputs are differentiated (ida and dopri5): see `Result.sensitivity`.
 
         Raises UserError or SimulationError for what cannot be used, IncompleteRun (with what there is) where the run
         ends early.
         """
         model = self.with_parameters(parameters or {})
-        begin, end = (
-            model.start_time if start is None else start,
-            model.stop_time if stop is None else stop,
-        )
+        begin = model.start_time if start is None else start
+        end = model.stop_time if stop is None else stop
         model._refuse_parameters(inputs or {})
         clock = time.perf_counter()
         run = runtime.simulate(
-            model._model, parameters=model._values, inputs=as_inputs(inputs or {}), initial=initial, start=begin,
-            stop=end, solver=solver, rtol=rtol, atol=atol, step=step, locate_events=locate_events, outputs=outputs,
-            interval=interval if interval is not None else model.interval or (end - begin) / POINTS, events=event_rows,
+            model.differentiated if sensitivities else model._model, parameters=model._values,
+            inputs=as_inputs(inputs or {}), initial=initial, start=begin, stop=end, solver=solver, rtol=rtol,
+            atol=atol, step=step, locate_events=locate_events, outputs=outputs, events=event_rows,
+            interval=interval if interval is not None else model.interval or (end - begin) / POINTS,
+            sensitivities=sensitivities,
         )  # fmt: skip
         result = Result(run, None if outputs is None else list(outputs), time.perf_counter() - clock)
         if not result.complete:

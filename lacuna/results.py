@@ -72,7 +72,7 @@ class Result:
     @property
     def units(self) -> dict[str, str]:
         """Of every column, "" where neither the declaration nor the equations give one."""
-        return {"time": "s"} | {name: v.unit for name, v in self._run.model.variables.items() if name in self}
+        return {"time": "s"} | {name: v.shown_unit for name, v in self._run.model.variables.items() if name in self}
 
     @property
     def events(self) -> list[runtime.EventEntry]:
@@ -88,6 +88,27 @@ class Result:
     def counters(self) -> dict[str, int]:
         """Steps, residuals, Jacobians, events, restarts, ... of the run."""
         return self._run.counters
+
+    def sensitivity(self, output: str, parameter: str) -> np.ndarray:
+        """d output / d parameter, [rows], SI units, at fixed time; by its initial value for a state in the place of a
+        parameter. Not a number where it does not exist: `flags` says why. Raises SimulationError for what the run was
+        not asked for."""
+        return self._run.sensitivity(output, parameter)
+
+    @property
+    def sensitivities(self) -> tuple[str, ...]:
+        """What the outputs were differentiated by."""
+        return self._run.sensitivities
+
+    @property
+    def flags(self) -> list[runtime.Flag]:
+        """Instants after which sensitivities hold on one side only, or not at all: events about to change order."""
+        return self._run.flags
+
+    @property
+    def margins(self) -> dict[str, float]:
+        """How far each parameter may go, to first order, before two events of the run change their order."""
+        return self._run.margins
 
     @property
     def complete(self) -> bool:

@@ -39,6 +39,7 @@ class Fault:
     first: float
     last: float
     step: float
+    limits: tuple[float, ...] = ()  # of a fault beside the map's: where each band after the first begins
 
     def shown(self, severity):
         """A severity, or an array of them, in the unit that people read."""

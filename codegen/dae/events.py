@@ -125,10 +125,10 @@ def _refuse_loop(steps: list[EventStep]) -> None:
 
 def _sorted_bodies(w: flat.When) -> flat.When:
     """Equations of a when clause in the order of their dependencies (they have none of their own)."""
-    return replace(w, branches=[(c, _sorted_body(b)) for c, b in w.branches])
+    return replace(w, branches=[(c, sorted_body(b)) for c, b in w.branches])
 
 
-def _sorted_body(body: list[flat.Statement]) -> list[flat.Statement]:
+def sorted_body(body: list[flat.Statement]) -> list[flat.Statement]:
     writer = {n: k for k, s in enumerate(body) for n in assigned([s])}
     needs = [
         sorted({writer[str(n.value)] for e in expressions([s]) for n in leaves(e) if n.op == "var"

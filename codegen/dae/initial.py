@@ -5,16 +5,15 @@ Where that leaves unknowns open, start values of further states are used (with a
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.causal import Assignment, Step, causalise, unknowns_of
-from lacuna.codegen.structure.constants import is_parametric
 from lacuna.codegen.structure.matching import Matching
 from lacuna.codegen.structure.system import Row, System
 from lacuna.codegen.structure.tearing import Tearing
-from lacuna.codegen.symbolic.expr import FALSE, Expr, const, var
+from lacuna.codegen.symbolic.expr import Expr, const, var
 
 
 @dataclass
@@ -24,44 +23,6 @@ class InitialSystem:
     steps: list[Step]
     from_start: bool
     warnings: list[Diagnostic] = field(default_factory=list)
-
-
-def discrete_starts(model: flat.FlatModel) -> flat.FlatModel:
-    """Initial equations `n = e` and `pre(n) = e` of discrete variables become their start values."""
-    variables, equations = dict(model.variables), []
-    for eq in model.initial_equations:
-        name = next((n for n in map(_discrete_name, (eq.lhs, eq.rhs)) if _is_discrete(variables.get(n))), None)
-        if name is None:
-            equations.append(eq)
-            continue
-        value = eq.rhs if _discrete_name(eq.lhs) == name else eq.lhs
-        if not is_parametric(value, variables):
-            raise Diagnostic(
-                "S024", f"the initial value of the discrete variable {name} does not follow from parameters",
-                eq.span,
-                f"give {name} a start value, or set it in `when initial() then`",
-            )  # fmt: skip
-        variables[name] = replace(variables[name], start=value)
-    _refuse_free_parameters(variables)
-    return replace(model, variables=variables, initial_equations=equations)
-
-
-def _discrete_name(e: Expr) -> str:
-    n = e.args[0] if e.op == "pre" else e
-    return str(n.value) if n.op == "var" else ""
-
-
-def _is_discrete(v: flat.Variable | None) -> bool:
-    return v is not None and v.variability == flat.DISCRETE
-
-
-def _refuse_free_parameters(variables: dict[str, flat.Variable]) -> None:
-    for v in variables.values():
-        if v.variability == flat.PARAMETER and v.fixed is FALSE:
-            raise Diagnostic(
-                "S023", f"the parameter {v.name} has fixed=false; solving for a parameter is not supported", v.span,
-                "give it a value, or declare it as a variable with der(...) = 0",
-            )  # fmt: skip
 
 
 def initial_system(system: System, equations: list[flat.Equation], tearing: Tearing) -> InitialSystem:

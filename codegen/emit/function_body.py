@@ -137,6 +137,9 @@ class FunctionBody:
                             f"{{ {self._fail('LOOP')} }}")  # fmt: skip
             case flat.For():
                 self._for(s)
+            case flat.Native():
+                places = [("" if self._f.shapes[n] else "&") + self.c_name(n) for n in s.outputs]
+                self._line(f"mdl_{s.function}({', '.join([*map(self.c_name, s.inputs), *places])});")
             case flat.Return():
                 self._line(self._leave())
             case flat.Break():

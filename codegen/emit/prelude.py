@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from lacuna.codegen.emit.expression import HELPERS
+from lacuna.codegen.emit.random_numbers import NATIVE, WORDS
 
 _FAIL = """\
 static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double value) {
@@ -147,6 +148,8 @@ static double mdl_next_switch(double g, double slope, double t, double next) {
 }"""
 
 _HELPERS = {
+    "mdl_word": WORDS,
+    **NATIVE,
     **HELPERS,
     "mdl_fail": _FAIL,
     "mdl_index": _INDEX,
@@ -162,4 +165,5 @@ _HELPERS = {
 def helpers(code: str) -> str:
     """The helpers that `code` calls."""
     code += _INDEX if "mdl_index" in code else ""
+    code += "".join(text for name, text in NATIVE.items() if name in code)
     return "\n\n".join(text for name, text in _HELPERS.items() if re.search(rf"\b{name}\b", code))

@@ -31,6 +31,7 @@ class Variable:
     max: Expr | None = None
     nominal: Expr | None = None
     unit: str = ""
+    inferred_unit: str = ""  # what the equations say where no unit is declared
     quantity: str = ""
     state_select: str = "default"  # never | avoid | default | prefer | always
     description: str = ""
@@ -126,6 +127,16 @@ class For:
 
 
 @dataclass
+class Native:
+    """Functions only: a C function of the generated file, given inputs, then places of outputs."""
+
+    function: str
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    span: Span
+
+
+@dataclass
 class Return:
     span: Span
 
@@ -148,7 +159,10 @@ class When:
     origin: str = ""
 
 
-Statement = Assign | AssignCall | AssignElement | Reinit | Assert | Terminate | If | While | For | Return | Break | When
+Statement = (
+    Assign | AssignCall | AssignElement | Native | Reinit | Assert | Terminate
+    | If | While | For | Return | Break | When
+)  # fmt: skip
 
 
 @dataclass

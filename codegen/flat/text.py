@@ -102,6 +102,8 @@ def _statement(s: flat.Statement) -> list[str]:
         case flat.For():
             bounds = ":".join(map(to_text, (s.first, s.step, s.last)))
             return [f"for {s.variable} in {bounds} loop", *_body(s.body), "end for;"]
+        case flat.Native():
+            return [f"{s.function}({', '.join(s.inputs + s.outputs)});"]
         case flat.Return():
             return ["return;"]
         case flat.Break():

@@ -119,6 +119,8 @@ def _reduction(join: Callable[[Expr, Expr], Expr], empty: Expr | None) -> Callab
                     raise Diagnostic("R051", f"{e.function} of two needs numbers", e.span, hint)
             return join(*arguments)
         values = _array(arguments[0], e)
+        if empty is None and values.items and all(isinstance(i, Expr) and i.type == BOOLEAN for i in values.items):
+            return fold(ex.logical_and if str(e.function) == "min" else ex.logical_or, list(values.items))
         need_numbers(values, e.span, str(e.function))
         items = list(values.items)
         if not items and empty is None:

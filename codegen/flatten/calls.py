@@ -6,13 +6,15 @@ from collections.abc import Callable
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.arrays import map_call, size_of_array
-from lacuna.codegen.flatten.constants import is_known, known, variability
+from lacuna.codegen.flatten.constants import is_parameter, known, variability
 from lacuna.codegen.flatten.derivative import time_derivative
 from lacuna.codegen.flatten.enumerations import as_integer
 from lacuna.codegen.flatten.functions import call_function, construct_record
 from lacuna.codegen.flatten.lower import Handler, lower, lower_scalar
-from lacuna.codegen.flatten.scope import Scope, enumeration, find_class, visible_classes
+from lacuna.codegen.flatten.scope import Scope, enumeration, find_class, own_or_inherited
 from lacuna.codegen.flatten.texts import text_of
+from lacuna.codegen.flatten.types import is_external
+from lacuna.codegen.flatten.unknown import visible_classes
 from lacuna.codegen.flatten.values import FunctionValue, Value, elementwise, shape_of
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
@@ -22,9 +24,6 @@ from lacuna.codegen.syntax import ast
 _OUTSIDE = {
     "delay": "model the transport, for example by a chain of first-order lags",
     "spatialDistribution": "divide the length into elements",
-    "inStream": "carry the property as a variable of the connector",
-    "actualStream": "carry the property as a variable of the connector",
-    "cardinality": "use a Boolean parameter that says whether it is connected",
     "Clock": "use when sample(start, interval) then",
     "previous": "use pre(x) inside when sample(...)",
     "hold": "a discrete variable holds its value",
@@ -57,6 +56,8 @@ def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
     cls = find_class(scope.context.library, scope.cls, e.function)
     if cls is not None and cls.kind == "function":
         return call_function(cls, e, scope)
+    if cls is not None and is_external(cls):
+        return call_function(own_or_inherited(scope.context.library, cls, "constructor"), e, scope)
     if cls is not None and cls.kind == "record":
         return [construct_record(cls, e, scope)]
     if cls is not None:
@@ -178,7 +179,7 @@ def _instance_name(e: ast.Call, scope: Scope) -> Value:
 def _sample(e: ast.Call, scope: Scope) -> Value:
     parts = [lower_scalar(a, scope, REAL) for a in _take(e, 2)]
     for value, written in zip(parts, e.args, strict=True):
-        if not is_known(value, scope.context):
+        if not is_parameter(value, scope.context):
             hint = "start and interval are parameters or constants"
             raise Diagnostic("R053", "sample at times that vary", written.span, hint)
     return ex.special("sample", *parts)

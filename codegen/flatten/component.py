@@ -27,7 +27,18 @@ class Component(Protocol):
 
     name: str
     variability: str
+    parent: Component | None
+    causality: str  # input, output or "", of itself or of what it is part of; so are the next two
+    flow: bool
+    stream: bool
+    open_ended: bool  # itself or part of an expandable connector
     elements: Mapping[str, object]  # by name: what it declares and inherits
+
+    def sees(self, name: str, cls: ast.Class) -> bool:
+        """May what is written in `cls`, itself or a base of it, use the element `name`?"""
+
+    def meant(self, name: str) -> object | None:
+        """What `name` means to those who use it; of an element that is inner and outer, the outer one."""
 
     def child(self, name: str) -> object | None:
         """The component `name` of it, None where no such is declared."""
@@ -40,6 +51,7 @@ class Variable(Protocol):
     type: Kind
     variability: str
     is_structural: bool
+    is_free: bool  # a parameter with fixed = false
 
     def binding(self) -> Value | None:
         """Its value by declaration equation or modification."""

@@ -55,7 +55,7 @@ def _value_of(name: str, context: Context, span: Span, what: str) -> Expr:
         context.evaluated.add(name)
         return known
     leaf, position = context.scalars[name]
-    if not leaf.is_structural:
+    if not leaf.is_structural or leaf.is_free:
         hint = "only parameters and constants are known then"
         raise Diagnostic("F021", f"{what} depends on {name}, which varies in time", span, hint)
     if name in context.evaluating:
@@ -77,8 +77,25 @@ def _value_of(name: str, context: Context, span: Span, what: str) -> Expr:
 
 
 def is_known(e: Expr, context: Context) -> bool:
-    """Does `e` depend on constants and parameters only?"""
+    """Does `e` depend on constants and parameters with a value only?"""
+    return variability(e, context) in ("constant", "parameter") and not _depends_on_free(e, context)
+
+
+def is_parameter(e: Expr, context: Context) -> bool:
+    """Does `e` depend on constants and parameters only, those included that the initial equations determine?"""
     return variability(e, context) in ("constant", "parameter")
+
+
+class _Free(dict[Expr, bool]):
+    """Which expressions depend on a parameter with fixed = false."""
+
+
+def _depends_on_free(e: Expr, context: Context) -> bool:
+    memo = context.table(_Free)
+    if e not in memo:
+        entry = context.scalars.get(str(e.value)) if e.op == "var" else None
+        memo[e] = entry[0].is_free if entry else any(_depends_on_free(a, context) for a in e.args)
+    return memo[e]
 
 
 def variability(e: Expr, context: Context) -> str:

@@ -42,7 +42,7 @@ def enumeration_of(e: Expr, context: Context) -> str:
 
 def require_same(a: Expr, b: Expr, context: Context, span: Span) -> None:
     """Raises R025 where one side is of an enumeration and the other is not of the same."""
-    if a.type != INTEGER or b.type != INTEGER:
+    if INTEGER not in (a.type, b.type):
         return
     first, second = enumeration_of(a, context), enumeration_of(b, context)
     if first != second:

@@ -10,9 +10,10 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.asserts import lower_assert
 from lacuna.codegen.flatten.constants import AtRunTime, evaluate
 from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.effects import effect
 from lacuna.codegen.flatten.elements import element, local_value
 from lacuna.codegen.flatten.function_locals import Signature, declared_sizes, fit, typed
-from lacuna.codegen.flatten.interpret import effect, unknown_target
+from lacuna.codegen.flatten.interpret import unknown_target
 from lacuna.codegen.flatten.iterators import iterate
 from lacuna.codegen.flatten.lower import lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.references import apply_subscripts
@@ -22,6 +23,8 @@ from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, INTEGER, REAL, TRUE, Expr
 from lacuna.codegen.symbolic.rewrite import Rewriter
 from lacuna.codegen.syntax import ast
+
+DONE = "done"  # the result of a function that has none
 
 
 @dataclass
@@ -44,7 +47,7 @@ def emitted_call(signature: Signature, arguments: dict[str, Value], context: Con
     base = _base(signature, arguments, context, span)
     function = context.functions[base]
     call_arguments = [ex.array(*v.items) if isinstance(v, Array) else v for v in arguments.values()]
-    units = {d.name: d.unit for d in signature.locals}
+    units = {DONE: "", **{d.name: d.unit for d in signature.locals}}
     context.function_units[base] = units[function.outputs[0]] if function.outputs else ""
     results: list[Value] = []
     for number, name in enumerate(function.outputs):
@@ -107,7 +110,7 @@ def _base(signature: Signature, arguments: dict[str, Value], context: Context, s
 
 def _emit(name: str, signature: Signature, shapes: dict[str, tuple[int, ...]], context: Context, span: Span) -> None:
     cls, inputs = signature.cls, tuple(shapes)
-    outputs = tuple(d.name for d in signature.outputs)
+    outputs = tuple(d.name for d in signature.outputs) or (DONE,)
     function = flat.Function(name, inputs, outputs, {}, {}, {}, [], cls.span)
     context.functions[name] = function
     context.table(Sources)[name] = Source(signature, inputs, shapes, 0, 0)
@@ -124,6 +127,11 @@ def _emit(name: str, signature: Signature, shapes: dict[str, tuple[int, ...]], c
             if shape is None and default is not None:
                 value = fit(d, lower(default, scope), scope, default.span)
                 writer.assign([((d.name, None), value)], default.span, function.body)
+        if not signature.outputs:
+            writer.declare(DONE, BOOLEAN, ())
+            function.defaults[DONE] = TRUE
+        if cls.external is not None:
+            function.body.append(flat.Native(cls.external.function, inputs, outputs, cls.span))
         function.body += writer.block(signature.body)
         function.body = Rewriter(lambda e: _package_constant(e, context, span)).statements(function.body)
     except AtRunTime as reason:

@@ -11,8 +11,8 @@ from lacuna.codegen.flatten.evaluate import evaluate_dimensions
 from lacuna.codegen.flatten.instance import Instance
 from lacuna.codegen.flatten.modifiers import from_tree, merge
 from lacuna.codegen.flatten.scope import Scope
-from lacuna.codegen.flatten.types import Type, resolve_type
-from lacuna.codegen.flatten.values import Array, Record, Value, scalars, shape_of, shape_text
+from lacuna.codegen.flatten.types import EXTERNAL, Type, resolve_type
+from lacuna.codegen.flatten.values import Array, ExternalValue, Record, Value, scalars, shape_of, shape_text
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
@@ -56,7 +56,7 @@ class Local:
         return text
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Signature:
     """A function (or record) with everything it declares and does, inherited first."""
 
@@ -68,9 +68,38 @@ class Signature:
     def inputs(self) -> list[Local]:
         return [d for d in self.locals if d.declaration.causality == "input"]
 
+    @cached_property
+    def sizing(self) -> frozenset[str]:
+        """Inputs whose values (not sizes) decide the sizes of what is declared."""
+        names = {i.name for i in self.inputs}
+        used: set[str] = set()
+        for local in self.locals:
+            for dimension in local.declaration.dimensions:
+                used |= _values_in(dimension)
+        for local in self.locals:  # through protected constants, such as n = 2*m
+            if local.name in used and local.declaration.modification.value is not None:
+                used |= _values_in(local.declaration.modification.value)
+        return frozenset(used & names)
+
     @property
     def outputs(self) -> list[Local]:
         return [d for d in self.locals if d.declaration.causality == "output"]
+
+
+def _values_in(e: ast.Expression) -> set[str]:
+    """Names that an expression reads the values of, those inside size(...) left out."""
+    if isinstance(e, ast.Call) and str(e.function) == "size":
+        return set().union(*map(_values_in, e.args[1:]))
+    if isinstance(e, ast.Ref):
+        return {e.names[0]}
+    parts = [*e.args, *e.named.values()] if isinstance(e, ast.Call) else []
+    if isinstance(e, ast.Binary):
+        parts = [e.left, e.right]
+    elif isinstance(e, ast.Unary):
+        parts = [e.operand]
+    elif isinstance(e, ast.IfExpression):
+        parts = [e.otherwise, *(p for branch in e.branches for p in branch)]
+    return set().union(*map(_values_in, parts))
 
 
 class _Signatures(dict[int, Signature]):
@@ -115,6 +144,10 @@ def _check_function(cls: ast.Class, instance: Instance) -> None:
 
 def fit(local: Local, value: Value, scope: Scope, span: Span) -> Value:
     """`value` for a declared variable: type and size checked, whole numbers made Real where that is declared."""
+    if local.type.primitive == EXTERNAL:
+        if not isinstance(value, ExternalValue) or value.cls is not local.type.cls:
+            raise Diagnostic("R062", f"{local.name} is an external object", span, f"give a {local.declaration.type}")
+        return value
     if local.type.primitive is None:
         if not isinstance(value, Record):
             raise Diagnostic("R062", f"{local.name} is a record", span, f"give a {local.declaration.type}")

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.constants import AtRunTime
+from lacuna.codegen.flatten.constants import AtRunTime, evaluate, is_known
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.external import call_external
 from lacuna.codegen.flatten.function_code import Sources, emitted_call
@@ -17,6 +17,7 @@ from lacuna.codegen.flatten.function_locals import Local, Signature, fit, signat
 from lacuna.codegen.flatten.interpret import interpret
 from lacuna.codegen.flatten.iterators import references
 from lacuna.codegen.flatten.lower import lower
+from lacuna.codegen.flatten.random_numbers import GENERATORS
 from lacuna.codegen.flatten.scope import Scope, find_class
 from lacuna.codegen.flatten.values import Array, FunctionValue, Record, Value, scalars, shape_of, shape_text, stack
 from lacuna.codegen.suggest import did_you_mean
@@ -85,8 +86,10 @@ def _vector_shape(signature: Signature, written: Written, span: Span) -> tuple[i
 def _call(signature: Signature, written: Written, e: ast.Call, scope: Scope) -> list[Value]:
     context, cls = scope.context, signature.cls
     arguments = bind_arguments(cls, signature.inputs, written, e, scope)
-    if cls.external is not None:
-        return call_external(cls, arguments, e, context)
+    if not scope.in_function:
+        arguments |= {n: _evaluated(arguments[n], scope, e.span, n) for n in signature.sizing}
+    if cls.external is not None and cls.external.function not in GENERATORS:
+        return call_external(cls, arguments, e, scope)
     items = [a for v in arguments.values() for a in scalars(v)]
     known = all(isinstance(a, str) or a.op == "const" for a in items)
     if known or (context.call_depth < MAX_INLINE_DEPTH and not _has_events(items)):
@@ -101,11 +104,21 @@ def _call(signature: Signature, written: Written, e: ast.Call, scope: Scope) -> 
         except AtRunTime:
             pass
         except Diagnostic as error:
-            if error.code != "F035" or not scope.conditional:
+            if error.code != "F035" or not scope.conditional or any(isinstance(a, str) for a in items):
                 raise
         finally:
             context.call_depth -= 1
     return emitted_call(signature, arguments, context, e.span)
+
+
+def _evaluated(value: Value, scope: Scope, span: Span, name: str) -> Value:
+    """The value of an argument that decides sizes: parameters in it become structural."""
+    if not isinstance(value, Expr | Array) or not all(isinstance(s, Expr) for s in scalars(value)):
+        return value
+    if not all(is_known(s, scope.context) for s in scalars(value)):
+        return value
+    items = tuple(evaluate(s, scope.context, span, f"the argument {name}") for s in scalars(value))
+    return Array(value.shape, items) if isinstance(value, Array) else items[0]
 
 
 def written_arguments(

@@ -8,7 +8,9 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.component import Component
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.modifiers import Modifier, from_tree, merge
-from lacuna.codegen.flatten.scope import Scope, base_class, base_clauses, own_or_inherited, unknown_class
+from lacuna.codegen.flatten.restrictions import check_class
+from lacuna.codegen.flatten.scope import Scope, base_class, base_clauses, own_or_inherited
+from lacuna.codegen.flatten.unknown import unknown_class
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.syntax import ast
 
@@ -35,6 +37,7 @@ class Inheritance:
         self.elements: dict[str, Element] = {}
         self.sections: list[tuple[ast.Section, ast.Class]] = []
         self.classes: list[ast.Class] = []  # own class and bases
+        self.visible: dict[int, set[str]] = {}  # names of elements, by identity of the class whose text may use them
         self._collect(cls, modifier)
         if modifier is not None:
             self._refuse_unknown(modifier, self.elements, cls)
@@ -49,10 +52,12 @@ class Inheritance:
             scope = cls.written
         elif cls.alias is not None and cls.parent is not None:
             scope = Scope(context, cls.parent, None)
+        check_class(cls, context)
         constraint = self._constraint(cls)
         if cls.alias is None:
             modifier = merge(modifier, constraint)
         self.classes.append(cls)
+        visible = self.visible.setdefault(id(cls.origin or cls), set())
         for reference, tree in base_clauses(cls):
             base = base_class(context.library, cls, reference, tree)
             if base is None:
@@ -66,9 +71,14 @@ class Inheritance:
                 self._leave_out(tree.left_out, sections, base)
             inherited = {n: e for n, e in self.elements.items() if before.get(n) is not e}
             self._refuse_unknown(inner, inherited, base)
+            if any(e.protected and e.base is reference for e in cls.extends):
+                for name, e in inherited.items():
+                    self.elements[name] = replace(e, declaration=replace(e.declaration, protected=True))
+            visible |= self.visible[id(base.origin or base)]
         for declaration in cls.components:
             outer = modifier.children.get(declaration.name) if modifier else None
             self._add(Element(declaration, cls, outer))
+        visible.update(c.name for c in cls.components)
         self.sections += [(section, cls) for section in cls.sections]
 
     def _constraint(self, cls: ast.Class) -> Modifier | None:
@@ -76,7 +86,7 @@ class Inheritance:
         if cls.constrained is None:
             return None
         tree, around = cls.constrained
-        return from_tree(tree, Scope(self._context, around, self._instance))
+        return from_tree(tree, Scope(self._context, around, self._instance.parent))
 
     def _leave_out(self, left_out: list[ast.Ref | ast.Connect], first: int, base: ast.Class) -> None:
         """Selective extension (Modelica 3.6, 7.4): drop inherited components with their connections, or connections."""

@@ -17,8 +17,9 @@ from lacuna.codegen.flatten.inheritance import Element, Inheritance, inheriting,
 from lacuna.codegen.flatten.leaf import Leaf
 from lacuna.codegen.flatten.lower import modifier_value
 from lacuna.codegen.flatten.modifiers import Modifier, for_each, from_tree, merge, narrow
+from lacuna.codegen.flatten.prefixes import check_block, check_outer, check_prefixes
 from lacuna.codegen.flatten.scope import Scope, own_or_inherited
-from lacuna.codegen.flatten.subtypes import require_subtype
+from lacuna.codegen.flatten.subtypes import mismatch, require_subtype
 from lacuna.codegen.flatten.types import Type, resolve_type
 from lacuna.codegen.flatten.values import Array, Record, Value, indices
 from lacuna.codegen.flatten.views import modified, view
@@ -67,6 +68,7 @@ class Instance:
         self.span = declaration.span if declaration else cls.span
         inherited = parent.variability if parent else ""
         self.variability = (declaration.variability if declaration else "") or inherited
+        self._inherit_prefixes(declaration)
         self._modifier = modifier
         self._record: Record | None = None
         self._children: dict[str, Node] = {}
@@ -78,6 +80,28 @@ class Instance:
             above = above.parent
         inherited = Inheritance(context, self, cls, modifier)
         self.elements, self.sections, self.classes = inherited.elements, inherited.sections, inherited.classes
+        self._visible = inherited.visible
+
+    def _inherit_prefixes(self, declaration: ast.Component | None) -> None:
+        """Prefixes of a structured component hold for its elements (4.4.2.2)."""
+        around = self.parent
+        connector = self.cls.kind == "connector"
+        self.in_connector = connector or (around is not None and around.in_connector)
+        self.causality = (declaration.causality if declaration else "") or (around.causality if around else "")
+        self.flow = bool(declaration and declaration.flow) or (around is not None and around.flow)
+        self.stream = bool(declaration and declaration.stream) or (around is not None and around.stream)
+        self.open_ended = self.cls.expandable or (connector and around is not None and around.open_ended)
+
+    def adopt(self, name: str, node: Node) -> None:
+        """Take `node` as an element: of an expandable connector, one that a connection brings."""
+        self._children[name] = node
+        declaration = node.items[0].declaration if isinstance(node, ArrayNode) else node.declaration
+        self.elements[name] = Element(declaration, self.cls, None)
+
+    @property
+    def present(self) -> list[str]:
+        """Names of its elements; of an expandable connector those that something connects to or uses (9.1.3)."""
+        return list(self._children) if self.cls.expandable else list(self.elements)
 
     def child(self, name: str) -> Node | None:
         """The component `name`, made when first asked for; None where no such is declared."""
@@ -98,6 +122,19 @@ class Instance:
             self._building.pop()
         return node
 
+    def sees(self, name: str, cls: ast.Class) -> bool:
+        """May what is written in `cls`, itself or a base of it, use the element `name`? Bases do not see what is added
+        to them (5.6.1)."""
+        visible = self._visible.get(id(cls.origin or cls))
+        return visible is None or name in visible
+
+    def meant(self, name: str) -> Node | None:
+        """What `name` means to those who use it: of an element that is inner and outer, the outer one (5.4)."""
+        element = self.elements.get(name)
+        if element is not None and element.declaration.inner and element.declaration.outer:
+            return self._outer(element.declaration, Scope(self.context, element.cls, self))
+        return self.child(name)
+
     def children(self) -> list[Node]:
         return [self.child(name) for name in self.elements]
 
@@ -111,13 +148,16 @@ class Instance:
         own = self._own_modifier(declaration, scope, redeclared)
         modifier = merge(element.modifier, own) or own
         if declaration.outer and not declaration.inner:
-            return self._outer(declaration)
+            check_outer(declaration, element.modifier)
+            return self._outer(declaration, scope)
         if declaration.condition is not None and not evaluate_boolean(declaration.condition, scope):
             return Absent(self.path_of(declaration.name), declaration.span)
         type_scope = scope
         if redeclared:
             declaration, type_scope = self._redeclared(element, modifier)
         found = resolve_type(declaration.type, type_scope)
+        check_prefixes(declaration, found, self._elements_of)
+        check_block(element.cls, declaration, found, self._elements_of)
         sizes = evaluate_dimensions([*declaration.dimensions], type_scope, modifier, declaration.name)
         index_types = tuple(index_type(d, type_scope) for d in declaration.dimensions)
         sizes += found.dimensions
@@ -177,7 +217,28 @@ class Instance:
     def _elements_of(self, cls: ast.Class) -> dict[str, Element]:
         return Instance(self.context, cls, "", None, None).elements
 
-    def _outer(self, declaration: ast.Component) -> Node:
+    def _outer(self, declaration: ast.Component, scope: Scope) -> Node:
+        """The inner component that an outer one means. Raises R013 where there is none, R076 where it does not fit."""
+        found = self._inner(declaration)
+        if isinstance(found, Absent):
+            return found
+        wanted, first = resolve_type(declaration.type, scope), found
+        if isinstance(found, ArrayNode):
+            first = found.items[0] if found.items else found
+        have = found.type if isinstance(found, Leaf) else Type(None, getattr(first, "cls", wanted.cls))
+        reason = mismatch(replace(have, dimensions=[]), replace(wanted, dimensions=[]), self.context, self._elements_of)
+        shape = [] if isinstance(found, Instance) else found.shape
+        if len(shape) != len(declaration.dimensions) + len(wanted.dimensions):
+            reason = "their numbers of dimensions differ"
+        if reason:
+            error = Diagnostic(
+                "R076", f"outer {declaration.name}: {reason}", declaration.span, "make their types alike"
+            )
+            error.notes.append((found.span if not isinstance(found, ArrayNode) else first.span, "the inner one"))
+            raise error
+        return found
+
+    def _inner(self, declaration: ast.Component) -> Node:
         above = self.parent
         while above is not None:
             element = above.elements.get(declaration.name)
@@ -193,9 +254,6 @@ class Instance:
         if cls.kind in ("package", "function"):
             hint = "components are of a model, block, connector, record or type"
             raise Diagnostic("R014", f"{cls.name} is a {cls.kind}, not a component class", declaration.span, hint)
-        if cls.expandable:
-            hint = "declare a connector with the variables it carries"
-            raise Diagnostic("R091", "expandable connectors are outside the subset", declaration.span, hint)
         if cls.partial:
             hint = "use a class that extends it"
             if declaration.replaceable:

@@ -11,11 +11,12 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.asserts import lower_assert
 from lacuna.codegen.flatten.constants import AtRunTime
 from lacuna.codegen.flatten.context import Context
-from lacuna.codegen.flatten.equations import origin_of
+from lacuna.codegen.flatten.effects import effect
 from lacuna.codegen.flatten.function_locals import Local, Signature, declared_sizes, fit, signature_of, typed
 from lacuna.codegen.flatten.instance import package_of
 from lacuna.codegen.flatten.iterators import iterate
 from lacuna.codegen.flatten.lower import lower, lower_results, lower_scalar
+from lacuna.codegen.flatten.random_numbers import GENERATORS
 from lacuna.codegen.flatten.references import apply_subscripts
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.values import Array, Record, Value, elementwise, integers, scalars, shape_of, shape_text
@@ -35,6 +36,8 @@ def unset(kind: str) -> Expr:
 
 def interpret(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
     """Results of the function on `arguments`. Raises AtRunTime where its course depends on unknown values."""
+    if signature.cls.external is not None:
+        return _native(signature, arguments, span)
     run = _Run(signature.cls, context, dict(arguments), span)
     run.inputs = frozenset(arguments)
     for local in signature.locals:
@@ -60,6 +63,16 @@ def interpret(signature: Signature, arguments: dict[str, Value], context: Contex
             message = f"the output {local.name} of {signature.cls.name} is not assigned in every case"
             raise Diagnostic("F033", message, local.declaration.span, "assign it, or give it a value first")
     return results
+
+
+def _native(signature: Signature, arguments: dict[str, Value], span: Span) -> list[Value]:
+    """A generator of random numbers on a known state: (state, number)."""
+    (state,) = arguments.values()
+    if any(not isinstance(w, Expr) or w.op != "const" for w in scalars(state)):
+        raise AtRunTime("a random number", span)
+    words, number = GENERATORS[signature.cls.external.function]([w.value for w in scalars(state)])
+    given = {"Integer": integers(words), "Real": ex.const(number)}
+    return [given[local.type.primitive] for local in signature.outputs]
 
 
 def _named_constant(local: Local, cls: ast.Class, value: Value, context: Context) -> Value:
@@ -130,16 +143,24 @@ class _Run:
 
     def _procedure(self, item: ast.Procedure) -> None:
         if str(item.call.function) != "assert":
-            if effect(item, self.scope):
-                raise AtRunTime("a call for its asserts", item.span)
+            for a in effect(item, self.scope):
+                if a.condition is not ex.FALSE:
+                    raise AtRunTime("a call for its asserts", item.span)
+                if a.level == "error":
+                    self._fail(a)
             return
         check = lower_assert(item.call, self.scope)
         if check.condition.op != "const":
             raise AtRunTime("an assert", item.span)
         if not check.condition.value and check.level == "error":
-            error = Diagnostic("F035", f"the function failed: {check.message}", self.span, "change the arguments")
-            error.notes.append((item.span, "by this assert"))
-            raise error
+            self._fail(check)
+
+    def _fail(self, check: flat.Assert) -> None:
+        if self.symbolic and self.scope.conditional:
+            raise AtRunTime("an assert", check.span)
+        error = Diagnostic("F035", f"the function failed: {check.message}", self.span, "change the arguments")
+        error.notes.append((check.span, "by this assert"))
+        raise error
 
     def _decided(self, written: ast.Expression) -> bool:
         condition = lower_scalar(written, self.scope, BOOLEAN)
@@ -239,22 +260,6 @@ class _Run:
         for position, new in zip(scalars(picked), scalars(value), strict=True):
             items[position.value] = conform(old.items[position.value], new, span, str(target))
         return Array(old.shape, tuple(items))
-
-
-def effect(item: ast.Procedure, scope: Scope) -> list[flat.Assert]:
-    """A call that stands alone: what is left of it is that it must not fail. Raises R056 for an operator."""
-    call = item.call
-    if str(call.function) in scope.context.lowering.functions or str(call.function) in ("reinit", "terminate"):
-        hint = "assert, reinit, terminate and functions can stand alone; reinit and terminate under a when"
-        raise Diagnostic("R056", f"a call of {call.function} is no statement here", item.span, hint)
-    conditions = []
-    for result in scope.context.lowering.results(call, scope):
-        for s in scalars(result):
-            if isinstance(s, Expr) and any(n.op == "call" and n.value in scope.context.functions for n in ex.walk(s)):
-                finite = ex.relation(">=", ex.call("abs", s), ex.ZERO) if s.type != BOOLEAN else s
-                conditions.append(finite if s.type != BOOLEAN else ex.logical_or(s, ex.logical_not(s)))
-    name = str(call.function)
-    return [flat.Assert(c, f"{name} fails", item.span, "error", origin_of(scope)) for c in conditions[:1]]
 
 
 def unknown_target(target: ast.Ref, names: dict[str, Value]) -> Diagnostic:

@@ -11,7 +11,7 @@ from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.enumerations import IndexType
 from lacuna.codegen.flatten.lower import modifier_value
 from lacuna.codegen.flatten.modifiers import Modifier
-from lacuna.codegen.flatten.types import ATTRIBUTES, Type
+from lacuna.codegen.flatten.types import ATTRIBUTES, EXTERNAL, Type
 from lacuna.codegen.flatten.values import Array, Record, Value, indices, shape_of, shape_text
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
@@ -38,7 +38,9 @@ class Leaf:
         self.span = declaration.span
         self.primitive = found.primitive
         self.variability = self._variability()
-        self.causality = declaration.causality or found.causality
+        self.causality = declaration.causality or found.causality or instance.causality
+        self.flow, self.stream = declaration.flow or instance.flow, declaration.stream or instance.stream
+        self.open_ended = instance.open_ended  # in an expandable connector: its direction follows from the connections
         if shape:
             self.names = tuple(f"{name}[{','.join(map(str, i))}]" for i in indices(shape))
         else:
@@ -46,9 +48,6 @@ class Leaf:
         self._binding: Value | None = None
         self._bound = self._lowering = False
         self._check_attributes()
-        if declaration.stream:
-            hint = "carry the property as a variable of the connector"
-            raise Diagnostic("R091", "stream connectors are outside the subset", declaration.span, hint)
         for position, scalar in enumerate(self.names):
             context.scalars[scalar] = (self, position)
 
@@ -70,9 +69,19 @@ class Leaf:
     def is_structural(self) -> bool:
         return self.variability in ("constant", "parameter")
 
+    @cached_property
+    def is_free(self) -> bool:
+        """A parameter that initial equations determine."""
+        return self.variability == "parameter" and self._is_false(self.modifier.children.get("fixed"))
+
+    @staticmethod
+    def _is_false(fixed: Modifier | None) -> bool:
+        value = fixed.value if fixed is not None else None
+        return value is ex.FALSE or (isinstance(value, ast.Literal) and value.value is False)
+
     def value(self) -> Value:
         """The variable(s) as expressions; a String is its text."""
-        if self.primitive == "String":
+        if self.primitive in ("String", EXTERNAL):
             return self.text()
         if not self.shape:
             return ex.var(self.name, self.primitive)
@@ -85,7 +94,8 @@ class Leaf:
     def text(self) -> Value:
         value = self.binding()
         if value is None:
-            raise Diagnostic("F020", f"the String {self.name} has no value", self.span, 'bind it: = "..."')
+            hint = 'bind it: = "..."' if self.primitive == "String" else "bind it to a call of its constructor"
+            raise Diagnostic("F020", f"the {self.primitive} {self.name} has no value", self.span, hint)
         return value
 
     def binding(self) -> Value | None:

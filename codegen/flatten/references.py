@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.class_values import from_class
 from lacuna.codegen.flatten.constants import is_known, known
 from lacuna.codegen.flatten.elements import at_index
-from lacuna.codegen.flatten.enumerations import IndexType, enumeration_of, index_number, literal
-from lacuna.codegen.flatten.instance import Absent, ArrayNode, Instance, Node, package_of
+from lacuna.codegen.flatten.enumerations import IndexType, enumeration_of, index_number
+from lacuna.codegen.flatten.instance import Absent, ArrayNode, Instance, Node
 from lacuna.codegen.flatten.leaf import Leaf
 from lacuna.codegen.flatten.lower import lower
-from lacuna.codegen.flatten.scope import Scope, find_class, find_first, own_or_inherited, visible_classes
+from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.values import Array, Record, Value, elementwise, scalars, shape_of, stack
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
@@ -25,9 +26,19 @@ def read(ref: ast.Ref, scope: Scope) -> Value:
     if first in scope.locals:
         return _read_local(ref, scope)
     if first == "time" and len(ref.names) == 1:
+        if scope.cls.kind in ("function", "record", "connector"):
+            raise Diagnostic(
+                "R070", f"time in a {scope.cls.kind}", ref.span, "models and blocks know the time; hand it on"
+            )
         return ex.TIME
-    node = scope.instance.child(first) if scope.instance is not None and not ref.absolute else None
-    return _from_class(ref, scope) if node is None else _walk(node, ref, 0, scope)
+    node = None
+    if scope.instance is not None and not ref.absolute and scope.instance.sees(first, scope.cls):
+        node = scope.instance.meant(first)
+    if node is not None:
+        _refuse_conditional(scope.instance, first, ref)
+        return _walk(node, ref, 0, scope)
+    found = from_class(ref, scope)
+    return found if isinstance(found, Expr) else _walk(found[0], ref, found[1], scope)
 
 
 def _read_local(ref: ast.Ref, scope: Scope) -> Value:
@@ -48,7 +59,7 @@ def _walk(node: Node, ref: ast.Ref, at: int, scope: Scope) -> Value:
     subscripts = ref.subscripts[at]
     last = at == len(ref.names) - 1
     if isinstance(node, Absent):
-        hint = "use it under an if with the same condition"
+        hint = "it can only be connected: connect it to a component of your own, and use that"
         error = Diagnostic("R016", f"{node.name} does not exist here: its condition is false", ref.span, hint)
         error.notes.append((node.span, "declared here"))
         raise error
@@ -64,13 +75,25 @@ def _walk(node: Node, ref: ast.Ref, at: int, scope: Scope) -> Value:
         raise Diagnostic("R044", f"{node.name} is no array", ref.span, "remove the subscript")
     if last:
         return Record(node.name, {name: _field(node.child(name), ref, scope) for name in node.elements})
+    if ref.names[at + 1] in node.elements:
+        _refuse_conditional(node, ref.names[at + 1], ref)
     return _walk(member(node, ref, at + 1), ref, at + 1, scope)
+
+
+def _refuse_conditional(instance: Instance, name: str, ref: ast.Ref) -> None:
+    """Modelica 3.6, 4.4.5: a component with a condition is used in connections only."""
+    declaration = instance.elements[name].declaration
+    if declaration.condition is not None:
+        hint = "it can only be connected: connect it to a component of your own, and use that"
+        error = Diagnostic("R016", f"{name} is conditional and can only be connected", ref.span, hint)
+        error.notes.append((declaration.span, "declared here"))
+        raise error
 
 
 def member(node: Node, ref: ast.Ref, at: int) -> Node:
     """The element that name number `at` means in the component before it; it must exist and be public."""
     name = ref.names[at]
-    found = node.child(name)
+    found = node.meant(name) if isinstance(node, Instance) else node.child(name)
     if found is None:
         hint = did_you_mean(name, node.elements, f"{node.cls.name} has {', '.join(list(node.elements)[:12])}")
         raise Diagnostic("R003", f"{node.name} has no element {name}", ref.span, hint)
@@ -174,6 +197,8 @@ def _row(array: Array, index: Expr, scope: Scope, ref: ast.Ref, written: ast.Exp
 
 def _choose(rows: list[Value], index: Expr, written: ast.Expression, scope: Scope) -> Value:
     """An element by a number known only at run time: an if-expression over all of them."""
+    if not rows:
+        raise Diagnostic("R045", "a subscript of an empty array", written.span, "it has no element")
     result = rows[-1]
     for number in range(len(rows) - 1, 0, -1):
         condition = ex.relation("==", index, ex.const(number))
@@ -183,73 +208,6 @@ def _choose(rows: list[Value], index: Expr, written: ast.Expression, scope: Scop
 
         result = elementwise(pick, [rows[number - 1], result], written.span, "elements")
     return result
-
-
-def _from_class(ref: ast.Ref, scope: Scope) -> Value:
-    """A constant of a package around or elsewhere, or a literal of an enumeration."""
-    library = scope.context.library
-    found = _constant_around(ref, scope)
-    if found is not None:
-        return _walk(found, ref, 0, scope)
-    cls = library.member(library.root, ref.names[0]) if ref.absolute else find_first(library, scope.cls, ref.names[0])
-    for at, name in enumerate(ref.names[1:], 1):
-        if cls is None:
-            break
-        if cls.literals is not None:
-            return _literal(cls, name, ref)
-        inner = own_or_inherited(library, cls, name)
-        if inner is None:
-            package = package_of(scope.context, cls)
-            if name in package.elements and package.elements[name].declaration.variability == "constant":
-                return _walk(package.child(name), ref, at, scope)
-            known = [*library.members(cls), *package.elements]
-            hint = did_you_mean(name, known, f"{cls.name} has {', '.join(known[:12])}")
-            raise Diagnostic("R002", f"{cls.path} has no constant {name}", ref.span, hint)
-        cls = inner
-    if cls is not None:
-        hint = "use one of its components or constants"
-        raise Diagnostic("R018", f"{ref} is a {cls.kind}, not a value", ref.span, hint)
-    raise unknown_name(ref, scope)
-
-
-def _constant_around(ref: ast.Ref, scope: Scope) -> Node | None:
-    library, name = scope.context.library, ref.names[0]
-    current: ast.Class | None = None if ref.absolute else scope.cls
-    while current is not None and current.name:
-        for item in current.imports:
-            if not item.every and (item.alias or item.path.names[-1]) == name and len(item.path.names) > 1:
-                path = replace(item.path, names=item.path.names[:-1], subscripts=item.path.subscripts[:-1])
-                owner = find_class(library, library.root, path)
-                if owner is not None and own_or_inherited(library, owner, item.path.names[-1]) is None:
-                    return package_of(scope.context, owner).child(item.path.names[-1])
-            if item.every:
-                owner = find_class(library, library.root, item.path)
-                if owner is not None and name in (package := package_of(scope.context, owner)).elements:
-                    return package.child(name)
-        if current is not scope.cls or scope.instance is None:
-            package = package_of(scope.context, current.whole or current)
-            if name in package.elements and package.elements[name].declaration.variability == "constant":
-                return package.child(name)
-        current = current.parent
-    return None
-
-
-def _literal(cls: ast.Class, name: str, ref: ast.Ref) -> Expr:
-    names = [n for n, _ in cls.literals]
-    if name not in names:
-        hint = did_you_mean(name, names, f"{cls.name} has {', '.join(names)}")
-        raise Diagnostic("R019", f"{name} is no literal of {cls.name}", ref.span, hint)
-    return literal(cls, names.index(name) + 1)
-
-
-def unknown_name(ref: ast.Ref, scope: Scope) -> Diagnostic:
-    """R002: nothing of this name, with the nearest that there are."""
-    known = [*scope.locals, *(scope.instance.elements if scope.instance else ())]
-    known += visible_classes(scope.context.library, scope.cls)
-    hint = did_you_mean(ref.names[0], known)
-    if not hint:
-        hint = did_you_mean(ref.names[0], scope.context.lowering.functions, "declare it")
-    return Diagnostic("R002", f"there is no variable {ref.names[0]}", ref.span, hint)
 
 
 def node_of(ref: ast.Ref, scope: Scope) -> Leaf | ArrayNode | None:

@@ -9,8 +9,8 @@ from lacuna.codegen.flatten.component import Component
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.values import Value
 from lacuna.codegen.flatten.views import constrain, is_specialised, member, modified, redeclarations, view
-from lacuna.codegen.library import HOME_PACKAGE, Library
-from lacuna.codegen.suggest import did_you_mean, nearest
+from lacuna.codegen.library import PREDEFINED, Library
+from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.syntax import ast
 
 PRIMITIVES = ("Real", "Integer", "Boolean", "String")
@@ -115,25 +115,46 @@ def _same_of_bases(library: Library, cls: ast.Class) -> ast.Class | None:
 
 
 def _imported(library: Library, cls: ast.Class, name: str) -> ast.Class | None:
+    """The class that an import of `cls` brings in as `name`: a qualified one first (5.3.1). Raises R075."""
     for item in cls.imports:
         if not item.every and (item.alias or item.path.names[-1]) == name:
-            return _full_name(library, item)
+            return imported_class(library, item)
+    found = None
     for item in cls.imports:
-        if item.every:
-            found = own_or_inherited(library, _full_name(library, item), name)
-            if found is not None:
-                return found
-    return None
+        if not item.every:
+            continue
+        package = imported_class(library, item)
+        new = own_or_inherited(library, package, name) if package is not None else None
+        if new is None or new.protected:
+            continue
+        if found is not None and found is not new:
+            hint = "name the one that is meant by its full name, or import it by name"
+            raise Diagnostic("R075", f"two imports bring in {name}", item.span, hint)
+        found = new
+    return found
 
 
-def _full_name(library: Library, item: ast.Import) -> ast.Class:
+def imported_class(library: Library, item: ast.Import) -> ast.Class | None:
+    """The class that an import names; None where its last name is no class (a constant of a package).
+
+    Raises R002 and R075: only packages and their public elements are imported (13.2.1).
+    """
     cls = library.root
-    for name in item.path.names:
+    for at, name in enumerate(item.path.names):
         found = own_or_inherited(library, cls, name)
         if found is None:
-            hint = did_you_mean(name, library.members(cls)) or _elsewhere(library, item.path)
+            if at and at == len(item.path.names) - 1 and not item.every:
+                return None
+            hint = did_you_mean(name, library.members(cls), "declare it, or import its package")
             where = f" in {cls.path}" if cls.name else ""
             raise Diagnostic("R002", f"import: there is no class {name}{where}", item.span, hint)
+        last = at == len(item.path.names) - 1
+        if found.protected:
+            raise Diagnostic("R017", f"{name} is protected in {cls.name}", item.span, "make it public to import it")
+        hidden = bool(at) and not found.encapsulated and not is_package_like(library, cls)
+        if hidden or (last and item.every and not is_package_like(library, found)):
+            hint = "import a package, or an element of one"
+            raise Diagnostic("R075", f"import: {cls.name if hidden else found.name} is no package", item.span, hint)
         cls = found
     return cls
 
@@ -151,6 +172,8 @@ def find_first(library: Library, cls: ast.Class, name: str, of_base: bool = Fals
             return found
         if current.name == name:
             return current
+        if current.encapsulated:
+            return PREDEFINED.get(name)
         current = current.parent
     return library.member(library.root, name)
 
@@ -164,55 +187,31 @@ def find_class(library: Library, cls: ast.Class, ref: ast.Ref, of_base: bool = F
     for name in ref.names[1:]:
         if found is None:
             return None
-        found = own_or_inherited(library, found, name)
+        found = class_inside(library, found, name, ref)
     return found
 
 
-def visible_classes(library: Library, cls: ast.Class) -> list[str]:
-    """Names a reference inside `cls` could start with, for hints."""
-    names: list[str] = []
-    current: ast.Class | None = cls
-    while current is not None:
-        names += library.members(current)
-        for base in base_classes(library, current):
-            names += library.members(base)
-        names += [i.alias or i.path.names[-1] for i in current.imports]
-        current = current.parent
-    return names + library.members(library.root)
-
-
-def require_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str, of_base: bool = False) -> ast.Class:
-    """As `find_class`; raises R001 with the nearest names."""
-    found = find_class(library, cls, ref, of_base)
+def class_inside(library: Library, cls: ast.Class, name: str, ref: ast.Ref) -> ast.Class | None:
+    """The class `name` as `cls.name` names it from outside (5.3.2). Raises R017 and R075 for what is not to be seen."""
+    found = own_or_inherited(library, cls, name)
     if found is None:
-        raise unknown_class(library, cls, ref, what)
+        return None
+    if found.protected:
+        error = Diagnostic("R017", f"{name} is protected in {cls.name}", ref.span, "make it public to use it here")
+        error.notes.append((found.span, "declared here"))
+        raise error
+    if not found.encapsulated and not is_package_like(library, cls):
+        hint = f"declare {name} in a package, or write 'encapsulated' before it"
+        raise Diagnostic("R075", f"{cls.name} is no package, {name} cannot be named from outside", ref.span, hint)
     return found
 
 
-def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> Diagnostic:
-    known: list[str] = [*visible_classes(library, cls), *PRIMITIVES]
-    missing = ref.names[0]
-    current = find_first(library, cls, ref.names[0])
-    for name in ref.names[1:]:
-        if current is None:
-            break
-        known, missing = library.members(current), name
-        current = own_or_inherited(library, current, name)
-    hint = did_you_mean(missing, known) or _elsewhere(library, ref)
-    return Diagnostic("R001", f"there is no {what} {ref}", ref.span, hint)
-
-
-def _elsewhere(library: Library, ref: ast.Ref) -> str:
-    """A hint where a class of this name lies in a package that was not looked in."""
-    if ref.names[0] == "Modelica":
-        return "name the folder of the Modelica Standard Library by --library, or in MODELICAPATH"
-    try:
-        classes = library.all_classes(library.member(library.root, HOME_PACKAGE))
-    except Diagnostic:
-        classes = []
-    names = nearest(ref.names[-1], (c.name for c in classes))
-    found = [c.path for name in names for c in classes if c.name == name]
-    return f"did you mean {' or '.join(found[:3])}?" if found else "declare it, or import its package"
+def is_package_like(library: Library, cls: ast.Class, depth: int = 0) -> bool:
+    """Does `cls` hold nothing but classes and constants (4.7)?"""
+    if cls.kind in ("package", "operator") or depth > 20:
+        return True
+    plain = all(c.variability == "constant" for c in cls.components) and not cls.sections
+    return plain and all(is_package_like(library, b, depth + 1) for b in base_classes(library, cls))
 
 
 def enumeration(ref: ast.Ref, scope: Scope) -> ast.Class | None:

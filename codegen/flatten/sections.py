@@ -6,8 +6,8 @@ from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.asserts import lower_assert
 from lacuna.codegen.flatten.conditionals import flatten_if
+from lacuna.codegen.flatten.effects import effect
 from lacuna.codegen.flatten.equations import Collected, equalities, unroll
-from lacuna.codegen.flatten.interpret import effect
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.when import flatten_when
 from lacuna.codegen.syntax import ast

@@ -8,14 +8,18 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.evaluate import evaluate_dimensions
 from lacuna.codegen.flatten.modifiers import Modifier, from_tree, merge
-from lacuna.codegen.flatten.scope import PRIMITIVES, Scope, base_class, find_class, unknown_class
+from lacuna.codegen.flatten.restrictions import check_class
+from lacuna.codegen.flatten.scope import PRIMITIVES, Scope, base_class, find_class
+from lacuna.codegen.flatten.unknown import unknown_class
 from lacuna.codegen.syntax import ast
 
+EXTERNAL = "ExternalObject"
 ATTRIBUTES = {
     "Real": ("value", "quantity", "unit", "displayUnit", "min", "max", "start", "fixed", "nominal", "stateSelect"),
     "Integer": ("quantity", "min", "max", "start", "fixed"),
     "Boolean": ("quantity", "start", "fixed"),
     "String": ("quantity", "start", "fixed"),
+    EXTERNAL: (),
 }
 
 
@@ -47,6 +51,7 @@ def resolve_type(reference: ast.Ref, scope: Scope, depth: int = 0) -> Type:
 def type_of(cls: ast.Class, context: Context, depth: int = 0) -> Type:
     """What a class is as the type of a component."""
     if cls.literals is not None:
+        check_class(cls, context)
         return Type("Integer", cls, tuple(name for name, _ in cls.literals))
     inside = cls.written if isinstance(cls.written, Scope) else Scope(context, cls, None)
     if cls.alias is not None:
@@ -60,12 +65,19 @@ def type_of(cls: ast.Class, context: Context, depth: int = 0) -> Type:
         found.dimensions = evaluate_dimensions(cls.alias.dimensions, inside, None, cls.name) + found.dimensions
         found.causality = cls.alias.causality or found.causality
         return found
+    if is_external(cls):
+        return Type(EXTERNAL, cls)
     for clause in cls.extends:
         if str(clause.base) in PRIMITIVES or _is_primitive(clause.base, inside, depth):
             found = resolve_type(clause.base, inside, depth + 1)
             found.modifier = merge(from_tree(clause.modification, inside), found.modifier)
             return found
     return Type(None, cls)
+
+
+def is_external(cls: ast.Class) -> bool:
+    """Is it a class of external objects (Modelica 3.6, 12.9.7)?"""
+    return any(str(clause.base) == EXTERNAL for clause in cls.extends)
 
 
 def _of_alias(cls: ast.Class, context: Context, depth: int) -> Type:

@@ -6,11 +6,12 @@ from dataclasses import replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.constants import evaluate, is_known
+from lacuna.codegen.flatten.constants import evaluate, is_parameter
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.enumerations import enumeration_of, require_same
 from lacuna.codegen.flatten.equations import real_or_same
 from lacuna.codegen.flatten.leaf import Leaf
+from lacuna.codegen.flatten.types import EXTERNAL
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
 
@@ -20,7 +21,7 @@ _NUMERIC = ("start", "min", "max", "nominal")
 
 def flatten_variables(leaf: Leaf, model: flat.FlatModel) -> None:
     """Add the scalars of one declaration to `model`, and its binding where it is not a parameter."""
-    if leaf.primitive == "String":
+    if leaf.primitive in ("String", EXTERNAL):
         return
     context = leaf.instance.context
     values = {name: leaf.attribute(name) for name in leaf.modifier.children}
@@ -61,7 +62,7 @@ def _variable(leaf: Leaf, name: str, attributes: dict[str, Expr | str]) -> flat.
     for key in _NUMERIC:
         if key in attributes:
             value = _typed(attributes[key], leaf, f"{key} of {name}", leaf.modifier.children[key].span)
-            if not is_known(value, context):
+            if not is_parameter(value, context):
                 hint = "use parameters and constants"
                 raise Diagnostic("R055", f"{key} of {name} varies in time", leaf.modifier.children[key].span, hint)
             setattr(result, key, value)
@@ -115,7 +116,7 @@ def _parameter_value(leaf: Leaf, variable: flat.Variable, value: Expr | None, co
     span = leaf.modifier.span if leaf.modifier.value is not None else leaf.span
     if value is not None:
         checked = _typed(value, leaf, variable.name, span)
-        if not is_known(checked, context):
+        if not is_parameter(checked, context):
             message = f"the {leaf.variability} {variable.name} depends on what varies: {ex.to_text(checked)}"
             raise Diagnostic("R055", message, span, "remove 'parameter', or use parameters and constants only")
         return checked

@@ -6,8 +6,8 @@ from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.asserts import lower_assert
 from lacuna.codegen.flatten.constants import is_known
+from lacuna.codegen.flatten.effects import effect
 from lacuna.codegen.flatten.equations import check_target, check_types, equalities, origin_of, unroll
-from lacuna.codegen.flatten.interpret import effect
 from lacuna.codegen.flatten.lower import lower, lower_scalar
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.values import scalars, shape_of, shape_text

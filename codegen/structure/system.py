@@ -99,4 +99,4 @@ class DeclaredValues:
             return self.variable(str(n.value))
         if n.op == "pre":
             return self.variable(str(n.args[0].value))
-        return 0.0 if n.op in ("der", "time") else False
+        return 0.0 if n.op in ("der", "time", "start_time") else False

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Callable, Iterable
 from fractions import Fraction
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.symbolic.expr import Expr, to_text, var
+from lacuna.codegen.symbolic.expr import REAL, Expr, to_text, var
 from lacuna.codegen.units.inference import (
     SECOND,
     UNKNOWN,
@@ -18,9 +19,10 @@ from lacuna.codegen.units.inference import (
     of_variable,
     over,
 )
-from lacuna.units import Unit, parse_unit
+from lacuna.units import Unit, format_unit, parse_unit
 
-MAX_FINDINGS = 10
+MAX_FINDINGS = 10  # of a model's own
+MAX_COUNTED = 1000  # of libraries
 Argument = tuple[Expr, str, str, Span]  # value, declared unit, which input of which function, where
 
 
@@ -29,21 +31,29 @@ def check_units(
     arguments: Iterable[Argument] = (),
     function_units: dict[str, str] | None = None,
     places: dict[tuple[str, str], Span] | None = None,
+    package: Callable[[str], str] = lambda file: "",
 ) -> list[Diagnostic]:
-    """Every finding, one a place, in order of the model; at most MAX_FINDINGS. Without any unit there is no check.
+    """Every finding, one a place, in order of the model; at most MAX_FINDINGS, those in files of libraries aside, which
+    `package` tells by their name. Without any unit there is no check.
 
     `arguments` are values given to inputs with a unit; `function_units` the units of results by function;
     `places` says where the binding or an attribute of a variable was written, where not in its declaration.
     """
     if not any(v.unit for v in model.variables.values()):
         return []
-    return _Check(model, function_units or {}, places or {}).run(arguments)
+    return _Check(model, function_units or {}, places or {}, package).run(arguments)
 
 
 class _Check:
     def __init__(
-        self, model: flat.FlatModel, function_units: dict[str, str], places: dict[tuple[str, str], Span]
+        self,
+        model: flat.FlatModel,
+        function_units: dict[str, str],
+        places: dict[tuple[str, str], Span],
+        package: Callable[[str], str],
     ) -> None:
+        self.package, self.counts = package, Counter()
+        self.seen: set[tuple[str, Span]] = set()
         self.model, self.function_units, self.places = model, function_units, places
         self.findings: list[Diagnostic] = []
         self.units: dict[str, Finding] = {}
@@ -52,7 +62,7 @@ class _Check:
                 self.units[v.name] = of_variable(v.unit, v.type, v.variability)
             except ValueError as reason:
                 self.units[v.name] = UNKNOWN
-                self.findings.append(Diagnostic("U005", f"{v.name}: {reason}", v.span, 'such as "N.m.s/rad"'))
+                self._note(Diagnostic("U005", f"{v.name}: {reason}", v.span, 'such as "N.m.s/rad"'))
 
     def run(self, arguments: Iterable[Argument]) -> list[Diagnostic]:
         self._infer_unknown()
@@ -68,7 +78,8 @@ class _Check:
         self._statements(inference, self.model.asserts)
         for value, unit, what, span in arguments:
             self._guarded(span, lambda v=value, u=unit, w=what: inference.require(v, parse_unit(u), w))
-        return self.findings[:MAX_FINDINGS]
+        self._note_inferred()
+        return self.findings
 
     def _inference(self) -> UnitInference:
         return UnitInference(
@@ -81,11 +92,17 @@ class _Check:
         except UnitError as reason:
             message = reason.message + (f"\n    in the equation {text}" if text else "")
             finding = Diagnostic(reason.code, message, span, reason.hint)
-            seen = any((f.code, f.span) == (finding.code, finding.span) for f in self.findings)
-            if len(self.findings) < MAX_FINDINGS and not seen:
-                self.findings.append(finding)
+            self._note(finding)
         except ValueError as reason:
-            self.findings.append(Diagnostic("U005", str(reason), span, 'such as "N.m.s/rad"'))
+            self._note(Diagnostic("U005", str(reason), span, 'such as "N.m.s/rad"'))
+
+    def _note(self, finding: Diagnostic) -> None:
+        foreign = bool(self.package(finding.span.file))
+        limit = MAX_COUNTED if foreign else MAX_FINDINGS
+        if (finding.code, finding.span) not in self.seen and self.counts[foreign] < limit:
+            self.seen.add((finding.code, finding.span))
+            self.counts[foreign] += 1
+            self.findings.append(finding)
 
     def _equation(self, inference: UnitInference, e: flat.Equation) -> None:
         text = f"{to_text(e.lhs)} = {to_text(e.rhs)}"
@@ -125,6 +142,13 @@ class _Check:
                     for condition, inner in s.branches:
                         self._guarded(s.span, lambda c=condition: inference.of(c))
                         self._statements(inference, inner)
+
+    def _note_inferred(self) -> None:
+        """The SI units that were found for variables that declare none."""
+        for v in self.model.variables.values():
+            found = self.units[v.name]
+            if not v.unit and v.type == REAL and isinstance(found, Unit) and found.factor == 1.0:
+                v.inferred_unit = format_unit(found)
 
     def _infer_unknown(self) -> None:
         """Units of variables that declare none, from equations that leave one choice; to a fixed point."""

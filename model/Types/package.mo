@@ -29,6 +29,9 @@ package Types "Physical quantities in SI units, and the enumerations of the libr
     "Also the torque constant: 1 V.s/rad = 1 N.m/A";
   type Power = Real(final quantity="Power", final unit="W");
   type Energy = Real(final quantity="Energy", final unit="J");
+  type Temperature = Real(final quantity="ThermodynamicTemperature", final unit="K", min=0);
+  type RateOfUse = Real(final quantity="RateOfUse", final unit="1/s")
+    "For each unit of use, which is the unit of time of a degradation law: a flight cycle or an hour";
   type PerUnit = Real(final unit="1") "Ratio of two like quantities";
   type Eccentricity = enumeration(
     RotorAngle "One modulation with the rotor's electrical angle, common to the three phases",

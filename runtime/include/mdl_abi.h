@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 4
+#define MDL_ABI_VERSION 6
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
@@ -56,6 +56,7 @@ typedef struct mdl_data {
   int reinitialised;   /* set by event(): reinit changed x */
   int terminated;      /* set by event(): 1 + index into `messages` of the terminate() that fired; else 0 */
   mdl_failure failure;
+  double start_time; /* of the run; parameters may depend on it */
 } mdl_data;
 
 typedef enum {
@@ -83,6 +84,8 @@ typedef struct {
   int settable; /* a parameter that may be given another value at run time (not dependent, structural or final) */
   int is_output;
   double start, min, max, nominal; /* min/max -/+INFINITY where not given; nominal 0 where not given */
+  const char *inferred_unit;       /* what the equations say where no unit is declared; "" where they do not */
+  int is_parameter;                /* declared as a parameter or constant; 0: a variable, though parameters may decide it */
 } mdl_variable;
 
 typedef struct {

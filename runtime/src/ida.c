@@ -6,22 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "session.h"
-#include "sundials_compat.h"
+#include "ida.h"
 #include "vector.h"
 
 enum { DENSE_LIMIT = 10 }; /* unknowns up to which a dense matrix is faster than KLU */
-
-typedef struct {
-  SUNContext context;
-  void *ida;
-  N_Vector y, yp, atol, work;
-  SUNMatrix matrix;
-  SUNLinearSolver solver;
-  double *values;        /* [jac_nnz] */
-  bool started;          /* IDA holds counters of this run that are not in the result yet */
-  long pivots_chosen_at; /* failures of Newton's method when KLU last chose its pivots; -1: before the restart */
-} memory;
 
 static int residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user) {
   rt_session *s = user;
@@ -45,7 +33,7 @@ static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Ve
   (void)r, (void)t1, (void)t2, (void)t3;
   rt_session *s = user;
   const mdl_descriptor *d = s->d;
-  memory *m = s->memory;
+  rt_ida *m = s->memory;
   double *values = m->values;
   rt_inputs_at(s, t);
   int status = d->jacobian(&s->data, t, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), cj, values);
@@ -70,7 +58,8 @@ static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Ve
 }
 
 static void destroy(void *p) {
-  memory *m = p;
+  rt_ida *m = p;
+  rt_ida_tangent_free(m);
   if (m->ida) IDAFree(&m->ida);
   if (m->solver) SUNLinSolFree(m->solver);
   if (m->matrix) SUNMatDestroy(m->matrix);
@@ -82,7 +71,7 @@ static void destroy(void *p) {
   free(m);
 }
 
-static bool create_vectors(rt_session *s, memory *m) {
+static bool create_vectors(rt_session *s, rt_ida *m) {
   sunindextype n = s->d->n_x + s->d->n_z;
   N_Vector *vectors[] = {&m->y, &m->yp, &m->atol, &m->work};
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
@@ -91,7 +80,7 @@ static bool create_vectors(rt_session *s, memory *m) {
   return true;
 }
 
-static bool create_linear_solver(rt_session *s, memory *m) {
+static bool create_linear_solver(rt_session *s, rt_ida *m) {
   sunindextype n = s->d->n_x + s->d->n_z;
   if (n > DENSE_LIMIT) {
     m->matrix = SUNSparseMatrix(n, n, s->d->jac_nnz, CSC_MAT, m->context);
@@ -105,7 +94,7 @@ static bool create_linear_solver(rt_session *s, memory *m) {
 }
 
 /* Algebraic unknowns are left out of the error test: their z' at a restart is only a difference quotient. */
-static bool set_options(rt_session *s, memory *m) {
+static bool set_options(rt_session *s, rt_ida *m) {
   for (int i = 0; i < s->d->n_x; i++)
     N_VGetArrayPointer(m->work)[i] = 1;
   return rt_silence(m->context, m->ida) == 0 && IDASetUserData(m->ida, s) == IDA_SUCCESS &&
@@ -115,7 +104,7 @@ static bool set_options(rt_session *s, memory *m) {
 }
 
 static void *create(rt_session *s) {
-  memory *m = calloc(1, sizeof *m);
+  rt_ida *m = calloc(1, sizeof *m);
   if (!m) return NULL;
   m->values = calloc((size_t)s->d->jac_nnz + 1, sizeof *m->values);
   if (m->values && SUNContext_Create(SUN_COMM_NULL, &m->context) == 0 && create_vectors(s, m) &&
@@ -127,7 +116,7 @@ static void *create(rt_session *s) {
 }
 
 static void count(rt_session *s, void *p) {
-  memory *m = p;
+  rt_ida *m = p;
   if (!m->started) return;
   m->started = false;
   long steps = 0, residuals = 0, setups = 0, fails = 0, jacobians = 0, iterations = 0, newton_fails = 0;
@@ -174,7 +163,7 @@ static double first_step(rt_session *s, double *zdot) {
 }
 
 static rt_status restart(rt_session *s, void *p) {
-  memory *m = p;
+  rt_ida *m = p;
   size_t n = (size_t)(s->d->n_x + s->d->n_z);
   count(s, m);
   rt_residual_point(s);
@@ -185,7 +174,7 @@ static rt_status restart(rt_session *s, void *p) {
     return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "IDA refuses to restart at time %.9g s", s->t);
   m->started = true;
   m->pivots_chosen_at = -1; /* other equations hold, and the old pivots may have become tiny */
-  return RT_OK;
+  return rt_ida_tangent_restart(s, m);
 }
 
 static rt_status begin(rt_session *s, void *p) {
@@ -193,7 +182,7 @@ static rt_status begin(rt_session *s, void *p) {
   return status ? status : restart(s, p);
 }
 
-static rt_status fail(rt_session *s, memory *m, int flag) {
+static rt_status fail(rt_session *s, rt_ida *m, int flag) {
   sunrealtype h = 0;
   IDAGetCurrentStep(m->ida, &h);
   return rt_fail_collapse(s, h,
@@ -203,7 +192,7 @@ static rt_status fail(rt_session *s, memory *m, int flag) {
 }
 
 static rt_status step(rt_session *s, void *p, double limit) {
-  memory *m = p;
+  rt_ida *m = p;
   sunrealtype t = s->t;
   s->data.failure.kind = MDL_FAILURE_NONE;
   IDASetStopTime(m->ida, limit);
@@ -216,12 +205,12 @@ static rt_status step(rt_session *s, void *p, double limit) {
   s->t = flag == IDA_TSTOP_RETURN ? limit : t;
   if (rt_rhs(s, s->t, s->data.x, s->data.xdot, s->data.v) || rt_check_finite(s, s->data.xdot))
     return rt_fail_model(s, s->t, "evaluating the explicit form");
-  return RT_OK;
+  return rt_ida_tangent_step(s, m);
 }
 
 /* IDA's polynomial through its last points, as derivatives at the end of the step: s = (t - t_end) / h. */
 static void dense(rt_session *s, void *p, rt_dense *out) {
-  memory *m = p;
+  rt_ida *m = p;
   int n = s->d->n_x;
   sunrealtype h = 1;
   IDAGetLastOrder(m->ida, &out->degree);
@@ -238,7 +227,7 @@ static void dense(rt_session *s, void *p, rt_dense *out) {
 }
 
 static void point(rt_session *s, void *p, double t, double *x) {
-  memory *m = p;
+  rt_ida *m = p;
   IDAGetDky(m->ida, t, 0, m->work);
   memcpy(x, N_VGetArrayPointer(m->work), (size_t)s->d->n_x * sizeof *x);
 }
@@ -254,4 +243,6 @@ const rt_method rt_method_ida = {
     .dense = dense,
     .point = point,
     .count = count,
+    .sensitivities = rt_ida_sensitivities,
+    .dense_tangent = rt_ida_dense_tangent,
 };

@@ -21,6 +21,7 @@ static void clear(rt_session *s) {
     if (d->variables[i].storage == MDL_INPUT)
       m->u[d->variables[i].index] = d->variables[i].sign * d->variables[i].start;
   m->initial = 1;
+  m->start_time = s->start;
   m->terminal = m->reinitialised = m->terminated = 0;
   m->failure = (mdl_failure){.equation = -1, .variable = -1};
   memset(s->flip, 0, (size_t)d->n_rel);

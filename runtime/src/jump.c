@@ -148,7 +148,7 @@ static void compare_with_last(rt_session *s) {
   const rt_instant *at = &f->instant;
   double between = s->t - f->t_before, known = at->uncertain + f->t_uncertain;
   bool close = false;
-  for (int k = 0; k < f->n && isfinite(between); k++) {
+  for (int k = 0; k < f->n; k++) {
     double now = f->event_time[k], before = f->event_time_before[k], apart = fabs(now - before);
     if (!(apart > 16 * DBL_EPSILON * (fabs(now) + fabs(before)))) continue;
     f->margin[k] = rt_min(f->margin[k], between / apart);

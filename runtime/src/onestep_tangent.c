@@ -69,17 +69,31 @@ static void stage_sum(int n, rt_onestep *t, double h, int count, const double *a
   }
 }
 
+/* 1 / scale of four columns. One whose parameter has no known size is measured by itself: by its largest entry, each
+ * over the nominal value of its state. */
+static void weights(const rt_session *s, const rt_onestep *t, int first, double *weight) {
+  const rt_sensitivities *f = s->sensitivities;
+  for (int k = 0; k < MDL_LANES; k++) {
+    weight[k] = f->weight[first + k];
+    if (!isinf(weight[k])) continue;
+    weight[k] = 0;
+    for (int i = 0; i < s->d->n_x; i++)
+      weight[k] = rt_max(weight[k], fabs(t->x1[i * f->columns + first + k]) * s->options.atol / s->atol[i]);
+  }
+}
+
 /* The largest mean square, over the columns, of e_ik / (atol_i / scale_k + rtol max(|x0_ik|, |x1_ik|)). */
 static double worst_column(const rt_session *s, const rt_onestep *t) {
   const rt_sensitivities *f = s->sensitivities;
-  double worst = 0;
+  double worst = 0, weight[MDL_LANES];
   for (int first = 0; first < f->columns; first += MDL_LANES) {
     double sum[MDL_LANES] = {0};
+    weights(s, t, first, weight);
     for (int i = 0; i < s->d->n_x; i++) {
       size_t row = (size_t)(i * f->columns + first);
       for (int k = 0; k < MDL_LANES; k++) {
         double size0 = fabs(t->x0[row + k]), size1 = fabs(t->x1[row + k]);
-        double size = s->atol[i] * f->weight[first + k] + s->options.rtol * (size0 > size1 ? size0 : size1);
+        double size = s->atol[i] * weight[k] + s->options.rtol * (size0 > size1 ? size0 : size1) + DBL_MIN;
         sum[k] += (t->error[row + k] / size) * (t->error[row + k] / size);
       }
     }

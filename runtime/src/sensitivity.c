@@ -142,7 +142,8 @@ rt_status rt_tangent_start(rt_session *s) {
   memset(f->at.x, 0, bundle_size(d, f->columns, true) * sizeof(double));
   memset(f->event_time_before, 0, (size_t)f->columns * sizeof(double));
   f->lost = false;
-  f->t_before = -INFINITY;
+  f->t_before =
+      s->start; /* nothing moves that: a guard that is passed just after it is about to have been passed before */
   f->t_uncertain = 0;
   f->relation_before = -1;
   f->dense.valid = false;

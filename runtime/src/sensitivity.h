@@ -18,17 +18,17 @@ typedef struct {
 } rt_instant;
 
 struct rt_sensitivities {
-  int n, columns;  /* asked for; rounded up to whole vectors */
-  int *variables;  /* [n] rows of the variable table: parameters, and states for their initial values */
-  double *numbers; /* the block that all arrays of doubles are slices of */
-  double *scale;   /* [columns] size of a change of each parameter; 0: not known, its column is not in the error test */
-  double *weight;  /* [columns] of the error test: 1 / scale, infinite where not in it */
-  mdl_tangent at;  /* at the session's t */
-  mdl_tangent inside;                     /* at points inside a step; its p, u, d and t are those of `at` */
-  mdl_tangent probe;                      /* one vector of other directions, to measure the slopes of a guard */
-  double *guards;                         /* [n_rel * columns] of the guards at fixed time */
-  double *slopes;                         /* [n_rel] total derivatives of the guards by time before the event */
-  double *probed;                         /* [n_rel * MDL_LANES] */
+  int n, columns;     /* asked for; rounded up to whole vectors */
+  int *variables;     /* [n] rows of the variable table: parameters, and states for their initial values */
+  double *numbers;    /* the block that all arrays of doubles are slices of */
+  double *scale;      /* [columns] size of a change of each parameter; 0: not known, its column is measured by itself */
+  double *weight;     /* [columns] 1 / scale; infinite where that is not known */
+  mdl_tangent at;     /* at the session's t */
+  mdl_tangent inside; /* at points inside a step; its p, u, d and t are those of `at` */
+  mdl_tangent probe;  /* one vector of other directions, to measure the slopes of a guard */
+  double *guards;     /* [n_rel * columns] of the guards at fixed time */
+  double *slopes;     /* [n_rel] total derivatives of the guards by time before the event */
+  double *probed;     /* [n_rel * MDL_LANES] */
   double *input_slope;                    /* [n_u] */
   double *first, *interval;               /* [n_sample * columns] of the sample clocks */
   double *event_time, *event_time_before; /* [columns] dt/dp of this event and the last one; t_before its time */

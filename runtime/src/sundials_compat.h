@@ -2,7 +2,7 @@
 #ifndef RT_SUNDIALS_COMPAT_H
 #define RT_SUNDIALS_COMPAT_H
 
-#include <ida/ida.h>
+#include <idas/idas.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_version.h>
 #include <sunlinsol/sunlinsol_dense.h>

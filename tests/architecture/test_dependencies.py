@@ -28,7 +28,7 @@ PROJECT = {*STAGES, "lacuna", "cli", "bench", "tests"}
 FACE = {"lacuna", "lacuna.native", "lacuna.extras", "lacuna.units", "lacuna.recorded_units"}
 
 C_MAY_INCLUDE = {
-    "runtime": ("runtime", ("ida/", "nvector/", "sunmatrix/", "sunlinsol/", "sundials/")),
+    "runtime": ("runtime", ("idas/", "nvector/", "sunmatrix/", "sunlinsol/", "sundials/")),
     "analysis": ("analysis", ("Eigen/", "unsupported/Eigen/", "fftw3.h")),
     "bench": ("bench", ("ida/", "nvector/", "sunmatrix/", "sunlinsol/", "sundials/")),
     "tests/proof": ("tests/proof", ()),

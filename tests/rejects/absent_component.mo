@@ -1,6 +1,6 @@
 // code: R016
 // line: 14
-// hint: same condition
+// hint: can only be connected
 model Heater
   Real p;
 equation

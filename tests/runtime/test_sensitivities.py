@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import lacuna
 from lacuna import runtime
 from lacuna.codegen.compile import compile_model
 from tests.runtime.closed_forms import ALL, BALL, ClosedForm
@@ -14,7 +15,7 @@ from tests.runtime.closed_forms import ALL, BALL, ClosedForm
 RTOL = 1e-9
 # Error of a sensitivity over its largest value: the run's own error, amplified by the events (a bounce adds its share).
 BOUND = 1e3 * RTOL
-SOLVERS = ("dopri5",)
+SOLVERS = ("dopri5", "ida")
 
 
 def compiled(tmp_path: Path, text: str, **options) -> runtime.Model:
@@ -232,3 +233,28 @@ end Root;"""
     result = run(compiled(tmp_path, text), stop=1.0, interval=0.5, sensitivities=["p"])
     assert [f.kind for f in result.flags] == ["non_finite"]
     assert np.all(np.isnan(result.sensitivity("x", "p")))
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_column_without_a_known_size_is_under_error_control_too(solver: str, tmp_path: Path) -> None:
+    """At rest the run could take any step; the sensitivity by an initial value of zero is as stiff as ever."""
+    text = """model Stiff
+  parameter Real k = 1e4;
+  Real x(start = 0, fixed = true);
+equation
+  der(x) = -k*x;
+end Stiff;"""
+    result = run(compiled(tmp_path, text), solver=solver, stop=0.01, interval=1e-4, rtol=1e-7, sensitivities=["x"])
+    np.testing.assert_allclose(result.sensitivity("x", "x"), np.exp(-1e4 * result.time), atol=1e-4)
+
+
+def test_through_the_public_face(tmp_path: Path) -> None:
+    file = tmp_path / "Ball.mo"
+    file.write_text(BALL.text)
+    result = lacuna.load(file).simulate(
+        stop=1.0, interval=0.1, rtol=1e-8, parameters={"g": 5.0}, solver="dopri5", sensitivities=["g"]
+    )
+    assert result.sensitivities == ("g",)
+    assert result.flags == []
+    falling = result.time < np.sqrt(2 / 5)
+    np.testing.assert_allclose(result.sensitivity("h", "g")[falling], -(result.time[falling] ** 2) / 2, rtol=1e-6)

@@ -73,7 +73,7 @@ class Differences:
         return (4 * narrow - wide) / 3, clear
 
 
-@pytest.mark.parametrize("solver", ["dopri5"])
+@pytest.mark.parametrize("solver", ["dopri5", "ida"])
 @pytest.mark.parametrize("case", CASES)
 def test_between_events_they_equal_extrapolated_differences(case: str, solver: str) -> None:
     name, parameters, outputs, stop = CASES[case]

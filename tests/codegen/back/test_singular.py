@@ -69,15 +69,15 @@ CASES = {
         "end Fixed;",
     ),
     "parameter to be solved for": (
-        "S023", 2, "p has fixed=false",
-        "model Free\n  parameter Real p(fixed=false); Real x(start=1);\ninitial equation\n  p = 2;\nequation\n"
-        "  der(x) = -p*x;\nend Free;",
+        "S023", 2, "no initial equation gives the parameter n",
+        "model Free\n  parameter Integer n(fixed=false); Real x(start=1);\ninitial equation\n  2*n = 4;\nequation\n"
+        "  der(x) = -n*x;\nend Free;",
     ),
     "discrete initial value from a state": (
         "S024", 5, "n does not follow from parameters",
         "model Counted\n  Real x(start=1); Integer n;\n  Integer k = if x > 2 then 1 else 0;\n"
-        "initial equation\n  n = k + 1;\n"
-        "equation\n  der(x) = -x; when x < 0 then n = pre(n) + 1; end when;\nend Counted;",
+        "initial equation\n  pre(n) = k + 1;\n"
+        "equation\n  der(x) = -x; n = if x < 0 then pre(n) + 1 else pre(n);\nend Counted;",
     ),
     "reinit of what is not a state": (
         "C002", 5, "is not a state here",

@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 
 from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten import flatten
+from lacuna.codegen.library import Library
 from lacuna.units import format_unit, parse_unit
 from tests.codegen.front.helpers import flatten_text
 
@@ -181,3 +183,33 @@ def test_a_constant_of_a_function_is_a_number_where_all_is_known(tmp_path: Path)
     model = flatten_text(tmp_path, text)
     assert model.variables["f"].binding.value == pytest.approx(29.43)
     assert "weight.g" not in model.variables
+
+
+FOREIGN = """package Shop
+  model Mass
+    parameter Real m(unit="kg") = 2;
+    Real F(unit="N"), v(unit="m/s", start=0, fixed=true);
+  equation
+    F = m*v;
+    der(v) = 1;
+  end Mass;
+end Shop;
+"""
+
+
+def test_findings_inside_a_library_are_one_warning_and_own_ones_stay_errors(tmp_path: Path) -> None:
+    shelf = tmp_path / "shelf"
+    shelf.mkdir()
+    (shelf / "Shop.mo").write_text(FOREIGN)
+    own = tmp_path / "Own.mo"
+    own.write_text("model Own\n  Shop.Mass mass;\nend Own;\n")
+    warnings = flatten(Library([shelf]), str(own)).warnings
+    assert [w.code for w in warnings] == ["W007"]
+    assert "1 places of the library Shop" in warnings[0].message
+    with pytest.raises(Diagnostic) as refused:
+        flatten(Library([shelf]), str(own), units="all")
+    assert (refused.value.code, Path(refused.value.span.file).name, refused.value.span.line) == ("U001", "Shop.mo", 6)
+    own.write_text('model Own\n  Shop.Mass mass;\n  Real x(unit="m") = mass.F;\nend Own;\n')
+    with pytest.raises(Diagnostic) as refused:
+        flatten(Library([shelf]), str(own))
+    assert (refused.value.code, refused.value.span.line, refused.value.others) == ("U001", 3, [])

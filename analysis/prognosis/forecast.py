@@ -1,0 +1,261 @@
+"""Forecasts: from histories to what remains, and how sure that is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+import math
+
+import numpy as np
+
+from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.prognosis.bank import Bank, Beliefs, in_use
+from lacuna.analysis.prognosis.crossing import Remaining, remaining
+from lacuna.analysis.prognosis.filter import Series, Step, run
+from lacuna.analysis.prognosis.history import TWO_SIDED_95, History
+from lacuna.analysis.prognosis.verdict import FORECAST, verdict_on
+
+LEVELS = (0.025, 0.1, 0.5, 0.9, 0.975)
+BATCH = 64  # histories a call of the filter: its arrays then stay in the cache
+LONG = 10.0  # the horizon, in the use that was watched: a forecast further ahead than ten times the past is a guess
+LISTED = 200  # future tests that are listed
+FLEET = 20  # actuators from which on a fleet has a prior of its own
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Severities at which bands begin, rising; the last one is where a part is removed. `last`: end of the map."""
+
+    names: tuple[str, ...]
+    values: tuple[float, ...]
+    first: float
+    last: float
+
+    def __post_init__(self):
+        if not all(a < b for a, b in zip((self.first, *self.values), (*self.values, np.inf), strict=True)):
+            raise AnalysisError(f"limits must rise from above {self.first:g}: {self.values}")
+
+    @property
+    def removal(self) -> float:
+        return self.values[-1]
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """What is said of one actuator (and fault) after its last test. Uses are in the history's unit.
+
+    `quantiles` [limits, LEVELS] of the remaining use, inf beyond `horizon`. `ahead`: uses of future tests, counted like
+    the history's; `risk` [limits, ahead] of having reached each limit by then. `advised` is None where the risk
+    stays below the chosen figure as far as is listed.
+    """
+
+    history: History
+    verdict: str
+    reason: str
+    quantiles: np.ndarray
+    horizon: float
+    ahead: np.ndarray
+    risk: np.ndarray
+    advised: float | None
+    weights: dict[str, float]
+    limits: Limits
+    at: float  # use at the last row
+    severity: tuple[float, float]  # tracked: mean and standard deviation
+    outliers: np.ndarray  # [rows] probability that the test says nothing
+    warnings: tuple[str, ...] = ()
+    remaining: tuple[Remaining, ...] = field(default=(), repr=False)
+
+
+def series_of(histories: Sequence[History], limit: float, floor: float) -> Series:
+    """The parts in service, padded, as shares of `limit`. A side of an interval that the map's edge cuts takes the
+    other's width."""
+    parts = [(h, h.lives[-1]) for h in histories]
+    n = max(1, *(part.stop - part.start for _, part in parts))
+    shape = (len(parts), n)
+    use, value, below, above = (np.zeros(shape) for _ in range(4))
+    valid, interval = np.zeros(shape, bool), np.ones(len(parts))
+    for b, (h, part) in enumerate(parts):
+        m = part.stop - part.start
+        own = h.use[part] - h.use[part.start]
+        use[b, :m], use[b, m:] = own, own[-1]
+        known = np.isfinite(h.severity[part])
+        valid[b, :m] = known
+        value[b, :m] = np.where(known, h.severity[part], 0) / limit
+        lower = np.where(known, h.severity[part] - h.low[part], 1) / limit / TWO_SIDED_95
+        upper = np.where(known, h.high[part] - h.severity[part], 1) / limit / TWO_SIDED_95
+        below[b, :m] = np.maximum(np.where(lower > 0, lower, upper), floor)
+        above[b, :m] = np.maximum(np.where(upper > 0, upper, lower), floor)
+        interval[b] = usual_interval(h)
+    below[:, :] = np.where(below > 0, below, 1)
+    above[:, :] = np.where(above > 0, above, 1)
+    return Series(use, value, below, above, valid, interval)
+
+
+def usual_interval(history: History) -> float:
+    """The median use between tests; that up to the only test, where there is one."""
+    steps = np.diff(history.use)
+    return float(np.median(steps)) if len(steps) else float(history.use[-1] or 1.0)
+
+
+@dataclass(frozen=True)
+class Options:
+    """`risk` of the last limit at an advised test; `horizon` of use ahead (default LONG times what was watched)."""
+
+    risk: float = 0.001
+    horizon: float | None = None
+
+    def __post_init__(self):
+        if not 0 < self.risk < 1:
+            raise AnalysisError(f"the risk is a probability between 0 and 1, not {self.risk:g}")
+        if self.horizon is not None and not 0 < self.horizon < math.inf:
+            raise AnalysisError(f"the horizon is some use ahead, above zero, not {self.horizon:g}")
+
+
+def forecasts(
+    histories: Sequence[History],
+    bank: Bank,
+    limits: Limits | Callable[[History], Limits],
+    options: Options = Options(),
+    *,
+    learn: bool = True,
+) -> list[Forecast]:
+    """One for each history, in their order; with `learn`, FLEET or more of them tell the prior first
+    (`fleet_prior`)."""
+    of = limits if callable(limits) else lambda _: limits
+    for history in histories:
+        check_range(history, of(history))
+    if learn and len(histories) >= FLEET:
+        fleet_prior(histories, bank, of)
+    result: dict[int, Forecast] = {}
+    for rows in _batches(histories):
+        batch = [histories[k] for k in rows]
+        scale = [of(h) for h in batch]
+        series = joined([series_of([h], one.removal, bank.settings.floor) for h, one in zip(batch, scale, strict=True)])
+        outliers = []
+        for step in run(bank, series):
+            outliers.append(step.outlier)
+            last = step
+        said = _forecasts(batch, bank, scale, options, last, series, np.array(outliers).T)
+        result |= dict(zip(rows, said, strict=True))
+    return [result[k] for k in range(len(histories))]
+
+
+def fleet_prior(histories: Sequence[History], bank: Bank, of: Callable[[History], Limits], most: int = 400) -> None:
+    """Replace the bank's prior by that of the fleet: up to `most` histories, evenly chosen."""
+    chosen = [histories[k] for k in np.unique(np.linspace(0, len(histories) - 1, most).round().astype(int))]
+    weights = []
+    for rows in _batches(chosen):
+        batch = [chosen[k] for k in rows]
+        *_, last = run(bank, joined([series_of([h], of(h).removal, bank.settings.floor) for h in batch]))
+        weights.append(last.filtered.w)
+    bank.learn(np.concatenate(weights, axis=1))
+
+
+def check_range(history: History, limits: Limits) -> None:
+    """Raises AnalysisError where a severity lies outside the map."""
+    known = np.isfinite(history.severity)
+    outside = known & ((history.severity < limits.first) | (history.severity > limits.last))
+    if outside.any():
+        k = int(np.flatnonzero(outside)[0])
+        percent = "; severities are fractions, not percent" if history.severity[k] > 1 >= limits.last else ""
+        raise AnalysisError(
+            f"actuator {history.actuator}, {history.unit} {history.use[k]:g}: severity {history.severity[k]:g} is "
+            f"outside the map, {limits.first:g} to {limits.last:g}{percent}"
+        )
+
+
+def joined(parts: Sequence[Series]) -> Series:
+    """Series of several histories as one, padded to the longest."""
+    n = max(p.use.shape[1] for p in parts)
+
+    def padded(values: np.ndarray, mode: str) -> np.ndarray:
+        return np.pad(values, ((0, 0), (0, n - values.shape[1])), mode=mode)
+
+    return Series(
+        *(
+            np.concatenate([padded(getattr(p, name), "edge") for p in parts])
+            for name in ("use", "value", "below", "above")
+        ),
+        np.concatenate([padded(p.valid, "constant") for p in parts]),
+        np.concatenate([p.interval for p in parts]),
+    )
+
+
+def _batches(histories: Sequence[History]) -> list[list[int]]:
+    """Rows of about equal length together, so that little is padded."""
+    order = sorted(range(len(histories)), key=lambda k: len(histories[k].use))
+    return [order[k : k + BATCH] for k in range(0, len(order), BATCH)]
+
+
+def _forecasts(batch, bank: Bank, scale: list[Limits], options, step: Step, series: Series, outliers) -> list[Forecast]:
+    error = np.array([last_error(series, b) for b in range(len(batch))])
+    reaching = [_reaching(bank, step.filtered, scale, j, error, series.interval) for j in range(len(scale[0].names))]
+    watched = np.array([h.use[h.lives[-1]][-1] - h.use[h.lives[-1]][0] for h in batch])
+    watched = np.where(watched > 0, watched, series.interval)
+    horizon = np.full(len(batch), options.horizon) if options.horizon else LONG * watched
+    quantiles = np.stack([r.quantiles(LEVELS, 10 * horizon) for r in reaching], axis=1)
+    again = reaching[-1].reached(watched[:, None])[:, 0]
+    count = np.minimum(np.maximum(horizon / series.interval, 1).astype(int), LISTED)
+    steps = series.interval[:, None] * np.arange(count.max() + 1)
+    risk = np.stack([r.reached(steps) for r in reaching], axis=1)  # [B, limits, 1 + tests]
+    law = _law_weights(bank, step.filtered)
+    mean, deviation = _tracked(step.filtered)
+    result = []
+    for b, h in enumerate(batch):
+        own = slice(0, count[b] + 1)
+        verdict, reason, warnings = verdict_on(h, outliers[b], quantiles[b, -1], again[b], horizon[b])
+        at = float(h.use[-1])
+        below = np.flatnonzero(np.maximum.accumulate(risk[b, -1, own]) > options.risk)
+        advised = None if not len(below) or verdict != FORECAST else at + float(steps[b, max(below[0] - 1, 0)])
+        limit = scale[b].removal
+        result.append(
+            Forecast(
+                h, verdict, reason, np.where(quantiles[b] > horizon[b], np.inf, quantiles[b]), float(horizon[b]),
+                at + steps[b, own][1:], risk[b, :, own][:, 1:], advised, law[b], scale[b], at,
+                (mean[b] * limit, deviation[b] * limit), outliers[b, : len(h.use[h.lives[-1]])],
+                (*h.warnings, *h.doubts, *warnings), tuple(_row(r, b) for r in reaching),
+            )
+        )  # fmt: skip
+    return result
+
+
+def _row(r: Remaining, b: int) -> Remaining:
+    return Remaining(r.mean[b : b + 1], r.sd[b : b + 1], r.weight[b : b + 1])
+
+
+def last_error(series: Series, b: int) -> float:
+    """Standard deviation of the assessments now: the median of the last five."""
+    known = np.flatnonzero(series.valid[b])[-5:]
+    return float(np.median((series.below[b, known] + series.above[b, known]) / 2)) if len(known) else 0.0
+
+
+def _reaching(bank, beliefs, scale: list[Limits], j: int, error, interval) -> Remaining:
+    """Up to limit j of each history's own limits."""
+    shares = np.array([one.values[j] / one.removal for one in scale])
+    if np.ptp(shares) == 0:
+        return remaining(bank, beliefs, float(shares[0]), error, interval)
+    parts = []
+    for b, share in enumerate(shares):
+        row = slice(b, b + 1)
+        parts.append(remaining(bank, beliefs.rows(row), float(share), error[row], interval[row]))
+    return Remaining(*(np.concatenate([getattr(p, name) for p in parts]) for name in ("mean", "sd", "weight")))
+
+
+def _law_weights(bank: Bank, beliefs: Beliefs) -> list[dict[str, float]]:
+    """Weight of each named law, shapes and noises summed."""
+    by_shape = beliefs.w.sum(axis=2)
+    result = []
+    for b in range(by_shape.shape[1]):
+        weights: dict[str, float] = {}
+        for law, weight in zip(bank.laws, by_shape[:, b], strict=True):
+            weights[law.name] = weights.get(law.name, 0.0) + float(weight)
+        result.append(dict(sorted(weights.items(), key=lambda item: -item[1])))
+    return result
+
+
+def _tracked(b: Beliefs) -> tuple[np.ndarray, np.ndarray]:
+    """Mean and standard deviation of the severity over the hypotheses in use, [B] shares of the limit."""
+    w = in_use(b.w)
+    mean = (w * b.x).sum(axis=(0, 2))
+    variance = (w * (b.xx + (b.x - mean[None, :, None]) ** 2)).sum(axis=(0, 2))
+    return mean, np.sqrt(variance)

@@ -1,0 +1,251 @@
+"""A history: the pre-flight tests of one actuator in order of use, read from a table and checked.
+
+`history.csv` (or Parquet) has the columns `actuator` and `cycles` or `hours`, then `severity, low, high` (fractions,
+95 %) or
+`recording` (a file beside it), and `event`: empty or `replaced` (the part was replaced before this row's test). A
+column
+`fault` tells several faults of one actuator apart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+import csv
+from dataclasses import dataclass, field
+import math
+from pathlib import Path
+
+import numpy as np
+
+from lacuna.analysis.errors import AnalysisError
+
+UNITS = ("cycles", "hours")
+EVENTS = ("", "replaced")
+FILES = ("history.csv", "history.parquet")
+TWO_SIDED_95 = 1.959964
+SAME_SCALE = 8.0  # by which hours a cycle may differ within one actuator before units are taken to be mixed
+
+Row = dict[str, str | float | None]
+Assess = Callable[[Path], "list[tuple[str, float, float, float]]"]  # (fault, severity, low, high) of a recording
+
+
+@dataclass(frozen=True)
+class History:
+    """Arrays of one length, NaN where a test has no severity. `use` rises strictly."""
+
+    actuator: str
+    unit: str  # of `use`
+    use: np.ndarray
+    severity: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    replaced: np.ndarray  # bool: a new part from this row on
+    fault: str = ""
+    warnings: tuple[str, ...] = ()
+    doubts: tuple[str, ...] = ()  # why no number may be trusted, where the table contradicts itself
+
+    @property
+    def lives(self) -> list[slice]:
+        """Rows of each part in turn; the last one is in service."""
+        starts = [0, *(k for k in np.flatnonzero(self.replaced).tolist() if k)]
+        return [slice(a, b) for a, b in zip(starts, [*starts[1:], len(self.use)], strict=True)]
+
+
+def read_histories(path: Path | str, assess: Assess | None = None, unit: str | None = None) -> list[History]:
+    """Histories of a folder with history.csv or .parquet, or of such a file, in order of actuator.
+
+    `assess` reads the severities of a recording where the table has none; it raises AnalysisError where the
+    recording is
+    refused, which is a missing test with a warning. `unit`: the column to count by, where there are both. Raises
+    AnalysisError with file, row and reason for what cannot be a history.
+    """
+    file = _file(Path(path))
+    rows = _table(file)
+    if not rows:
+        raise AnalysisError(f"{file}: the history has no rows")
+    counted = _unit(file, rows, unit)
+    groups: dict[tuple[str, str], _Group] = {}
+    for number, row in rows:
+        reader = _Reader(file, number, row)
+        actuator = reader.text("actuator")
+        if not actuator:
+            raise reader.error("actuator is empty")
+        for fault, *reading in reader.readings(assess):
+            group = groups.setdefault((actuator, fault), _Group())
+            group.add(reader, counted, reading)
+    return [group.history(file, *key, counted) for key, group in sorted(groups.items())]
+
+
+def _file(path: Path) -> Path:
+    if not path.is_dir():
+        if path.suffix.lower() not in (".csv", ".parquet"):
+            raise AnalysisError(f"{path}: a history is a .csv or .parquet file, or a folder with history.csv")
+        return path
+    for name in FILES:
+        if (path / name).exists():
+            return path / name
+    raise AnalysisError(f"{path}: no {' or '.join(FILES)} there")
+
+
+def _table(file: Path) -> list[tuple[int, Row]]:
+    """(line or row number, cells) with text cells stripped; empty cells are ''."""
+    if file.suffix.lower() == ".parquet":
+        import pyarrow as pa
+        import pyarrow.parquet as pq
+
+        try:
+            table = pq.read_table(file)
+        except (pa.ArrowException, OSError) as error:
+            raise AnalysisError(f"{file}: not a Parquet table: {error}") from None
+        return [(k + 1, {n: "" if v is None else v for n, v in row.items()}) for k, row in enumerate(table.to_pylist())]
+    try:
+        with file.open(encoding="utf-8-sig", newline="") as stream:
+            reader = csv.DictReader(stream, restkey="?", strict=True)
+            names = [(name or "").strip() for name in reader.fieldnames or []]
+            if len(set(names)) != len(names):
+                raise AnalysisError(f"{file}: a column occurs twice")
+            reader.fieldnames = names
+            rows = [(reader.line_num, row) for row in reader]
+    except FileNotFoundError:
+        raise AnalysisError(f"{file} is missing") from None
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise AnalysisError(f"{file}: not a table: {error}") from None
+    for line, row in rows:
+        if "?" in row:
+            raise AnalysisError(f"{file}:{line}: more cells than columns")
+    return [(line, {name: (value or "").strip() for name, value in row.items()}) for line, row in rows]
+
+
+def _unit(file: Path, rows: list[tuple[int, Row]], wanted: str | None) -> str:
+    """What use is counted in: the column that every row has."""
+    if wanted is not None and wanted not in UNITS:
+        raise AnalysisError(f"use is counted in {' or '.join(UNITS)}, not {wanted!r}")
+    columns = set(rows[0][1])
+    if "actuator" not in columns:
+        raise AnalysisError(f"{file}: column actuator is missing")
+    present = [unit for unit in UNITS if unit in columns]
+    if not present:
+        raise AnalysisError(f"{file}: column cycles (or hours) is missing")
+    complete = [unit for unit in present if all(str(row[unit]) != "" for _, row in rows)]
+    if wanted and wanted not in complete:
+        raise AnalysisError(f"{file}: column {wanted} is missing or not complete")
+    if not complete:
+        line, unit = next((n, u) for n, row in rows for u in present if str(row[u]) == "")
+        raise AnalysisError(
+            f"{file}:{line}: {unit} is empty: cycles and hours are mixed, or a test has no count of use"
+        )
+    return wanted or complete[0]
+
+
+@dataclass(frozen=True)
+class _Reader:
+    """One row: cells as text and numbers, refusals with their place."""
+
+    file: Path
+    number: int
+    row: Row
+
+    def error(self, reason: str) -> AnalysisError:
+        return AnalysisError(f"{self.file}:{self.number}: {reason}")
+
+    def text(self, name: str) -> str:
+        return str(self.row.get(name, "")).strip()
+
+    def value(self, name: str) -> float:
+        """NaN where the cell is empty."""
+        text = self.text(name)
+        if text == "" or text.lower() == "nan":
+            return math.nan
+        try:
+            value = float(text)
+        except ValueError:
+            raise self.error(f"{name} is {text!r}, not a number") from None
+        if not math.isfinite(value) or "_" in text:
+            raise self.error(f"{name} is {text}, not a finite number")
+        return value
+
+    def event(self) -> bool:
+        event = self.text("event")
+        if event not in EVENTS:
+            raise self.error(f"event is {event!r}; known is 'replaced', or nothing")
+        return event == "replaced"
+
+    def readings(self, assess: Assess | None) -> list[tuple]:
+        """(fault, severity, low, high, warning) of this test: given, or assessed, or none."""
+        fault, severity = self.text("fault"), self.value("severity")
+        if not math.isnan(severity):
+            low, high = self.value("low"), self.value("high")
+            if math.isnan(low) or math.isnan(high):
+                raise self.error("severity without low and high, its 95 % interval")
+            if not low <= severity <= high:
+                raise self.error(f"severity {severity:g} lies outside its own interval {low:g} to {high:g}")
+            return [(fault, severity, low, high, "")]
+        name = self.text("recording")
+        if not name:
+            return [(fault, math.nan, math.nan, math.nan, "")]
+        if assess is None:
+            raise self.error(f"{name} has to be assessed, which needs the actuator's map (--map)")
+        path = self.file.parent / name
+        if not path.exists():
+            raise self.error(f"recording {name} is missing")
+        try:
+            return [(*found, "") for found in assess(path)]
+        except AnalysisError as refusal:
+            return [(fault, math.nan, math.nan, math.nan, f"{name} is not used: {refusal}")]
+
+
+@dataclass
+class _Group:
+    """Rows of one actuator (and fault) as they come."""
+
+    rows: list[tuple[int, float, float, bool, float, float, float]] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+
+    def add(self, reader: _Reader, unit: str, reading: Iterable) -> None:
+        severity, low, high, warning = reading
+        use, other = (reader.value(u) for u in (unit, UNITS[1 - UNITS.index(unit)]))
+        if use < 0:
+            raise reader.error(f"{unit} is {use:g}, below zero")
+        replaced = reader.event()
+        if self.rows and self.rows[-1][1] >= use:
+            raise reader.error(
+                f"{unit} do not increase: {use:g} after {self.rows[-1][1]:g} of actuator {reader.text('actuator')}; "
+                "is this another actuator's test, or another unit?"
+            )
+        self.rows.append((reader.number, use, other, replaced, severity, low, high))
+        if warning:
+            self.warnings.append(warning)
+
+    def history(self, file: Path, actuator: str, fault: str, unit: str) -> History:
+        _, use, other, replaced, severity, low, high = (np.array(c) for c in zip(*self.rows, strict=True))
+        doubts = [*self._mixed(file, use, other, unit), *self._spacing(file, use, unit)]
+        replaced = replaced.astype(bool)
+        return History(actuator, unit, use, severity, low, high, replaced, fault, tuple(self.warnings), tuple(doubts))
+
+    def _mixed(self, file: Path, use: np.ndarray, other: np.ndarray, unit: str) -> list[str]:
+        """A doubt where use in one unit and in the other do not go together."""
+        known = np.isfinite(other)
+        steps, others = np.diff(use[known]), np.diff(other[known])
+        if len(steps) < 2:
+            return []
+        lines = [row[0] for row, is_known in zip(self.rows, known, strict=True) if is_known]
+        if np.any(others <= 0):
+            line = lines[int(np.flatnonzero(others <= 0)[0]) + 1]
+            raise AnalysisError(f"{file}:{line}: {UNITS[1 - UNITS.index(unit)]} do not increase with {unit}")
+        ratio = others / steps
+        far = np.abs(np.log(ratio / np.median(ratio))) > math.log(SAME_SCALE)
+        if not far.any():
+            return []
+        line = lines[int(np.flatnonzero(far)[0]) + 1]
+        return [f"{file}:{line}: hours and cycles do not go together here as in the other rows: are units mixed?"]
+
+    def _spacing(self, file: Path, use: np.ndarray, unit: str) -> list[str]:
+        """A doubt where from some row on tests are spaced as if counted in another unit."""
+        steps = np.log(np.diff(use))
+        for k in range(3, len(steps) - 2):
+            if abs(np.median(steps[k:]) - np.median(steps[:k])) > math.log(SAME_SCALE) and (
+                steps[k:].min() > steps[:k].max() or steps[k:].max() < steps[:k].min()
+            ):
+                line = self.rows[k + 1][0]
+                return [f"{file}:{line}: from here on tests are spaced otherwise: are hours and cycles mixed?"]
+        return []

@@ -1,0 +1,99 @@
+"""Files of a forecast: forecast.json, a fan chart for each actuator, and a report of one page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from html import escape
+import io
+import json
+from pathlib import Path
+import re
+
+import numpy as np
+
+from lacuna.analysis.files import published_together
+from lacuna.analysis.prognosis.bank import Bank
+from lacuna.analysis.prognosis.crossing import remaining
+from lacuna.analysis.prognosis.figure import LEVELS, draw
+from lacuna.analysis.prognosis.filter import run
+from lacuna.analysis.prognosis.forecast import LEVELS as PROBABILITIES
+from lacuna.analysis.prognosis.forecast import Forecast, last_error, series_of
+from lacuna.analysis.prognosis.smoother import tracked
+from lacuna.analysis.prognosis.telling import counted_verdicts, forecast_json, sentence, urgency
+from lacuna.analysis.prognosis.verdict import FORECAST
+
+DRAWN = 40  # actuators that get a figure; of more, those at greatest risk
+
+_PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Forecast</title>
+<style>body{{font:15px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}}
+h2{{font-size:1.05rem;margin:2rem 0
+.3rem}}img{{width:100%}}.warn{{color:#b3261e}}td,th{{text-align:right;padding:.1rem .8rem
+.1rem 0}}td:first-child,th:first-child{{text-align:left}}small{{color:#666}}</style>
+<h1>Flights that remain</h1><p>{summary}</p>{parts}
+<p><small>lacuna {version}; limits {limits}. Intervals are of remaining use; the fan shows when each severity is
+reached.</small></p></html>
+"""
+
+
+def publish(said: Sequence[Forecast], bank: Bank, out: Path, risk: float, version: str) -> None:
+    """Write forecast.json, report.html and figures into `out`, together or not at all."""
+    from lacuna.analysis.report.figures.style import in_style, new_figure
+
+    first = sorted(said, key=urgency)[:DRAWN]
+    parts = []
+    with published_together(out) as scratch, in_style():
+        text = json.dumps(forecast_json(said, risk, version), indent=2, ensure_ascii=False, allow_nan=False)
+        (scratch / "forecast.json").write_text(text + "\n", encoding="utf-8")
+        for f in first:
+            figure = new_figure()
+            draw(figure.add_subplot(), f, *curves(f, bank))
+            name = re.sub(r"[^\w.-]", "_", f"{f.history.actuator}_{f.history.fault}".rstrip("_"))
+            figure.axes[0].set_title(f.history.actuator.replace("$", r"\$"))
+            figure.savefig(scratch / f"{name}.png")
+            figure.axes[0].set_title("")  # the page has the name, escaped
+            picture = io.StringIO()
+            figure.savefig(picture, format="svg", metadata=dict.fromkeys(("Date", "Creator", "Format", "Type")))
+            parts.append(_part(f, picture.getvalue(), risk))
+        shown = f"{len(first)} of {len(said)} shown, those at greatest risk first." if len(said) > DRAWN else ""
+        limits = ", ".join(f"{n} from {v:g}" for n, v in zip(said[0].limits.names, said[0].limits.values, strict=True))
+        page = _PAGE.format(
+            summary=f"{counted_verdicts(said)} {shown}", parts="".join(parts), version=version, limits=limits
+        )
+        (scratch / "report.html").write_text(page, encoding="utf-8")
+
+
+def _part(f: Forecast, svg: str, risk: float) -> str:
+    svg = svg[svg.index("<svg") :]
+    rows = "".join(
+        f"<tr><td>{escape(name)}</td>" + "".join(f"<td>{_cell(v)}</td>" for v in row) + "</tr>"
+        for name, row in zip(f.limits.names, f.quantiles, strict=True)
+    )
+    head = "<tr><th>limit</th><th>97.5 % later than</th><th>90 %</th><th>median</th><th>10 %</th><th>2.5 %</th></tr>"
+    laws = ", ".join(f"{escape(n)} {100 * w:.0f} %" for n, w in list(f.weights.items())[:3])
+    warnings = "".join(f"<p class=warn>{escape(w)}</p>" for w in f.warnings)
+    body = f"<table>{head}{rows}</table><p><small>Laws: {laws}.</small></p>" if f.verdict == FORECAST else ""
+    return f"<h2>{escape(sentence(f, risk))}</h2>{warnings}{svg}{body}"
+
+
+def _cell(value: float) -> str:
+    return f"{value:.3g}" if np.isfinite(value) else "-"
+
+
+def curves(f: Forecast, bank: Bank):
+    """(smoothed, levels) for `figure.draw`: what the tests say of the past, and when each severity is reached."""
+    limit = f.limits.removal
+    series = series_of([f.history], limit, bank.settings.floor)
+    steps = list(run(bank, series))
+    mean, deviation = tracked(bank, steps)
+    part = f.history.lives[-1]
+    smoothed = (f.history.use[part], mean[:, 0] * limit, deviation[:, 0] * limit)
+    if f.verdict != FORECAST or mean[-1, 0] >= 1:
+        return smoothed, None
+    shares = np.linspace(min(mean[-1, 0], 0.99), 1.1, LEVELS)
+    error = np.array([last_error(series, 0)])
+    last = steps[-1].filtered
+    quantiles = [
+        remaining(bank, last, s, error, series.interval).quantiles(PROBABILITIES, np.array([10 * f.horizon]))[0]
+        for s in shares
+    ]
+    return smoothed, (shares * limit, np.array(quantiles))

@@ -1,0 +1,90 @@
+"""What is said of a forecast: the sentence, and the entry of forecast.json."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import math
+
+import numpy as np
+
+from lacuna.analysis.prognosis.forecast import Forecast
+from lacuna.analysis.prognosis.verdict import FORECAST, STEADY
+
+FORMAT = 1  # of forecast.json
+
+
+def sentence(f: Forecast, risk: float) -> str:
+    """For the technician: what remains, how sure, and until when."""
+    who = f"Actuator {f.history.actuator}" + (f" ({f.history.fault})" if f.history.fault else "")
+    unit, limit = f.history.unit, f.limits.names[-1]
+    if f.verdict == STEADY:
+        return f"{who} is steady: {f.reason}."
+    if f.verdict != FORECAST:
+        return f"{who}: too early to say; {f.reason}."
+    low95, low, median, high, high95 = f.quantiles[-1]
+    if median <= 0:
+        return f"{who} has reached {limit}: remove it now."
+    wide = f"80 % sure: {use(low)} to {use(high)}; 95 %: {use(low95)} to {use(high95)}"
+    text = f"{who} reaches {limit} in {use(median)} {unit} ({wide})."
+    if f.advised is None:
+        return f"{text} The risk stays below {100 * risk:g} % as far as tests are listed."
+    if f.advised <= f.at:
+        return f"{text} Remove it now: at the next test the risk of {limit} is above {100 * risk:g} %."
+    return f"{text} Until the test at {f.advised:.6g} {unit} the risk of {limit} stays below {100 * risk:g} %."
+
+
+def use(value: float) -> str:
+    """Three digits; what lies beyond the horizon is said so."""
+    return "beyond the horizon" if not math.isfinite(value) else f"{float(f'{value:.3g}'):,.10g}".replace(",", " ")
+
+
+def entry(f: Forecast, risk: float) -> dict:
+    """The actuator's part of forecast.json; the format is described in docs/guide."""
+    return {
+        "verdict": f.verdict,
+        "sentence": sentence(f, risk),
+        "reason": f.reason,
+        "unit": f.history.unit,
+        "at": f.at,
+        "tests": int(np.isfinite(f.history.severity[f.history.lives[-1]]).sum()),
+        "horizon": f.horizon,
+        "severity": {"value": f.severity[0], "low": f.severity[0] - 1.96 * f.severity[1],
+                     "high": f.severity[0] + 1.96 * f.severity[1]},
+        **{name: _limit(row) for name, row in zip(f.limits.names, f.quantiles, strict=True)},
+        "probability": [
+            {f.history.unit: float(n), **{name: float(p) for name, p in zip(f.limits.names, column, strict=True)}}
+            for n, column in zip(f.ahead, f.risk.T, strict=True)
+        ],
+        "advised_last_test": f.advised,
+        "risk": risk,
+        "law": {"name": next(iter(f.weights)), "weights": f.weights},
+        "warnings": list(f.warnings),
+    }  # fmt: skip
+
+
+def _limit(row: np.ndarray) -> dict:
+    low95, low, median, high, high95 = (float(v) if np.isfinite(v) else None for v in row)
+    return {"median": median, "interval80": [low, high], "interval95": [low95, high95]}
+
+
+def forecast_json(said: Sequence[Forecast], risk: float, version: str) -> dict:
+    """The content of forecast.json; a second fault of an actuator stands under `faults` of the first."""
+    actuators: dict[str, dict] = {}
+    for f in said:
+        own = entry(f, risk)
+        if f.history.actuator in actuators:
+            actuators[f.history.actuator].setdefault("faults", {})[f.history.fault] = own
+        else:
+            actuators[f.history.actuator] = own | ({"fault": f.history.fault} if f.history.fault else {})
+    return {"format": FORMAT, "version": version, "actuators": actuators}
+
+
+def urgency(f: Forecast) -> tuple:
+    """Sorts by risk: forecasts by their median, then what is too early to say, then what is steady."""
+    order = {"forecast": 0, "too_early": 1, "steady": 2}
+    return order[f.verdict], float(f.quantiles[-1, 2] / max(f.horizon, 1e-300)), f.history.actuator
+
+
+def counted_verdicts(said: Sequence[Forecast]) -> str:
+    count = {v: sum(f.verdict == v for f in said) for v in ("forecast", "too_early", "steady")}
+    return f"{count['forecast']} forecast, {count['too_early']} too early to say, {count['steady']} steady."

@@ -1,0 +1,80 @@
+"""Whether there is anything to forecast: contradictions in a history, too little of it, and no growth."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lacuna.analysis.prognosis.history import TWO_SIDED_95, History
+
+FORECAST, TOO_EARLY, STEADY = "forecast", "too_early", "steady"
+DECADE = 10.0  # between the ends of the 80 % interval: wider, no removal can be planned by it
+SETTLED = 0.05  # probability of the limit within as much use again as was watched, below which a part is called steady
+FEWEST = 3  # tests of a part: two give a rate, the third can contradict it
+INCOHERENT = 0.25  # share of outliers beyond which the tests are not one part's
+SEEN = 2.0  # standard deviations of the trend, below which growth is not told from none
+FALL = (
+    6.0  # standard deviations by which a part that cannot heal may seem to: a median of three has outliers of its own
+)
+
+
+@dataclass(frozen=True)
+class _Part:
+    """Tests of the part in service that have a severity."""
+
+    use: np.ndarray
+    severity: np.ndarray
+    sd: np.ndarray
+    outlier: np.ndarray  # bool
+
+
+def verdict_on(h: History, outlier: np.ndarray, quantiles: np.ndarray, again: float, horizon: float):
+    """(verdict, reason, warnings). `quantiles` of the use that remains to the last limit, `again` the probability
+    that it is reached within as much use again as was watched."""
+    rows = np.arange(h.lives[-1].start, h.lives[-1].stop)
+    rows = rows[np.isfinite(h.severity[rows])]
+    sd = (h.high - h.low)[rows] / 2 / TWO_SIDED_95
+    part = _Part(h.use[rows], h.severity[rows], np.maximum(sd, 1e-9), outlier[rows - h.lives[-1].start] > 0.5)
+    if h.doubts:
+        return TOO_EARLY, "the history contradicts itself", ()
+    if len(rows) < FEWEST:
+        return TOO_EARLY, f"{len(rows)} tests of this part; a trend needs {FEWEST}", ()
+    if contradiction := _contradiction(part, h.unit):
+        return TOO_EARLY, "the tests contradict each other", (contradiction,)
+    _, low, median, high, _ = quantiles
+    if median == 0:
+        return FORECAST, "", ()
+    grows = trend(part) > SEEN
+    if grows and median <= horizon and high <= DECADE * low:
+        return FORECAST, "", ()
+    if again < SETTLED:
+        return STEADY, "the limit is not reached within as much use again as was watched", ()
+    return TOO_EARLY, "lives that differ tenfold agree with the tests" if grows else "no growth can be told yet", ()
+
+
+def trend(part: _Part) -> float:
+    """The slope of a straight line through the tests, in its standard deviations; outliers left out."""
+    use, severity, sd = (a[~part.outlier] for a in (part.use, part.severity, part.sd))
+    if len(use) < FEWEST:
+        return 0.0
+    w = 1 / sd**2
+    u = use - (w * use).sum() / w.sum()
+    information = (w * u * u).sum()
+    return float((w * u * severity).sum() / np.sqrt(information))
+
+
+def _contradiction(part: _Part, unit: str) -> str:
+    """What in the tests cannot be one part's, or nothing."""
+    n = len(part.use)
+    if n >= 2 * FEWEST and part.outlier.sum() > INCOHERENT * n:
+        return f"{part.outlier.sum()} of {n} tests do not fit the others: are some another actuator's?"
+    for k in range(FEWEST, n - FEWEST + 1):
+        before, after = slice(k - FEWEST, k), slice(k, k + FEWEST)
+        fall = np.median(part.severity[before]) - np.median(part.severity[after])
+        if fall > FALL * np.hypot(part.sd[before].mean(), part.sd[after].mean()):
+            place = f"severity falls at {unit} {part.use[k]:g}"
+            return f"{place}: a replacement that is not recorded, or another actuator's tests?"
+    if n >= 2 * FEWEST and part.outlier[-FEWEST:].all():
+        return f"the last {FEWEST} tests do not fit those before: another actuator's, or a sudden fault?"
+    return ""

@@ -1,0 +1,94 @@
+"""Initial equations of discrete variables.
+
+n = e with e of parameters is a start value. Any other e is computed at the start: `if initial() then n := e` stands
+before what sets n at events, and the start is iterated until nothing changes any more (Modelica 3.6, 8.6).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from lacuna.codegen import flat
+from lacuna.codegen.dae.events import sorted_body
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.structure.constants import is_parametric
+from lacuna.codegen.symbolic.expr import TRUE, Expr, special
+from lacuna.codegen.symbolic.rewrite import assigned
+
+Assigns = dict[str, flat.Assign]
+
+
+def discrete_starts(model: flat.FlatModel) -> flat.FlatModel:
+    """The model without initial equations of discrete variables."""
+    variables, equations, computed = dict(model.variables), [], {}
+    at_events = {n for w in model.whens for n in assigned([w])}.union(*(a.targets for a in model.algorithms))
+    by_equation = _defined_by_equations(model, at_events)
+    for eq in model.initial_equations:
+        name = _defined(eq, variables, at_events, computed.keys())
+        if name is None:
+            equations.append(eq)
+            continue
+        value = eq.rhs if _discrete_name(eq.lhs) == name else eq.lhs
+        if is_parametric(value, variables):
+            variables[name] = replace(variables[name], start=value)
+        elif name in by_equation:
+            raise Diagnostic(
+                "S024", f"the initial value of the discrete variable {name} does not follow from parameters",
+                eq.span, f"give {name} a start value, or set it in `when initial() then`",
+            )  # fmt: skip
+        else:
+            computed[name] = flat.Assign(name, value, eq.span)
+    model = replace(model, variables=variables, initial_equations=equations)
+    return _with_assignments(model, computed) if computed else model
+
+
+def _defined(
+    eq: flat.Equation, variables: dict[str, flat.Variable], at_events: set[str], computed: object
+) -> str | None:
+    """The discrete variable that an initial equation gives a value: pre(n) first, then one that no event sets."""
+    candidates = []
+    for side in (eq.lhs, eq.rhs):
+        v = variables.get(_discrete_name(side))
+        if v is None or v.variability != flat.DISCRETE or v.name in computed or v.causality == "input":
+            continue
+        held = side.op != "pre" and v.fixed is TRUE
+        if not held:
+            candidates.append((side.op != "pre", v.name in at_events, v.name))
+    return min(candidates, key=lambda c: c[:2])[2] if candidates else None
+
+
+def _discrete_name(e: Expr) -> str:
+    n = e.args[0] if e.op == "pre" else e
+    return str(n.value) if n.op == "var" else ""
+
+
+def _defined_by_equations(model: flat.FlatModel, at_events: set[str]) -> set[str]:
+    """Discrete variables that an equation defines at all times."""
+    found = set()
+    for eq in model.equations:
+        name = _discrete_name(eq.lhs) if eq.lhs.op == "var" else ""
+        v = model.variables.get(name)
+        if v is not None and v.variability == flat.DISCRETE and name not in at_events:
+            found.add(name)
+    return found
+
+
+def _with_assignments(model: flat.FlatModel, computed: Assigns) -> flat.FlatModel:
+    left = dict(computed)
+    whens, algorithms = [], []
+    for w in model.whens:
+        names = tuple(assigned([w]))
+        mine = [left.pop(n) for n in names if n in left]
+        if mine:
+            algorithms.append(flat.Algorithm([_initially(mine), w], names, w.span, w.origin))
+        else:
+            whens.append(w)
+    for a in model.algorithms:
+        mine = [left.pop(n) for n in a.targets if n in left]
+        algorithms.append(replace(a, statements=[_initially(mine), *a.statements]) if mine else a)
+    algorithms += [flat.Algorithm([_initially([s])], (n,), s.span) for n, s in left.items()]
+    return replace(model, whens=whens, algorithms=algorithms)
+
+
+def _initially(statements: list[flat.Assign]) -> flat.If:
+    return flat.If([(special("initial"), sorted_body(list(statements)))], statements[0].span)

@@ -1,0 +1,1 @@
+"""Tables of measured data: read from files, and turned into piecewise polynomials."""

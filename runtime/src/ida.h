@@ -1,0 +1,29 @@
+/* What ida.c and ida_tangent.c share: IDA's memory of one session. */
+#ifndef RT_IDA_H
+#define RT_IDA_H
+
+#include "sensitivity.h"
+#include "sundials_compat.h"
+
+typedef struct {
+  SUNContext context;
+  void *ida;
+  N_Vector y, yp, atol, work;
+  SUNMatrix matrix;
+  SUNLinearSolver solver;
+  double *values;        /* [jac_nnz] */
+  bool started;          /* IDA holds counters of this run that are not in the result yet */
+  long pivots_chosen_at; /* failures of Newton's method when KLU last chose its pivots; -1: before the restart */
+  int columns;           /* sensitivities that IDA is set up for */
+  N_Vector *tangent_y, *tangent_yp, *tangent_atol; /* [columns] */
+  double *rows_y, *rows_yp, *rows_r; /* the same as rows of a bundle, [(n_x + n_z) * columns of the bundle] */
+} rt_ida;
+
+/* ida_tangent.c */
+bool rt_ida_sensitivities(rt_session *s, void *memory);
+rt_status rt_ida_tangent_restart(rt_session *s, rt_ida *m);
+rt_status rt_ida_tangent_step(rt_session *s, rt_ida *m);
+void rt_ida_dense_tangent(rt_session *s, void *memory, rt_dense *out);
+void rt_ida_tangent_free(rt_ida *m);
+
+#endif

@@ -1,0 +1,130 @@
+"""What a forecast says of parts whose life is known: outliers, gaps, replacements, changes, and too little to go by."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.prognosis.bank import Bank
+from lacuna.analysis.prognosis.forecast import Options, forecasts
+from tests.analysis.prognosis.histories import LAWS, LIMITS, exponential, history, linear
+
+
+def said(h, **options):
+    return forecasts([h], Bank(LAWS), LIMITS, Options(**options))[0]
+
+
+TESTS = np.arange(0, 3000.0, 100)  # of a life of 5000
+
+
+@pytest.mark.parametrize("truth", [linear, exponential])
+@pytest.mark.parametrize("seed", range(3))
+def test_the_truth_lies_within_95_percent(truth, seed):
+    f = said(history(truth, TESTS, seed=seed))
+    assert f.verdict == "forecast"
+    low, high = f.quantiles[-1, [0, -1]]
+    assert low < 5000 - TESTS[-1] < high
+    assert f.quantiles[-1, 2] == pytest.approx(5000 - TESTS[-1], rel=0.35)
+    assert np.all(np.diff(f.quantiles[:, 2]) > 0), "bands are reached in their order"
+    assert np.all(np.diff(f.risk, axis=1) >= -1e-12) and np.all(np.diff(f.risk, axis=0) <= 1e-6)
+
+
+def test_the_right_law_weighs_most():
+    assert next(iter(said(history(linear, np.arange(0, 4500.0, 100))).weights)) == "linear"
+    assert next(iter(said(history(exponential, np.arange(0, 4500.0, 100))).weights)) == "exponential"
+
+
+def test_advised_test_keeps_the_risk():
+    f = said(history(linear, TESTS), risk=0.01)
+    at = np.flatnonzero(np.isclose(f.ahead, f.advised))[0]
+    assert f.risk[-1, at] <= 0.01 < f.risk[-1, at + 1]
+    assert said(history(linear, TESTS), risk=0.0001).advised <= f.advised
+
+
+def test_outliers_and_missing_tests_change_little():
+    clean = said(history(linear, TESTS))
+    gone = np.isin(np.arange(30), (4, 5, 11, 22, 23))
+    h = history(linear, TESTS, outliers={7: 0.45, 20: 0.0})
+    h = replace(h, severity=np.where(gone, np.nan, h.severity))
+    f = said(h)
+    assert f.outliers[[7, 20]] == pytest.approx([1, 1], abs=0.05) and f.outliers[12] < 0.01
+    assert f.quantiles[-1, 2] == pytest.approx(clean.quantiles[-1, 2], rel=0.15)
+
+
+def test_an_outlier_at_the_end_is_no_reason_to_remove():
+    f = said(history(linear, TESTS, outliers={29: 0.33}))
+    assert f.advised is not None and f.advised > TESTS[-1]
+
+
+def test_a_replacement_starts_a_new_life():
+    use = np.arange(0, 8000.0, 100)
+    new = 5000.0
+    h = history(lambda n: np.where(n < new, linear(n), linear(n - new)), use, replaced=[50])
+    f = said(h)
+    assert f.quantiles[-1, 0] < new + 5000 - use[-1] < f.quantiles[-1, -1]
+    alone = said(replace(history(linear, use[50:] - new), severity=h.severity[50:], low=h.low[50:], high=h.high[50:]))
+    assert f.quantiles == pytest.approx(alone.quantiles, rel=1e-9)
+
+
+def test_a_change_of_the_rate_is_followed():
+    """Three times as fast from half way on: after ten more tests the forecast is that of the new rate."""
+
+    def truth(n):
+        return np.where(n < 2000, 0.02 + 0.04 * n / 1000, 0.10 + 0.12 * (n - 2000) / 1000)
+
+    f = said(history(truth, np.arange(0, 3050.0, 100)))
+    assert f.quantiles[-1, 0] < 4000 - 3000 < f.quantiles[-1, -1]
+
+
+@pytest.mark.parametrize("tests", [1, 2])
+def test_too_few_tests_are_too_early(tests):
+    f = said(history(linear, TESTS[:tests] + 100))
+    assert f.verdict == "too_early" and f.advised is None
+
+
+def test_a_healthy_part_is_steady():
+    f = said(history(lambda n: 0.03 + 0 * n, TESTS))
+    assert f.verdict == "steady"
+    assert f.risk[-1, 0] < 1e-3
+
+
+def test_a_part_beyond_the_limit_has_nothing_left():
+    f = said(history(linear, np.arange(0, 5600.0, 100)))
+    assert f.verdict == "forecast" and f.quantiles[-1, 2] == 0 and f.advised == f.at
+
+
+def test_another_actuators_tests_give_no_number():
+    h = history(lambda n: np.where(np.round(n / 100) % 2 == 0, 0.05, 0.25), TESTS)
+    f = said(h)
+    assert f.verdict != "forecast" and f.warnings
+
+
+def test_an_unrecorded_replacement_gives_no_number():
+    f = said(history(lambda n: np.where(n < 2700, linear(n), 0.02), TESTS))
+    assert f.verdict == "too_early" and any("replacement" in w for w in f.warnings)
+
+
+@pytest.mark.parametrize("value", [-0.01, 0.6, 20.0])
+def test_severities_outside_the_map_are_refused(value):
+    h = history(linear, TESTS)
+    h.severity[3] = value
+    with pytest.raises(
+        AnalysisError, match="actuator A, cycles 300.*outside the map" + (".*percent" if value > 1 else "")
+    ):
+        said(h)
+
+
+def test_two_faults_have_two_lives():
+    from lacuna.analysis.prognosis.forecast import Limits
+
+    other = Limits(LIMITS.names, (0.14, 0.187, 0.234), 0.047, 0.28)
+    first = history(linear, TESTS)
+    second = replace(history(lambda n: 0.09 + 0.144 * n / 7000, TESTS, seed=4), fault="friction")
+    one, two = forecasts([first, second], Bank(LAWS), lambda h: other if h.fault else LIMITS)
+    assert one.quantiles[-1, 0] < 5000 - TESTS[-1] < one.quantiles[-1, -1]
+    assert two.quantiles[-1, 0] < 7000 - TESTS[-1] < two.quantiles[-1, -1]
+    alone = forecasts([second], Bank(LAWS), other)[0]
+    assert two.quantiles == pytest.approx(alone.quantiles, rel=1e-9)

@@ -1,0 +1,6 @@
+// code: R074
+// line: 5
+// hint: rename it
+model M
+  Real Integer = 1;
+end M;
