@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from bench import campaign, diagnosis, maps, race, report, scenarios
+from bench import campaign, diagnosis, growth, maps, race, report, scenarios
 
 Section = Callable[[int], Sequence[report.Row]]
 
@@ -36,6 +36,10 @@ SECTIONS: dict[str, tuple[str, Section]] = {
     "maps": ("The paper's map, 51 severities", maps.split),
     "scenarios": ("The whole actuator against the clock", scenarios.against_the_clock),
     "campaign": ("192 tests of the map's kind under nuisances, here and on Dask workers", campaign.scale),
+    "growth": (
+        "Ladders and chains of 100 to 10 000 states: translation, compiler, IDA beside a program by hand",
+        growth.growth,
+    ),
     "diagnosis": ("Practice cases explained, seconds", diagnosis.split),
 }
 
