@@ -85,7 +85,7 @@ typedef struct {
   int is_output;
   double start, min, max, nominal; /* min/max -/+INFINITY where not given; nominal 0 where not given */
   const char *inferred_unit;       /* what the equations say where no unit is declared; "" where they do not */
-  int is_parameter;                /* declared as a parameter or constant; 0: a variable, though parameters may decide it */
+  int is_parameter; /* declared as a parameter or constant; 0: a variable, though parameters may decide it */
 } mdl_variable;
 
 typedef struct {

@@ -19,11 +19,11 @@ import pytest
 ROOT = Path(__file__).parents[2]
 OWN = Path("lacuna")
 # One xdist worker builds once for all tests of this file.
-pytestmark = pytest.mark.xdist_group("wheel")
+pytestmark = [pytest.mark.xdist_group("wheel"), pytest.mark.timeout(900)]  # the set-up counts in the first test's time
 
 
 def run(*command: str | Path, cwd: Path, status: int = 0) -> str:
-    done = subprocess.run([str(c) for c in command], cwd=cwd, capture_output=True, text=True, check=False, timeout=280)
+    done = subprocess.run([str(c) for c in command], cwd=cwd, capture_output=True, text=True, check=False, timeout=800)
     assert done.returncode == status, done.stdout + done.stderr
     return done.stdout + done.stderr
 
