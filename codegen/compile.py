@@ -14,6 +14,7 @@ from typing import TypeVar
 from lacuna.codegen import cache, flat
 from lacuna.codegen.dae import events, hybrid
 from lacuna.codegen.dae.discrete_starts import discrete_starts
+from lacuna.codegen.dae.divisions import divisions
 from lacuna.codegen.dae.free_parameters import free_parameters
 from lacuna.codegen.dae.initial import initial_system
 from lacuna.codegen.dae.prepared import Prepared
@@ -26,6 +27,7 @@ from lacuna.codegen.structure.aliases import eliminate_aliases
 from lacuna.codegen.structure.causal import causalise
 from lacuna.codegen.structure.constants import precompute, precompute_inverses
 from lacuna.codegen.structure.index_reduction import reduce_index
+from lacuna.codegen.structure.nominal import infer
 from lacuna.codegen.structure.residual_form import jacobian, residual_form
 from lacuna.codegen.structure.system import DeclaredValues
 from lacuna.codegen.structure.tearing import Tearing
@@ -90,11 +92,17 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     matrix = report.run("jacobian", jacobian, residual, system)
     initial = report.run("initial system", initial_system, system, system.model.initial_equations, tearing)
     explicit, system = report.run("matching, BLT, tearing", precompute_inverses, explicit, system)
+    sizes = report.run("nominal values", infer, system, [(r.left, r.right, _line(r)) for r in relations])
+    quotients = report.run("divisions", divisions, explicit, system.model)
     report.warnings += [*declared.warnings, *initial.warnings]
     return Prepared(
         declared, aliases.representative, system, Storage(system), relations, frozen.samples, steps, explicit,
-        residual, matrix, initial,
+        residual, matrix, initial, sizes, quotients,
     )  # fmt: skip
+
+
+def _line(relation: hybrid.Relation) -> str:
+    return f"line {relation.source.span.line}"
 
 
 def translate(
