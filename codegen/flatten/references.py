@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+import math
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.class_values import from_class
@@ -16,7 +17,7 @@ from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.values import Array, Record, Value, elementwise, scalars, shape_of, stack
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
-from lacuna.codegen.symbolic.expr import BOOLEAN, Expr
+from lacuna.codegen.symbolic.expr import BOOLEAN, REAL, Expr
 from lacuna.codegen.syntax import ast
 
 
@@ -196,10 +197,15 @@ def _row(array: Array, index: Expr, scope: Scope, ref: ast.Ref, written: ast.Exp
 
 
 def _choose(rows: list[Value], index: Expr, written: ast.Expression, scope: Scope) -> Value:
-    """An element by a number known only at run time: an if-expression over all of them."""
+    """An element by a number known only at run time: an if-expression over all of them, and not a number outside."""
     if not rows:
         raise Diagnostic("R045", "a subscript of an empty array", written.span, "it has no element")
-    result = rows[-1]
+    is_last = ex.relation("==", index, ex.const(len(rows)))
+
+    def inside(a: Expr) -> Expr:
+        return ex.if_else(is_last, a, ex.const(math.nan)) if a.type == REAL else a
+
+    result = elementwise(inside, [rows[-1]], written.span, "elements")
     for number in range(len(rows) - 1, 0, -1):
         condition = ex.relation("==", index, ex.const(number))
 

@@ -87,6 +87,7 @@ typedef struct {
   int locate_events;  /* 0: state and time events are taken at the end of the step in which they fall */
   int record_events;  /* 1: a row before and a row after each event */
   long max_steps;     /* <= 0: none; a run that needs more ends as RT_STEP_COLLAPSE */
+  int unchecked;      /* 1: accepted points are not looked at for numbers that are not finite and divisors at zero */
 } rt_options;
 
 typedef enum { RT_LINEAR, RT_HOLD } rt_interpolation;
