@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from lacuna.drafts import Drafted, convert, new_case
     from lacuna.errors import UserError, is_user_error, message_of, nearest
     from lacuna.examples import copy_examples
-    from lacuna.faults import Assessment, CombinedMap, OperatingMap, assess, combined_maps, maps
+    from lacuna.faults import Assessment, CombinedMap, OperatingMap, assess, combined_maps, default_settings, maps
     from lacuna.inputs import Input, recorded
     from lacuna.listings import Entry, list_effects, list_models, list_solvers
     from lacuna.models import Finding, Model, check, dump, load
@@ -36,7 +36,7 @@ _HOMES = {
     "drafts": ("Drafted", "convert", "new_case"),
     "errors": ("UserError", "is_user_error", "message_of", "nearest"),
     "examples": ("copy_examples",),
-    "faults": ("Assessment", "CombinedMap", "OperatingMap", "assess", "combined_maps", "maps"),
+    "faults": ("Assessment", "CombinedMap", "OperatingMap", "assess", "combined_maps", "default_settings", "maps"),
     "inputs": ("Input", "recorded"),
     "listings": ("Entry", "list_effects", "list_models", "list_solvers"),
     "models": ("Finding", "Model", "check", "dump", "load"),
@@ -75,6 +75,7 @@ __all__ = [
     "compare_with_file",
     "convert",
     "copy_examples",
+    "default_settings",
     "degradation_laws",
     "dump",
     "explain",
