@@ -98,7 +98,7 @@ def _touch(rng: np.random.Generator, number: int) -> System:
     text = _HEAD.format(number=number, kind="touch", x0=0.0, v0=v0, xdot="v", vdot=repr(-g))
     text += f"  when x > {h!r} then\n    mode = pre(mode) + 1;\n  end when;\n"
     text += f"  when x < {h!r} then\n    second = pre(second) + 1;\n  end when;\nend Hybrid{number};\n"
-    return System(text, [scale - half], [scale + half], 1.5 * scale, depth, size / (g * half))
+    return System(text, [scale - half], [scale + half], scale + 1.5 * half, depth, size / (g * half))
 
 
 def _together(rng: np.random.Generator, number: int) -> System:
