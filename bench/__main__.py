@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from bench import campaign, diagnosis, maps, race, report, scenarios, sensitivities
+from bench import campaign, diagnosis, growth, maps, race, report, scenarios, sensitivities
 
 Section = Callable[[int], Sequence[report.Row]]
 
@@ -37,6 +37,10 @@ SECTIONS: dict[str, tuple[str, Section]] = {
     "scenarios": ("The whole actuator against the clock", scenarios.against_the_clock),
     "sensitivities": ("Runs with sensitivities, as multiples of the same run without", sensitivities.cost),
     "campaign": ("192 tests of the map's kind under nuisances, here and on Dask workers", campaign.scale),
+    "growth": (
+        "Ladders and chains of 100 to 10 000 states: translation, compiler, IDA beside a program by hand",
+        growth.growth,
+    ),
     "diagnosis": ("Practice cases explained, seconds", diagnosis.split),
 }
 

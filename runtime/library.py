@@ -15,7 +15,7 @@ STATUS = (
     "step_collapse", "non_finite", "singular", "domain", "assert", "memory",
 )  # fmt: skip
 EVENT_KINDS = ("state", "time", "sample", "terminate")
-FLAG_KINDS = ("grazing", "order", "non_finite")
+FLAG_KINDS = ("grazing", "order", "non_finite", "rounding")
 STORAGE = ("state", "algebraic", "discrete", "parameter", "input", "derivative")
 TYPES = ("Real", "Integer", "Boolean")
 
