@@ -100,7 +100,7 @@ static bool set_tolerances(rt_session *s, rt_ida *m) {
         weight = rt_max(weight, fabs(x[i * f->columns + k]) / s->nominal[i]);
     }
     for (int i = 0; i < s->d->n_x + s->d->n_z; i++)
-      atol[i] = weight > 0 ? s->options.atol * s->nominal[i] * weight : NOT_TESTED;
+      atol[i] = weight > 0 ? s->atol[i] * weight : NOT_TESTED;
   }
   return IDASensSVtolerances(m->ida, s->options.rtol, m->tangent_atol) == IDA_SUCCESS;
 }

@@ -96,7 +96,7 @@ static void weights(const rt_session *s, const rt_onestep *t, int first, double 
   }
 }
 
-/* The largest mean square, over the columns, of e_ik / (atol nominal_i / scale_k + rtol max(|x0_ik|, |x1_ik|)). */
+/* The largest mean square, over the columns, of e_ik / (atol_i / scale_k + rtol max(|x0_ik|, |x1_ik|)). */
 MDL_WIDE static double worst_column(const rt_session *s, const rt_onestep *t) {
   const rt_sensitivities *f = s->sensitivities;
   double worst = 0, weight[MDL_LANES];
@@ -107,8 +107,7 @@ MDL_WIDE static double worst_column(const rt_session *s, const rt_onestep *t) {
       size_t row = (size_t)(i * f->columns + first);
       for (int k = 0; k < MDL_LANES; k++) {
         double size0 = fabs(t->x0[row + k]), size1 = fabs(t->x1[row + k]);
-        double size =
-            s->options.atol * s->nominal[i] * weight[k] + s->options.rtol * (size0 > size1 ? size0 : size1) + DBL_MIN;
+        double size = s->atol[i] * weight[k] + s->options.rtol * (size0 > size1 ? size0 : size1) + DBL_MIN;
         sum[k] += (t->error[row + k] / size) * (t->error[row + k] / size);
       }
     }
