@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 import math
 
@@ -152,11 +153,11 @@ def apply_subscripts(
     first, rest = subscripts[0], subscripts[1:]
     later = kinds[1:] if kinds is not None else None
     if isinstance(first, ast.Colon):
-        return _stacked([apply_subscripts(r, rest, scope, ref, later) for r in value.rows()], value, ref, len(rest))
+        return _stacked(value.rows(), value, lambda r: apply_subscripts(r, rest, scope, ref, later), ref)
     index = _index(first, kinds, replace(scope, end=shape[0]), ref)
     if isinstance(index, Array):
         picked = [_row(value, i, scope, ref, first) for i in index.items]
-        return _stacked([apply_subscripts(r, rest, scope, ref, later) for r in picked], value, ref, len(rest))
+        return _stacked(picked, value, lambda r: apply_subscripts(r, rest, scope, ref, later), ref)
     if index.op == "const" or (is_known(index, scope.context) and not scope.in_function):
         return apply_subscripts(_row(value, index, scope, ref, first), rest, scope, ref, later)
     if scope.in_function:
@@ -182,11 +183,12 @@ def _index(written: ast.Expression, kinds: tuple[IndexType, ...] | None, scope: 
     return Array(index.shape, tuple(items)) if isinstance(index, Array) else items[0]
 
 
-def _stacked(rows: list[Value], value: Array, ref: ast.Ref, subscripts_left: int) -> Value:
-    """The rows as one array; of no rows, the sizes of the dimensions without a subscript are kept."""
-    if rows:
-        return stack(rows, ref.span)
-    return Array((0, *value.shape[1 + subscripts_left :]), ())
+def _stacked(rows: list[Value], value: Array, part: Callable[[Value], Value], ref: ast.Ref) -> Value:
+    """A part of each row as one array; of no rows, with the sizes that the part of a row has."""
+    if rows or len(value.shape) == 1:
+        return stack([part(r) for r in rows], ref.span)
+    shape = value.shape[1:]
+    return Array((0, *shape_of(part(Array(shape, (ex.ZERO,) * math.prod(shape))))), ())
 
 
 def _row(array: Array, index: Expr, scope: Scope, ref: ast.Ref, written: ast.Expression) -> Value:
