@@ -15,7 +15,7 @@ run_ctest = ctest --test-dir $(1) --output-on-failure -j 2 > $(1)/ctest.log && t
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*')
 
 .PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined tolerance-study \
-        figures wheel examples belts msl format lint sanitize ctest pytest lock clean
+        figures wheel examples belts msl compliance format lint sanitize ctest pytest lock clean
 
 help: ## Print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -85,6 +85,9 @@ wheel: setup ## A wheel and an sdist, into out/dist/
 
 examples: setup ## Write the recordings of lacuna/examples anew
 	@$(PYTHON) -m bench.examples
+
+compliance: setup ## Every case of the Modelica Association's compliance library, writes docs/compliance.md
+	@$(PYTHON) -m bench.compliance --page
 
 figures: maps ## Copy the map's figures that the documentation shows into docs/figures/
 	@cp $(OUT)/maps/paper/fig5_mean_rms.svg docs/figures/mean_rms.svg
