@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from lacuna.diagnoses import Case, Explanation, Verdict, explain, open_case
     from lacuna.errors import UserError, is_user_error, message_of, nearest
     from lacuna.faults import Assessment, CombinedMap, OperatingMap, assess, combined_maps, maps
+    from lacuna.history import export_history, refresh, remember
     from lacuna.inputs import Input, recorded
     from lacuna.listings import Entry, list_effects, list_models, list_solvers
     from lacuna.models import Finding, Model, check, dump, load
@@ -33,6 +34,7 @@ _HOMES = {
     "diagnoses": ("Case", "Explanation", "Verdict", "explain", "open_case"),
     "errors": ("UserError", "is_user_error", "message_of", "nearest"),
     "faults": ("Assessment", "CombinedMap", "OperatingMap", "assess", "combined_maps", "maps"),
+    "history": ("export_history", "refresh", "remember"),
     "inputs": ("Input", "recorded"),
     "listings": ("Entry", "list_effects", "list_models", "list_solvers"),
     "models": ("Finding", "Model", "check", "dump", "load"),
@@ -71,6 +73,7 @@ __all__ = [
     "degradation_laws",
     "dump",
     "explain",
+    "export_history",
     "forecast",
     "is_user_error",
     "list_effects",
@@ -82,6 +85,8 @@ __all__ = [
     "nearest",
     "open_case",
     "recorded",
+    "refresh",
+    "remember",
     "sweep",
 ]
 

@@ -41,14 +41,20 @@ class Bank:
         self.prior = self._unfold(prior(self.laws)[:, None, None, None] * within[None, :, :, None] / len(commons))
 
     def learn(self, weights: np.ndarray) -> None:
-        """Take the prior of a fleet: weights [S, B, K] of its hypotheses, each after its whole history.
+        """Take laws and lives of a fleet into the prior: weights [S, B, K] of its hypotheses, each after its whole
+        history.
 
         One step of the EM algorithm for a mixture's shares under a Dirichlet prior (empirical Bayes: Robbins 1956),
         worth
-        `settings.actuators`.
+        `settings.actuators`. Noises and common errors keep their prior: they stand for what a catalogue lacks, and a
+        fleet that shows little of it is no reason to believe in none.
         """
         own = self.settings.actuators
-        self.prior = (own * self.prior + weights.sum(axis=1, keepdims=True)) / (own + weights.shape[1])
+        mean = (own * self.prior + weights.sum(axis=1, keepdims=True)) / (own + weights.shape[1])
+        shape = (len(self.laws), 1, *self.shape)
+        of_life = mean.reshape(shape).sum(axis=(3, 4), keepdims=True)
+        others = self.prior.reshape(shape).sum(axis=(0, 2), keepdims=True)
+        self.prior = (of_life * others).reshape(self.prior.shape)
 
     def _unfold(self, values: np.ndarray) -> np.ndarray:
         """[S|1, rates|1, noises|1, commons|1] -> [S, 1, K]."""

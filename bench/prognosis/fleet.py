@@ -1,6 +1,7 @@
 """The fleet of the study: parts with a life, and the pre-flight tests that are made of them.
 
-A test is read as one of the simulated tests of `make robustness` was read, that of the nearest severity and of the nearest friction
+A test is read as one of the simulated tests of `make robustness` was read, that of the nearest severity and of the
+nearest friction
 and inertia: those two stay with an actuator for life, temperature and supply change from test to test.
 """
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,21 +11,27 @@ from bench.prognosis.study import Removals
 
 PAGE = """# Prognosis, measured
 
-Written by `make prognosis` (seed {seed}, version {version}); do not edit. {count} parts, each with a life by a law drawn from six
-that are much like the catalogue's and four that it lacks ({outside} parts: slow start, knee, seasons, shocks), with a wandering
-rate, written in `bench/prognosis/` without a line of the filter. Tests come at irregular intervals, 20 to 120 a life; 5 % are
+Written by `make prognosis` (seed {seed}, version {version}); do not edit. {count} parts, each with a life by a law
+drawn from six
+that are much like the catalogue's and four that it lacks ({outside} parts: slow start, knee, seasons, shocks), with
+a wandering
+rate, written in `bench/prognosis/` without a line of the filter. Tests come at irregular intervals, 20 to 120 a
+life; 5 % are
 missing, 2 % outliers, a tenth of the parts follows another one. Each test is read as a simulated pre-flight test of
-[robustness.md](robustness.md) was read, its friction and inertia those of the actuator for life. Forecasts are made at every tenth
-of life, with what is known then. Seeds, scores and goals were committed before the first run. How it is done: [forecast.md](forecast.md).
+[robustness.md](robustness.md) was read, its friction and inertia those of the actuator for life. Forecasts are made
+at every tenth
+of life, with what is known then. Seeds, scores and goals were committed before the first run. How it is done:
+[forecast.md](forecast.md).
 
 ## Goals
 
-| | goal | measured | |
+| | goal | with the fleet's past | alone |
 | --- | --- | --- | --- |
 {goals}
 
-*Forecast* is what the command says for the whole fleet, whose own prior is learnt from the histories as far as they go at that
-tenth of life; *alone* is every actuator by itself.
+*With the fleet's past*: the prior is learnt from {past} more parts of the fleet whose lives have ended, as the
+command does where a
+history has twenty or more of them. *Alone*: every actuator by itself, with the prior that knows no fleet.
 
 ## By share of life
 
@@ -60,48 +65,65 @@ Alpha-lambda counts every part: one that is not forecast is not within 20 %. CRP
 """
 
 
-@dataclass(frozen=True)
-class Row:
-    text: str
-    goal: str
-    measured: str
-    met: bool | None
-
-    def line(self) -> str:
-        mark = {True: "met", False: "**missed**", None: "not measured"}[self.met]
-        return f"| {self.text} | {self.goal} | {self.measured} | {mark} |"
-
-
-def percent(values) -> str:
-    return " ".join(f"{100 * v:.1f}" for v in np.atleast_1d(values))
-
-
 def spread(values: np.ndarray) -> str:
     return f"{100 * values.min():.1f} to {100 * values.max():.1f} %"
 
 
-def goals(s: Scores, line: Scores, ours_known: Scores | None, progpy: Scores | None, unknown: Scores, out: Removals):
-    """The lines of "It must show" that the study measures."""
-    c95, c80, alpha = s.coverage(0, 4), s.coverage(1, 3), s.alpha_lambda()
+Arm = tuple[Scores, Removals]
+
+
+def goals(
+    arms: Sequence[Arm], line: Scores, known: np.ndarray, progpy: Scores | None, unknown: np.ndarray
+) -> list[str]:
+    """The lines of the goals: each with what every arm measured, and whether it is met."""
+    columns = [_measured(arm, line, known, progpy, unknown) for arm in arms]
+    lines = []
+    for name, goal in GOALS.items():
+        cells = [
+            f"{text} {'' if met is None else 'met' if met else '**missed**'}"
+            for text, met in (c[name] for c in columns)
+        ]
+        lines.append("| " + " | ".join([name, goal, *cells]) + " |")
+    return lines
+
+
+GOALS = {
+    "95 % interval holds, every tenth from 30 %": "92 to 98 %",
+    "80 % interval holds": "76 to 84 %",
+    "CRPS over that of a straight line": "at most 0.7",
+    "CRPS over that of progpy told the law": "at most 1.0",
+    "within 20 % from half of life on": "at least 85 %",
+    "missed removals": "at most 0.5 %",
+    "removals before 70 % of life": "at most 5 %",
+    "95 % interval holds, laws outside the catalogue": "above 90 %",
+}
+
+
+def _measured(arm: Arm, line: Scores, known, progpy: Scores | None, unknown) -> dict[str, tuple[str, bool | None]]:
+    s, out = arm
+    c95, c80 = s.coverage(0, 4), s.coverage(1, 3)
+    late = s.alpha_lambda()[np.array(CHECKPOINTS) >= 0.5]
     ratio = s.crps.mean() / line.crps.mean()
-    beside = ours_known.crps.mean() / progpy.crps.mean() if progpy is not None else None
-    late = [CHECKPOINTS[k] >= 0.5 for k in range(len(CHECKPOINTS))]
-    outside = (unknown.coverage(0, 4) * unknown.said.sum(0)).sum() / max(unknown.said.sum(), 1)
+    beside = s.rows(known).crps.mean() / progpy.crps.mean() if progpy is not None else np.nan
+    outer = s.rows(unknown)
+    outside = (outer.coverage(0, 4) * outer.said.sum(0)).sum() / max(outer.said.sum(), 1)
     missed, early = out.missed.mean(), (out.at < 0.7).mean()
-    return [
-        Row("95 % interval holds, every tenth from 30 %", "92 to 98 %", spread(c95), bool(np.all((c95 >= 0.92) & (c95 <= 0.98)))),
-        Row("80 % interval holds", "76 to 84 %", spread(c80), bool(np.all((c80 >= 0.76) & (c80 <= 0.84)))),
-        Row("CRPS over that of a straight line", "at most 0.7", f"{ratio:.2f}", bool(ratio <= 0.7)),
-        Row("CRPS over that of progpy told the law", "at most 1.0", "-" if beside is None else f"{beside:.2f}",
-            None if beside is None else bool(beside <= 1)),
-        Row("within 20 % from half of life on", "at least 85 %", spread(alpha[late]), bool(np.all(alpha[late] >= 0.85))),
-        Row("missed removals", "at most 0.5 %", f"{100 * missed:.1f} %", bool(missed <= 0.005)),
-        Row("removals before 70 % of life", "at most 5 %", f"{100 * early:.1f} %", bool(early <= 0.05)),
-        Row("95 % interval holds, laws outside the catalogue", "above 90 %", f"{100 * outside:.1f} %", bool(outside > 0.9)),
-    ]  # fmt: skip
+    values = [
+        (spread(c95), bool(np.all((c95 >= 0.92) & (c95 <= 0.98)))),
+        (spread(c80), bool(np.all((c80 >= 0.76) & (c80 <= 0.84)))),
+        (f"{ratio:.2f}", bool(ratio <= 0.7)),
+        ("not measured", None) if progpy is None else (f"{beside:.2f}", bool(beside <= 1)),
+        (spread(late), bool(np.all(late >= 0.85))),
+        (f"{100 * missed:.1f} %", bool(missed <= 0.005)),
+        (f"{100 * early:.1f} %", bool(early <= 0.05)),
+        (f"{100 * outside:.1f} %", bool(outside > 0.9)),
+    ]
+    return dict(zip(GOALS, values, strict=True))
 
 
-def table(s: Scores, alone: Scores, line: Scores, verdicts: dict[str, list[int]], progpy: Scores | None, known) -> list[str]:
+def table(
+    s: Scores, alone: Scores, line: Scores, verdicts: dict[str, list[int]], progpy: Scores | None, known
+) -> list[str]:
     n = len(s.truth)
     rows = [
         ("forecast, % of parts", [100 * v / n for v in verdicts["forecast"]], 0),

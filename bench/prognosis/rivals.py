@@ -1,4 +1,5 @@
-"""What the forecasts are held against: a straight line through the severities, and progpy's particle filter told the law."""
+"""What the forecasts are held against: a straight line through the severities, and progpy's particle filter told the
+law."""
 
 from __future__ import annotations
 
@@ -94,8 +95,8 @@ def progpy_filter(growth, particles, random, *, wander: float, diffusion: float,
 
 
 def kalman_check(seed: int = 1, count: int = 5000) -> tuple[float, float]:
-    """(largest error of progpy's mean, in standard deviations of the exact posterior; of its standard deviation, relative) over
-    20 tests of a Wiener process with drift, against the Kalman filter."""
+    """(largest error of progpy's mean, in standard deviations of the exact posterior; of its standard deviation,
+    relative) over 20 tests of a Wiener process with drift, against the Kalman filter."""
     random = np.random.default_rng(seed)
     np.random.seed(seed)  # noqa: NPY002 - progpy resamples by the global generator
     rate, diffusion, noise = 0.02, 0.05, 0.05

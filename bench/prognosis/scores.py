@@ -1,11 +1,13 @@
-"""Metrics of a forecast, each with its formula and source. Uses are shares of the part's life, so that parts may be averaged.
+"""Metrics of a forecast, each with its formula and source. Uses are shares of the part's life, so that parts may be
+averaged.
 
 - coverage: share of parts whose true remaining use lies in the interval.
-- CRPS: integral of (F(n) - 1[n >= truth])^2 dn (Gneiting, Raftery 2007), up to HORIZON lives, for every part and checkpoint.
-- alpha-lambda: |median - truth| <= alpha truth at share lambda of the life (Saxena et al. 2010).
-- prognostic horizon: the true remaining use at the first checkpoint from which on all medians are within alpha of a *life*.
-- relative accuracy: 1 - |median - truth| / truth.
-- a forecast that says "too early" or "steady" has no interval and no median: it is counted, and its CRPS is that of its distribution.
+- CRPS: integral of (F(n) - 1[n >= truth])^2 dn (Gneiting, Raftery 2007), up to HORIZON lives, for every part and
+checkpoint. - alpha-lambda: |median - truth| <= alpha truth at share lambda of the life (Saxena et al. 2010).
+- prognostic horizon: the true remaining use at the first checkpoint from which on all medians are within alpha of a
+*life*. - relative accuracy: 1 - |median - truth| / truth.
+- a forecast that says "too early" or "steady" has no interval and no median: it is counted, and its CRPS is that of
+its distribution.
 """
 
 from __future__ import annotations

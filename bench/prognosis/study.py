@@ -33,13 +33,13 @@ def last_test(part: Part, share: float) -> int:
     return int(np.searchsorted(part.history.use, part.born + share * part.life, side="right"))
 
 
-def forecast_scores(parts: Sequence[Part], bank: Callable[[], Bank], learn: bool, tell: Tell) -> tuple[Scores, dict]:
+def forecast_scores(parts: Sequence[Part], bank: Callable[[], Bank], tell: Tell) -> tuple[Scores, dict]:
     """Scores of `lacuna forecast` on the parts cut at every checkpoint, and how often each verdict was given."""
     scores, verdicts = Scores.empty(len(parts)), []
     for j, share in enumerate(CHECKPOINTS):
         tell("forecasts", j / len(CHECKPOINTS))
         cut = [truncated(p.history, last_test(p, share)) for p in parts]
-        said = forecasts(cut, bank(), LIMITS, Options(horizon=None), learn=learn)
+        said = forecasts(cut, bank(), LIMITS, Options(), learn=False)
         verdicts.append([f.verdict for f in said])
         for b, (p, f) in enumerate(zip(parts, said, strict=True)):
             scores.truth[b, j] = (p.born + p.life - f.at) / p.life
@@ -123,7 +123,8 @@ class Removals:
 
 
 def advised_removals(parts: Sequence[Part], bank: Bank, risk: float, tell: Tell) -> Removals:
-    """Removed at the first test whose next one is beyond the advised last test: the risk of violet by then exceeds `risk`."""
+    """Removed at the first test whose next one is beyond the advised last test: the risk of violet by then exceeds
+    `risk`."""
     at = np.full(len(parts), np.nan)
     for start in range(0, len(parts), BATCH):
         tell("removals", start / len(parts))
@@ -181,8 +182,10 @@ def two_faults(parts: Sequence[Part], bank: Callable[[], Bank], seed: int) -> di
             use = np.cumsum(gap * random.lognormal(0, 0.3, 100))
             use = use[use < end]
             first = _read(one, use, lambda x: LIMIT * x, 0.0079, (0.0, 0.5), "", random)
-            second = _read(other, use, lambda x: 0.0936 + (0.23393 - 0.0936) * x, 0.0046, (0.046785, 0.28071), "friction", random)
-            said = forecasts([first, second], bank(), lambda h: friction if h.fault else LIMITS)
+            second = _read(
+                other, use, lambda x: 0.0936 + (0.23393 - 0.0936) * x, 0.0046, (0.046785, 0.28071), "friction", random
+            )
+            said = forecasts([first, second], bank(), lambda h: friction if h.fault else LIMITS, learn=False)
             for k, (f, p) in enumerate(zip(said, (one, other), strict=True)):
                 if f.verdict == FORECAST:
                     count[k] += 1

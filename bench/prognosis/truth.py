@@ -1,7 +1,7 @@
 """Lives of parts, by laws that are written here once more: some as in the catalogue, some that it lacks.
 
-A life is the time at which each severity is reached, as a share of the life: severity x (share of the limit) rises by dx in
-dt = dx / growth(x), times a factor that wanders and scatters.
+A life is the time at which each severity is reached, as a share of the life: severity x (share of the limit) rises
+by dx in dt = dx / growth(x), times a factor that wanders and scatters.
 """
 
 from __future__ import annotations
