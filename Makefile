@@ -14,8 +14,8 @@ run_ctest = ctest --test-dir $(1) --output-on-failure -j 2 > $(1)/ctest.log && t
   || { cat $(1)/ctest.log; exit 1; }
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*')
 
-.PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness prognosis combined tolerance-study \
-        figures belts msl format lint sanitize ctest pytest lock clean
+.PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined prognosis tolerance-study \
+        figures wheel examples belts msl format lint sanitize ctest pytest lock clean
 
 help: ## Print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -82,6 +82,13 @@ tolerance-study: setup ## Justify the map's tolerance, writes docs/tolerance.md
 
 msl: setup ## Every example of the Modelica Standard Library, translated, simulated, compared (long), writes docs/msl.md
 	@$(PYTHON) -m bench.msl --page
+
+wheel: setup ## A wheel and an sdist, into out/dist/
+	@$(PYTHON) -m build --no-isolation --outdir $(OUT)/dist . > $(BUILD)/wheel.log || { cat $(BUILD)/wheel.log; exit 1; }
+	@ls $(OUT)/dist
+
+examples: setup ## Write the recordings of lacuna/examples anew
+	@$(PYTHON) -m bench.examples
 
 figures: maps ## Copy the map's figures that the documentation shows into docs/figures/
 	@cp $(OUT)/maps/paper/fig5_mean_rms.svg docs/figures/mean_rms.svg

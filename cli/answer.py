@@ -13,7 +13,10 @@ import json as json_text
 import math
 import os
 from pathlib import Path
-from typing import Annotated, Any, get_type_hints
+import sys
+import tempfile
+import traceback
+from typing import Annotated, Any, NoReturn, get_type_hints
 
 from rich.console import Console, RenderableType
 import typer
@@ -51,8 +54,10 @@ def answered(command: Callable[..., Answer]) -> Callable[..., None]:
             typer.echo("interrupted", err=True)
             raise typer.Exit(130) from None
         except Exception as error:
-            if isinstance(error, typer.Exit) or os.environ.get("LACUNA_DEBUG") or not lacuna.is_user_error(error):
+            if isinstance(error, typer.Exit) or os.environ.get("LACUNA_DEBUG"):
                 raise
+            if not lacuna.is_user_error(error):
+                _unexpected(error)
             _fail(lacuna.message_of(error), {}, json)
         finally:
             _silent.reset(token)
@@ -66,6 +71,18 @@ def answered(command: Callable[..., Answer]) -> Callable[..., None]:
     run.__signature__ = inspect.Signature([*own, *more])  # type: ignore[attr-defined]
     run.__annotations__ = hints
     return run
+
+
+def _unexpected(error: Exception) -> NoReturn:
+    """A fault of ours, said in two lines, with its traceback in a file; 70 is the status for such (sysexits.h)."""
+    with tempfile.NamedTemporaryFile(
+        "w", prefix="lacuna-fault-", suffix=".txt", delete=False, encoding="utf-8"
+    ) as file:
+        file.write(f"lacuna {lacuna.__version__}\n{' '.join(sys.argv)}\n\n")
+        traceback.print_exception(error, file=file)
+    typer.echo(f"error: this is a fault of Lacuna ({type(error).__name__}), not yours: please report it", err=True)
+    typer.echo(f"details: {file.name}", err=True)
+    raise typer.Exit(70) from None
 
 
 def _print(answer: Answer, json: bool, quiet: bool) -> None:

@@ -33,10 +33,9 @@ def variables_of(ctx: typer.Context, incomplete: str) -> list[tuple[str, str]]:
 
 def _of_model(ctx: typer.Context, incomplete: str, names, ending: str) -> list[tuple[str, str]]:
     given = ctx.params
+    named = given.get("model") or next(iter(ctx.args), "")  # an option still waits for its value
     try:
-        model = lacuna.load(
-            given["model"], class_name=given.get("class_name") or "", libraries=given.get("library") or []
-        )
+        model = lacuna.load(named, class_name=given.get("class_name") or "", libraries=given.get("library") or [])
     except Exception:  # as above
         return []
     found: Iterable = names(model)

@@ -7,7 +7,21 @@ from typing import Annotated
 import typer
 
 import lacuna
-from lacuna.cli import assess, check, compare, compile, explain, forecast, list, maps, simulate, steps, sweep
+from lacuna.cli import (
+    assess,
+    case,
+    check,
+    compare,
+    compile,
+    examples,
+    explain,
+    forecast,
+    list,
+    maps,
+    simulate,
+    steps,
+    sweep,
+)
 
 app = typer.Typer(
     name="lacuna",
@@ -55,10 +69,13 @@ app.command("compile", rich_help_panel=MODELS)(compile.compile)
 app.command("simulate", rich_help_panel=MODELS)(simulate.simulate)
 app.command("compare", rich_help_panel=MODELS)(compare.compare)
 app.add_typer(list.app, name="list", rich_help_panel=MODELS)
+app.command("examples", rich_help_panel=MODELS)(examples.examples)
 app.command("maps", rich_help_panel=FAULTS)(maps.maps)
 app.command("sweep", rich_help_panel=FAULTS)(sweep.sweep)
 app.command("assess", rich_help_panel=FAULTS)(assess.assess)
 app.command("forecast", rich_help_panel=FAULTS)(forecast.forecast)
+app.add_typer(case.app, name="case", rich_help_panel=PHYSICS)
+app.command("convert", rich_help_panel=PHYSICS)(examples.convert)
 app.command("explain", rich_help_panel=PHYSICS)(explain.explain)
 app.command("fit", rich_help_panel=PHYSICS)(steps.fit)
 app.command("locate", rich_help_panel=PHYSICS)(steps.locate)

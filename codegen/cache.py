@@ -15,6 +15,7 @@ import json
 import os
 from pathlib import Path
 import shutil
+import stat
 import subprocess
 import tempfile
 
@@ -124,6 +125,29 @@ def _file_digest(path: str) -> str | None:
         return None
 
 
+def _sum_of(library: Path) -> Path:
+    """The file beside a library that holds the SHA-256 of its bytes."""
+    return library.with_suffix(".sha256")
+
+
+def _is_whole(library: Path) -> bool:
+    """Whether a library is there as it was compiled: neither cut nor exchanged, which loading it would not notice."""
+    try:
+        return _sum_of(library).read_text(encoding="ascii") == _file_digest(str(library))
+    except (OSError, ValueError):
+        return False
+
+
+def _refuse_shared(folder: Path) -> None:
+    """Code is loaded from this folder: nobody but the user may be able to write there. Raises CompilerError."""
+    status = folder.stat()
+    if status.st_uid != os.getuid() or status.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+        raise CompilerError(
+            f"{folder}: others can write to this folder of compiled models, and code is loaded from it; "
+            f"run `chmod go-w {folder}`, or set LACUNA_CACHE to a folder of your own"
+        )
+
+
 def _write(path: Path, text: str) -> None:
     """Write beside and rename."""
     with tempfile.NamedTemporaryFile("w", dir=path.parent, prefix=path.name, suffix=".tmp", delete=False) as f:
@@ -147,7 +171,9 @@ class Cache:
             entry = json.loads(self._index(request).read_text())
         except (OSError, ValueError):
             return None
-        if entry["generator"] != [generator_version(), compiler()] or not Path(entry["library"]).exists():
+        if entry["generator"] != [generator_version(), compiler()]:
+            return None
+        if not _is_whole(Path(entry["library"])):
             return None
         if any(_names(folder) != digest for folder, digest in entry["folders"].items()):
             return None
@@ -179,14 +205,16 @@ class Cache:
     def build(self, digest: str, source: str) -> str:
         """Compile C `source` to a library named by its digest and the compiler, and keep both; returns its path."""
         digest = _digest(digest, compiler())
-        self.directory.mkdir(parents=True, exist_ok=True)
+        self.directory.mkdir(mode=0o700, parents=True, exist_ok=True)
+        _refuse_shared(self.directory)
         library, c_file = self.directory / f"{digest[:32]}.so", self.directory / f"{digest[:32]}.c"
-        if library.exists():
+        if _is_whole(library):
             return str(library)
         _write(c_file, source)
         with tempfile.TemporaryDirectory(dir=self.directory) as scratch:
             output = Path(scratch) / "model.so"
             compile_c(c_file, output)
+            _write(_sum_of(library), str(_file_digest(str(output))))
             output.replace(library)
         return str(library)
 

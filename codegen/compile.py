@@ -27,7 +27,7 @@ from lacuna.codegen.structure.index_reduction import reduce_index
 from lacuna.codegen.structure.residual_form import jacobian, residual_form
 from lacuna.codegen.structure.system import DeclaredValues
 from lacuna.codegen.structure.tearing import Tearing
-from lacuna.codegen.symbolic.expr import Expr
+from lacuna.codegen.symbolic.expr import Expr, own_table
 
 T = TypeVar("T")
 _translating = threading.Lock()  # expressions are shared by all threads; one translation at a time keeps them unique
@@ -116,7 +116,7 @@ def compile_model(
     found = store.find(request)
     if found:
         return CompiledModel(found.name, found.library, found.hash, Report(cached=True, warnings=found.warnings))
-    with _translating:
+    with _translating, own_table():
         prepared, report = translate(name, search_path=search_path, modifications=modifications, units=units)
         prepared.hash = cache.content_hash(prepared.declared, modifications, units, sensitivities)
         source = report.run("C", generate, prepared, sensitivities)

@@ -37,7 +37,7 @@ def split_name(name: str) -> tuple[Path | None, str]:
     place, colon, inner = name.rpartition(":")
     if colon and (place.endswith(".mo") or os.sep in place or Path(place).is_dir()):
         return Path(place), inner
-    if name.endswith(".mo") or os.sep in name:
+    if name.endswith(".mo") or os.sep in name or (Path(name) / PACKAGE_FILE).is_file():
         return Path(name), ""
     return None, name
 

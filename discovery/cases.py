@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-import csv
 from dataclasses import dataclass, field
-import math
 from pathlib import Path
 import tomllib
 
 import numpy as np
 
+from lacuna.analysis.recording.channel import RecordingError, on_one_time
+from lacuna.analysis.recording.formats import read_recorded
 from lacuna.codegen.library import Library
 from lacuna.discovery.case_keys import KeyProblem, check
 from lacuna.discovery.case_model import CaseModel, case_model
@@ -178,26 +178,17 @@ def _signal(path: Path, column: str, table: dict) -> Signal:
 
 
 def read_recording(path: Path, signals: dict[str, Signal]) -> Recording:
-    """Read one CSV (header, then numbers; an empty field is a missing sample). Raises CaseError."""
+    """Read one file: `time` in s and a column for each signal; an empty field is a missing sample. Raises CaseError."""
     try:
-        with path.open(newline="", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
-    except (OSError, UnicodeDecodeError) as error:
-        raise CaseError(f"{path}: cannot be read ({error})") from error
-    if not rows:
-        raise CaseError(f"{path}: the file is empty")
-    header = [name.strip() for name in rows[0]]
-    for column in ("time", *signals):
-        if column not in header:
-            raise CaseError(f"{path}: column `{column}` is missing (the header has {', '.join(header)})")
-    body = [row for row in rows[1:] if row]
-    table = np.empty((len(body), len(header)))
-    for i, row in enumerate(body):
-        if len(row) != len(header):
-            raise CaseError(f"{path}:{i + 2}: {len(row)} fields where the header has {len(header)}")
-        try:
-            table[i] = [float(text) if text.strip() else math.nan for text in row]
-        except ValueError as error:
-            raise CaseError(f"{path}:{i + 2}: {error}") from error
-    columns = {name: table[:, header.index(name)] * signal.scale for name, signal in signals.items()}
-    return Recording(path.name, table[:, header.index("time")].copy(), columns)
+        recorded = read_recorded(path)
+    except RecordingError as error:
+        raise CaseError(str(error)) from error
+    if recorded.time != "time":
+        raise CaseError(f"{path}: column `time` is missing; is it `{recorded.time}`? Its unit is the second")
+    missing = [column for column in signals if not any(column in (c.head.text, c.name) for c in recorded.channels)]
+    if missing or not recorded.channels:
+        has = ", ".join(c.head.text for c in recorded.channels)
+        raise CaseError(f"{path}: column `{(missing or list(signals))[0]}` is missing (beside time there are {has})")
+    time, columns = on_one_time([recorded[column] for column in signals])
+    scaled = {name: values * signal.scale for (name, signal), values in zip(signals.items(), columns, strict=True)}
+    return Recording(path.name, time.copy(), scaled)

@@ -9,12 +9,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 import hashlib
+import json
 import os
 from pathlib import Path
-import pickle
 import shutil
 import threading
 from typing import Any
+import zipfile
+
+import numpy as np
+
+from lacuna.discovery.plain_values import load, save, to_tree
 
 _folder: Path | None = None
 _version = ""  # of this package's sources
@@ -40,18 +45,29 @@ def kept(folder: Path) -> Iterator[None]:
 
 
 def remembered(parts: Callable[[], tuple[Any, ...]], compute: Callable[[], Any]) -> Any:
-    """The result of `compute`, or the one that was kept for the same `parts` (anything that can be pickled)."""
+    """The result of `compute`, or the one that was kept for the same `parts`; a damaged one is computed again.
+
+    Parts and result are plain values (`plain_values`).
+    """
     if _folder is None:
         return compute()
-    path = _folder / f"{_digest((_version, *parts()))}.pickle"
-    if path.exists():
-        return pickle.loads(path.read_bytes())
+    path = _folder / f"{_digest((_version, *parts()))}.npz"
+    try:
+        return load(path)
+    except (OSError, EOFError, ValueError, KeyError, TypeError, zipfile.BadZipFile):
+        pass
     value = compute()
     partial = path.with_suffix(f".{os.getpid()}.{threading.get_ident()}.tmp")
-    partial.write_bytes(pickle.dumps(value))
+    with partial.open("wb") as file:
+        save(file, value)
     partial.replace(path)
     return value
 
 
 def _digest(parts: tuple[Any, ...]) -> str:
-    return hashlib.sha256(pickle.dumps(parts)).hexdigest()[:32]
+    arrays: list[np.ndarray] = []
+    tree = json.dumps(to_tree(parts, arrays, any_class=True), sort_keys=True)
+    digest = hashlib.sha256(tree.encode())
+    for array in arrays:
+        digest.update(f"{array.dtype.str} {array.shape}".encode() + np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()[:32]

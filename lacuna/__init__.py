@@ -18,7 +18,9 @@ if TYPE_CHECKING:
     from lacuna.comparisons import Agreement, Comparison, compare, compare_with_file
     from lacuna.degradation import degradation_laws
     from lacuna.diagnoses import Case, Explanation, Verdict, explain, open_case
+    from lacuna.drafts import Drafted, convert, new_case
     from lacuna.errors import UserError, is_user_error, message_of, nearest
+    from lacuna.examples import copy_examples
     from lacuna.faults import Assessment, CombinedMap, OperatingMap, assess, combined_maps, maps
     from lacuna.history import export_history, refresh, remember
     from lacuna.inputs import Input, recorded
@@ -32,7 +34,9 @@ _HOMES = {
     "campaigns": ("Sweep", "sweep"),
     "comparisons": ("Agreement", "Comparison", "compare", "compare_with_file"),
     "diagnoses": ("Case", "Explanation", "Verdict", "explain", "open_case"),
+    "drafts": ("Drafted", "convert", "new_case"),
     "errors": ("UserError", "is_user_error", "message_of", "nearest"),
+    "examples": ("copy_examples",),
     "faults": ("Assessment", "CombinedMap", "OperatingMap", "assess", "combined_maps", "maps"),
     "history": ("export_history", "refresh", "remember"),
     "inputs": ("Input", "recorded"),
@@ -52,6 +56,7 @@ __all__ = [
     "Case",
     "CombinedMap",
     "Comparison",
+    "Drafted",
     "Entry",
     "Explanation",
     "Finding",
@@ -70,6 +75,8 @@ __all__ = [
     "combined_maps",
     "compare",
     "compare_with_file",
+    "convert",
+    "copy_examples",
     "degradation_laws",
     "dump",
     "explain",
@@ -83,6 +90,7 @@ __all__ = [
     "maps",
     "message_of",
     "nearest",
+    "new_case",
     "open_case",
     "recorded",
     "refresh",

@@ -1,4 +1,4 @@
-"""New cases: `lacuna.new_case(model, recordings, out)`."""
+"""New cases from recordings as they come, and recordings from one format into another."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
+from lacuna.errors import UserError
 from lacuna.extras import names_missing_packages
 from lacuna.notebook import page, paragraph, table
 
@@ -46,3 +47,19 @@ def new_case(
         for m in made.matches
     )
     return Drafted(made.path.parent, columns, made.unsure)
+
+
+@names_missing_packages
+def convert(recording: str | Path, out: str | Path) -> tuple[str, ...]:
+    """Write a recording in the format of `out`'s suffix, units kept; returns what was assumed in reading it.
+
+    Raises UserError where `out` is there already or its format is only read.
+    """
+    from lacuna.analysis.recording.formats import read_recorded, write_recorded
+
+    out = Path(out)
+    if out.exists():
+        raise UserError(f"{out} is there already")
+    found = read_recorded(recording)
+    write_recorded(found, out)
+    return found.notes

@@ -42,9 +42,9 @@ def remember(
     readings, covariance, features = _readings(path, Path(map), columns, unfiltered)
     entries = [
         Entry(
-            actuator, *numbers, recording=file_hash(path), map=map_hash(Path(map)),
-            version=version("lacuna"), fault=fault, cycles=cycles, hours=hours, event="replaced" if replaced else "", covariance=covariance, features=features,
-            path=str(path),
+            actuator, *numbers, recording=file_hash(path), map=map_hash(Path(map)), version=version("lacuna"),
+            fault=fault, cycles=cycles, hours=hours, event="replaced" if replaced else "",
+            covariance=covariance, features=features, path=str(path),
         )
         for fault, *numbers in readings
     ]  # fmt: skip

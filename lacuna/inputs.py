@@ -8,22 +8,30 @@ from typing import Any
 
 import numpy as np
 
+from lacuna.analysis.recording.formats import read_recorded
 from lacuna.errors import UserError, nearest
-from lacuna.runtime import RecordedInput, read_csv
+from lacuna.recorded_units import to_si
+from lacuna.runtime import RecordedInput
 
 Input = float | RecordedInput | tuple[Any, Any]
 """A constant, a recording, or a pair (times in s, values): linear between samples, the first and last hold outside."""
 
 
 def recorded(file: str | Path, column: str, *, hold: bool = False) -> RecordedInput:
-    """A column of a CSV recording (`time` first, SI units) as an input; linear between samples, or held with `hold`.
+    """A channel of a recording, in any format that is read, as an input; linear between samples, or held with `hold`.
 
-    Raises UserError with the nearest names where there is no such column.
+    Values are converted to SI where the file says a unit. Raises UserError with the nearest names where there is none
+    of this name.
     """
-    columns, _ = read_csv(file)
-    if column not in columns:
-        raise UserError(f"{file} has no column called {column}{nearest(column, columns)}")
-    return RecordedInput(columns["time"], columns[column], "hold" if hold else "linear")
+    found = read_recorded(file)
+    try:
+        channel = found[column]
+    except KeyError:
+        names = [c.name for c in found.channels]
+        raise UserError(f"{file} has no column called {column}{nearest(column, names)}") from None
+    present = np.isfinite(channel.values)
+    values = channel.values[present] * to_si(channel.unit or "1")[0]
+    return RecordedInput(channel.time[present], values, "hold" if hold else "linear")
 
 
 def as_inputs(given: Mapping[str, Input]) -> dict[str, RecordedInput | float]:

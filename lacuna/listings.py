@@ -23,15 +23,13 @@ class Entry:
 def list_models(inside: str | Path = "", *, libraries: Iterable[str | Path] = ()) -> list[Entry]:
     """Models that can be simulated, as far as their kind tells: `inside` a package, file or folder (as `load` takes
     it), or else of all libraries given and the package Lacuna. Reads their files; raises Diagnostic on a wrong one."""
-    path = search_path(libraries)
-    given, library = len(list(libraries)) if isinstance(libraries, list | tuple) else 0, Library(path)
+    given = list(libraries)
+    library = Library(search_path(given))
     if inside:
         roots = [library.find(str(inside))]
-    else:
-        names = {
-            name for place in [*path[:given], path[-1]] for name in Library([place]).members(Library([place]).root)
-        }
-        roots = [library.find(name) for name in sorted(names)]
+    else:  # MODELICAPATH may hold a great deal that nobody asked for
+        own = Library([*library.paths[: len(given)], library.paths[-1]])
+        roots = [library.find(name) for name in own.members(own.root)]
     classes = [cls for root in roots for cls in (root, *library.all_classes(root))]
     return [Entry(c.path, c.description) for c in classes if c.kind in MODEL_KINDS and not c.partial and not c.alias]
 

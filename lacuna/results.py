@@ -72,7 +72,7 @@ class Result:
     @property
     def units(self) -> dict[str, str]:
         """Of every column, "" where neither the declaration nor the equations give one."""
-        return {"time": "s"} | {name: v.unit for name, v in self._run.model.variables.items() if name in self}
+        return {"time": "s"} | {name: v.shown_unit for name, v in self._run.model.variables.items() if name in self}
 
     @property
     def events(self) -> list[runtime.EventEntry]:

@@ -12,6 +12,7 @@ import tempfile
 import numpy as np
 
 from lacuna.runtime.errors import SimulationError
+from lacuna.runtime.model import Variable
 from lacuna.runtime.result import Result
 
 FORMAT = "lacuna-result-1"
@@ -46,12 +47,17 @@ def metadata(result: Result, names: Sequence[str] | None = None) -> dict:
         "solver": result.settings,
         "columns": {
             "time": {"unit": "s", "description": "time", "kind": "time"},
-            **{n: {"unit": v.unit, "description": v.description, "kind": v.kind} for n, v in variables.items()},
+            **{n: _column(v) for n, v in variables.items()},
         },
         "parameters": result.parameters,
         "counters": result.counters,
         "events": [asdict(entry) for entry in result.event_log],
     }
+
+
+def _column(v: Variable) -> dict:
+    inferred = {"unit_inferred": True} if v.inferred_unit and not v.unit else {}
+    return {"unit": v.shown_unit, "description": v.description, "kind": v.kind} | inferred
 
 
 def meta_path(path: Path) -> Path:
@@ -95,7 +101,7 @@ def write_parquet(result: Result, path: str | Path, names: Sequence[str] | None 
     fields, arrays = [pa.field("time", pa.float64(), metadata={"unit": "s"})], [pa.array(result.time)]
     for name in names:
         v = result.model.variables[name]
-        fields.append(pa.field(name, pa.float64(), metadata={"unit": v.unit, "description": v.description}))
+        fields.append(pa.field(name, pa.float64(), metadata={"unit": v.shown_unit, "description": v.description}))
         arrays.append(pa.array(result[name]))
     if result.event.any():
         fields.append(pa.field("event", pa.bool_()))

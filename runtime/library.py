@@ -25,6 +25,8 @@ class CVariable(Structure):
         *((name, c_char_p) for name in ("name", "unit", "description", "file")),
         *((name, c_int) for name in ("line", "type", "storage", "index", "sign", "settable", "is_output")),
         *((name, c_double) for name in ("start", "min", "max", "nominal")),
+        ("inferred_unit", c_char_p),
+        ("is_parameter", c_int),
     ]
 
 
@@ -101,6 +103,7 @@ _SIGNATURES = {
     "rt_session_outputs": (c_int, c_void_p, c_int, _INTS),
     "rt_session_grid": (c_int, c_void_p, c_int, c_void_p, c_double),
     "rt_session_sensitivities": (c_int, c_void_p, c_int, _INTS),
+    "rt_session_tolerances": (None, c_void_p, _DOUBLES, _DOUBLES),
     "rt_session_run": (c_void_p, c_void_p, c_double, c_double),
     "rt_result_free": (None, c_void_p),
     "rt_result_failure": (POINTER(CFailure), c_void_p),

@@ -34,6 +34,13 @@ class Variable:
     row: int
     index: int
     sign: int  # -1: a negated alias
+    inferred_unit: str = ""  # what the equations say where no unit is declared
+    is_parameter: bool = False  # declared as a parameter or constant; else a variable, though parameters may decide it
+
+    @property
+    def shown_unit(self) -> str:
+        """Declared or inferred; "" where neither."""
+        return self.unit or self.inferred_unit
 
     @property
     def storage(self) -> str:
@@ -93,7 +100,8 @@ class Model:
         start = self._descriptor.p_start[v.index] * v.sign if kind == "parameter" else v.start
         return Variable(
             _text(v.name), _text(v.unit), _text(v.description), kind, TYPES[v.type], start, v.min, v.max, v.nominal,
-            bool(v.settable), bool(v.is_output), _text(v.file), v.line, row, v.index, v.sign,
+            bool(v.settable), bool(v.is_output), _text(v.file), v.line, row, v.index, v.sign, _text(v.inferred_unit),
+            bool(v.is_parameter),
         )  # fmt: skip
 
     @cached_property
@@ -111,8 +119,9 @@ class Model:
 
     @cached_property
     def declared(self) -> list[str]:
-        """Names of all variables that are not declared as parameters or constants, aliases among them."""
-        return [name for name, v in self.variables.items() if v.kind != "parameter"]
+        """Names of all variables that are not declared as parameters or constants: those that equal another one, and
+        those that parameters alone decide, too."""
+        return [name for name, v in self.variables.items() if not v.is_parameter]
 
     @cached_property
     def recordable(self) -> list[str]:

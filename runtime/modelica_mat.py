@@ -56,7 +56,7 @@ class _Table:
     def add(self, name: str) -> None:
         v = self._result.model.variables[name]
         self.names.append(name)
-        self.descriptions.append(f"{v.description} [{v.unit}]".strip() if v.unit else v.description)
+        self.descriptions.append(f"{v.description} [{v.shown_unit}]".strip() if v.shown_unit else v.description)
         if v.kind == "parameter":
             self.constant.append(np.full(2, self._result.parameters[name]))
             self.info.append([_CONSTANT, len(self.constant), 0, 0])

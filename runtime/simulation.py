@@ -83,11 +83,18 @@ class Session:
         if not self._handle:
             raise SimulationError(message.value.decode("utf-8", "replace"))
         weakref.finalize(self, self._lib.rt_session_free, self._handle)
+        self.settings["rtol"], self.settings["atol"] = self._tolerances()
         self._inputs: dict[str, RecordedInput] = {}
         self._set_outputs(model.recordable if outputs is None else outputs)
         self._set_grid(output_times, model.interval if interval is None else interval)
         self.set_inputs(inputs or {})
         self._set_sensitivities(sensitivities)
+
+    def _tolerances(self) -> tuple[float, float]:
+        """Those in force, given or not."""
+        rtol, atol = ctypes.c_double(), ctypes.c_double()
+        self._lib.rt_session_tolerances(self._handle, ctypes.byref(rtol), ctypes.byref(atol))
+        return rtol.value, atol.value
 
     def _check(self, status: int) -> None:
         if status:

@@ -7,6 +7,7 @@ import hashlib
 import json
 import os
 from pathlib import Path
+import re
 import threading
 from time import perf_counter
 import zipfile
@@ -19,6 +20,7 @@ from lacuna.analysis.spectra.chain import Chain
 from lacuna.analysis.spectra.library import library_path
 
 TRACE_RATE = 5000.0  # Hz, of the signals kept for figures: 25 times the sixth harmonic of the commutation
+_OURS = re.compile(r"[0-9a-f]{32}\.(npz|\d+\.\d+\.partial)")  # names of the rows that are kept, whole and begun
 SPECTRUM_LIMIT = 400.0  # Hz, of the spectra kept for figures: three times the corner of the filters
 
 
@@ -99,8 +101,8 @@ class RowStore:
         partial.replace(path)
 
     def prune(self, severities: list[float]) -> None:
-        """Remove the rows of other models and settings, and what an interrupted run left."""
+        """Remove the rows of other models and settings, and what an interrupted run left; nothing that is not ours."""
         keep = {self._path(severity) for severity in severities}
         for path in self._folder.glob("*"):
-            if path not in keep:
+            if path not in keep and _OURS.match(path.name):
                 path.unlink(missing_ok=True)

@@ -23,6 +23,7 @@ _SPELLINGS = {
 _BRACKETS = re.compile(
     r"^(?P<name>.*?\S)\s*(?:\[(?P<a>[^\]]*)\]|\((?P<b>[^)]*(?:\([^)]*\)[^)]*)?)\)|\{(?P<c>[^}]*)\}|<(?P<d>[^>]*)>)$"
 )
+_ELEMENT = re.compile(r"\w\[\d+(,\s*\d+)*\]$")  # of an array, such as phase[2]: no unit, though 1 is one
 _TIME = re.compile(
     r"^(time|t|zeit|temps|tiempo|tempo|timestamp|time[ _]?stamp|elapsed([ _]time)?|seconds|sec)$", re.IGNORECASE
 )
@@ -66,7 +67,8 @@ def read_head(text: str, unit_row: str = "") -> Head:
     if unit_row.strip():
         unit = known_unit(unit_row)
         return Head(text, text, unit, unit is not None)
-    if match := _BRACKETS.match(text):
+    match = _BRACKETS.match(text)
+    if match and not _ELEMENT.search(text):
         said = next(g for g in (match["a"], match["b"], match["c"], match["d"]) if g is not None)
         if (unit := known_unit(said)) is not None:
             return Head(text, match["name"].strip(), unit)

@@ -1,4 +1,4 @@
-"""Recordings of a pre-flight test from CSV or MAT files, and what makes one unfit to be assessed.
+"""Recordings of a pre-flight test, and what makes one unfit to be assessed.
 
 Every check raises Refusal with the channel, the time and the reason. Nothing is repaired.
 """
@@ -6,7 +6,6 @@ Every check raises Refusal with the channel, the time and the reason. Nothing is
 from __future__ import annotations
 
 from collections.abc import Sequence
-import csv
 from dataclasses import dataclass
 from itertools import permutations, product
 from pathlib import Path
@@ -14,11 +13,13 @@ from pathlib import Path
 import numpy as np
 
 from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.recording.channel import Channel, RecordingError, on_one_time
+from lacuna.analysis.recording.formats import read_recorded
 from lacuna.analysis.settings import Settings
+from lacuna.recorded_units import to_si
 
 SLOWEST = 5000.0  # Hz; below, the third harmonic of the commutation ripple folds into the analysed band
 
-LARGEST = 1 << 30  # bytes of a file: a hundred times a second of three currents at 100 kHz as text
 LIKENESS = 0.9  # of the first instants of a test to those on the map: a cosine
 
 
@@ -39,15 +40,10 @@ def read_recording(path: Path | str, settings: Settings, columns: Sequence[str] 
     `columns` name the phase currents in the order of the map's channels; by default they are called as in the map.
     """
     path = Path(path)
-    if path.exists() and not (path.is_file() and path.stat().st_size <= LARGEST):
-        raise Refusal(f"{path}: not a file of at most {LARGEST >> 20} MB, as a recording of this test would be")
     names = tuple(columns or settings.currents)
     if len(names) != len(settings.currents):
         raise Refusal(f"{len(names)} currents named where the map has {len(settings.currents)}")
-    table = _read_mat(path) if path.suffix == ".mat" else _read_csv(path)
-    missing = [name for name in ("time", *names) if name not in table]
-    if missing:
-        raise Refusal(f"{path}: there is no {', '.join(missing)}; it has {', '.join(table)}")
+    table = _table(path, names)
     rate = _sampling_rate(path, table["time"], settings.duration)
     currents = np.array([table[name][: round(rate * settings.duration)] for name in names])
     for name, current in zip(names, currents, strict=True):
@@ -55,37 +51,33 @@ def read_recording(path: Path | str, settings: Settings, columns: Sequence[str] 
     return Recording(names, rate, currents)
 
 
-def _read_csv(path: Path) -> dict[str, np.ndarray]:
-    header, _, body = path.read_text(encoding="utf-8", errors="replace").partition("\n")
-    names = [name.strip() for name in next(csv.reader([header]), [])]
-    lines = body.splitlines()
-    if not names or not lines:
-        raise Refusal(f"{path}: this is no table with a header and rows")
+def _table(path: Path, names: Sequence[str]) -> dict[str, np.ndarray]:
+    """`time` in s and each named current in A, without the rows that a simulation added at its events."""
     try:
-        data = np.loadtxt(lines, delimiter=",", ndmin=2)
-    except ValueError:  # empty fields and the like: slower, and they become missing samples
-        try:
-            data = np.genfromtxt(lines, delimiter=",", ndmin=2)
-        except ValueError as error:
-            raise Refusal(f"{path}: the rows differ in length: {str(error).splitlines()[-1].strip()}") from None
-    if data.shape[1] != len(names):
-        raise Refusal(f"{path}: {len(names)} columns in the header, {data.shape[1]} in the rows")
-    if "event" in names:  # rows that a simulation added at its events, off the sampling grid
-        data = data[data[:, names.index("event")] == 0]
-    return dict(zip(names, data.T, strict=True))
+        recorded = read_recorded(path)
+    except RecordingError as error:
+        raise Refusal(str(error)) from None
+    missing = [name for name in names if not any(name in (c.name, c.head.text) for c in recorded.channels)]
+    if missing:
+        raise Refusal(
+            f"{path}: there is no {', '.join(missing)}; it has {', '.join(c.head.text for c in recorded.channels)}"
+        )
+    channels = [recorded[name] for name in names]
+    time, currents = on_one_time(channels)
+    kept = np.ones(len(time), bool)
+    if any(c.name == "event" for c in recorded.channels):
+        kept = recorded["event"].values == 0
+    return {"time": time[kept]} | {
+        name: current[kept] * _amperes(path, channel)
+        for name, channel, current in zip(names, channels, currents, strict=True)
+    }
 
 
-def _read_mat(path: Path) -> dict[str, np.ndarray]:
-    from scipy.io import loadmat
-
-    try:
-        content = loadmat(path)
-    except FileNotFoundError:
-        raise
-    except Exception as error:  # a damaged file may trip its parser anywhere
-        raise Refusal(f"{path}: not a MAT file that can be read (version 7 or older): {error}") from None
-    vectors = {name: value for name, value in content.items() if isinstance(value, np.ndarray) and value.ndim == 2}
-    return {name: value.ravel().astype(float) for name, value in vectors.items() if value.dtype.kind in "fiu"}
+def _amperes(path: Path, channel: Channel) -> float:
+    factor, si = to_si(channel.unit or "A")
+    if si != "A":
+        raise Refusal(f"{path}: {channel.head.text} is recorded in {channel.unit}, which is no current")
+    return factor
 
 
 def _sampling_rate(path: Path, time: np.ndarray, duration: float) -> float:

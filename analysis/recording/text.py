@@ -16,19 +16,14 @@ import re
 
 import numpy as np
 
-from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.recording.channel import Recorded, RecordingError, from_table, on_one_time
 
-LARGEST = 1 << 30  # bytes of a file: a hundred signals for a quarter of an hour at 1 kHz
 _SEPARATORS = (",", ";", "\t", "|")
 _SAMPLE = 200  # lines that decide the dialect
 _NAN = re.compile(r"(?<![A-Za-z])nan(?![A-Za-z])", re.IGNORECASE)
 _NUMBER = {mark: re.compile(rf"[+-]?(\d+[{mark}]?\d*|[{mark}]\d+)([eE][+-]?\d+)?|(?i:nan)|") for mark in ".,"}
 # A unit as it stands in a row of its own, such as s, rad/s, 1/min, N.m, degC: no blanks, few characters.
 _UNIT = re.compile(r"[\[(]?[^\s\[\]()]{0,12}[\])]?")
-
-
-class TextTableError(AnalysisError):
-    """Not a table of numbers; the message says where and why."""
 
 
 @dataclass(frozen=True)
@@ -53,8 +48,15 @@ class TextTable:
     skipped: int  # lines before the header
 
 
+def read(path: Path) -> Recorded:
+    """The channels of a text table, one of whose columns is time. Raises RecordingError."""
+    table = read_text(path)
+    above = [f"{table.skipped} lines above the header were passed over"] if table.skipped else []
+    return from_table(path, table.header, table.units, table.values, above)
+
+
 def read_text(path: Path) -> TextTable:
-    """The table in a text file. Raises TextTableError, which names file and line."""
+    """The table in a text file. Raises RecordingError, which names file and line."""
     text, encoding = _decoded(path)
     lines = text.splitlines()
     separator, decimal = _marks(path, lines)
@@ -63,9 +65,7 @@ def read_text(path: Path) -> TextTable:
     width = len(_fields(lines[first], separator))
     names = [row for row in above if len(row) == width]
     if not names:
-        raise TextTableError(
-            f"{path}:{first + 1}: numbers without a header line; write the names of the columns above them"
-        )
+        raise RecordingError(f"{path}:{first + 1}: {_no_header(above, width)}")
     units = names[-1] if len(names) > 1 and _are_units(names[-1], names[-2]) else None
     header = names[-2] if units else names[-1]
     values = _numbers(path, lines, first, Dialect(separator, decimal, encoding), width)
@@ -80,11 +80,13 @@ def read_text(path: Path) -> TextTable:
     )
 
 
+def _no_header(above: list[list[str]], width: int) -> str:
+    if above and len(above[-1]) > 1:
+        return f"{len(above[-1])} columns in the header, {width} in the rows"
+    return "numbers without a header line; write the names of the columns above them"
+
+
 def _decoded(path: Path) -> tuple[str, str]:
-    if not path.is_file():
-        raise TextTableError(f"{path}: {'is not a file' if path.exists() else 'there is no such file'}")
-    if path.stat().st_size > LARGEST:
-        raise TextTableError(f"{path}: larger than {LARGEST >> 20} MB")
     raw = path.read_bytes()
     marks = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
     encoding = next((name for mark, name in marks if raw.startswith(mark)), "utf-8")
@@ -94,7 +96,7 @@ def _decoded(path: Path) -> tuple[str, str]:
         encoding = "cp1252"  # of loggers that know no Unicode; it only matters for names and units
         text = raw.decode(encoding, errors="replace")
     if "\0" in text:
-        raise TextTableError(f"{path}: holds bytes that are no text")
+        raise RecordingError(f"{path}: holds bytes that are no text")
     return text, encoding
 
 
@@ -117,7 +119,7 @@ def _marks(path: Path, lines: list[str]) -> tuple[str, str]:
             if rows > most:
                 best, most = (separator, decimal), rows
     if not most:
-        raise TextTableError(f"{path}: no row of numbers in its first {_SAMPLE} lines; is it a recording?")
+        raise RecordingError(f"{path}: no row of numbers in its first {_SAMPLE} lines; is it a recording?")
     return best
 
 
@@ -147,25 +149,34 @@ def _numbers(path: Path, lines: list[str], first: int, dialect: Dialect, width: 
         raise _first_fault(path, lines, first, dialect, width) from None
 
 
-def _first_fault(path: Path, lines: list[str], first: int, dialect: Dialect, width: int) -> TextTableError:
+def _first_fault(path: Path, lines: list[str], first: int, dialect: Dialect, width: int) -> RecordingError:
     """What is wrong in the first line that is no row of numbers."""
     for number, line in enumerate(lines[first:], first + 1):
         fields = _fields(line, dialect.separator)
         if not line.strip():
             continue
         if len(fields) != width:
-            return TextTableError(f"{path}:{number}: {len(fields)} fields where the first row has {width}")
+            return RecordingError(f"{path}:{number}: {len(fields)} fields where the first row has {width}")
         for column, field in enumerate(fields, 1):
             if not _NUMBER[dialect.decimal].fullmatch(field):
-                return TextTableError(f"{path}:{number}: field {column}, `{field[:40]}`, is no number")
-    return TextTableError(f"{path}: its rows are no table of numbers")
+                return RecordingError(f"{path}:{number}: field {column}, `{field[:40]}`, is no number")
+    return RecordingError(f"{path}: its rows are no table of numbers")
 
 
 def _named_columns(path: Path, header: list[str], values: np.ndarray) -> list[int]:
     """The columns with a name. A column without one may only be empty, as after a separator at the ends of lines."""
     for k, name in enumerate(header):
         if not name and np.isfinite(values[k]).any():
-            raise TextTableError(f"{path}: column {k + 1} has no name")
-        if name and name in header[:k]:
-            raise TextTableError(f"{path}: columns {header.index(name) + 1} and {k + 1} are both called `{name}`")
+            raise RecordingError(f"{path}: column {k + 1} has no name")
     return [k for k, name in enumerate(header) if name]
+
+
+def write(recorded: Recorded, path: Path) -> None:
+    """A CSV with `time` in s first and each unit in brackets; numbers read back as they are, missing ones are empty."""
+    time, columns = on_one_time(recorded.channels)
+    heads = ["time [s]", *(f"{c.name} [{c.unit}]" if c.unit else c.name for c in recorded.channels)]
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(heads)
+        for row in zip(time.tolist(), *(column.tolist() for column in columns), strict=True):
+            writer.writerow(["" if value != value else repr(value) for value in row])

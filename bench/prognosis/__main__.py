@@ -69,31 +69,23 @@ def main() -> None:
 def measured(parts: list[Part], past: list[Part], seed: int) -> str:
     laws = lacuna.degradation_laws()
 
-    def new() -> Bank:
-        return Bank(laws)
-
     def bank() -> Bank:
         """With the prior of the fleet's past."""
-        own = new()
+        own = Bank(laws)
         own.prior = taught.prior
         return own
 
-    taught = new()
+    taught = Bank(laws)
     fleet_prior([p.history for p in past], taught, lambda _: study.LIMITS)
-    scores, verdicts = study.forecast_scores(parts, bank, tell)
-    alone, _ = study.forecast_scores(parts, new, tell)
+    ours, alone = (study.arm(parts, own, RISK, tell) for own in (taught, Bank(laws)))
     line = study.sample_scores(parts, study.line_samples(seed), lambda *_: None)
     known = np.array([k for k, p in enumerate(parts) if p.law in KNOWN][:PROGPY_PARTS])
     why = study.progpy_verdict()
     progpy = None
     if not why:
         progpy = study.sample_scores([parts[k] for k in known], study.progpy_samples(seed), lambda *_: None)
-    removed = study.advised_removals(parts, bank(), RISK, tell)
-    removed_alone = study.advised_removals(parts, new(), RISK, tell)
     is_unknown = np.array([p.law in UNKNOWN for p in parts])
-    goals = page.goals(
-        [(scores, removed), (alone, removed_alone)], line, known, progpy, is_unknown
-    )  # fmt: skip
+    goals = page.goals([ours, alone], line, known, progpy, is_unknown)
     both = study.two_faults(parts[: 2 * PAIRS], bank, seed)
     return page.PAGE.format(
         seed=seed,
@@ -104,10 +96,10 @@ def measured(parts: list[Part], past: list[Part], seed: int) -> str:
         goals="\n".join(goals),
         shares=" | ".join(f"{100 * c:.0f} %" for c in page.CHECKPOINTS),
         dashes=" | ".join("---" for _ in page.CHECKPOINTS),
-        table="\n".join(page.table(scores, alone, line, verdicts, progpy, known)),
-        laws="\n".join(page.by_law(scores, [p.law for p in parts])),
+        table="\n".join(page.table(ours, alone.scores, line, progpy, known)),
+        laws="\n".join(page.by_law(ours.scores, [p.law for p in parts])),
         removals_text=REMOVALS,
-        removals="\n".join(_removals(parts, removed, removed_alone)),
+        removals="\n".join(_removals(parts, ours.removals, alone.removals)),
         two_faults=_two(both),
         progpy=why or PROGPY.format(version=study.progpy_version(), count=len(known)),
     )
@@ -116,8 +108,8 @@ def measured(parts: list[Part], past: list[Part], seed: int) -> str:
 REMOVALS = f"""A part is removed at the first test after which the risk of violet by the next exceeds {RISK:g}; by thresholds,
 at the first test that reads red (27 %)."""
 PROGPY = """Version {version}, its particle filter of 500, told the law and its shape, on the first {count} parts of a law of the
-catalogue's kind. First its mean and spread must follow the Kalman filter to 0.3 standard deviations on our test; with its
-default resampling (of filterpy 2.0.0) they do not, so that systematic resampling is used."""
+catalogue's kind. First its mean and spread must follow the Kalman filter to 0.3 standard deviations on our test;
+with its default resampling (of filterpy 2.0.0) they do not, so that systematic resampling is used."""
 
 
 def _removals(parts: list[Part], removed: study.Removals, alone: study.Removals) -> list[str]:

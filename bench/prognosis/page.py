@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from bench.prognosis.scores import CHECKPOINTS, Scores
-from bench.prognosis.study import Removals
+from bench.prognosis.study import Arm, Removals
 
 PAGE = """# Prognosis, measured
 
@@ -69,9 +69,6 @@ def spread(values: np.ndarray) -> str:
     return f"{100 * values.min():.1f} to {100 * values.max():.1f} %"
 
 
-Arm = tuple[Scores, Removals]
-
-
 def goals(
     arms: Sequence[Arm], line: Scores, known: np.ndarray, progpy: Scores | None, unknown: np.ndarray
 ) -> list[str]:
@@ -100,7 +97,7 @@ GOALS = {
 
 
 def _measured(arm: Arm, line: Scores, known, progpy: Scores | None, unknown) -> dict[str, tuple[str, bool | None]]:
-    s, out = arm
+    s, out = arm.scores, arm.removals
     c95, c80 = s.coverage(0, 4), s.coverage(1, 3)
     late = s.alpha_lambda()[np.array(CHECKPOINTS) >= 0.5]
     ratio = s.crps.mean() / line.crps.mean()
@@ -121,14 +118,12 @@ def _measured(arm: Arm, line: Scores, known, progpy: Scores | None, unknown) -> 
     return dict(zip(GOALS, values, strict=True))
 
 
-def table(
-    s: Scores, alone: Scores, line: Scores, verdicts: dict[str, list[int]], progpy: Scores | None, known
-) -> list[str]:
-    n = len(s.truth)
+def table(ours: Arm, alone: Scores, line: Scores, progpy: Scores | None, known: np.ndarray) -> list[str]:
+    s = ours.scores
     rows = [
-        ("forecast, % of parts", [100 * v / n for v in verdicts["forecast"]], 0),
-        ("too early to say", [100 * v / n for v in verdicts["too_early"]], 0),
-        ("steady", [100 * v / n for v in verdicts["steady"]], 0),
+        ("forecast, % of parts", 100 * (ours.verdicts == "forecast").mean(axis=0), 0),
+        ("too early to say", 100 * (ours.verdicts == "too_early").mean(axis=0), 0),
+        ("steady", 100 * (ours.verdicts == "steady").mean(axis=0), 0),
         ("95 % interval holds", 100 * s.coverage(0, 4), 1),
         ("the same, alone", 100 * alone.coverage(0, 4), 1),
         ("80 % interval holds", 100 * s.coverage(1, 3), 1),

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
+from multiprocessing import get_context
 
 import numpy as np
 
@@ -11,11 +13,11 @@ from bench.prognosis.fleet import LIMIT, Part
 from bench.prognosis.rivals import NEVER, kalman_check, progpy_remaining, progpy_version, straight_line
 from bench.prognosis.scores import CHECKPOINTS, HORIZON, LEVELS, Scores, crps_of_samples
 from lacuna.analysis.prognosis.bank import Bank
-from lacuna.analysis.prognosis.crossing import remaining
+from lacuna.analysis.prognosis.crossing import Remaining, remaining
 from lacuna.analysis.prognosis.filter import run
-from lacuna.analysis.prognosis.forecast import Limits, Options, forecasts, joined, last_error, series_of
+from lacuna.analysis.prognosis.forecast import LONG, Limits, forecasts, joined, last_error, series_of
 from lacuna.analysis.prognosis.history import TWO_SIDED_95, History
-from lacuna.analysis.prognosis.verdict import FORECAST
+from lacuna.analysis.prognosis.verdict import FORECAST, verdict_on
 
 LIMITS = Limits(("orange", "red", "violet"), (0.11, 0.27, LIMIT), 0.0, 0.5)
 SAMPLES = (np.arange(200) + 0.5) / 200
@@ -33,23 +35,83 @@ def last_test(part: Part, share: float) -> int:
     return int(np.searchsorted(part.history.use, part.born + share * part.life, side="right"))
 
 
-def forecast_scores(parts: Sequence[Part], bank: Callable[[], Bank], tell: Tell) -> tuple[Scores, dict]:
-    """Scores of `lacuna forecast` on the parts cut at every checkpoint, and how often each verdict was given."""
-    scores, verdicts = Scores.empty(len(parts)), []
-    for j, share in enumerate(CHECKPOINTS):
-        tell("forecasts", j / len(CHECKPOINTS))
-        cut = [truncated(p.history, last_test(p, share)) for p in parts]
-        said = forecasts(cut, bank(), LIMITS, Options(), learn=False)
-        verdicts.append([f.verdict for f in said])
-        for b, (p, f) in enumerate(zip(parts, said, strict=True)):
-            scores.truth[b, j] = (p.born + p.life - f.at) / p.life
-            samples = f.remaining[-1].quantiles(SAMPLES, np.array([NEVER * p.life]))[0] / p.life
-            scores.crps[b, j] = crps_of_samples(samples, scores.truth[b, j])
-            if f.verdict == FORECAST:
-                scores.said[b, j] = True
-                scores.quantiles[b, j] = f.quantiles[-1] / p.life
-    counts = {v: [row.count(v) for row in verdicts] for v in (FORECAST, "too_early", "steady")}
-    return scores, counts
+@dataclass(frozen=True)
+class Removals:
+    """Of each part: share of its life at its removal (NaN: never removed), and whether the limit came first."""
+
+    at: np.ndarray
+    missed: np.ndarray
+
+
+@dataclass(frozen=True)
+class Arm:
+    """What the forecasts of one prior gave: scores, [parts, checkpoints] verdicts, and removals by the advised last
+    test."""
+
+    scores: Scores
+    verdicts: np.ndarray
+    removals: Removals
+
+
+def walked(parts: Sequence[Part], bank: Bank, risk: float) -> Arm:
+    """All tests of the parts in turn: a forecast at every checkpoint, as `lacuna forecast` makes it of the tests so
+    far, and a removal at the first test after which the risk of violet by the next one exceeds `risk`."""
+    scores, verdicts = Scores.empty(len(parts)), np.full((len(parts), len(CHECKPOINTS)), "", dtype=object)
+    series = joined([series_of([p.history], LIMIT, bank.settings.floor) for p in parts])
+    first = np.array([p.history.lives[-1].start for p in parts])
+    rows = np.array([[last_test(p, share) for share in CHECKPOINTS] for p in parts])
+    removed, outliers = np.full(len(parts), np.nan), np.zeros(series.use.shape)
+    for k, step in enumerate(run(bank, series)):
+        outliers[:, k] = step.outlier
+        due = (rows == (first + k + 1)[:, None]).any(axis=1)
+        there = first + k < [len(p.history.use) for p in parts]
+        now = np.flatnonzero(there & (due | (np.isnan(removed) & (k >= 2))))
+        if not len(now):
+            continue
+        error = np.array([_error_until(series, b, k) for b in now])
+        reach = remaining(bank, step.filtered.rows(now), 1.0, error, series.interval[now])
+        over = reach.reached(series.interval[now][:, None])[:, 0] > risk
+        for place, b in enumerate(now):
+            p = parts[b]
+            if over[place] and np.isnan(removed[b]) and k >= 2:
+                removed[b] = (p.history.use[first[b] + k] - p.born) / p.life
+            if due[b]:
+                own = Remaining(*(a[place : place + 1] for a in (reach.mean, reach.sd, reach.weight)))
+                _score(scores, verdicts, parts, b, rows[b] == first[b] + k + 1, own, outliers[b])
+    return Arm(scores, verdicts, Removals(removed, ~(removed <= 1.0)))
+
+
+def _score(scores: Scores, verdicts, parts, b: int, columns, own: Remaining, outlier: np.ndarray) -> None:
+    """Enter what is said of part `b` at the checkpoints `columns`."""
+    p = parts[b]
+    h = truncated(p.history, last_test(p, CHECKPOINTS[int(np.flatnonzero(columns)[0])]))
+    watched = h.use[-1] - h.use[h.lives[-1].start]
+    horizon = LONG * watched
+    quantiles = own.quantiles(LEVELS, np.array([10 * horizon]))[0]
+    again = float(own.reached(np.array([[watched]]))[0, 0])
+    verdict = verdict_on(h, outlier, quantiles, again, horizon)[0]
+    truth = (p.born + p.life - h.use[-1]) / p.life
+    samples = own.quantiles(SAMPLES, np.array([NEVER * p.life]))[0] / p.life
+    for j in np.flatnonzero(columns):
+        scores.truth[b, j], scores.crps[b, j], verdicts[b, j] = truth, crps_of_samples(samples, truth), verdict
+        if verdict == FORECAST:
+            scores.said[b, j] = True
+            scores.quantiles[b, j] = np.where(quantiles > horizon, np.inf, quantiles) / p.life
+
+
+def arm(parts: Sequence[Part], bank: Bank, risk: float, tell: Tell) -> Arm:
+    """`walked` over all parts, on all cores."""
+    plain = [replace(p, truth=replace(p.truth, growth=None)) for p in parts]  # a function does not travel
+    pieces = [plain[k : k + BATCH] for k in range(0, len(parts), BATCH)]
+    done = []
+    with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
+        for one in pool.map(walked, pieces, [bank] * len(pieces), [risk] * len(pieces)):
+            done.append(one)
+            tell("forecasts", len(done) / len(pieces))
+    names = ("truth", "said", "quantiles", "crps")
+    scores = Scores(*(np.concatenate([getattr(a.scores, name) for a in done]) for name in names))
+    removals = Removals(*(np.concatenate([getattr(a.removals, name) for a in done]) for name in ("at", "missed")))
+    return Arm(scores, np.concatenate([a.verdicts for a in done]), removals)
 
 
 def sample_scores(parts: Sequence[Part], samples: Callable[[int, Part], dict[int, np.ndarray]], tell: Tell) -> Scores:
@@ -112,39 +174,6 @@ def progpy_verdict() -> str:
     if mean > 0.3 or deviation > 0.3:
         return f"progpy {progpy_version()} fails the Kalman test: {mean:.2f} and {deviation:.2f}"
     return ""
-
-
-@dataclass(frozen=True)
-class Removals:
-    """Of each part: share of its life at its removal (NaN: never removed), and whether the limit came first."""
-
-    at: np.ndarray
-    missed: np.ndarray
-
-
-def advised_removals(parts: Sequence[Part], bank: Bank, risk: float, tell: Tell) -> Removals:
-    """Removed at the first test whose next one is beyond the advised last test: the risk of violet by then exceeds
-    `risk`."""
-    at = np.full(len(parts), np.nan)
-    for start in range(0, len(parts), BATCH):
-        tell("removals", start / len(parts))
-        batch = parts[start : start + BATCH]
-        series = joined([series_of([p.history], LIMIT, bank.settings.floor) for p in batch])
-        done = np.zeros(len(batch), bool)
-        for k, step in enumerate(run(bank, series)):
-            rows = [p.history.lives[-1].start + k for p in batch]
-            alive = ~done & np.array([r < len(p.history.use) for r, p in zip(rows, batch, strict=True)]) & (k >= 2)
-            if not alive.any():
-                continue
-            now = np.flatnonzero(alive)
-            error = np.array([_error_until(series, b, k) for b in now])
-            reach = remaining(bank, step.filtered.rows(now), 1.0, error, series.interval[now])
-            over = now[reach.reached(series.interval[now][:, None])[:, 0] > risk]
-            for b in over:
-                p = batch[b]
-                at[start + b] = (p.history.use[rows[b]] - p.born) / p.life
-            done[over] = True
-    return Removals(at, ~(at <= 1.0))
 
 
 def _error_until(series, b: int, k: int) -> float:

@@ -30,7 +30,11 @@ STARTS = "static int mdl_starts(mdl_data *m)"
 
 def function(signature: str, body: Body) -> str:
     """A C function that returns 0 at its end; arguments that it does not use are marked so."""
-    text = body.text()
+    return c_function(signature, body.text())
+
+
+def c_function(signature: str, text: str) -> str:
+    """As `function`, of a body that is text."""
     arguments = signature[signature.index("(") + 1 : -1].replace("*", " ").split(",")
     names = [a.split()[-1] for a in arguments]
     words = set(re.findall(r"(?<!->)\b[A-Za-z_]\w*", re.sub(r"/\*.*?\*/", "", text)))
@@ -53,11 +57,11 @@ class Continuous:
     # -- explicit form ----------------------------------------------------------------------------------------
 
     def _steps(self, body: Body, steps: Sequence[Step], start: Callable[[Expr], str]) -> None:
-        writer = StepWriter(body, self._equations.index, start, self._nominal)
+        writer = StepWriter(body, self._equations.index, start, self.nominal)
         body.plan(writer.plan(steps))
         writer.write(steps)
 
-    def _nominal(self, unknown: Expr) -> float:
+    def nominal(self, unknown: Expr) -> float:
         v = self._p.model.variables.get(str(unknown.value)) if unknown.op == "var" else None
         return float(v.nominal.value) if v and v.nominal is not None and is_const(v.nominal) else 1.0
 

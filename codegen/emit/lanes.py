@@ -6,14 +6,14 @@ they are computed once; in the loop stands a sum of products for each equation.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from lacuna.codegen import flat
 from lacuna.codegen.dae.storage import Storage
 from lacuna.codegen.emit.body import Body
 from lacuna.codegen.emit.expression import number
 from lacuna.codegen.emit.steps import comment
-from lacuna.codegen.structure.causal import Division, LinearBlock, NonlinearBlock, Step
+from lacuna.codegen.structure.causal import Division, LinearBlock, NonlinearBlock, Step, unknowns_of
 from lacuna.codegen.structure.system import Row
 from lacuna.codegen.structure.tearing import Assignment
 from lacuna.codegen.symbolic.expr import Expr, is_const, mul, neg, sub, var
@@ -42,18 +42,18 @@ class Lanes:
 
     # -- what the loop computes -------------------------------------------------------------------------------
 
-    def steps(self, steps: list[Step]) -> None:
-        """Tangents of everything that the steps compute, which is known at the point itself."""
-        for step in steps:
+    def steps(self, needed: Mapping[Step, set[Expr]]) -> None:
+        """Tangents of what is needed of each step's unknowns; the unknowns themselves are known at the point."""
+        for step, unknowns in needed.items():
             match step:
                 case Assignment():
                     self.define(step.unknown, self._gradients(step.value), step.row)
                 case Division():
                     self._division(step)
                 case LinearBlock():
-                    self._block(step, step.matrix)
+                    self._block(step, step.matrix, unknowns)
                 case NonlinearBlock():
-                    self._block(step, step.jacobian)
+                    self._block(step, step.jacobian, unknowns)
 
     def coefficients(self, steps: list[Step]) -> list[Expr]:
         """What the function of these steps has to plan."""
@@ -184,7 +184,7 @@ class Lanes:
     def _fail(self, row: Row) -> str:
         return f"return mdl_fail(m, MDL_FAILURE_SINGULAR, {self._equation_index(row.source)}, 0.0);"
 
-    def _block(self, step: LinearBlock | NonlinearBlock, matrix: list[list[Expr]]) -> None:
+    def _block(self, step: LinearBlock | NonlinearBlock, matrix: list[list[Expr]], needed: set[Expr]) -> None:
         """J d_tears = -(tangent of the residuals with tears held), then the tangents of the assignments.
 
         Implicit function theorem: the block's residuals stay zero in every direction."""
@@ -197,7 +197,8 @@ class Lanes:
         right = [f"-({self.sum(self._gradients(row.residual), held)})" for row in step.residuals]
         self._solve(step, matrix, right)
         for a in step.assignments:
-            self.define(a.unknown, self._gradients(a.value), a.row)
+            if a.unknown in needed:
+                self.define(a.unknown, self._gradients(a.value), a.row)
 
     def _solve(self, step: LinearBlock | NonlinearBlock, matrix: list[list[Expr]], right: list[str]) -> None:
         body, size = self._body, len(step.tears)
@@ -216,6 +217,31 @@ class Lanes:
         self._lines.append(f"mdl_lanes {block}_x[{size}];")
         self._lines.append(f"mdl_substitute({size}, {block}_a, {block}_order, {block}_b, {block}_x);")
         self._lines += [f"const mdl_lanes {name} = {block}_x[{k}];" for k, name in enumerate(names)]
+
+
+def needed_tangents(steps: Sequence[Step], wanted: set[Expr], gradients: Gradients) -> dict[Step, set[Expr]]:
+    """The steps, in order, that the tangents of the wanted unknowns follow from; with each what is needed of it."""
+    needed, live = {}, set(wanted)
+    for step in reversed(steps):
+        if live.isdisjoint(unknowns_of(step)):
+            continue
+        blocks = isinstance(step, LinearBlock | NonlinearBlock)
+        for a in reversed(step.assignments if blocks else []):
+            if a.unknown in live:
+                live.update(leaf for _, leaf in gradients(a.value))
+        needed[step] = live.intersection(unknowns_of(step))
+        live.update(leaf for e in _differentiated(step) for _, leaf in gradients(e))
+    return dict(reversed(needed.items()))
+
+
+def _differentiated(step: Step) -> list[Expr]:
+    """What the tangents of a step are derivatives of."""
+    match step:
+        case Assignment():
+            return [step.value]
+        case Division():
+            return [step.numerator, step.denominator]
+    return [*(row.residual for row in step.residuals), *(a.value for a in step.assignments)]
 
 
 def _coefficients(terms: Terms) -> list[Expr]:

@@ -99,7 +99,7 @@ static int mdl_factor(int n, double *a, int *order) {
 
 _SUBSTITUTE = """\
 /* Solves for x with the factors of mdl_factor, in several directions at once. */
-static void mdl_substitute(int n, const double *a, const int *order, const mdl_lanes *b, mdl_lanes *x) {
+MDL_WIDE static void mdl_substitute(int n, const double *a, const int *order, const mdl_lanes *b, mdl_lanes *x) {
   for (int i = 0; i < n; ++i) {
     x[i] = b[order[i]];
     for (int j = 0; j < i; ++j)

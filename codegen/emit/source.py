@@ -11,6 +11,7 @@ from lacuna.codegen.emit.continuous import Continuous
 from lacuna.codegen.emit.discrete import Discrete
 from lacuna.codegen.emit.equations import EquationTable
 from lacuna.codegen.emit.expression import number
+from lacuna.codegen.emit.large import Large
 from lacuna.codegen.emit.names import Names
 from lacuna.codegen.emit.prelude import helpers
 from lacuna.codegen.emit.tables import Tables
@@ -34,10 +35,13 @@ def generate(prepared: Prepared, sensitivities: bool = False) -> str:
     tables = Tables(prepared, equations)
     continuous = Continuous(prepared, names, equations)
     discrete = Discrete(prepared, names, tables.rows())
+    large = Large(prepared, names, equations, tables.rows())
     functions = [
-        discrete.parameters(), continuous.starts(), discrete.samples(), continuous.rhs(), continuous.initial_system(),
-        continuous.residual(), continuous.jacobian(), continuous.roots(), discrete.time_relations(),
-        discrete.next_time_event(), discrete.event(), continuous.check(),
+        large.parameters() or discrete.parameters(), large.starts() or continuous.starts(), discrete.samples(),
+        large.rhs() or continuous.rhs(), large.initial_system() or continuous.initial_system(),
+        large.residual() or continuous.residual(), large.jacobian() or continuous.jacobian(),
+        large.roots() or continuous.roots(), discrete.time_relations(), discrete.next_time_event(), discrete.event(),
+        large.check() or continuous.check(),
     ]  # fmt: skip
     everything = expressions_of_model(prepared)
     tangents = Tangents(prepared, names, equations, tables.rows()) if sensitivities else None

@@ -60,7 +60,8 @@ class Tables:
             c_string(v.name), c_string(v.unit), c_string(v.description), self._place(v.span),
             f"MDL_{v.type.upper()}", f"MDL_{_STORAGE[slot.array]}", str(slot.index), str(sign),
             str(int(slot.array == "p" and is_settable(final))), str(int(v.causality == "output")),
-            number(sign * start), *limits,
+            number(sign * start), *limits, c_string(v.inferred_unit),
+            str(int(v.variability in (flat.CONSTANT, flat.PARAMETER))),
         ]  # fmt: skip
         return "{" + ", ".join(fields) + "}"
 

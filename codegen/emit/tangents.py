@@ -10,12 +10,11 @@ from lacuna.codegen.emit.continuous import function
 from lacuna.codegen.emit.discrete import is_settable
 from lacuna.codegen.emit.equations import EquationTable
 from lacuna.codegen.emit.event_tangent import EventTangent
-from lacuna.codegen.emit.lanes import Lanes, Place, rows_of
+from lacuna.codegen.emit.lanes import Lanes, Place, needed_tangents, rows_of
 from lacuna.codegen.emit.names import Names
-from lacuna.codegen.structure.causal import Division, Step, expressions_of, unknowns_of
+from lacuna.codegen.structure.causal import Step, unknowns_of
 from lacuna.codegen.structure.constants import dependency_order
-from lacuna.codegen.structure.residual_form import needed
-from lacuna.codegen.structure.tearing import Assignment
+from lacuna.codegen.structure.residual_form import needed as needed_assignments
 from lacuna.codegen.symbolic.expr import REAL, Expr, sub, var
 from lacuna.codegen.symbolic.gradient import Gradients
 from lacuna.codegen.symbolic.leaves import leaves
@@ -31,10 +30,12 @@ SAMPLES = (
     "mdl_lanes *tangent_interval)"
 )
 INITIAL = f"static int mdl_initial_system_tangent{POINT})"
-RHS = f"static int mdl_rhs_tangent{POINT})"
+RHS = f"MDL_WIDE static int mdl_rhs_tangent{POINT})"
+DERIVATIVES = f"MDL_WIDE static int mdl_derivatives_tangent{POINT})"
 RESIDUAL = (
-    "static int mdl_residual_tangent(mdl_data *m, double t, const double *y, const double *yp, mdl_tangent *tangent,\n"
-    "                                const mdl_lanes *tangent_y, const mdl_lanes *tangent_yp, mdl_lanes *tangent_r)"
+    "MDL_WIDE static int mdl_residual_tangent(mdl_data *m, double t, const double *y, const double *yp,\n"
+    "                                mdl_tangent *tangent, const mdl_lanes *tangent_y,\n"
+    "                                const mdl_lanes *tangent_yp, mdl_lanes *tangent_r)"
 )
 ROOTS = f"static int mdl_roots_tangent{POINT}, mdl_lanes *tangent_g)"
 TABLE = """\
@@ -45,6 +46,7 @@ static const struct mdl_tangents mdl_model_tangents = {
   .samples = mdl_samples_tangent,
   .initial_system = mdl_initial_system_tangent,
   .rhs = mdl_rhs_tangent,
+  .derivatives = mdl_derivatives_tangent,
   .residual = mdl_residual_tangent,
   .roots = mdl_roots_tangent,
   .event = mdl_event_tangent,
@@ -61,8 +63,8 @@ class Tangents:
         self._event = EventTangent(prepared, names, rows, self.gradients, equations.index)
 
     def functions(self) -> list[str]:
-        return [self._parameters(), self._starts(), self._samples(), self._initial(), self._rhs(), self._residual(),
-                self._roots(), self._event.event()]  # fmt: skip
+        return [self._parameters(), self._starts(), self._samples(), self._initial(), self._rhs(), self._derivatives(),
+                self._residual(), self._roots(), self._event.event()]  # fmt: skip
 
     def table(self, everything: Iterable[Expr]) -> str:
         """The table of functions; `everything` are all expressions of the model's own code."""
@@ -136,9 +138,10 @@ class Tangents:
 
     def _of_steps(self, signature: str, steps: list[Step], wanted: Callable[[Expr], bool]) -> str:
         body, lanes = self._open(self._storage.point)
-        body.plan(lanes.coefficients(steps))
-        lanes.steps(steps)
-        for step in steps:
+        needed = needed_tangents(steps, {u for step in steps for u in unknowns_of(step) if wanted(u)}, self.gradients)
+        body.plan(lanes.coefficients(list(needed)))
+        lanes.steps(needed)
+        for step in needed:
             for unknown in filter(wanted, unknowns_of(step)):
                 lanes.store(unknown)
         lanes.finish()
@@ -150,10 +153,14 @@ class Tangents:
         steps = self._p.initial.steps
         if self._p.initial.from_start:
             steps = [s for s in steps if set(unknowns_of(s)) <= states]
-        return self._of_steps(INITIAL, _live(steps, states), states.__contains__)
+        return self._of_steps(INITIAL, steps, states.__contains__)
 
     def _rhs(self) -> str:
         return self._of_steps(RHS, self._p.explicit, lambda unknown: True)
+
+    def _derivatives(self) -> str:
+        wanted = set(self._p.system.derivatives)
+        return self._of_steps(DERIVATIVES, self._p.explicit, wanted.__contains__)
 
     def _residual(self) -> str:
         form, tears, _n_x = self._p.residual, self._p.residual.tears, len(self._storage.states)
@@ -166,12 +173,12 @@ class Tangents:
         body, lanes = self._open(lambda n: self._storage.residual(n, tears), place)
         values = [*(a.value for a in form.assignments), *(row.residual for row in form.residuals)]
         coefficients = [d for e in values for d, _ in self.gradients(e)]
-        chain = needed(form.assignments, map(leaves, coefficients))
+        chain = needed_assignments(form.assignments, map(leaves, coefficients))
         body.plan([*(a.value for a in chain), *coefficients])
         for a in chain:
             body.let(a.unknown, a.value)
         lanes.given("y", "yp", "r")
-        lanes.steps(list(form.assignments))
+        lanes.steps({a: {a.unknown} for a in form.assignments})
         for k, row in enumerate(form.residuals):
             lanes.note(row)
             lanes.write(f"r[{k}]", self.gradients(row.residual))
@@ -187,14 +194,3 @@ class Tangents:
             lanes.write(f"g[{k}]", self.gradients(guard))
         lanes.finish()
         return function(ROOTS, body)
-
-
-def _live(steps: Iterable[Step], wanted: set[Expr]) -> list[Step]:
-    """The steps that the wanted unknowns depend on."""
-    kept, live = [], set(wanted)
-    for step in reversed(list(steps)):
-        if not live.isdisjoint(unknowns_of(step)):
-            kept.append(step)
-            rows = [] if isinstance(step, Assignment | Division) else step.residuals
-            live.update(*(leaves(e) for e in expressions_of(step)), *(row.leaves for row in rows))
-    return kept[::-1]

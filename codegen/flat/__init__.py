@@ -31,6 +31,7 @@ class Variable:
     max: Expr | None = None
     nominal: Expr | None = None
     unit: str = ""
+    inferred_unit: str = ""  # what the equations say where no unit is declared
     quantity: str = ""
     state_select: str = "default"  # never | avoid | default | prefer | always
     description: str = ""

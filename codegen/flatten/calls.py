@@ -24,9 +24,6 @@ from lacuna.codegen.syntax import ast
 _OUTSIDE = {
     "delay": "model the transport, for example by a chain of first-order lags",
     "spatialDistribution": "divide the length into elements",
-    "inStream": "carry the property as a variable of the connector",
-    "actualStream": "carry the property as a variable of the connector",
-    "cardinality": "use a Boolean parameter that says whether it is connected",
     "Clock": "use when sample(start, interval) then",
     "previous": "use pre(x) inside when sample(...)",
     "hold": "a discrete variable holds its value",

@@ -28,10 +28,17 @@ class Component(Protocol):
     name: str
     variability: str
     parent: Component | None
+    causality: str  # input, output or "", of itself or of what it is part of; so are the next two
+    flow: bool
+    stream: bool
+    open_ended: bool  # itself or part of an expandable connector
     elements: Mapping[str, object]  # by name: what it declares and inherits
 
     def sees(self, name: str, cls: ast.Class) -> bool:
         """May what is written in `cls`, itself or a base of it, use the element `name`?"""
+
+    def meant(self, name: str) -> object | None:
+        """What `name` means to those who use it; of an element that is inner and outer, the outer one."""
 
     def child(self, name: str) -> object | None:
         """The component `name` of it, None where no such is declared."""

@@ -68,6 +68,7 @@ class Instance:
         self.span = declaration.span if declaration else cls.span
         inherited = parent.variability if parent else ""
         self.variability = (declaration.variability if declaration else "") or inherited
+        self._inherit_prefixes(declaration)
         self._modifier = modifier
         self._record: Record | None = None
         self._children: dict[str, Node] = {}
@@ -80,6 +81,27 @@ class Instance:
         inherited = Inheritance(context, self, cls, modifier)
         self.elements, self.sections, self.classes = inherited.elements, inherited.sections, inherited.classes
         self._visible = inherited.visible
+
+    def _inherit_prefixes(self, declaration: ast.Component | None) -> None:
+        """Prefixes of a structured component hold for its elements (4.4.2.2)."""
+        around = self.parent
+        connector = self.cls.kind == "connector"
+        self.in_connector = connector or (around is not None and around.in_connector)
+        self.causality = (declaration.causality if declaration else "") or (around.causality if around else "")
+        self.flow = bool(declaration and declaration.flow) or (around is not None and around.flow)
+        self.stream = bool(declaration and declaration.stream) or (around is not None and around.stream)
+        self.open_ended = self.cls.expandable or (connector and around is not None and around.open_ended)
+
+    def adopt(self, name: str, node: Node) -> None:
+        """Take `node` as an element: of an expandable connector, one that a connection brings."""
+        self._children[name] = node
+        declaration = node.items[0].declaration if isinstance(node, ArrayNode) else node.declaration
+        self.elements[name] = Element(declaration, self.cls, None)
+
+    @property
+    def present(self) -> list[str]:
+        """Names of its elements; of an expandable connector those that something connects to or uses (9.1.3)."""
+        return list(self._children) if self.cls.expandable else list(self.elements)
 
     def child(self, name: str) -> Node | None:
         """The component `name`, made when first asked for; None where no such is declared."""
@@ -105,6 +127,13 @@ class Instance:
         to them (5.6.1)."""
         visible = self._visible.get(id(cls.origin or cls))
         return visible is None or name in visible
+
+    def meant(self, name: str) -> Node | None:
+        """What `name` means to those who use it: of an element that is inner and outer, the outer one (5.4)."""
+        element = self.elements.get(name)
+        if element is not None and element.declaration.inner and element.declaration.outer:
+            return self._outer(element.declaration, Scope(self.context, element.cls, self))
+        return self.child(name)
 
     def children(self) -> list[Node]:
         return [self.child(name) for name in self.elements]
@@ -225,9 +254,6 @@ class Instance:
         if cls.kind in ("package", "function"):
             hint = "components are of a model, block, connector, record or type"
             raise Diagnostic("R014", f"{cls.name} is a {cls.kind}, not a component class", declaration.span, hint)
-        if cls.expandable:
-            hint = "declare a connector with the variables it carries"
-            raise Diagnostic("R091", "expandable connectors are outside the subset", declaration.span, hint)
         if cls.partial:
             hint = "use a class that extends it"
             if declaration.replaceable:

@@ -6,11 +6,14 @@ from lacuna.codegen.flatten import arrays, calls, iterators, lower
 from lacuna.codegen.flatten.context import Lowering
 from lacuna.codegen.flatten.functions import run
 from lacuna.codegen.flatten.references import read
+from lacuna.codegen.flatten.streams import actual_stream, in_stream
+from lacuna.codegen.flatten.structure import cardinality
 from lacuna.codegen.syntax import ast
 
+_OF_CONNECTIONS = {"cardinality": cardinality, "inStream": in_stream, "actualStream": actual_stream}
 LOWERING = Lowering(
     nodes={**lower.OPERATORS, ast.Ref: read, ast.Call: calls.lower_call, **iterators.RANGES},
-    functions={**arrays.FUNCTIONS, **calls.SCALAR_FUNCTIONS, **calls.OPERATORS},
+    functions={**_OF_CONNECTIONS, **arrays.FUNCTIONS, **calls.SCALAR_FUNCTIONS, **calls.OPERATORS},
     results=calls.call_of_model,
     run=run,
 )

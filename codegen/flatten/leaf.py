@@ -38,7 +38,9 @@ class Leaf:
         self.span = declaration.span
         self.primitive = found.primitive
         self.variability = self._variability()
-        self.causality = declaration.causality or found.causality
+        self.causality = declaration.causality or found.causality or instance.causality
+        self.flow, self.stream = declaration.flow or instance.flow, declaration.stream or instance.stream
+        self.open_ended = instance.open_ended  # in an expandable connector: its direction follows from the connections
         if shape:
             self.names = tuple(f"{name}[{','.join(map(str, i))}]" for i in indices(shape))
         else:
@@ -46,9 +48,6 @@ class Leaf:
         self._binding: Value | None = None
         self._bound = self._lowering = False
         self._check_attributes()
-        if declaration.stream:
-            hint = "carry the property as a variable of the connector"
-            raise Diagnostic("R091", "stream connectors are outside the subset", declaration.span, hint)
         for position, scalar in enumerate(self.names):
             context.scalars[scalar] = (self, position)
 

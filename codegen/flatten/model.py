@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,13 +14,16 @@ from lacuna.codegen.flatten.connections import connection_equations
 from lacuna.codegen.flatten.constants import evaluate
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.equations import Collected, check_discrete
-from lacuna.codegen.flatten.instance import ArrayNode, Instance
+from lacuna.codegen.flatten.expandable import expand
+from lacuna.codegen.flatten.instance import ArrayNode, Instance, Node
 from lacuna.codegen.flatten.language import LOWERING
 from lacuna.codegen.flatten.leaf import Leaf
 from lacuna.codegen.flatten.lower import lower_scalar
 from lacuna.codegen.flatten.modifiers import Modifier
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.sections import flatten_items
+from lacuna.codegen.flatten.streams import stream_variables
+from lacuna.codegen.flatten.structure import Structure
 from lacuna.codegen.flatten.variables import add_used_constants, flatten_variables, mark_discrete
 from lacuna.codegen.library import MODEL_KINDS, Library
 from lacuna.codegen.symbolic import expr as ex
@@ -47,14 +50,20 @@ def flatten(
         raise Diagnostic("F003", f"{cls.path} is a {what}, not a model to simulate", cls.span, hint)
     context = Context(library, Path(cls.span.file).resolve().parent, LOWERING, cls.path)
     top = Instance(context, cls, "", None, _outside_modifier(modifications or {}, cls.span))
-    leaves, sections = _instantiate(top)
+    leaves, sections, buses = _instantiate(top)
     context.finish()
+    context.table(Structure).sections = sections
     model = flat.FlatModel(cls.path, cls.span, cls.description)
     for leaf in leaves:
         with context.attempt():
             flatten_variables(leaf, model)
     body, initial = _sections(sections)
+    expand(body.connections, context)
+    for leaf in _leaves_of(buses):
+        with context.attempt():
+            flatten_variables(leaf, model)
     model.equations += body.equations + connection_equations(body.connections, context)
+    stream_variables(model, context)
     context.finish()
     model.whens, model.algorithms, model.asserts = body.whens, body.algorithms, body.asserts
     model.initial_equations = initial.equations
@@ -107,16 +116,22 @@ def _number(value: float | int | bool) -> Expr:
     return ex.const(int(value) if whole else value)
 
 
-def _instantiate(top: Instance) -> tuple[list[Leaf], list[tuple[ast.Section, ast.Class, Instance]]]:
-    """Every variable and every section below `top`, in order of declaration."""
+def _instantiate(top: Instance) -> tuple[list[Leaf], list[tuple[ast.Section, ast.Class, Instance]], list[Instance]]:
+    """Every variable and every section below `top`, in order of declaration, and the expandable connectors: what they
+    hold follows from the connections."""
+    buses: list[Instance] = []
     leaves: list[Leaf] = []
     sections: list[tuple[ast.Section, ast.Class, Instance]] = []
 
     def visit(instance: Instance) -> None:
+        if instance.cls.expandable:
+            buses.append(instance)
+            return
         for element in instance.elements:
             with instance.context.attempt():
                 node = instance.child(element)
-                outer = instance.elements[element].declaration.outer
+                declaration = instance.elements[element].declaration
+                outer = declaration.outer and not declaration.inner
                 if isinstance(node, Leaf) and not outer:
                     leaves.append(node)
                 elif isinstance(node, Instance) and not outer:
@@ -127,7 +142,18 @@ def _instantiate(top: Instance) -> tuple[list[Leaf], list[tuple[ast.Section, ast
         sections.extend((section, cls, instance) for section, cls in instance.sections)
 
     visit(top)
-    return leaves, sections
+    return leaves, sections, buses
+
+
+def _leaves_of(nodes: Iterable[Node]) -> Iterator[Leaf]:
+    """The variables that expandable connectors have come to hold."""
+    for node in nodes:
+        if isinstance(node, Leaf):
+            yield node
+        elif isinstance(node, ArrayNode):
+            yield from _leaves_of(node.items)
+        elif isinstance(node, Instance):
+            yield from _leaves_of(node.child(name) for name in node.present)
 
 
 def _sections(sections: list[tuple[ast.Section, ast.Class, Instance]]) -> tuple[Collected, Collected]:

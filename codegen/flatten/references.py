@@ -33,7 +33,7 @@ def read(ref: ast.Ref, scope: Scope) -> Value:
         return ex.TIME
     node = None
     if scope.instance is not None and not ref.absolute and scope.instance.sees(first, scope.cls):
-        node = scope.instance.child(first)
+        node = scope.instance.meant(first)
     if node is not None:
         _refuse_conditional(scope.instance, first, ref)
         return _walk(node, ref, 0, scope)
@@ -93,7 +93,7 @@ def _refuse_conditional(instance: Instance, name: str, ref: ast.Ref) -> None:
 def member(node: Node, ref: ast.Ref, at: int) -> Node:
     """The element that name number `at` means in the component before it; it must exist and be public."""
     name = ref.names[at]
-    found = node.child(name)
+    found = node.meant(name) if isinstance(node, Instance) else node.child(name)
     if found is None:
         hint = did_you_mean(name, node.elements, f"{node.cls.name} has {', '.join(list(node.elements)[:12])}")
         raise Diagnostic("R003", f"{node.name} has no element {name}", ref.span, hint)

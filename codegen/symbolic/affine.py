@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, add, div, if_else, is_const, mul, neg, sub
+from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, add, div, if_else, is_const, mul, neg, sub, table
 from lacuna.codegen.symbolic.leaves import LEAF_OPS, depends, leaves
 
 Coefficients = tuple[Expr, Expr]
@@ -52,13 +52,11 @@ def _affine(e: Expr, v: Expr, memo: dict[Expr, Coefficients | None]) -> Coeffici
 
 def nonlinear(e: Expr) -> frozenset[Expr]:
     """The leaves in which `e` is not affine; memoised on the hash-consed nodes."""
-    found = _nonlinear.get(e)
+    memo = table().nonlinear
+    found = memo.get(e)
     if found is None:
-        found = _nonlinear[e] = _leaves_of_nonlinear(e)
+        found = memo[e] = _leaves_of_nonlinear(e)
     return found
-
-
-_nonlinear: dict[Expr, frozenset[Expr]] = {}
 
 
 def _leaves_of_nonlinear(e: Expr) -> frozenset[Expr]:

@@ -24,7 +24,9 @@ which fold constants and drop neutral elements; never call `Expr` itself.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 import math
+import threading
 
 REAL, INTEGER, BOOLEAN = "Real", "Integer", "Boolean"
 
@@ -56,18 +58,48 @@ class Expr:
         return to_text(self)
 
 
-_table: dict[tuple, Expr] = {}
+class Table:
+    """Nodes by their shape, and what is memoised on them."""
+
+    def __init__(self) -> None:
+        self.nodes: dict[tuple, Expr] = {}
+        self.leaves: dict[Expr, frozenset[Expr]] = {}
+        self.nonlinear: dict[Expr, frozenset[Expr]] = {}
+
+
+class _Current(threading.local):
+    table = Table()  # that of the process, which lasts
+
+
+_lasting = _Current.table
+_current = _Current()
+
+
+def table() -> Table:
+    """The table in which this thread makes nodes."""
+    return _current.table
+
+
+@contextmanager
+def own_table() -> Iterator[Table]:
+    """Nodes made inside go with their last user, memos included; those of the process's table serve inside as well."""
+    before, _current.table = _current.table, Table()
+    try:
+        yield _current.table
+    finally:
+        _current.table = before
 
 
 def node(op: str, args: tuple[Expr, ...] = (), value: object = None, type: str = REAL) -> Expr:
     """The unique node of this shape, without any folding."""
     key = (op, tuple(map(id, args)), value, value.__class__, type, _signed_zero(value))
-    found = _table.get(key)
+    nodes = _current.table.nodes
+    found = nodes.get(key) or _lasting.nodes.get(key)
     if found is None:
         found = Expr()
         found.op, found.args, found.value, found.type = op, args, value, type
         found._hash = hash((op, tuple(a._hash for a in args), str(value), type))
-        _table[key] = found
+        nodes[key] = found
     return found
 
 

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from lacuna.codegen.symbolic.expr import Expr, transform
+from lacuna.codegen.symbolic.expr import Expr, table, transform
 
 LEAF_OPS = frozenset(("var", "der", "pre", "time", "rel", "tick", "initial", "terminal"))
-
-_memo: dict[Expr, frozenset[Expr]] = {}
 
 
 def leaves(e: Expr) -> frozenset[Expr]:
@@ -14,14 +12,15 @@ def leaves(e: Expr) -> frozenset[Expr]:
 
     `der(x)` and `pre(d)` are leaves of their own: `x` and `d` do not occur in them.
     """
-    found = _memo.get(e)
+    memo = table().leaves
+    found = memo.get(e)
     if found is None:
         if e.op in LEAF_OPS:
             found = frozenset((e,))
         else:
             parts = [leaves(a) for a in e.args]
             found = parts[0] if len(parts) == 1 else frozenset().union(*parts)
-        _memo[e] = found
+        memo[e] = found
     return found
 
 

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.symbolic.expr import Expr, to_text, var
+from lacuna.codegen.symbolic.expr import REAL, Expr, to_text, var
 from lacuna.codegen.units.inference import (
     SECOND,
     UNKNOWN,
@@ -19,7 +19,7 @@ from lacuna.codegen.units.inference import (
     of_variable,
     over,
 )
-from lacuna.units import Unit, parse_unit
+from lacuna.units import Unit, format_unit, parse_unit
 
 MAX_FINDINGS = 10  # of a model's own
 MAX_COUNTED = 1000  # of libraries
@@ -78,6 +78,7 @@ class _Check:
         self._statements(inference, self.model.asserts)
         for value, unit, what, span in arguments:
             self._guarded(span, lambda v=value, u=unit, w=what: inference.require(v, parse_unit(u), w))
+        self._note_inferred()
         return self.findings
 
     def _inference(self) -> UnitInference:
@@ -141,6 +142,13 @@ class _Check:
                     for condition, inner in s.branches:
                         self._guarded(s.span, lambda c=condition: inference.of(c))
                         self._statements(inference, inner)
+
+    def _note_inferred(self) -> None:
+        """The SI units that were found for variables that declare none."""
+        for v in self.model.variables.values():
+            found = self.units[v.name]
+            if not v.unit and v.type == REAL and isinstance(found, Unit) and found.factor == 1.0:
+                v.inferred_unit = format_unit(found)
 
     def _infer_unknown(self) -> None:
         """Units of variables that declare none, from equations that leave one choice; to a fixed point."""

@@ -15,7 +15,7 @@ from lacuna.codegen.search_path import search_path, split_name
 from lacuna.discovery import noise
 from lacuna.discovery.cases import CaseError
 from lacuna.discovery.draft.match import Match, Target, matched
-from lacuna.discovery.draft.recorded import Recorded, parted, read_recorded, write_recorded
+from lacuna.discovery.draft.recorded import Recording, parted, read_recording, write_recorded
 from lacuna.discovery.draft.write import Column, Draft, case_toml
 from lacuna.recorded_units import to_si
 from lacuna.runtime import Model
@@ -38,14 +38,14 @@ def new_case(name: str, data: Sequence[Path], out: Path, libraries: Sequence[Pat
     """Write `out`/case.toml, the recordings beside it in the format of a case, and a copy of a model's own file.
 
     `name` is the model as everywhere: a qualified name, a .mo file, or a class in one. Raises Diagnostic where it is no
-    model, CaseError and TextTableError where the recordings do not fit; then nothing is written.
+    model, CaseError and RecordingError where the recordings do not fit; then nothing is written.
     """
     if (out / "case.toml").exists():
         raise CaseError(f"{out / 'case.toml'}: is there already; choose another folder")
     if not data:
         raise CaseError("no recordings are given")
     model = Model(compile_model(name, search_path=search_path(libraries)).path)
-    recorded = _distinct([read_recorded(path) for path in data])
+    recorded = _distinct([read_recording(path) for path in data])
     matches = matched(_common_heads(recorded), _targets(model))
     recorded = [_kelvins(one, matches) for one in recorded]
     matches = matched(recorded[0].heads, _targets(model))
@@ -80,7 +80,7 @@ def _beside(name: str) -> str:
     return name if file is None else file.name + (f":{inner}" if inner else "")
 
 
-def _kelvins(recorded: Recorded, matches: Sequence[Match]) -> Recorded:
+def _kelvins(recorded: Recording, matches: Sequence[Match]) -> Recording:
     """Temperatures on the scale of the variable that they record: the scales differ by more than a factor."""
     heads, columns, notes = list(recorded.heads), list(recorded.columns), list(recorded.notes)
     for k, (head, match) in enumerate(zip(recorded.heads, matches, strict=True)):
@@ -107,7 +107,7 @@ def _aliases_of_matched(model: Model, matches: Sequence[Match]) -> set[str]:
     return {name for name, v in model.inputs.items() if v.index in driven}
 
 
-def _common_heads(recorded: Sequence[Recorded]) -> tuple[Head, ...]:
+def _common_heads(recorded: Sequence[Recording]) -> tuple[Head, ...]:
     first = recorded[0]
     for other in recorded[1:]:
         if [h.text for h in other.heads] != [h.text for h in first.heads]:
@@ -118,7 +118,7 @@ def _common_heads(recorded: Sequence[Recorded]) -> tuple[Head, ...]:
     return first.heads
 
 
-def _distinct(recorded: list[Recorded]) -> list[Recorded]:
+def _distinct(recorded: list[Recording]) -> list[Recording]:
     names = [r.name for r in recorded]
     twice = {name for name in names if names.count(name) > 1}
     if twice:
@@ -126,7 +126,7 @@ def _distinct(recorded: list[Recorded]) -> list[Recorded]:
     return recorded
 
 
-def _divided(recorded: Sequence[Recorded]) -> tuple[list[Recorded], list[Recorded]]:
+def _divided(recorded: Sequence[Recording]) -> tuple[list[Recording], list[Recording]]:
     """To fit and to judge: the last fourth judges, of a single recording its last stretch."""
     if len(recorded) == 1:
         fit, validate = parted(recorded[0])
@@ -135,7 +135,7 @@ def _divided(recorded: Sequence[Recorded]) -> tuple[list[Recorded], list[Recorde
     return list(recorded[:-judges]), list(recorded[-judges:])
 
 
-def _column(match: Match, recorded: Sequence[Recorded]) -> Column:
+def _column(match: Match, recorded: Sequence[Recording]) -> Column:
     k = recorded[0].heads.index(match.head)
     pieces = [r.columns[k] for r in recorded]
     finite = np.concatenate([p[np.isfinite(p)] for p in pieces])
@@ -144,7 +144,7 @@ def _column(match: Match, recorded: Sequence[Recorded]) -> Column:
     return Column(match, level, steps)
 
 
-def _initial(model: Model, matches: Sequence[Match], recorded: Sequence[Recorded]) -> dict[str, str]:
+def _initial(model: Model, matches: Sequence[Match], recorded: Sequence[Recording]) -> dict[str, str]:
     """Of each state: "recorded" where a column records it; "unknown" where the machine is not at rest at the start."""
     seen = {m.target.name: m for m in matches if m.target and not m.target.is_input}
     by_storage = {(model.variables[n].kind, model.variables[n].index): n for n in seen}
@@ -160,7 +160,7 @@ def _initial(model: Model, matches: Sequence[Match], recorded: Sequence[Recorded
     return result
 
 
-def _at_rest(model: Model, outputs: Iterable[Match], recorded: Sequence[Recorded]) -> bool:
+def _at_rest(model: Model, outputs: Iterable[Match], recorded: Sequence[Recording]) -> bool:
     """Every output begins in every recording where the model has it at the start, as far as its noise tells."""
     for match in outputs:
         k = recorded[0].heads.index(match.head)
@@ -171,7 +171,7 @@ def _at_rest(model: Model, outputs: Iterable[Match], recorded: Sequence[Recorded
     return True
 
 
-def _write(out: Path, text: str, recorded: Sequence[Recorded], kept: Sequence[int], file: Path | None) -> None:
+def _write(out: Path, text: str, recorded: Sequence[Recording], kept: Sequence[int], file: Path | None) -> None:
     """All of it, or nothing: in a folder beside, which is then renamed."""
     out.parent.mkdir(parents=True, exist_ok=True)
     scratch = out.with_name(f".{out.name}.partial")

@@ -18,7 +18,7 @@ class ExamplesError(Exception):
     user_error = True
 
 
-def copy(folder: str | Path) -> list[Path]:
+def copy_examples(folder: str | Path) -> list[Path]:
     """Copy the examples into `folder`, which is made, and return the folder of each. Nothing is overwritten.
 
     Raises ExamplesError where one of them is there already.

@@ -41,7 +41,7 @@ equation
   rubbed.power = bearing.loss + motorFriction.loss + mesh.loss + stops.loss + nut.loss;
   delivered.power = -force.power;
   stored = winding.stored + rotor.stored + mesh.stored + screwInertia.stored + stops.stored + nut.stored + ram.stored;
-  annotation(experiment(StopTime=1, Tolerance=1e-6, Interval=1e-4), Documentation(info="<html>
+  annotation(experiment(StopTime=1, Tolerance=1e-6), Documentation(info="<html>
 <p>A 270 V linear actuator from the same components as <code>FlightControlEma</code>: parameters and a ball screw make
 it
 another machine. Position is controlled at the ram and expressed as the angle of the screw.</p>

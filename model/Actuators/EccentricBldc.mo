@@ -40,7 +40,7 @@ equation
   filter[1].u = winding.a.i;
   filter[2].u = winding.b.i;
   filter[3].u = winding.c.i;
-  annotation(experiment(StopTime=1, Tolerance=1e-6, Interval=1e-5), Documentation(info="<html>
+  annotation(experiment(StopTime=1, Tolerance=1e-6), Documentation(info="<html>
 <p>A step command so large that the position loop stays saturated: the drive is a six-step inverter at full voltage, the
 control surface moves without aerodynamic load, and what is left of the actuator is its motor with friction. The three
 phase currents, behind their filters, are what the prognostic method analyses.</p>

@@ -43,7 +43,7 @@ equation
   rubbed.power = bearing.loss + motorFriction.loss + transmission.loss + hinge.loss + hingeFriction.loss + stops.loss;
   delivered.power = aero.delivered;
   stored = winding.stored + rotor.stored + transmission.stored + surface.stored + stops.stored;
-  annotation(experiment(StopTime=1, Tolerance=1e-6, Interval=1e-4), Documentation(info="<html>
+  annotation(experiment(StopTime=1, Tolerance=1e-6), Documentation(info="<html>
 <p>Command, control electronics, drive, machine, two-mass mechanics with reducer, compliance, play, dry friction and
 stops,
 aerodynamic load, transducer and supervision: the block diagram of Dalla Vedova et al. in components. The default

@@ -57,7 +57,7 @@ equation
   filter[1].u = winding.a.i;
   filter[2].u = winding.b.i;
   filter[3].u = winding.c.i;
-  annotation(experiment(StopTime=1, Tolerance=1e-6, Interval=1e-5), Documentation(info="<html>
+  annotation(experiment(StopTime=1, Tolerance=1e-6), Documentation(info="<html>
 <p>The test of <code>EccentricBldc</code> with what lies behind its motor: the command stays out of reach, so the position
 loop asks for full voltage all the time; the rotor first crosses the play alone, then drives the surface.</p>
 <p>Parameters of the motor are those of <code>EccentricBldc</code>, its dry friction is divided between motor and hinge, and

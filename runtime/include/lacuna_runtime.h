@@ -118,6 +118,9 @@ RT_API rt_status rt_session_outputs(rt_session *session, int n, const int *varia
  * interval <= 0 too: at the end of every step. */
 RT_API rt_status rt_session_grid(rt_session *session, int n, const double *times, double interval);
 
+/* The tolerances in force: of the options, else of the model's experiment, else the runtime's own. */
+RT_API void rt_session_tolerances(const rt_session *session, double *rtol, double *atol);
+
 /* The next runs also give the derivatives of all outputs by these: rows of parameters, or of states for their initial
  * values. n = 0: none. Refused, with the variable's name, where nothing depends on one of them smoothly. */
 RT_API rt_status rt_session_sensitivities(rt_session *session, int n, const int *variables);

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 5
+#define MDL_ABI_VERSION 6
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
@@ -84,6 +84,8 @@ typedef struct {
   int settable; /* a parameter that may be given another value at run time (not dependent, structural or final) */
   int is_output;
   double start, min, max, nominal; /* min/max -/+INFINITY where not given; nominal 0 where not given */
+  const char *inferred_unit;       /* what the equations say where no unit is declared; "" where they do not */
+  int is_parameter; /* declared as a parameter or constant; 0: a variable, though parameters may decide it */
 } mdl_variable;
 
 typedef struct {

@@ -19,6 +19,14 @@ extern "C" {
 #define MDL_LANES 4
 typedef double mdl_lanes __attribute__((vector_size(MDL_LANES * sizeof(double)), aligned(sizeof(double)), may_alias));
 
+/* Functions that work on whole vectors: compiled twice on x86, so that a machine with vectors of four doubles uses
+ * them. The results are the same to the last bit, as nothing is contracted. */
+#if defined(__x86_64__) && defined(__gnu_linux__)
+#define MDL_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define MDL_WIDE
+#endif
+
 typedef struct mdl_tangent {
   int lanes;
   mdl_lanes *t;                                /* [lanes] time */
@@ -43,6 +51,7 @@ struct mdl_tangents {
 
   mdl_point_tangent initial_system; /* x from p, u, d */
   mdl_point_tangent rhs;            /* xdot and v from t, p, u, x, d */
+  mdl_point_tangent derivatives;    /* only xdot from the same: what an integration method needs at each stage */
 
   /* Rows of F [(n_x + n_z) * lanes] from those of y [(n_x + n_z) * lanes], y' [n_x * lanes] and t, p, u, d. */
   int (*residual)(mdl_data *m, double t, const double *y, const double *yp, mdl_tangent *tangent,

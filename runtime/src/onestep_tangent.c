@@ -6,6 +6,8 @@
 #include "onestep.h"
 #include "sensitivity.h"
 
+enum { STAGES = 7 }; /* of every scheme that has coefficients here */
+
 void rt_onestep_tangent_free(rt_onestep *o) {
   if (!o->tangent) return;
   free(o->tangent->x0);
@@ -47,7 +49,7 @@ static inline void add_up(int n, double *restrict y, const double *restrict x, c
   }
 }
 
-static void stage_sum(int n, rt_onestep *t, double h, int count, const double *a) {
+MDL_WIDE static void stage_sum(int n, rt_onestep *t, double h, int count, const double *a) {
   switch (count) {
   case 1:
     add_up(n, t->x1, t->x0, t->k, h, 1, a);
@@ -69,6 +71,18 @@ static void stage_sum(int n, rt_onestep *t, double h, int count, const double *a
   }
 }
 
+/* The error of a step of all seven stages. */
+MDL_WIDE static void error_of(int n, rt_onestep *t, double h, const double *weights) {
+  const double *restrict k = t->k;
+  double *restrict error = t->error;
+  for (int i = 0; i < n; i++) {
+    double sum = 0;
+    for (int j = 0; j < STAGES; j++)
+      sum += weights[j] * k[j * n + i];
+    error[i] = h * sum;
+  }
+}
+
 /* 1 / scale of four columns. One whose parameter has no known size is measured by itself: by its largest entry, each
  * over the nominal value of its state. */
 static void weights(const rt_session *s, const rt_onestep *t, int first, double *weight) {
@@ -83,7 +97,7 @@ static void weights(const rt_session *s, const rt_onestep *t, int first, double 
 }
 
 /* The largest mean square, over the columns, of e_ik / (atol_i / scale_k + rtol max(|x0_ik|, |x1_ik|)). */
-static double worst_column(const rt_session *s, const rt_onestep *t) {
+MDL_WIDE static double worst_column(const rt_session *s, const rt_onestep *t) {
   const rt_sensitivities *f = s->sensitivities;
   double worst = 0, weight[MDL_LANES];
   for (int first = 0; first < f->columns; first += MDL_LANES) {
@@ -122,18 +136,13 @@ int rt_onestep_tangent_step(rt_session *s, rt_onestep *o, double h, double *squa
     point.x = (mdl_lanes *)t->x1;
     point.xdot = (mdl_lanes *)(t->k + j * n);
     if (s->d->n_u) rt_inputs_at(s, time);
-    int status =
-        s->d->tangents->rhs(&s->data, time, o->stage_x + j * n_x, o->k + j * n_x, o->stage_v + j * s->d->n_v, &point);
+    int status = s->d->tangents->derivatives(&s->data, time, o->stage_x + j * n_x, o->k + j * n_x,
+                                             o->stage_v + j * s->d->n_v, &point);
     if (status) return status;
     s->result->counters.tangents++;
   }
   if (!square) return 0;
-  for (int i = 0; i < n; i++) {
-    double sum = 0;
-    for (int j = 0; j < stages; j++)
-      sum += scheme->error_weights[j] * t->k[j * n + i];
-    t->error[i] = h * sum;
-  }
+  error_of(n, t, h, scheme->error_weights);
   double own = worst_column(s, t);
   if (own > *square) *square = own;
   return 0;
@@ -146,7 +155,7 @@ void rt_onestep_tangent_accept(rt_session *s, rt_onestep *o) {
   size_t n = (size_t)(s->d->n_x * f->columns) * sizeof(double);
   memcpy(f->at.x, o->tangent->x1, n);
   memcpy(f->at.xdot, o->tangent->f1, n);
-  memcpy(f->at.v, f->inside.v, (size_t)(s->d->n_v * f->columns) * sizeof(double));
+  f->complete = false;
   rt_tangent_check_finite(s);
 }
 

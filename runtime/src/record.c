@@ -61,9 +61,12 @@ static rt_status write_row(rt_session *s, double t, const double *x, const doubl
   return RT_OK;
 }
 
-/* Tangents at the session's point; NULL where none are asked for. */
-static const mdl_tangent *present_tangents(const rt_session *s) {
-  return s->sensitivities ? &s->sensitivities->at : NULL;
+/* A row at the session's point. */
+static rt_status write_present(rt_session *s, double t, unsigned char event) {
+  const mdl_data *m = &s->data;
+  rt_sensitivities *f = s->sensitivities;
+  if (f && s->recorder.needs_rhs && !f->complete && rt_tangent_evaluate(s)) return s->failure.status;
+  return write_row(s, t, m->x, m->xdot, m->v, f ? &f->at : NULL, event);
 }
 
 static rt_status tangents_inside(rt_session *s, double t, const mdl_tangent **tangents) {
@@ -127,7 +130,7 @@ rt_status rt_record_grid(rt_session *s, bool closed) {
   for (double t = grid_time(s, r->next); !status && t <= end; t = grid_time(s, ++r->next)) {
     if (t >= inside) {
       rt_inputs_at(s, s->t);
-      status = write_row(s, t, s->data.x, s->data.xdot, s->data.v, present_tangents(s), 0);
+      status = write_present(s, t, 0);
     } else {
       status = write_interpolated(s, t, grid_time(s, r->next + 1) > end);
     }
@@ -139,7 +142,7 @@ rt_status rt_record_grid(rt_session *s, bool closed) {
 rt_status rt_record_step(rt_session *s) {
   if (on_grid(&s->recorder)) return rt_record_grid(s, !s->pending);
   bool event_rows_follow = s->options.record_events && s->pending & ~RT_PENDING_INPUT;
-  return event_rows_follow ? RT_OK : write_row(s, s->t, s->data.x, s->data.xdot, s->data.v, present_tangents(s), 0);
+  return event_rows_follow ? RT_OK : write_present(s, s->t, 0);
 }
 
 /* A row at an event, before or after it; after it, it stands for a grid point at the same instant too. */
@@ -147,5 +150,5 @@ rt_status rt_record_event_row(rt_session *s) {
   while (on_grid(&s->recorder) && grid_time(s, s->recorder.next) <= s->t + s->clock.tolerance)
     s->recorder.next++;
   rt_inputs_at(s, s->t);
-  return write_row(s, s->t, s->data.x, s->data.xdot, s->data.v, present_tangents(s), 1);
+  return write_present(s, s->t, 1);
 }

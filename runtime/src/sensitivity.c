@@ -217,6 +217,7 @@ rt_status rt_tangent_evaluate(rt_session *s) {
   mdl_data *m = &s->data;
   rt_sensitivities *f = s->sensitivities;
   if (f->lost) return RT_OK;
+  f->complete = true;
   if (s->d->n_u) rt_inputs_at(s, s->t);
   if (s->d->tangents->rhs(m, s->t, m->x, m->xdot, m->v, &f->at))
     return rt_fail_model(s, s->t, "differentiating the model");
@@ -230,7 +231,8 @@ rt_status rt_tangent_follow(rt_session *s) {
   if (!f || f->lost || s->t == s->t_end) return RT_OK;
   rt_tangent_inside(s, s->t);
   memcpy(f->at.x, f->inside.x, (size_t)(s->d->n_x * f->columns) * sizeof(double));
-  return rt_tangent_evaluate(s);
+  f->complete = false;
+  return RT_OK;
 }
 
 /* x of `inside` at a point of the last step. */

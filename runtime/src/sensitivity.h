@@ -39,7 +39,8 @@ struct rt_sensitivities {
   rt_instant instant;
   double *x_before; /* [n_x * columns] states' tangents before the event */
   rt_dense dense;
-  bool lost; /* they do not exist from here on: an event was grazed, or they overflowed */
+  bool complete; /* v of `at`, and xdot, belong to its x */
+  bool lost;     /* they do not exist from here on: an event was grazed, or they overflowed */
 };
 
 static inline double *rt_rows(mdl_lanes *rows) {

@@ -213,6 +213,11 @@ rt_status rt_session_outputs(rt_session *s, int n, const int *variables) {
   return RT_OK;
 }
 
+void rt_session_tolerances(const rt_session *s, double *rtol, double *atol) {
+  *rtol = s->options.rtol;
+  *atol = s->options.atol;
+}
+
 rt_status rt_session_grid(rt_session *s, int n, const double *times, double interval) {
   for (int i = 0; i < n; i++)
     if (!(i ? times[i] >= times[i - 1] : isfinite(times[i]))) return refuse(s, "output times must not decrease");

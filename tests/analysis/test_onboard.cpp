@@ -126,6 +126,21 @@ TEST(Monitor, ARecordWithAGapIsNotValidAndTheNextOneIs) {
   EXPECT_EQ(good.speed.turns, 0);
 }
 
+// Any double is taken in finite time; an angle that no shaft can have leaves the speed unknown.
+TEST(Monitor, TakesAnyAngle) {
+  const auto chain = paper_chain();
+  const auto configuration = configuration_of(chain);
+  const double largest = std::numeric_limits<double>::max();
+  for (const double absurd : {1e300, -1e300, largest, std::numeric_limits<double>::infinity(), 1e18}) {
+    Monitor monitor(configuration);
+    const std::vector<double> currents(configuration.channels, 0.5);
+    bool done = false;
+    for (std::size_t k = 0; !done; ++k)
+      done = monitor.push(currents, k % 2 == 0 ? 0.1 : absurd);
+    EXPECT_EQ(monitor.features().speed.turns, 0) << absurd;
+  }
+}
+
 TEST(Monitor, RefusesAnImpossibleConfiguration) {
   EXPECT_THROW(Monitor({0, 100, 50, 10, 64, 100, 1, 0.1, 0}), std::invalid_argument);
   EXPECT_THROW(Monitor({1, 100, 200, 10, 256, 100, 1, 0.1, 0}), std::invalid_argument);

@@ -15,7 +15,13 @@ KNOWN = {0.0: (295.9, 105.19), 0.10: (311.9, None), 0.20: (366.2, None), 0.33: (
 @pytest.mark.parametrize("zeta", KNOWN)
 def test_known_currents_and_speeds(run, zeta: float) -> None:
     result = run(
-        "Actuators.EccentricBldc", parameters={"zeta": zeta}, solver="dopri5", rtol=1e-7, outputs=OUTPUTS, events=False
+        "Actuators.EccentricBldc",
+        parameters={"zeta": zeta},
+        solver="dopri5",
+        rtol=1e-7,
+        outputs=OUTPUTS,
+        events=False,
+        interval=1e-5,
     )
     rms = {x: 1e3 * np.sqrt(np.mean(result[f"filter[{k}].y"] ** 2)) for k, x in enumerate(PHASES, 1)}
     mean, speed = KNOWN[zeta]
@@ -29,7 +35,7 @@ def test_known_currents_and_speeds(run, zeta: float) -> None:
 
 def test_two_paths_through_the_equations_agree(run) -> None:
     """Residual form by IDA and explicit form by RK4 with located events: every phase RMS to 1e-6."""
-    options = {"parameters": {"zeta": 0.33}, "outputs": OUTPUTS, "events": False, "stop": 0.3}
+    options = {"parameters": {"zeta": 0.33}, "outputs": OUTPUTS, "events": False, "stop": 0.3, "interval": 1e-5}
     ida = run("Actuators.EccentricBldc", rtol=1e-8, **options)
     rk4 = run("Actuators.EccentricBldc", solver="rk4", step=1e-5, **options)
     for name in OUTPUTS[:3]:
@@ -43,7 +49,13 @@ def test_stator_fixed_eccentricity_makes_the_current_of_phase_a_fall(run) -> Non
     for zeta in (0.0, 0.3):
         parameters = {"zeta": zeta, "convention": 2}
         result = run(
-            "Actuators.EccentricBldc", parameters=parameters, solver="dopri5", rtol=1e-7, outputs=OUTPUTS, events=False
+            "Actuators.EccentricBldc",
+            parameters=parameters,
+            solver="dopri5",
+            rtol=1e-7,
+            outputs=OUTPUTS,
+            events=False,
+            interval=1e-5,
         )
         rms.append(np.sqrt(np.mean(result["filter[1].y"] ** 2)))
     assert rms[1] < rms[0]

@@ -63,17 +63,23 @@ void WholeTurns::add(double angle) {
   if (samples_ == 0) first_ = angle;
   const double travel = angle - first_;
   const int direction = turns_ == 0 ? (travel < 0 ? -1 : 1) : (turns_ < 0 ? -1 : 1);
-  for (double goal = turn * (turns_ + direction); direction * (travel - goal) >= 0;
-       goal = turn * (turns_ + direction)) {
-    turns_ += direction;
-    duration_ = static_cast<double>(samples_) - (travel - goal) / (travel - travel_);
+  double passed = std::floor(direction * travel / turn); // whole turns, but for the rounding of the quotient
+  if (!(std::abs(passed) < std::numeric_limits<int>::max())) {
+    absurd_ = true;
+    return;
+  }
+  if (direction * travel - turn * (passed + 1) >= 0) passed += 1;
+  if (direction * travel - turn * passed < 0) passed -= 1;
+  if (passed > std::abs(turns_)) {
+    turns_ = direction * static_cast<int>(passed);
+    duration_ = static_cast<double>(samples_) - (travel - turn * turns_) / (travel - travel_);
   }
   travel_ = travel;
   ++samples_;
 }
 
 MeanSpeed WholeTurns::mean_speed(double period) const {
-  if (turns_ == 0) return {0, std::numeric_limits<double>::quiet_NaN()};
+  if (turns_ == 0 || absurd_) return {0, std::numeric_limits<double>::quiet_NaN()};
   return {std::abs(turns_), 2 * std::numbers::pi * turns_ / (period * duration_)};
 }
 

@@ -3,5 +3,5 @@ model Hysteresis "Step with current regulation within a band"
   extends FlightControlEma(
     command(t_start=0.01),
     redeclare Components.Drives.HysteresisDrive drive(band=2));
-  annotation(experiment(StopTime=0.1, Tolerance=1e-8, Interval=1e-4));
+  annotation(experiment(StopTime=0.1, Tolerance=1e-8));
 end Hysteresis;

@@ -158,3 +158,21 @@ def test_a_missing_compiler_is_named(model: str, tmp_path: Path, monkeypatch: py
     with pytest.raises(cache.CompilerError, match="install"):
         compile_model(model, cache_directory=str(tmp_path))
     assert not list(tmp_path.glob("*.so"))
+
+
+def test_a_library_that_was_cut_or_exchanged_is_made_anew(model: str, tmp_path: Path) -> None:
+    first = compile_model(model, cache_directory=str(tmp_path))
+    whole = Path(first.path).read_bytes()
+    for spoilt in (b"", whole[: len(whole) // 2], whole + b"x"):
+        Path(first.path).write_bytes(spoilt)
+        again = compile_model(model, cache_directory=str(tmp_path))
+        assert not again.report.cached
+        assert Path(again.path).read_bytes() == whole
+
+
+def test_a_folder_that_others_can_write_to_is_refused(model: str, tmp_path: Path) -> None:
+    shared = tmp_path / "shared"
+    shared.mkdir()
+    shared.chmod(0o777)
+    with pytest.raises(cache.CompilerError, match="others can write"):
+        compile_model(model, cache_directory=str(shared))

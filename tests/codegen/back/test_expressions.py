@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import ctypes
+import gc
 import math
 from pathlib import Path
+import weakref
 
 from hypothesis import HealthCheck, Phase, assume, given, settings
 from hypothesis import strategies as st
 
 from lacuna.codegen.cache import compile_c
+from lacuna.codegen.compile import compile_model
 from lacuna.codegen.emit.body import Body
 from lacuna.codegen.emit.expression import number
 from lacuna.codegen.emit.names import Names
@@ -18,7 +21,9 @@ from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.affine import affine, isolate
 from lacuna.codegen.symbolic.differentiate import Differentiator, partial
 from lacuna.codegen.symbolic.evaluate import evaluate
+from lacuna.codegen.symbolic.leaves import leaves
 from tests.codegen.back.expressions import EXPRESSIONS, NAMES, POINTS, SMOOTH, VARIABLES
+from tests.codegen.generated import write_model
 
 BATCH = 60
 
@@ -116,3 +121,20 @@ def test_products_of_an_unknown_are_not_linear() -> None:
     assert affine(ex.call("sin", a), a) is None
     assert affine(ex.if_else(ex.relation(">", a, b), a, b), a) is None
     assert isolate(ex.mul(b, a), ex.add(a, ex.ONE), a) == (ex.ONE, ex.sub(b, ex.ONE))
+
+
+def test_nodes_of_a_translation_go_with_it(tmp_path: Path) -> None:
+    inside, lasting = [], len(ex.table().nodes)
+    with ex.own_table() as own:
+        x = ex.var("only here")
+        assert x is ex.var("only here")
+        assert ex.const(2.0) is ex.const(2.0)
+        inside.append(weakref.ref(x))
+        assert leaves(ex.add(x, ex.ONE)) == {x}
+        del own, x
+    gc.collect()
+    assert inside[0]() is None
+    assert len(ex.table().nodes) == lasting
+    model = write_model(tmp_path, "model Own Real x(start = 1, fixed = true); equation der(x) = -3.25*x; end Own;")
+    compile_model(model, cache_directory=str(tmp_path))
+    assert len(ex.table().nodes) == lasting

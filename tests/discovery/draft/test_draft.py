@@ -7,8 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from lacuna.analysis.recording.channel import RecordingError
+from lacuna.analysis.recording.formats import read_recorded
 from lacuna.analysis.recording.heads import read_head
-from lacuna.analysis.recording.text import TextTableError, read_text
+from lacuna.analysis.recording.text import read_text
 from lacuna.discovery.cases import CaseError, load
 from lacuna.discovery.draft.case import new_case
 from lacuna.discovery.draft.match import Target, matched
@@ -51,6 +53,8 @@ def logged(path: Path, header: str, row, rows: int = 400, encoding: str = "utf-8
         ("phi_a/phi_b", "phi_a/phi_b", None),
         ("gear.phi_rel", "gear.phi_rel", None),
         ("x_1", "x_1", None),
+        ("phase[1]", "phase[1]", None),
+        ("phase[1] [A]", "phase[1]", "A"),
     ],
 )
 def test_heads_are_read_as_people_write_them(text: str, name: str, unit: str | None) -> None:
@@ -99,8 +103,8 @@ def test_a_row_of_units_and_lines_above_the_header_are_understood(tmp_path: Path
 )
 def test_what_is_no_table_of_numbers_is_refused_with_its_place(tmp_path: Path, text: str, words: str) -> None:
     (tmp_path / "bad.csv").write_text(text)
-    with pytest.raises(TextTableError, match=words):
-        read_text(tmp_path / "bad.csv")
+    with pytest.raises(RecordingError, match=words):
+        read_recorded(tmp_path / "bad.csv")
 
 
 def test_units_decide_where_names_say_nothing() -> None:

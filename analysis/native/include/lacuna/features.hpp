@@ -65,6 +65,7 @@ private:
   int turns_ = 0;                 // signed
   double first_ = 0, travel_ = 0; // rad
   double duration_ = 0;           // of the turns, in samples
+  bool absurd_ = false;           // an angle was given that no shaft can have: more turns than can be counted
 };
 
 /// Mean speed over the whole turns that follow the first sample later than `after` seconds.

@@ -8,16 +8,16 @@
 #include <string.h>
 
 static const mdl_variable mdl_variables[] = {
-  {"R", "Ohm", "", "Diode.mo", 2, MDL_REAL, MDL_PARAMETER, 0, 1, 1, 0, 100.0, -INFINITY, INFINITY, 0.0},
-  {"C", "F", "", "Diode.mo", 3, MDL_REAL, MDL_PARAMETER, 1, 1, 1, 0, 1e-05, -INFINITY, INFINITY, 0.0},
-  {"I_s", "A", "", "Diode.mo", 4, MDL_REAL, MDL_PARAMETER, 2, 1, 1, 0, 1e-09, -INFINITY, INFINITY, 0.0},
-  {"V_t", "V", "", "Diode.mo", 5, MDL_REAL, MDL_PARAMETER, 3, 1, 1, 0, 0.025, -INFINITY, INFINITY, 0.0},
-  {"U", "V", "", "Diode.mo", 6, MDL_REAL, MDL_PARAMETER, 4, 1, 1, 0, 5.0, -INFINITY, INFINITY, 0.0},
-  {"T", "s", "", "Diode.mo", 7, MDL_REAL, MDL_PARAMETER, 5, 1, 1, 0, 0.01, -INFINITY, INFINITY, 0.0},
-  {"u", "V", "", "Diode.mo", 8, MDL_REAL, MDL_ALGEBRAIC, 0, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0},
-  {"v", "V", "", "Diode.mo", 9, MDL_REAL, MDL_ALGEBRAIC, 1, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0},
-  {"i", "A", "", "Diode.mo", 10, MDL_REAL, MDL_ALGEBRAIC, 2, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0},
-  {"u_C", "V", "", "Diode.mo", 11, MDL_REAL, MDL_STATE, 0, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0}
+  {"R", "Ohm", "", "Diode.mo", 2, MDL_REAL, MDL_PARAMETER, 0, 1, 1, 0, 100.0, -INFINITY, INFINITY, 0.0, "", 1},
+  {"C", "F", "", "Diode.mo", 3, MDL_REAL, MDL_PARAMETER, 1, 1, 1, 0, 1e-05, -INFINITY, INFINITY, 0.0, "", 1},
+  {"I_s", "A", "", "Diode.mo", 4, MDL_REAL, MDL_PARAMETER, 2, 1, 1, 0, 1e-09, -INFINITY, INFINITY, 0.0, "", 1},
+  {"V_t", "V", "", "Diode.mo", 5, MDL_REAL, MDL_PARAMETER, 3, 1, 1, 0, 0.025, -INFINITY, INFINITY, 0.0, "", 1},
+  {"U", "V", "", "Diode.mo", 6, MDL_REAL, MDL_PARAMETER, 4, 1, 1, 0, 5.0, -INFINITY, INFINITY, 0.0, "", 1},
+  {"T", "s", "", "Diode.mo", 7, MDL_REAL, MDL_PARAMETER, 5, 1, 1, 0, 0.01, -INFINITY, INFINITY, 0.0, "", 1},
+  {"u", "V", "", "Diode.mo", 8, MDL_REAL, MDL_ALGEBRAIC, 0, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0, "", 0},
+  {"v", "V", "", "Diode.mo", 9, MDL_REAL, MDL_ALGEBRAIC, 1, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0, "", 0},
+  {"i", "A", "", "Diode.mo", 10, MDL_REAL, MDL_ALGEBRAIC, 2, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0, "", 0},
+  {"u_C", "V", "", "Diode.mo", 11, MDL_REAL, MDL_STATE, 0, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0, "", 0}
 };
 
 static const mdl_relation mdl_relations[] = {

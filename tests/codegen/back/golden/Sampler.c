@@ -8,13 +8,13 @@
 #include <string.h>
 
 static const mdl_variable mdl_variables[] = {
-  {"Ts", "s", "", "Sampler.mo", 2, MDL_REAL, MDL_PARAMETER, 0, 1, 1, 0, 0.1, -INFINITY, INFINITY, 0.0},
-  {"rate", "1/s", "", "Sampler.mo", 3, MDL_REAL, MDL_PARAMETER, 1, 1, 1, 0, 2.0, -INFINITY, INFINITY, 0.0},
-  {"gain", "", "", "Sampler.mo", 4, MDL_REAL, MDL_PARAMETER, 2, 1, 1, 0, 3.0, -INFINITY, INFINITY, 0.0},
-  {"u", "", "", "Sampler.mo", 5, MDL_REAL, MDL_DISCRETE, 0, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0},
-  {"x", "", "", "Sampler.mo", 6, MDL_REAL, MDL_STATE, 0, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0},
-  {"n", "", "", "Sampler.mo", 7, MDL_INTEGER, MDL_DISCRETE, 1, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0},
-  {"high", "", "", "Sampler.mo", 8, MDL_BOOLEAN, MDL_DISCRETE, 2, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0}
+  {"Ts", "s", "", "Sampler.mo", 2, MDL_REAL, MDL_PARAMETER, 0, 1, 1, 0, 0.1, -INFINITY, INFINITY, 0.0, "", 1},
+  {"rate", "1/s", "", "Sampler.mo", 3, MDL_REAL, MDL_PARAMETER, 1, 1, 1, 0, 2.0, -INFINITY, INFINITY, 0.0, "", 1},
+  {"gain", "", "", "Sampler.mo", 4, MDL_REAL, MDL_PARAMETER, 2, 1, 1, 0, 3.0, -INFINITY, INFINITY, 0.0, "", 1},
+  {"u", "", "", "Sampler.mo", 5, MDL_REAL, MDL_DISCRETE, 0, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0, "", 0},
+  {"x", "", "", "Sampler.mo", 6, MDL_REAL, MDL_STATE, 0, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0, "", 0},
+  {"n", "", "", "Sampler.mo", 7, MDL_INTEGER, MDL_DISCRETE, 1, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0, "", 0},
+  {"high", "", "", "Sampler.mo", 8, MDL_BOOLEAN, MDL_DISCRETE, 2, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0, "", 0}
 };
 
 static const mdl_relation mdl_relations[] = {

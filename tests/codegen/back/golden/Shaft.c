@@ -8,18 +8,18 @@
 #include <string.h>
 
 static const mdl_variable mdl_variables[] = {
-  {"J1", "kg.m2", "", "Shaft.mo", 2, MDL_REAL, MDL_PARAMETER, 0, 1, 1, 0, 2.0, 1e-09, INFINITY, 0.0},
-  {"J2", "kg.m2", "", "Shaft.mo", 3, MDL_REAL, MDL_PARAMETER, 1, 1, 1, 0, 3.0, -INFINITY, INFINITY, 0.0},
-  {"ratio", "", "", "Shaft.mo", 4, MDL_REAL, MDL_PARAMETER, 2, 1, 1, 0, 4.0, -INFINITY, INFINITY, 0.0},
-  {"k", "N.m.s", "Gain of the speed loop", "Shaft.mo", 5, MDL_REAL, MDL_PARAMETER, 3, 1, 1, 0, 5.0, -INFINITY, INFINITY, 0.0},
-  {"tau_max", "N.m", "", "Shaft.mo", 6, MDL_REAL, MDL_PARAMETER, 4, 1, 1, 0, 10.0, -INFINITY, INFINITY, 0.0},
-  {"w_ref", "1/s", "", "Shaft.mo", 7, MDL_REAL, MDL_PARAMETER, 5, 1, 1, 0, 1.0, -INFINITY, INFINITY, 0.0},
-  {"phi1", "", "", "Shaft.mo", 8, MDL_REAL, MDL_STATE, 0, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0},
-  {"phi2", "", "", "Shaft.mo", 9, MDL_REAL, MDL_ALGEBRAIC, 0, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0},
-  {"w1", "1/s", "", "Shaft.mo", 10, MDL_REAL, MDL_STATE, 1, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0},
-  {"w2", "1/s", "", "Shaft.mo", 11, MDL_REAL, MDL_ALGEBRAIC, 1, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0},
-  {"drive", "N.m", "", "Shaft.mo", 12, MDL_REAL, MDL_ALGEBRAIC, 2, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0},
-  {"tau", "N.m", "", "Shaft.mo", 13, MDL_REAL, MDL_ALGEBRAIC, 3, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0}
+  {"J1", "kg.m2", "", "Shaft.mo", 2, MDL_REAL, MDL_PARAMETER, 0, 1, 1, 0, 2.0, 1e-09, INFINITY, 0.0, "", 1},
+  {"J2", "kg.m2", "", "Shaft.mo", 3, MDL_REAL, MDL_PARAMETER, 1, 1, 1, 0, 3.0, -INFINITY, INFINITY, 0.0, "", 1},
+  {"ratio", "", "", "Shaft.mo", 4, MDL_REAL, MDL_PARAMETER, 2, 1, 1, 0, 4.0, -INFINITY, INFINITY, 0.0, "1", 1},
+  {"k", "N.m.s", "Gain of the speed loop", "Shaft.mo", 5, MDL_REAL, MDL_PARAMETER, 3, 1, 1, 0, 5.0, -INFINITY, INFINITY, 0.0, "", 1},
+  {"tau_max", "N.m", "", "Shaft.mo", 6, MDL_REAL, MDL_PARAMETER, 4, 1, 1, 0, 10.0, -INFINITY, INFINITY, 0.0, "", 1},
+  {"w_ref", "1/s", "", "Shaft.mo", 7, MDL_REAL, MDL_PARAMETER, 5, 1, 1, 0, 1.0, -INFINITY, INFINITY, 0.0, "", 1},
+  {"phi1", "", "", "Shaft.mo", 8, MDL_REAL, MDL_STATE, 0, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0, "1", 0},
+  {"phi2", "", "", "Shaft.mo", 9, MDL_REAL, MDL_ALGEBRAIC, 0, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0, "1", 0},
+  {"w1", "1/s", "", "Shaft.mo", 10, MDL_REAL, MDL_STATE, 1, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0, "", 0},
+  {"w2", "1/s", "", "Shaft.mo", 11, MDL_REAL, MDL_ALGEBRAIC, 1, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0, "", 0},
+  {"drive", "N.m", "", "Shaft.mo", 12, MDL_REAL, MDL_ALGEBRAIC, 2, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0, "", 0},
+  {"tau", "N.m", "", "Shaft.mo", 13, MDL_REAL, MDL_ALGEBRAIC, 3, 1, 0, 0, 0.0, -INFINITY, INFINITY, 0.0, "", 0}
 };
 
 static const mdl_relation mdl_relations[] = {

@@ -1,0 +1,124 @@
+"""One recorded signal, whatever file it came from."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.recording.heads import Head, read_head
+from lacuna.recorded_units import to_si
+
+MAX_ROUNDING = 1e-6  # of a sample interval, that the digits of an absolute time may cost
+
+
+class RecordingError(AnalysisError):
+    """A file that is no recording, or is damaged; the message says which, where and why."""
+
+
+@dataclass(frozen=True)
+class Channel:
+    """`time` [n] in s, rising; `values` [n] in `unit` ("" where the file says none); NaN where a sample is missing.
+
+    `head` is what the file calls the channel; `name` is that without its unit.
+    """
+
+    name: str
+    unit: str
+    time: np.ndarray
+    values: np.ndarray
+    head: Head
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """The channels of one file, and what was assumed in reading it."""
+
+    path: Path
+    channels: tuple[Channel, ...]
+    notes: tuple[str, ...] = ()
+    time: str = "time"  # what the file calls the column of time
+
+    def __getitem__(self, name: str) -> Channel:
+        """The channel called `name`, by its whole head or without its unit. Raises KeyError."""
+        for key in (lambda c: c.head.text, lambda c: c.name):
+            found = [c for c in self.channels if key(c) == name]
+            if found:
+                return found[0]
+        raise KeyError(name)
+
+
+def from_table(
+    path: Path, header: Sequence[str], units: Sequence[str], values: np.ndarray, notes: Sequence[str] = ()
+) -> Recorded:
+    """Channels that share one time, from the columns [columns, rows] of a table of which one is time.
+
+    Raises RecordingError where none is, or two columns have one name.
+    """
+    _refuse_namesakes(path, header)
+    heads = [read_head(text, unit) for text, unit in zip(header, units, strict=True)]
+    k, assumed = _time_column(path, heads, values)
+    time, more = seconds(path, heads[k], values[k])
+    others = [i for i in range(len(heads)) if i != k]
+    names = distinct([heads[i] for i in others])
+    channels = tuple(
+        Channel(n, heads[i].unit or "", time, values[i], heads[i]) for n, i in zip(names, others, strict=True)
+    )
+    return Recorded(path, channels, (*notes, *assumed, *more), heads[k].text)
+
+
+def _refuse_namesakes(path: Path, header: Sequence[str]) -> None:
+    for k, name in enumerate(header):
+        if name in header[:k]:
+            raise RecordingError(f"{path}: columns {header.index(name) + 1} and {k + 1} are both called `{name}`")
+
+
+def _time_column(path: Path, heads: Sequence[Head], values: np.ndarray) -> tuple[int, list[str]]:
+    named = [k for k, head in enumerate(heads) if head.is_time]
+    if named:
+        return named[0], []
+    rising = [k for k in range(len(heads)) if values.shape[1] > 1 and np.all(np.diff(values[k]) > 0)]
+    if not rising:
+        raise RecordingError(
+            f"{path}: no column is called time and none rises steadily; it has {', '.join(h.text for h in heads)}"
+        )
+    return rising[0], [f"`{heads[rising[0]].text}` was taken for time: it is the first column that rises steadily"]
+
+
+def seconds(path: Path, head: Head, values: np.ndarray) -> tuple[np.ndarray, list[str]]:
+    """Time in s, and what was assumed. One so far from zero that its digits blur the samples begins at zero instead."""
+    notes = [] if head.unit or head.text == "time" else [f"`{head.text}` says no unit; seconds were assumed"]
+    factor, si = to_si(head.unit or "s")
+    if si != "s":
+        raise RecordingError(f"{path}: the unit of the time column `{head.text}` is {head.unit}, which is no time")
+    interval = float(np.median(np.diff(values))) if len(values) > 1 else 1.0
+    if np.spacing(np.nanmax(np.abs(values), initial=0.0)) > MAX_ROUNDING * abs(interval):
+        notes.append(f"time begins at 0; the file's begins at {values[0]:.17g} {head.unit or 's'}")
+        values = values - values[0]
+    return (values if factor == 1.0 else values * factor), notes
+
+
+def distinct(heads: Sequence[Head]) -> list[str]:
+    """Names without units; those that then occur twice (I [A], I [mA]) stay as they were written."""
+    names = [head.name for head in heads]
+    return [head.text if names.count(head.name) > 1 else head.name for head in heads]
+
+
+def on_one_time(channels: Sequence[Channel]) -> tuple[np.ndarray, list[np.ndarray]]:
+    """All sample times, and each channel's values there; NaN where a channel has no sample at that time."""
+    first = channels[0].time
+    if all(c.time is first or np.array_equal(c.time, first) for c in channels):
+        return first, [c.values for c in channels]
+    time = np.unique(np.concatenate([c.time for c in channels]))
+    columns = []
+    for channel in channels:
+        column = np.full(len(time), np.nan)
+        column[np.searchsorted(time, channel.time)] = channel.values
+        columns.append(column)
+    return time, columns
+
+
+Reader = Callable[[Path], Recorded]

@@ -1,0 +1,54 @@
+"""Spreadsheets by pandas: the first sheet, names in its first row, units in the second where that holds no number."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from lacuna.analysis.recording.channel import Recorded, RecordingError, from_table, on_one_time
+
+
+def read(path: Path) -> Recorded:
+    import pandas
+
+    try:
+        sheet = pandas.read_excel(path, header=None)
+    except ImportError:
+        raise
+    except Exception as error:  # a damaged file may trip its parser anywhere
+        raise RecordingError(f"{path}: not a spreadsheet that can be read: {error}") from None
+    rows = sheet.to_numpy(dtype=object)
+    first = next((k for k, row in enumerate(rows) if _numbers(row)), None)
+    if not first:
+        raise RecordingError(f"{path}: its first sheet has no rows of numbers below a row of names")
+    header = [str(cell).strip() for cell in rows[max(first - 2, 0) if _are_units(rows, first) else first - 1]]
+    units = [_text(cell) for cell in rows[first - 1]] if _are_units(rows, first) else [""] * len(header)
+    for number, row in enumerate(rows[first:], first + 1):
+        if not _numbers(row):
+            raise RecordingError(f"{path}: row {number} of its first sheet holds something that is no number")
+    values = np.array([[np.nan if cell is None else float(cell) for cell in row] for row in rows[first:]]).T
+    return from_table(path, header, units, values)
+
+
+def _numbers(row: np.ndarray) -> bool:
+    return all(isinstance(c, int | float) and not isinstance(c, bool) for c in row) and any(c == c for c in row)
+
+
+def _text(cell: object) -> str:
+    return cell.strip() if isinstance(cell, str) else ""
+
+
+def _are_units(rows: np.ndarray, first: int) -> bool:
+    """Two rows of text above the numbers: names, then units."""
+    return first > 1 and all(isinstance(cell, str) for cell in rows[first - 2]) and any(map(_text, rows[first - 1]))
+
+
+def write(recorded: Recorded, path: Path) -> None:
+    """Names in the first row, units in the second."""
+    import pandas
+
+    time, columns = on_one_time(recorded.channels)
+    rows = [["time", *(c.name for c in recorded.channels)], ["s", *(c.unit for c in recorded.channels)]]
+    rows += [list(row) for row in zip(time.tolist(), *(column.tolist() for column in columns), strict=True)]
+    pandas.DataFrame(rows).to_excel(path, header=False, index=False)

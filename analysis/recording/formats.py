@@ -1,0 +1,63 @@
+"""Recordings in the formats people have: one reader and one writer for each, chosen by the file's suffix.
+
+text        .csv .txt .tsv .dat .asc   separators, decimal commas, encodings, rows of units
+MATLAB      .mat                       version 5 (scipy) and 7.3 (h5py)
+Parquet     .parquet                   units in the fields' metadata
+MDF 3, 4    .mdf .mf4 .dat (by its first bytes)
+TDMS        .tdms
+Excel       .xlsx .xls .ods            first sheet
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+import tempfile
+
+from lacuna.analysis.recording.channel import Reader, Recorded, RecordingError
+from lacuna.extras import names_missing_packages
+
+LARGEST = 1 << 30  # bytes of a file: a hundred signals for a quarter of an hour at 1 kHz as text
+_READERS = {
+    "text": (".csv", ".txt", ".tsv", ".dat", ".asc"),
+    "matlab": (".mat",),
+    "parquet": (".parquet", ".pq"),
+    "mdf": (".mdf", ".mf4", ".mf3"),
+    "tdms": (".tdms",),
+    "excel": (".xlsx", ".xls", ".ods"),
+}
+SUFFIXES = tuple(suffix for suffixes in _READERS.values() for suffix in suffixes)
+
+
+@names_missing_packages
+def read_recorded(path: Path | str) -> Recorded:
+    """The channels of a file. Raises RecordingError for what is no recording, MissingPackage for want of its reader."""
+    path = Path(path)
+    if not path.is_file():
+        raise RecordingError(f"{path}: {'is not a file' if path.exists() else 'there is no such file'}")
+    if path.stat().st_size > LARGEST:
+        raise RecordingError(f"{path}: larger than {LARGEST >> 20} MB")
+    return _reader(path)(path)
+
+
+@names_missing_packages
+def write_recorded(recorded: Recorded, path: Path) -> None:
+    """Write the channels in the format of the path's suffix, whole or not at all. Raises RecordingError for others."""
+    kind = _kind(path)
+    with tempfile.TemporaryDirectory(dir=path.parent, prefix=".convert") as scratch:
+        partial = Path(scratch) / path.name
+        import_module(f"lacuna.analysis.recording.{kind}").write(recorded, partial)
+        partial.replace(path)
+
+
+def _reader(path: Path) -> Reader:
+    with path.open("rb") as file:
+        kind = "mdf" if file.read(8) == b"MDF     " else ""
+    return import_module(f"lacuna.analysis.recording.{kind or _kind(path)}").read
+
+
+def _kind(path: Path) -> str:
+    kind = next((name for name, suffixes in _READERS.items() if path.suffix.lower() in suffixes), None)
+    if kind is None:
+        raise RecordingError(f"{path}: no format is known by `{path.suffix}`; there are {' '.join(SUFFIXES)}")
+    return kind

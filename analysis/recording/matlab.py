@@ -1,0 +1,113 @@
+"""MAT files, version 5 by SciPy and 7.3 (HDF5) by h5py: vectors beside a vector of time, or a table with its names.
+
+A table is what Lacuna writes (`time`, `names`, `units`, `data`), or a Modelica tool's result (`name`, `dataInfo`,
+`data_2`).
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lacuna.analysis.recording.channel import Recorded, RecordingError, from_table, on_one_time
+
+_HDF5 = b"\x89HDF\r\n\x1a\n"
+
+
+def read(path: Path) -> Recorded:
+    content = _content(path)
+    if {"names", "data", "time"} <= set(content):
+        names, units = _texts(content["names"]), _texts(content.get("units", []))
+        table = np.atleast_2d(np.asarray(content["data"], float))
+        rows = np.vstack(
+            [np.ravel(content["time"]).astype(float)[None, :], table.T if len(table) != len(names) else table]
+        )
+        return from_table(path, ["time", *names], ["s", *(units or [""] * len(names))], rows)
+    if {"name", "dataInfo", "data_2"} <= set(content):
+        return _trajectories(path, content)
+    return _vectors(path, content)
+
+
+def _content(path: Path) -> dict[str, Any]:
+    with path.open("rb") as file:
+        newer = _HDF5 in file.read(1024)
+    if newer:
+        return _hdf5(path)
+    from scipy.io import loadmat
+
+    try:
+        found = loadmat(path, chars_as_strings=True)
+    except Exception as error:  # a damaged file may trip its parser anywhere
+        raise RecordingError(f"{path}: not a MAT file that can be read: {error}") from None
+    return {name: value for name, value in found.items() if not name.startswith("__")}
+
+
+def _hdf5(path: Path) -> dict[str, Any]:
+    import h5py
+
+    try:
+        with h5py.File(path) as file:
+            numeric = {n: d for n, d in file.items() if isinstance(d, h5py.Dataset) and d.dtype.kind in "fiu"}
+            return {n: np.asarray(d[()], float).T for n, d in numeric.items()}  # MATLAB writes columns first
+    except OSError as error:
+        raise RecordingError(f"{path}: not a MAT file that can be read: {error}") from None
+
+
+def _vectors(path: Path, content: dict[str, Any]) -> Recorded:
+    arrays = {n: np.asarray(v) for n, v in content.items() if isinstance(v, np.ndarray) and v.dtype.kind in "fiu"}
+    vectors = {n: v.ravel().astype(float) for n, v in arrays.items() if v.size > 1 and v.size == max(v.shape)}
+    if not vectors:
+        raise RecordingError(f"{path}: holds no vectors of numbers; it has {', '.join(content) or 'nothing'}")
+    lengths = {n: len(v) for n, v in vectors.items()}
+    if len(set(lengths.values())) > 1:
+        raise RecordingError(
+            f"{path}: its vectors differ in length: " + ", ".join(f"{n} {k}" for n, k in lengths.items())
+        )
+    return from_table(path, list(vectors), [""] * len(vectors), np.array(list(vectors.values())))
+
+
+def _trajectories(path: Path, content: dict[str, Any]) -> Recorded:
+    """The time-varying variables of a Modelica tool's result file (layout Aclass, version 1.1)."""
+    info, data = np.asarray(content["dataInfo"], int), np.asarray(content["data_2"], float)
+    if "binTrans" in "".join(_columns_of_text(content.get("Aclass", []))) + "".join(_texts(content.get("Aclass", []))):
+        names, info = _columns_of_text(content["name"]), info.T
+    else:
+        names, data = _texts(content["name"]), data.T
+    rows, kept = [], []
+    for name, (table, column, *_rest) in zip(names, info, strict=True):
+        if table in (0, 2):
+            kept.append("time" if table == 0 or name.lower() == "time" else name)
+            rows.append(np.sign(column or 1) * data[abs(column) - 1 if column else 0])
+    return from_table(path, kept, ["s" if name == "time" else "" for name in kept], np.array(rows))
+
+
+def _texts(value: Any) -> list[str]:
+    """The texts of a cell array or of a matrix of characters."""
+    return [
+        str(np.ravel(text)[0] if isinstance(text, np.ndarray) and text.size else text).strip()
+        for text in np.ravel(value)
+    ]
+
+
+def _columns_of_text(matrix: Any) -> list[str]:
+    """Names that run down the columns of a matrix of characters, as the transposed layout keeps them."""
+    lines = [str(line) for line in np.ravel(matrix)]
+    width = max(map(len, lines), default=0)
+    padded = [line.ljust(width) for line in lines]
+    return ["".join(column).replace("\0", "").strip() for column in zip(*padded, strict=True)]
+
+
+def write(recorded: Recorded, path: Path) -> None:
+    """Version 5: `time`, `names`, `units`, `data` [samples, channels]."""
+    from scipy.io import savemat
+
+    time, columns = on_one_time(recorded.channels)
+    content = {
+        "time": time,
+        "names": np.array([c.name for c in recorded.channels], dtype=object),
+        "units": np.array([c.unit for c in recorded.channels], dtype=object),
+        "data": np.column_stack(columns),
+    }
+    savemat(path, content, appendmat=False, oned_as="column", do_compression=True)

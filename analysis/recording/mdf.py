@@ -1,0 +1,68 @@
+"""MDF 3 and 4 by asammdf: each channel with its own time and unit.
+
+A file can hold formulas that its library would evaluate; of conversions only the identity and the linear one are
+applied, here, and any other is refused by name.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lacuna.analysis.recording.channel import Channel, Recorded, RecordingError, distinct
+from lacuna.analysis.recording.heads import read_head
+
+_NONE_OF_VERSION_3 = 65535
+
+
+def read(path: Path) -> Recorded:
+    from asammdf import MDF
+
+    try:
+        with MDF(path) as file:
+            signals = [
+                file.get(group=group, index=index, raw=True)
+                for group, content in enumerate(file.groups)
+                for index, channel in enumerate(content.channels)
+                if index != file.masters_db.get(group)
+            ]
+    except Exception as error:  # a damaged file may trip its parser anywhere
+        raise RecordingError(f"{path}: not an MDF file that can be read: {error}") from None
+    signals = [s for s in signals if len(s.samples) and s.samples.dtype.kind in "fiu" and s.samples.ndim == 1]
+    if not signals:
+        raise RecordingError(f"{path}: holds no channels of numbers")
+    heads = [read_head(s.name, s.unit or "") for s in signals]
+    twice = {s.name for s in signals if sum(other.name == s.name for other in signals) > 1}
+    if twice:
+        raise RecordingError(f"{path}: {', '.join(sorted(twice))} occurs more than once; export one group of channels")
+    channels = tuple(
+        Channel(name, head.unit or "", np.asarray(s.timestamps, float), _physical(path, s), head)
+        for name, head, s in zip(distinct(heads), heads, signals, strict=True)
+    )
+    return Recorded(path, channels)
+
+
+def _physical(path: Path, signal: Any) -> np.ndarray:
+    raw, conversion = np.asarray(signal.samples, float), signal.conversion
+    if signal.invalidation_bits is not None:
+        raw = np.where(np.asarray(signal.invalidation_bits, bool), np.nan, raw)
+    kind = None if conversion is None else conversion.conversion_type
+    if kind is None or (kind == 0 and not hasattr(conversion, "a")) or kind == _NONE_OF_VERSION_3:
+        return raw
+    if kind in (0, 1) and hasattr(conversion, "a"):  # linear: 0 in version 3, 1 in version 4
+        return conversion.a * raw + conversion.b
+    raise RecordingError(
+        f"{path}: channel {signal.name} is converted by more than a straight line; export it converted"
+    )
+
+
+def write(recorded: Recorded, path: Path) -> None:
+    """Version 4.10: a group for each channel, which keeps its own time."""
+    from asammdf import MDF, Signal
+
+    with MDF(version="4.10") as file:
+        for c in recorded.channels:
+            file.append([Signal(c.values, c.time, name=c.name, unit=c.unit)])
+        file.save(path, overwrite=True)

@@ -1,0 +1,47 @@
+"""TDMS by npTDMS: channels with their own waveform time, or beside a channel of time."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from lacuna.analysis.recording.channel import Channel, Recorded, RecordingError, distinct, from_table, on_one_time
+from lacuna.analysis.recording.heads import read_head
+
+
+def read(path: Path) -> Recorded:
+    from nptdms import TdmsFile
+
+    try:
+        file = TdmsFile.read(path)
+    except Exception as error:  # a damaged file may trip its parser anywhere
+        raise RecordingError(f"{path}: not a TDMS file that can be read: {error}") from None
+    found = [c for group in file.groups() for c in group.channels() if len(c) and c.data.dtype.kind in "fiu"]
+    if not found:
+        raise RecordingError(f"{path}: holds no channels of numbers")
+    heads = [read_head(c.name, str(c.properties.get("unit_string", ""))) for c in found]
+    if all("wf_increment" in c.properties for c in found):
+        names = distinct(heads)
+        return Recorded(path, tuple(
+            Channel(name, head.unit or "", c.time_track(), np.asarray(c.data, float), head)
+            for name, head, c in zip(names, heads, found, strict=True)
+        ))  # fmt: skip
+    lengths = {c.name: len(c) for c in found}
+    if len(set(lengths.values())) > 1:
+        raise RecordingError(
+            f"{path}: its channels have no waveform time and differ in length: "
+            + ", ".join(f"{n} {k}" for n, k in lengths.items())
+        )
+    units = [str(c.properties.get("unit_string", "")) for c in found]
+    return from_table(path, [c.name for c in found], units, np.array([np.asarray(c.data, float) for c in found]))
+
+
+def write(recorded: Recorded, path: Path) -> None:
+    """One group, with a channel of time in s."""
+    from nptdms import ChannelObject, TdmsWriter
+
+    time, columns = on_one_time(recorded.channels)
+    rows = [("time", "s", time), *((c.name, c.unit, v) for c, v in zip(recorded.channels, columns, strict=True))]
+    with TdmsWriter(path) as file:
+        file.write_segment([ChannelObject("recording", n, v, properties={"unit_string": u}) for n, u, v in rows])

@@ -1,0 +1,74 @@
+"""Sets of connected scalars, and what the specification demands of them (Modelica 3.6, 9.2 and 9.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from dataclasses import dataclass, field
+
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.connectors import End, Part
+
+
+@dataclass
+class UnionFind:
+    """Disjoint sets of hashable things, in the order they came in."""
+
+    parent: dict[Hashable, Hashable] = field(default_factory=dict)
+
+    def find(self, item: Hashable) -> Hashable:
+        root = item
+        while self.parent.setdefault(root, root) != root:
+            root = self.parent[root]
+        while self.parent[item] != root:
+            self.parent[item], item = root, self.parent[item]
+        return root
+
+    def join(self, a: Hashable, b: Hashable) -> None:
+        root, other = self.find(a), self.find(b)
+        self.parent[other] = root
+
+    def groups(self) -> list[list[Hashable]]:
+        found: dict[Hashable, list[Hashable]] = {}
+        for item in self.parent:
+            found.setdefault(self.find(item), []).append(item)
+        return list(found.values())
+
+
+@dataclass
+class ConnectionSets:
+    """Ends of flows, streams and potentials apart; remembers a place and a model for each set."""
+
+    ends: UnionFind = field(default_factory=UnionFind)
+    kind: dict[End, str] = field(default_factory=dict)
+    parts: dict[End, Part] = field(default_factory=dict)
+    span: dict[End, Span] = field(default_factory=dict)
+    origin: dict[End, str] = field(default_factory=dict)
+    sources: UnionFind = field(default_factory=UnionFind)  # (model, causal scalar)
+    causal: dict[Hashable, tuple[Part, Span]] = field(default_factory=dict)
+
+    def join(self, a: Part, b: Part, span: Span, origin: str) -> None:
+        ends = [p.end if p.kind != "potential" else End(p.end.name, False) for p in (a, b)]
+        root = self.ends.find(ends[0])
+        self.ends.join(*ends)
+        for end, part in zip(ends, (a, b), strict=True):
+            self.kind[end], self.parts[end] = part.kind, part
+        self.span.setdefault(root, span)
+        self.origin.setdefault(root, origin)
+        if a.leaf.causality and b.leaf.causality:
+            keys = [(origin, p.end.name) for p in (a, b)]
+            self.sources.join(*keys)
+            for key, part in zip(keys, (a, b), strict=True):
+                self.causal[key] = (part, span)
+
+    def check_sources(self) -> None:
+        """Raises R077 where two outputs drive one signal (9.3)."""
+        for group in self.sources.groups():
+            driving = [self.causal[key] for key in group if _is_source(self.causal[key][0])]
+            if len(driving) > 1:
+                names = " and ".join(part.end.name for part, _ in driving)
+                hint = "one output drives a signal: remove a connection"
+                raise Diagnostic("R077", f"{names} drive the same signal", driving[1][1], hint)
+
+
+def _is_source(part: Part) -> bool:
+    return part.leaf.causality == ("input" if part.end.outside else "output")

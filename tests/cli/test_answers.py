@@ -1,0 +1,40 @@
+"""What a command says when something happened that nobody foresaw."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+import lacuna
+from lacuna.cli.main import app
+
+
+def test_the_unexpected_is_a_fault_of_ours_with_a_file_of_details(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_args: object, **_kwargs: object) -> None:
+        raise ZeroDivisionError("nobody foresaw this")
+
+    monkeypatch.setattr(lacuna, "check", fail)
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    monkeypatch.setattr("tempfile.tempdir", None)
+    monkeypatch.delenv("LACUNA_DEBUG", raising=False)
+    result = CliRunner().invoke(app, ["check", "Nothing.mo"])
+    assert result.exit_code == 70
+    assert "fault of Lacuna" in result.output and "Traceback" not in result.output
+    (details,) = tmp_path.glob("lacuna-fault-*.txt")
+    assert "nobody foresaw this" in details.read_text()
+
+
+def test_rows_of_a_map_s_folder_that_are_not_ours_stay(tmp_path: Path) -> None:
+    from lacuna.analysis.map.rows import RowStore
+
+    (tmp_path / "rows").mkdir()
+    mine = tmp_path / "rows" / "thesis.txt"
+    mine.write_text("years of work")
+    store = RowStore.__new__(RowStore)
+    store._folder, store.key = tmp_path / "rows", "key"
+    store.prune([])
+    assert mine.exists()
