@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from lacuna.errors import UserError, is_user_error, message_of, nearest
     from lacuna.examples import copy_examples
     from lacuna.faults import Assessment, CombinedMap, OperatingMap, assess, combined_maps, maps
+    from lacuna.fleets import fleet
     from lacuna.history import export_history, refresh, remember
     from lacuna.inputs import Input, recorded
     from lacuna.listings import Entry, list_effects, list_models, list_solvers
@@ -38,6 +39,7 @@ _HOMES = {
     "errors": ("UserError", "is_user_error", "message_of", "nearest"),
     "examples": ("copy_examples",),
     "faults": ("Assessment", "CombinedMap", "OperatingMap", "assess", "combined_maps", "maps"),
+    "fleets": ("fleet",),
     "history": ("export_history", "refresh", "remember"),
     "inputs": ("Input", "recorded"),
     "listings": ("Entry", "list_effects", "list_models", "list_solvers"),
@@ -81,6 +83,7 @@ __all__ = [
     "dump",
     "explain",
     "export_history",
+    "fleet",
     "forecast",
     "is_user_error",
     "list_effects",

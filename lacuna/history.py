@@ -42,11 +42,11 @@ def remember(
     readings, covariance, features = _readings(path, Path(map), columns, unfiltered)
     entries = [
         Entry(
-            actuator, *numbers, recording=file_hash(path), map=map_hash(Path(map)), version=version("lacuna"),
-            fault=fault, cycles=cycles, hours=hours, event="replaced" if replaced else "",
-            covariance=covariance, features=features, path=str(path),
+            actuator=actuator, severity=severity, low=low, high=high, fault=fault, cycles=cycles, hours=hours,
+            event="replaced" if replaced else "", recording=file_hash(path), path=str(path), map=map_hash(Path(map)),
+            version=version("lacuna"), covariance=covariance, features=features,
         )
-        for fault, *numbers in readings
+        for fault, severity, low, high in readings
     ]  # fmt: skip
     return Store(store).append(entries)
 
@@ -95,7 +95,9 @@ def map_hash(folder: Path) -> str:
     return digest.hexdigest()
 
 
-def _readings(path: Path, folder: Path, columns: Sequence[str] | None, unfiltered: bool) -> tuple[list[Any], Any, Any]:
+def _readings(
+    path: Path, folder: Path, columns: Sequence[str] | None, unfiltered: bool
+) -> tuple[list[tuple[str, float, float, float]], Any, Any]:
     """([(fault, severity, low, high)], covariance of the severities, features)."""
     from lacuna.analysis.severity.assessment import assess
     from lacuna.analysis.severity.combined.assessment import assess_both
@@ -103,7 +105,10 @@ def _readings(path: Path, folder: Path, columns: Sequence[str] | None, unfiltere
 
     if (folder / GRID_FILE).exists():
         both = assess_both(path, folder, columns=columns, unfiltered=unfiltered)
-        found = [("", both.estimate.first), (load_grid(folder).other.symbol, both.estimate.second)]
+        found: list[tuple[str, Any]] = [
+            ("", both.estimate.first),
+            (load_grid(folder).other.symbol, both.estimate.second),
+        ]
         features: Any = both.features
     else:
         one = assess(path, folder, columns=columns, unfiltered=unfiltered)

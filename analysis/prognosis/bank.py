@@ -7,6 +7,7 @@ rate. Arrays are [S, B, K]: S laws with their shapes, B histories, K = rates x n
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,6 +16,7 @@ from lacuna.analysis.prognosis.law import Law, prior, tables
 from lacuna.analysis.prognosis.settings import DEFAULT, FilterSettings
 
 LOST = 1e-3  # of the greatest weight
+GONE = 1e-10  # weight below which a hypothesis can be left out for good
 
 
 class Bank:
@@ -39,6 +41,13 @@ class Bank:
         of_life = np.exp(-0.5 * ((self.log_lives - np.log(settings.life)) / settings.life_spread) ** 2)
         within = np.multiply.outer(of_life / of_life.sum(), noises[:, 0] / noises[:, 0].sum())
         self.prior = self._unfold(prior(self.laws)[:, None, None, None] * within[None, :, :, None] / len(commons))
+
+    def only(self, kept: np.ndarray) -> Bank:
+        """The same with some of the columns K."""
+        other = copy(self)
+        for name in ("wander2", "diffusion2", "change", "common", "prior"):
+            setattr(other, name, getattr(self, name)[:, :, kept])
+        return other
 
     def learn(self, weights: np.ndarray) -> None:
         """Take laws and lives of a fleet into the prior: weights [S, B, K] of its hypotheses, each after its whole
@@ -96,6 +105,10 @@ class Beliefs:
     def rows(self, select: np.ndarray) -> Beliefs:
         """Of some histories only."""
         return replace(self, **{name: value[:, select] for name, value in vars(self).items()})
+
+    def only(self, kept: np.ndarray) -> Beliefs:
+        """Of some columns K only."""
+        return replace(self, **{name: value[:, :, kept] for name, value in vars(self).items()})
 
     def put(self, select: np.ndarray, others: Beliefs) -> None:
         """Replace some histories', in place."""

@@ -103,6 +103,7 @@ class Options:
 
     risk: float = 0.001
     horizon: float | None = None
+    listed: int = LISTED  # future tests whose risk is told, at most
 
     def __post_init__(self):
         if not 0 < self.risk < 1:
@@ -132,10 +133,10 @@ def forecasts(
         scale = [of(h) for h in batch]
         series = joined([series_of([h], one.removal, bank.settings.floor) for h, one in zip(batch, scale, strict=True)])
         outliers = []
-        for step in run(bank, series):
+        for step in run(bank, series, prune=True):
             outliers.append(step.outlier)
             last = step
-        said = _forecasts(batch, bank, scale, options, last, series, np.array(outliers).T)
+        said = _forecasts(batch, last.bank, scale, options, last, series, np.array(outliers).T)
         result |= dict(zip(rows, said, strict=True))
     return [result[k] for k in range(len(histories))]
 
@@ -206,9 +207,15 @@ def joined(parts: Sequence[Series]) -> Series:
 
 
 def _batches(histories: Sequence[History]) -> list[list[int]]:
-    """Rows of about equal length together, so that little is padded."""
-    order = sorted(range(len(histories)), key=lambda k: len(histories[k].use))
+    """Rows of about equal length and pace together, so that little is padded and many hypotheses go for all of them."""
+    order = sorted(range(len(histories)), key=lambda k: _likeness(histories[k]))
     return [order[k : k + BATCH] for k in range(0, len(order), BATCH)]
+
+
+def _likeness(h: History) -> tuple[int, float]:
+    part = h.lives[-1]
+    known = h.severity[part][np.isfinite(h.severity[part])]
+    return (part.stop - part.start) // 8, float(known[-1]) if len(known) else 0.0
 
 
 def _forecasts(batch, bank: Bank, scale: list[Limits], options, step: Step, series: Series, outliers) -> list[Forecast]:
@@ -217,11 +224,12 @@ def _forecasts(batch, bank: Bank, scale: list[Limits], options, step: Step, seri
     watched = np.array([h.use[h.lives[-1]][-1] - h.use[h.lives[-1]][0] for h in batch])
     watched = np.where(watched > 0, watched, series.interval)
     horizon = np.full(len(batch), options.horizon) if options.horizon else LONG * watched
-    quantiles = np.stack([r.quantiles(LEVELS, 10 * horizon) for r in reaching], axis=1)
+    quantiles = np.maximum.accumulate(np.stack([r.quantiles(LEVELS, 10 * horizon) for r in reaching], axis=1), axis=1)
     again = reaching[-1].reached(watched[:, None])[:, 0]
-    count = np.minimum(np.maximum(horizon / series.interval, 1).astype(int), LISTED)
+    count = np.minimum(np.maximum(horizon / series.interval, 1).astype(int), options.listed)
     steps = series.interval[:, None] * np.arange(count.max() + 1)
-    risk = np.stack([r.reached(steps) for r in reaching], axis=1)  # [B, limits, 1 + tests]
+    # [B, limits, 1 + tests]; a limit is not reached before the one below it, which sums of lognormals do not know
+    risk = np.minimum.accumulate(np.stack([r.reached(steps) for r in reaching], axis=1), axis=1)
     law = _law_weights(bank, step.filtered)
     mean, deviation = _tracked(step.filtered)
     result = []
