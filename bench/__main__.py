@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from bench import campaign, diagnosis, maps, race, report, scenarios
+from bench import campaign, diagnosis, growth, maps, race, report, scenarios, sensitivities
 
 Section = Callable[[int], Sequence[report.Row]]
 
@@ -35,7 +35,12 @@ SECTIONS: dict[str, tuple[str, Section]] = {
     "races": ("T1 and T2 beside a program written by hand over IDA (time ratio 1)", races),
     "maps": ("The paper's map, 51 severities", maps.split),
     "scenarios": ("The whole actuator against the clock", scenarios.against_the_clock),
+    "sensitivities": ("Runs with sensitivities, as multiples of the same run without", sensitivities.cost),
     "campaign": ("192 tests of the map's kind under nuisances, here and on Dask workers", campaign.scale),
+    "growth": (
+        "Ladders and chains of 100 to 10 000 states: translation, compiler, IDA beside a program by hand",
+        growth.growth,
+    ),
     "diagnosis": ("Practice cases explained, seconds", diagnosis.split),
 }
 

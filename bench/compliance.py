@@ -26,6 +26,7 @@ from lacuna.runtime.simulation import Session
 
 ROOT = Path(__file__).parents[1]
 STOP = 0.01  # s, what nearly all cases ask for
+LONGEST = 20.0  # s
 TIMEOUT = 60  # s for one case
 _VERDICT = re.compile(r"shouldPass\s*=\s*(true|false)")
 
@@ -52,7 +53,8 @@ def judge(name: str, folder: Path) -> dict[str, object]:
     """Translate and run one case: passed, refused (with code and place) or violated (an assertion of its own)."""
     try:
         compiled = compile_model(name, search_path=search_path([folder]))
-        result = Session(Model(compiled.path), events=False).run(stop=STOP)
+        model = Model(compiled.path)
+        result = Session(model, events=False).run(stop=model.stop_time if 0 < model.stop_time <= LONGEST else STOP)
     except Diagnostic as error:
         return {"status": "refused", **first_finding(error)}
     except SimulationError as error:

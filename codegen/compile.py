@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
+import gc
 import sys
 import threading
 import time
@@ -12,6 +14,7 @@ from typing import TypeVar
 from lacuna.codegen import cache, flat
 from lacuna.codegen.dae import events, hybrid
 from lacuna.codegen.dae.discrete_starts import discrete_starts
+from lacuna.codegen.dae.divisions import divisions
 from lacuna.codegen.dae.free_parameters import free_parameters
 from lacuna.codegen.dae.initial import initial_system
 from lacuna.codegen.dae.prepared import Prepared
@@ -24,6 +27,7 @@ from lacuna.codegen.structure.aliases import eliminate_aliases
 from lacuna.codegen.structure.causal import causalise
 from lacuna.codegen.structure.constants import precompute, precompute_inverses
 from lacuna.codegen.structure.index_reduction import reduce_index
+from lacuna.codegen.structure.nominal import infer
 from lacuna.codegen.structure.residual_form import jacobian, residual_form
 from lacuna.codegen.structure.system import DeclaredValues
 from lacuna.codegen.structure.tearing import Tearing
@@ -57,6 +61,19 @@ class CompiledModel:
     report: Report
 
 
+@contextmanager
+def _uncollected() -> Iterator[None]:
+    """No search for garbage cycles meanwhile: nodes and rows stay as long as the translation does, and to look through
+    ever more of them in vain takes a third of its time."""
+    collecting = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if collecting:
+            gc.enable()
+
+
 def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     """The structural passes, in order."""
     sys.setrecursionlimit(max(sys.getrecursionlimit(), 20000))
@@ -75,11 +92,17 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     matrix = report.run("jacobian", jacobian, residual, system)
     initial = report.run("initial system", initial_system, system, system.model.initial_equations, tearing)
     explicit, system = report.run("matching, BLT, tearing", precompute_inverses, explicit, system)
+    sizes = report.run("nominal values", infer, system, [(r.left, r.right, _line(r)) for r in relations])
+    quotients = report.run("divisions", divisions, explicit, system.model)
     report.warnings += [*declared.warnings, *initial.warnings]
     return Prepared(
         declared, aliases.representative, system, Storage(system), relations, frozen.samples, steps, explicit,
-        residual, matrix, initial,
+        residual, matrix, initial, sizes, quotients,
     )  # fmt: skip
+
+
+def _line(relation: hybrid.Relation) -> str:
+    return f"line {relation.source.span.line}"
 
 
 def translate(
@@ -116,7 +139,7 @@ def compile_model(
     found = store.find(request)
     if found:
         return CompiledModel(found.name, found.library, found.hash, Report(cached=True, warnings=found.warnings))
-    with _translating, own_table():
+    with _translating, own_table(), _uncollected():
         prepared, report = translate(name, search_path=search_path, modifications=modifications, units=units)
         prepared.hash = cache.content_hash(prepared.declared, modifications, units, sensitivities)
         source = report.run("C", generate, prepared, sensitivities)

@@ -60,6 +60,7 @@ class Library:
         self._packages: dict[str, str] = {}  # see foreign_package
         self.views: dict[tuple[object, ...], ast.Class] = {}  # see flatten/views.py
         self.bases: dict[int, list[ast.Class]] = {}  # of classes that were asked for, by identity
+        self._paths: dict[str, int] = {}
         self.resolving: set[int] = set()  # classes whose bases are being looked up, by identity
         self.kept: list[object] = []  # whose identities are keys of the two above
 
@@ -231,6 +232,16 @@ class Library:
         if place not in self._places:
             self._places.insert(0 if first else len(self._places), place)
         self._members = {key: found for key, found in self._members.items() if key[0] != id(self.root)}
+
+    def forget_views(self) -> None:
+        """Start a translation anew: equal input gives equal names."""
+        for memo in (self.views, self.bases, self.kept, self._paths):
+            memo.clear()
+
+    def count_path(self, path: str) -> int:
+        """How many classes seen from elsewhere have had this path, the new one included: each has names of its own."""
+        self._paths[path] = self._paths.get(path, 0) + 1
+        return self._paths[path]
 
     def foreign_package(self, file: str) -> str:
         """The top-level package that `file` belongs to where that is a library found by the search path; "" for a model

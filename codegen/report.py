@@ -9,9 +9,10 @@ from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.emit.source import generate
 from lacuna.codegen.flat.text import dump_flat
 from lacuna.codegen.structure.causal import Division, LinearBlock, NonlinearBlock, Step
+from lacuna.codegen.structure.nominal import Size, difference
 from lacuna.codegen.structure.system import Row
 from lacuna.codegen.structure.tearing import Assignment
-from lacuna.codegen.symbolic.expr import Expr, relation, to_text
+from lacuna.codegen.symbolic.expr import Expr, relation, to_text, var
 
 
 def dump(prepared: Prepared, what: str) -> str:
@@ -32,6 +33,7 @@ def structure(prepared: Prepared) -> str:
         ("residual form: unknowns besides the states", [str(z.value) for z in form.tears]),
         ("residual form: residuals", [_row(row) for row in form.residuals]),
         ("relations", [_relation(prepared, k) for k in range(len(prepared.relations))]),
+        ("nominal values", _nominals(prepared)),
         ("sample clocks", [f"{to_text(start)}, every {to_text(interval)} s" for start, interval in prepared.samples]),
         ("events, in order", [_event(step) for step in prepared.events]),
         ("initial system", ["start values of all states"] if prepared.initial.from_start
@@ -77,6 +79,22 @@ def _relation(prepared: Prepared, k: int) -> str:
     r = prepared.relations[k]
     kind = "time" if r.slope is not None else "root"
     return f"rel[{k}] {kind}: {to_text(relation('>', r.left, r.right))}"
+
+
+def _nominals(prepared: Prepared) -> list[str]:
+    """Sizes by which tolerances and the hysteresis of events are measured, for the declared parameters, with the rule
+    that gave each (codegen/structure/nominal.py)."""
+    sizes, relations, model = prepared.nominals, prepared.relations, prepared.model
+    unknowns = [*map(var, prepared.system.states), *prepared.residual.tears]
+    lines = [f"{to_text(u)} {_size(sizes.get(u), 'its start, or 1')}" for u in unknowns]
+    guards = (difference(r.left, r.right, sizes, model) for r in relations)
+    return lines + [f"rel[{k}] {_size(g, 'its own range')}" for k, g in enumerate(guards) if relations[k].slope is None]
+
+
+def _size(size: Size | None, unknown: str) -> str:
+    if size is None:
+        return f"= {unknown}"
+    return f"= {size.value:.6g}  // {to_text(size.expression)}{', ' if size.reason else ''}{size.reason}"
 
 
 def _event(step: object) -> str:

@@ -10,6 +10,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from lacuna.discovery.catalogue import Effect
+from lacuna.discovery.efforts.copied import copied
+from lacuna.discovery.efforts.sites import Site
 from lacuna.discovery.places import Device, Line, Part, Shaft, Structure
 
 
@@ -24,6 +26,7 @@ class Attachment:
     lines: tuple[Line, ...] = ()
     part: Part | None = None
     device: Device | None = None
+    site: Site | None = None
     variable: str = ""  # of a sensor: the recorded variable
     signals: tuple[tuple[str, str], ...] = ()  # input of the effect -> variable of the model
     values: tuple[tuple[str, float], ...] = ()
@@ -53,6 +56,7 @@ class Amendment:
     parameters: dict[str, float] = field(default_factory=dict)  # modified values of the believed model
     trackers: list[Shaft] = field(default_factory=list)
     probes: tuple[Shaft | Line, ...] = ()  # places where an input acts as effort
+    inputs: tuple[str, ...] = ()  # declared beside those of the believed model
 
     def output(self, variable: str) -> str:
         """The variable that a sensor's reading is compared with: the last sensor effect after it."""
@@ -74,18 +78,30 @@ class _Writer:
         self.declarations: list[str] = []
         self.equations: list[str] = []
         self.sums: dict[str, list[str]] = {}  # variable -> terms of its new binding
+        self.sums_at: dict[str, list[str]] = {}  # variable that is added to an equation -> what it is the sum of
+        self.edits: dict[Site, str] = {}  # equation of the believed model -> the variable that is added to it
 
     def write(self, name: str, comment: str) -> str:
         for attachment in self.amendment.attachments:
             getattr(self, f"_{attachment.effect.attaches}")(attachment)
+        for variable, terms in self.sums_at.items():
+            site = next(s for s, v in self.edits.items() if v == variable)
+            self.equations.append(f"{site.instance + '.' if site.instance else ''}{variable} = {' + '.join(terms)};")
         self._trackers()
         self._probes()
         modification = [f"{n}={v:.10g}" for n, v in self.amendment.parameters.items()]
         modification += [f"{variable}={' + '.join(terms)}" for variable, terms in self.sums.items()]
         modification += [f"break {item}" for item in self.left_out]
-        base = self.amendment.structure.path
+        self.declarations[:0] = [f"input Real {i};" for i in self.amendment.inputs]
+        base, nested = self.amendment.structure.path, []
+        if self.edits:
+            base, nested = copied(self.amendment.structure.cls, self.edits)
         inherited = f"extends {base}" + (f"({', '.join(modification)})" if modification else "") + ";"
-        lines = [f'model {name} "{comment or "Believed model with what was found missing"}"', *_wrapped(inherited)]
+        lines = [
+            f'model {name} "{comment or "Believed model with what was found missing"}"',
+            *nested,
+            *_wrapped(inherited),
+        ]
         definitions = dict.fromkeys(a.definition for a in self.amendment.attachments if a.definition)
         lines += [f"  {line}" for text in definitions for line in text.split("\n")]
         lines += [f"  {d}" for d in self.declarations]
@@ -171,6 +187,26 @@ class _Writer:
         name, device = attachment.component, attachment.device
         self.equations += [f"{name}.s = {device.part}.s;", f"{name}.v = {device.part}.v;"]
         self.sums.setdefault(device.variable, [f"{device.part}.f"]).append(f"{name}.f")
+
+    def _site(self, attachment: Attachment) -> None:
+        """At any place: a port at a node, two in an edge, or a variable that is added to an equation."""
+        site, name = attachment.site, attachment.component
+        self._declare(attachment)
+        if site.kind == "node":
+            self.equations.append(f"connect({name}.port, {site.ends[0]});")
+        elif site.kind == "edge":
+            left, right = site.ends
+            chain = next((e for e in self.equations if e.endswith(f", {right});")), None)
+            if chain is not None:
+                self.equations.remove(chain)
+                left = chain[len("connect(") : chain.index(",")]
+            else:
+                self.left_out.append(f"connect({left}, {right})")
+            self.equations += [f"connect({left}, {name}.a);", f"connect({name}.b, {right});"]
+        else:
+            variable = self.edits.setdefault(site, f"missing_{len(self.edits) + 1}")
+            self.sums_at.setdefault(variable, []).append(f"{name}.effort")
+        self._signals(attachment)
 
     def _sensor(self, attachment: Attachment) -> None:
         self._declare(attachment)

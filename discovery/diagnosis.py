@@ -15,6 +15,9 @@ from lacuna.discovery.fit import Fit
 from lacuna.discovery.least_squares import Free
 from lacuna.discovery.search import Finding
 
+CERTAIN = 0.999  # the most that is ever claimed
+PARTIAL = 0.9  # share of the misfit, below which an explanation is called partial
+
 
 def build(result: Explanation, amended: Path | None) -> dict[str, Any]:
     """The diagnosis as plain data."""
@@ -30,6 +33,11 @@ def build(result: Explanation, amended: Path | None) -> dict[str, Any]:
             for c in result.floor
         }
         diagnosis["parameters"] = _parameters(result, errors)
+    if result.findings:
+        diagnosis["explained"] = explained(result)
+        diagnosis["ties"] = [_tie(f) for f in result.findings if f.naming.rivals(f.ranked)]
+    if places := _places(result):
+        diagnosis["places"] = places
     if amended is not None:
         diagnosis["amended_model"] = amended.name
     diagnosis["sentence"] = sentence(result)
@@ -69,6 +77,7 @@ def _finding(result: Explanation, finding: Finding, errors: dict[str, float]) ->
         "location": attachment.location,
         **law,
         "confidence": _confidence(finding),
+        "odds": _odds(finding),
         "where": _where(result, finding),
         "parameters": parameters,
         "alternatives": _alternatives(finding),
@@ -106,7 +115,49 @@ def _by_identity(finding: Finding) -> dict[tuple[str, str], float]:
 
 
 def _confidence(finding: Finding) -> float:
-    return _by_identity(finding)[finding.ranked.identity]
+    return min(_by_identity(finding)[finding.ranked.identity], CERTAIN)
+
+
+def _odds(finding: Finding) -> str:
+    """The confidence in words, against what comes nearest among all that was tried."""
+    own = _confidence(finding)
+    rivals = [(p, i) for i, p in _by_identity(finding).items() if i != finding.ranked.identity]
+    if not rivals:
+        return "nothing else was tried that explains as much"
+    most, (effect, location) = max(rivals)
+    if own >= CERTAIN:
+        return f"more than {CERTAIN / (1 - CERTAIN):.0f} to 1 against the next best, {effect} at {location}"
+    return f"{own / max(most, 1 - CERTAIN):.2g} to 1 against the next best, {effect} at {location}"
+
+
+def explained(result: Explanation) -> float:
+    """Share of the misfit above noise, on the recordings fitted, that the findings take away."""
+    before, after = _excess(result.base), _excess(result.final)
+    return float(np.clip(1.0 - after / before, 0.0, 1.0)) if before > 0 else 1.0
+
+
+def _excess(fit: Fit) -> float:
+    """Square sum of the residuals in units of noise, less that of noise."""
+    total = 0.0
+    for name, residuals in fit.residuals.items():
+        for column, noise in fit.noise.items():
+            weight = fit.weights[name][column]
+            total += float(np.sum((np.nan_to_num(residuals[column]) * weight / noise.std) ** 2) - np.sum(weight**2))
+    return total
+
+
+def _tie(finding: Finding) -> list[dict[str, str]]:
+    """A finding and what the data does not tell from it."""
+    identities = [finding.ranked.identity, *dict.fromkeys(r.identity for r in finding.naming.rivals(finding.ranked))]
+    return [{"effect": effect, "location": location} for effect, location in identities]
+
+
+def _places(result: Explanation) -> list[dict[str, Any]]:
+    """What was open to a finding: places of the equations and sensors, the most telling first."""
+    if result.opened is not None and result.opened.sites:
+        return [{"location": s.location, "kind": s.kind, "explains": s.explains} for s in result.opened.sites]
+    located = result.located.places if result.located else []
+    return [{"location": p.location, "kind": p.kind, "explains": p.explained} for p in located]
 
 
 def _alternatives(finding: Finding) -> list[dict[str, Any]]:
@@ -160,6 +211,9 @@ def _variable(finding: Finding) -> str:
     if attachment.shaft is not None:
         along = ("torque.", "load.", "stiffness", "end_stop", "friction.position")
         return f"{attachment.location}.phi" if identifier.startswith(along) else f"{attachment.location}.w"
+    if attachment.site is not None:
+        used = [v for _, v in attachment.signals if not v.startswith("der(")]
+        return used[0] if used else attachment.location
     if attachment.device is not None:
         return f"{attachment.location}.{'s' if identifier in ('stiffness', 'friction.position') else 'v'}"
     if attachment.lines:
@@ -198,9 +252,12 @@ def _outside(f: Free, value: float) -> bool:
 def sentence(result: Explanation) -> str:
     """The verdict as an engineer would say it."""
     if result.verdict == "missing_physics":
-        parts = [_named(f) for f in result.findings]
+        parts = [_named(result, f) for f in result.findings]
         gain = result.before.validate[""] / max(result.after.validate[""], 1e-12)
-        return f"The model lacks {' and '.join(parts)}; with it the error on unseen recordings falls {gain:.2g} times."
+        share = explained(result)
+        rest = "" if share >= PARTIAL else f" This is a part of it only: {1 - share:.0%} of the misfit is left."
+        falls = f"with it the error on unseen recordings falls {gain:.2g} times."
+        return f"The model lacks {' and '.join(parts)}; {falls}{rest}"
     if result.verdict == "parameters":
         fitted = [f for f in result.base.estimate.free if not f.name.startswith("start:")]
         names = [f.name for f in fitted if _outside(f, result.final.point[f.name])]
@@ -210,11 +267,13 @@ def sentence(result: Explanation) -> str:
     return "These recordings cannot say what is missing: " + (result.reason or "the residual is not noise") + "."
 
 
-def _named(finding: Finding) -> str:
+def _named(result: Explanation, finding: Finding) -> str:
     """What a finding is and where; the other places, where the data does not tell."""
     a = finding.ranked.attachment
     others = dict.fromkeys(r.attachment.label for r in finding.elsewhere) if finding.tied else {}
     or_else = f" (or {', '.join(others)}: the data does not tell)" if others else ""
+    if a.expression is not None:
+        return f"a term {law_text(result, finding)} at {a.location}{or_else}"
     return f"{a.effect.title[0].lower()}{a.effect.title[1:]} at {a.location}{or_else}"
 
 

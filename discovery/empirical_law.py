@@ -45,7 +45,7 @@ def find(
         proposals = screened(case, here, law, efforts, progress)
         for proposal in proposals[:FITTED]:
             progress(f"fitting a law at {proposal.law.site.location}")
-            proposal.candidate = _fitted(case, amendment, base, proposal.law, proposal.start)
+            proposal.candidate = fitted_law(case, amendment, base, proposal.law, proposal.start)
         fitted = [p for p in proposals[:FITTED] if p.candidate is not None]
         if not fitted:
             break
@@ -57,10 +57,10 @@ def find(
         if after > before - 2 * np.log(len(proposals)):  # ln of the squared number of terms that were looked at
             break
         best = chosen
-    return None if best is None else _simplified(case, amendment, base, best)
+    return None if best is None else simplified(case, amendment, base, best)
 
 
-def _fitted(
+def fitted_law(
     case: Case,
     amendment: Amendment,
     base: Fit,
@@ -90,17 +90,15 @@ def _free(law: Law, attachment: Attachment, start: dict[str, float]) -> list[Fre
     return free
 
 
-def _simplified(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> Candidate:
+def simplified(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> Candidate:
     """The law without coefficients that may be zero, and with whole exponents and orders where the data allows them."""
+    shorter: list[Proposal] = []
     for simpler in _simpler(best):
-        candidate = _fitted(case, amendment, base, simpler.law, simpler.start, best.candidate.fit.point)
-        if candidate is None:
-            continue
-        correlation = best.candidate.fit.correlation()
-        if score(candidate, base, correlation) < score(best.candidate, base, correlation):
-            simpler.candidate = candidate
-            return _simplified(case, amendment, base, simpler)
-    return best.candidate
+        simpler.candidate = fitted_law(case, amendment, base, simpler.law, simpler.start, best.candidate.fit.point)
+        shorter += [simpler] if simpler.candidate is not None else []
+    correlation = best.candidate.fit.correlation()
+    chosen = min([best, *shorter], key=lambda p: score(p.candidate, base, correlation))
+    return best.candidate if chosen is best else simplified(case, amendment, base, chosen)
 
 
 def _simpler(proposal: Proposal) -> list[Proposal]:
@@ -113,9 +111,7 @@ def _simpler(proposal: Proposal) -> list[Proposal]:
     found = []
     for name, shape in law.shapes().items():
         near = [s for s in shape.simple if abs(s - values[name]) < SIGNIFICANT * errors[prefix + name] + 0.02 * s]
-        if near:
-            nearest = min(near, key=lambda s: abs(s - values[name]))
-            found.append(_with_fixed(law, values, name, nearest))
+        found += [_with_fixed(law, values, name, s) for s in near]
     numbered = law.numbered()
     for k, (c, _, _) in enumerate(numbered):
         if len(numbered) > 1 and abs(values[c]) < SIGNIFICANT * errors[prefix + c]:

@@ -10,6 +10,7 @@ import time
 from lacuna.codegen.library import Library
 from lacuna.discovery.cases import Case
 from lacuna.discovery.comparison import Ranked
+from lacuna.discovery.efforts.find import INDIFFERENT
 from lacuna.discovery.evidence import TOLERANCE, astray, holds, is_noise, like_noise, outside_belief, settled, whiteness
 from lacuna.discovery.experiments import separate
 from lacuna.discovery.explanation import Clock, Explanation
@@ -68,7 +69,7 @@ def _conclude(result: Explanation) -> None:
 def _conclude_from_findings(result: Explanation) -> None:
     """Physics is missing, unless every finding is tied with another place or nearly all of what is missing is left."""
     first = result.findings[0]
-    if not result.amendment.structure.open and all(f.ranked.attachment.variable for f in result.findings):
+    if all(f.ranked.attachment.variable for f in result.findings) and _equations_may_be_wrong(result):
         _withdraw(result, first.ranked)
         return
     taken = 1.0 - result.after.validate[""] / result.before.validate[""]
@@ -91,16 +92,31 @@ def _conclude_from_findings(result: Explanation) -> None:
         result.verdict = "missing_physics"
 
 
+def _equations_may_be_wrong(result: Explanation) -> bool:
+    """Whether a sensor would be accused though places in the equations explain as much, or could not be tried."""
+    found = result.opened
+    if found is None or not found.sites:
+        return not result.amendment.structure.open
+    efforts = [s.gain for s in found.sites if s.place is not None]
+    sensors = [s.gain for s in found.sites if s.place is None]
+    return bool(efforts) and max(efforts) > max(sensors) - INDIFFERENT
+
+
 def _withdraw(result: Explanation, best: Ranked) -> None:
     """A sensor is not accused where nothing else could be: the believed model stands, and the reason says so."""
     result.verdict = "undetermined"
-    result.reason = (
-        f"{best.attachment.label} fits best, but no place in the equations of {result.case.model} was open to this "
-        "search, so that it may as well be physics"
+    result.reason = f"{best.attachment.label} fits best, but " + (
+        f"an effort at {_first_place(result)} explains as much, for which no law was found"
+        if result.opened and result.opened.sites
+        else f"no place in the equations of {result.case.model} was open to this search: it may as well be physics"
     )
     result.experiment = "record the same motion with the quantities that are not recorded now"
     result.findings, result.final, result.after = [], result.base, result.before
     result.amendment = replace(result.amendment, attachments=[])
+
+
+def _first_place(result: Explanation) -> str:
+    return next(s.location for s in result.opened.sites if s.place is not None)
 
 
 def _quiet(result: Explanation) -> bool:

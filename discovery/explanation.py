@@ -9,6 +9,7 @@ import numpy as np
 
 from lacuna.discovery.amend import Amendment
 from lacuna.discovery.cases import Case
+from lacuna.discovery.efforts.find import Found
 from lacuna.discovery.experiments import Experiment
 from lacuna.discovery.fit import Fit
 from lacuna.discovery.intervals import standard_errors
@@ -36,6 +37,9 @@ class Explanation:
     findings: list[Finding] = field(default_factory=list)
     namings: list[Naming] = field(default_factory=list)
     located: Located | None = None
+    opened: Found | None = (
+        None  # every place of the equations, where the catalogue's own did not explain the recordings
+    )
     before: Judgement | None = None
     after: Judgement | None = None
     floor: dict[str, float] = field(default_factory=dict)

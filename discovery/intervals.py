@@ -18,18 +18,34 @@ from lacuna.discovery.lead import Lead
 from lacuna.discovery.noise import is_coarse, sample_weights
 from lacuna.discovery.secants import input_shift, solver_shift, with_secants
 
+UNHELD = 1e-13  # share of the largest eigenvalue, below which a direction is rounding's alone
+PART = 1e-3  # component of such a direction, from which a parameter is part of it
 ROUNDINGS = 32  # places of the levels, over which rounding is averaged
 
 
 def standard_errors(fit: Fit, lead: Lead | None = None) -> dict[str, float]:
-    """1-sigma of each free parameter (in its unit; 0 at a bound); `lead` is how the fit was led."""
+    """1-sigma of each free parameter (in its unit; 0 at a bound); `lead` is how the fit was led.
+
+    Infinite where neither data nor belief tells a direction that the parameter is part of.
+    """
     held = with_secants(lead.hold_fast(fit) if lead else fit)
     moved = held.estimate.values - fit.estimate.values
     variance = np.diag(covariance(held)) + moved**2 + solver_shift(held) ** 2 + input_shift(held) ** 2
+    free = undetermined(held.estimate.normal)
     return {
-        f.name: 0.0 if fit.estimate.at_bound(f.name) else float(np.sqrt(max(v, 0.0)))
-        for f, v in zip(fit.estimate.free, variance, strict=True)
+        f.name: 0.0 if fit.estimate.at_bound(f.name) else float("inf") if open_ else float(np.sqrt(max(v, 0.0)))
+        for f, v, open_ in zip(fit.estimate.free, variance, free, strict=True)
     }
+
+
+def undetermined(normal: np.ndarray) -> np.ndarray:
+    """Which parameters (p,) are part of a direction that the normal matrix (p, p) does not hold."""
+    size = np.sqrt(np.diag(normal))
+    dead = size == 0
+    scaled = normal / np.outer(np.where(dead, 1.0, size), np.where(dead, 1.0, size))
+    values, vectors = np.linalg.eigh(scaled)
+    null = vectors[:, values < UNHELD * max(values.max(initial=0.0), 1e-300)]
+    return dead | np.any(np.abs(null) > PART, axis=1)
 
 
 def covariance(fit: Fit) -> np.ndarray:

@@ -7,6 +7,8 @@ import re
 
 from lacuna.discovery.amend import Attachment
 from lacuna.discovery.catalogue import Effect, EffectParameter
+from lacuna.discovery.efforts import sites
+from lacuna.discovery.efforts.insertion import component
 from lacuna.discovery.law_terms import Group, Shape, Variable
 from lacuna.discovery.places import Device, Line, Shaft
 
@@ -15,7 +17,7 @@ from lacuna.discovery.places import Device, Line, Shaft
 class Site:
     """A place with the variables that a law there may use and the unit of the effort that it gives."""
 
-    place: Shaft | Line | Device
+    place: Shaft | Line | Device | sites.Site
     location: str
     unit: str
     variables: tuple[Variable, ...]
@@ -86,12 +88,13 @@ def attach(law: Law) -> Attachment:
         shaft=place if isinstance(place, Shaft) else None,
         lines=(place,) if isinstance(place, Line) else (),
         device=place if isinstance(place, Device) else None,
+        site=place if isinstance(place, sites.Site) else None,
         signals=signals, definition=_source(law, signals), expression=law.expression,
     )  # fmt: skip
 
 
-_ATTACHES = {Shaft: "flange", Line: "line", Device: "imposed"}
-_OWN = {Shaft: ("angle", "w"), Line: ("i",), Device: ("s", "v")}
+_ATTACHES = {Shaft: "flange", Line: "line", Device: "imposed", sites.Site: "site"}
+_OWN = {Shaft: ("angle", "w"), Line: ("i",), Device: ("s", "v"), sites.Site: ()}
 _BASE = {
     Shaft: ("Lacuna.Effects.Interfaces.FlangeEffect", "tau"),
     Line: ("Lacuna.Interfaces.TwoPin", "v"),
@@ -105,6 +108,8 @@ def class_name(law: Law) -> str:
 
 def _source(law: Law, signals: tuple[tuple[str, str], ...]) -> str:
     """The component's class, to be nested in the amended model."""
+    if isinstance(law.site.place, sites.Site):
+        return _source_at(law, law.site.place)
     base, effort = _BASE[type(law.site.place)]
     lines = [f'model {class_name(law)} "Empirical law"', f"  extends {base};"]
     units = {v.local: v.unit for v in law.site.variables}
@@ -118,6 +123,16 @@ def _source(law: Law, signals: tuple[tuple[str, str], ...]) -> str:
         lines.append(f'  parameter Real {v.local}_ref(unit="{v.unit}") = {v.size:.6g} "Largest value recorded";')
     lines += ["equation", f"  {effort} = noEvent({law.text()});", f"end {class_name(law)};"]
     return "\n".join(lines)
+
+
+def _source_at(law: Law, place: sites.Site) -> str:
+    unit = law.site.unit
+    parameters = [EffectParameter(c, unit, "Coefficient", -1e30, 1e30, 0.0) for c, _, _ in law.numbered()]
+    parameters += [EffectParameter(n, s.unit, "Shape", 0, 0, s.start) for n, s in law.shapes().items()]
+    used = law.references()
+    parameters += [EffectParameter(f"{v.local}_ref", v.unit, "Largest value", 0, 0, v.size) for v in used]
+    signals = [(v.local, v.name, v.unit) for v in used]
+    return component(place, class_name(law), "Law", signals, parameters, f"noEvent({law.text()})", unit)
 
 
 def _renamed(text: str, local: str, name: str) -> str:

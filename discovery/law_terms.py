@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-_FUNCTIONS = {"sin": np.sin, "cos": np.cos, "exp": np.exp, "tanh": np.tanh, "abs": np.abs, "sign": np.sign}
+_FUNCTIONS = {"sin": np.sin, "cos": np.cos, "exp": np.exp, "tanh": np.tanh, "abs": np.abs, "sign": np.sign,
+              "sqrt": np.sqrt}  # fmt: skip
 DRY = "tanh(50*{x})"  # the sign of a variable, smooth over two per cent of its range: no second sticking element
 ORDERS = (0.5, 1, 1.5, 2, 3, 4, 5, 6, 8, 10, 12)  # per turn
 TIMES = (0.1, 0.3, 1.0)  # of the longest recording: time constants of what fades or drifts
@@ -44,6 +45,7 @@ class Shape:
     lower: float
     upper: float
     simple: tuple[float, ...] = ()
+    step: float = 0.0  # from one value to the next that is screened
 
 
 @dataclass(frozen=True)

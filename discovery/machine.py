@@ -48,7 +48,8 @@ class Machine:
         self._inputs: dict[str, dict[str, RecordedInput]] = {}
         self._initial: dict[str, dict[str, float]] = {}
         self._lock = threading.Lock()
-        self._silent = {probe_name(k): RecordedInput([0.0], [0.0], "hold") for k in range(len(amendment.probes))}
+        probes = [*(probe_name(k) for k in range(len(amendment.probes))), *amendment.inputs]
+        self._silent = {name: RecordedInput([0.0], [0.0], "hold") for name in probes}
 
     def _check_signals(self) -> None:
         for signal in self.case.signals.values():
@@ -68,7 +69,7 @@ class Machine:
         for table, values in tables:
             for name in values:
                 self._check_parameter(table, name)
-        driven = {self.model.inputs[s.variable].index for s in self.case.inputs}
+        driven = {self.model.inputs[n].index for n in (*(s.variable for s in self.case.inputs), *self.amendment.inputs)}
         for name, variable in self.model.inputs.items():  # aliases of an input share its index
             if variable.index not in driven and not name.startswith(("tracker_", "probe_")):
                 raise CaseError(f"{self.case.folder / 'case.toml'}: input `{name}` of the model is not recorded")
@@ -139,21 +140,21 @@ class Machine:
         return {column: np.array(result[name]) for column, name in names.items()}
 
     def trajectory(
-        self, parameters: Mapping[str, float], recording: Recording, names: list[str]
-    ) -> dict[str, np.ndarray]:
+        self, parameters: Mapping[str, float], recording: Recording, names: list[str],
+        efforts: Mapping[str, RecordedInput] | None = None,
+    ) -> dict[str, np.ndarray]:  # fmt: skip
         """Any variables of the model along a recording; raises SimulationError where the run fails."""
         session = Session(
             self.model, solver=self.solver, rtol=self.rtol, outputs=names, output_times=recording.time, events=False,
             inputs=self._inputs_of(recording), max_steps=self._step_limit(recording),
         )  # fmt: skip
         time = recording.time
+        initial = self._initial_of(recording) | self._fitted_starts(parameters, recording)
         result = session.run(
-            parameters=values_in(parameters, recording),
-            initial=self._initial_of(recording),
-            start=float(time[0]),
-            stop=float(time[-1]),
-        )
-        if not result.complete:
+            values_in(parameters, recording), self._silent | dict(efforts or {}), initial,
+            start=float(time[0]), stop=float(time[-1]),
+        )  # fmt: skip
+        if not result.complete or len(result) != len(time):
             raise SimulationError(str(result.failure))
         return {name: np.array(result[name]) for name in names}
 

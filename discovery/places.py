@@ -68,6 +68,7 @@ class Structure:
 
     model: str
     path: str
+    cls: ast.Class | None = None
     parts: dict[str, Part] = field(default_factory=dict)
     connections: list[tuple[str, str]] = field(default_factory=list)
     shafts: list[Shaft] = field(default_factory=list)
@@ -100,7 +101,7 @@ def read(library: Library, model: str) -> Structure:
     """The places of class `model` (a name that `Library.find` knows). Raises Diagnostic."""
     cls = library.find(model)
     top = Instance(Context(library, Path(cls.span.file).resolve().parent, LOWERING), cls, "", None, None)
-    structure = Structure(model, cls.path)
+    structure = Structure(model, cls.path, cls)
     instances: dict[str, Instance] = {}
     for name, element in top.elements.items():
         node = top.child(name)

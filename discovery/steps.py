@@ -23,6 +23,7 @@ from lacuna.discovery.lead import ROUGH, Lead, lead_for
 from lacuna.discovery.locate import locate
 from lacuna.discovery.machine import Machine
 from lacuna.discovery.name import rank
+from lacuna.discovery.open_world import explain_open
 from lacuna.discovery.recordings_check import check_case
 from lacuna.discovery.search import Search
 from lacuna.discovery.semantic_check import check_against_model
@@ -111,6 +112,7 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
             unbegun = _held(result, unbegun, shafts)
             search = _anew(result, search, unbegun, progress) or search
         explain_beyond(search, unbegun, progress)
+        result.opened = explain_open(search, unbegun, library, progress)
     except TimeUp as stopped:
         search.reason = str(stopped)
     _take(result, search)

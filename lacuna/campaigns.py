@@ -14,6 +14,7 @@ from lacuna.notebook import page, table
 from lacuna.progress import Progress, counted
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     import pandas as pd
     import pyarrow as pa
 
@@ -53,6 +54,13 @@ class Sweep:
         import pandas as pd
 
         return pd.DataFrame(self.table.to_pydict())
+
+    @names_missing_packages
+    def plot(self, x: str, y: str, colour: str = "") -> Figure:
+        """One point a test: column `y` over `x`, coloured by another column. Needs the extra `plot`."""
+        from lacuna.figures import cloud
+
+        return cloud((x, self[x]), (y, self[y]), (colour, self[colour]) if colour else None)
 
     def __repr__(self) -> str:
         return f"<Sweep of {len(self)} tests, {len(self.failures)} failed: {self.path}>"

@@ -24,7 +24,8 @@ class Explanation:
     """What recordings say of a model, as far as the step that gave it went; `report` is the page with its figures.
 
     `diagnosis` is what diagnosis.json holds: verdict, findings with effect, place, parameters and alternatives, NRMSE
-    before and after, fitted parameters. `ranking` is that of the step: places, or hypotheses, best first.
+    before and after, fitted parameters. `ranking` is that of the step: places, or hypotheses, best first. A step alone
+    concludes nothing: it has no verdict, and its sentence says so.
     """
 
     diagnosis: dict[str, Any]
@@ -36,14 +37,13 @@ class Explanation:
     written: tuple[Path, ...] = field(default=(), repr=False)
 
     @property
-    def verdict(self) -> Verdict:
-        found: Verdict = self.diagnosis["verdict"]
-        return found
+    def verdict(self) -> Verdict | None:
+        return self.diagnosis.get("verdict")
 
     @property
     def sentence(self) -> str:
         """The verdict as an engineer would say it."""
-        return str(self.diagnosis["sentence"])
+        return str(self.diagnosis.get("sentence", "One step alone: nothing is concluded."))
 
     @property
     def findings(self) -> list[dict[str, Any]]:
@@ -68,6 +68,10 @@ class Explanation:
         fitted = [(n, p["believed"], p["value"], 2 * p["std"], p["unit"]) for n, p in self.parameters.items()]
         parts = [paragraph(self.sentence)]
         parts += [table(self.ranked, self.ranking)] if self.ranking else []
+        misfits = [
+            (signal, *(value[k] for k in ("before", "after", "noise_floor"))) for signal, value in self.errors.items()
+        ]
+        parts += [table(("signal", "NRMSE as fitted", "amended", "noise alone"), misfits)] if misfits else []
         parts += [table(("parameter", "believed", "fitted", "± (95 %)", "unit"), fitted)] if fitted else []
         parts += [paragraph(f"report: {self.report}")]
         return page(str(self.diagnosis["case"]), *parts)
@@ -152,7 +156,7 @@ class Case:
         if amended is not None:
             judge_written(found, amended)
         told = diagnosis.write(found, folder, amended)
-        return self._told(found, folder, amended, written=(told,))
+        return self._told(found, folder, amended, written=(told,), concluded=True)
 
     @names_missing_packages
     def fit(self, *, out: str | Path | None = None, progress: Progress | None = None) -> Explanation:
@@ -228,13 +232,14 @@ class Case:
 
     def _told(
         self, found: Found, folder: Path, amended: Path | None = None, *, ranking: tuple[tuple[str, ...], ...] = (),
-        ranked: tuple[str, ...] = (), remark: str = "", written: tuple[Path, ...] = (),
+        ranked: tuple[str, ...] = (), remark: str = "", written: tuple[Path, ...] = (), concluded: bool = False,
     ) -> Explanation:  # fmt: skip
         from lacuna.discovery import diagnosis, report
 
         page_of = report.write(found, folder, amended)
         files = (*written, page_of, *([amended] if amended else []))
         data = diagnosis.build(found, amended)
+        data = data if concluded else {k: v for k, v in data.items() if k not in ("verdict", "sentence")}
         return Explanation(data, page_of, amended, ranking, ranked, remark, files)
 
     def __repr__(self) -> str:

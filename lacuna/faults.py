@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from lacuna.errors import UserError
 from lacuna.extras import names_missing_packages
 from lacuna.models import Source
 from lacuna.notebook import page, paragraph, table
 from lacuna.progress import Progress, counted, silent
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
     import pandas as pd
 
     from lacuna.analysis.map.maps import Map
@@ -74,6 +76,18 @@ class OperatingMap:
 
         return pd.DataFrame(self._features, index=pd.Index(self.severities, name=self._settings.fault.symbol))
 
+    @names_missing_packages
+    def plot(self, *features: str) -> Figure:
+        """Features (default: the mean RMS) over the fault's severity. They must share a unit."""
+        from lacuna.figures import over_axis
+
+        fault, names = self._settings.fault, features or ("rms_mean",)
+        units = {_unit(name) for name in names}
+        if len(units) > 1:
+            raise UserError(f"features in {' and '.join(sorted(units))} do not share an axis: draw them one by one")
+        label = f"{fault.name}, {fault.unit}"
+        return over_axis(fault.scale * self.severities, label, {name: self[name] for name in names}, units.pop())
+
     def __repr__(self) -> str:
         return f"<OperatingMap of {self._done.summary['model']['name']}: {len(self)} severities in {self.folder}>"
 
@@ -83,6 +97,10 @@ class OperatingMap:
         columns = ("quantity", "published", "reproduced", "unit")
         rows = [[row[name] for name in columns] for row in self.comparison]
         return page(self.title, drawn[1] + drawn[2], table(columns, rows) if rows else "")
+
+
+def _unit(feature: str) -> str:
+    return "A" if feature.startswith("rms") else "Hz" if feature.endswith("_hz") else "rad/s"
 
 
 def _features(done: Map) -> dict[str, np.ndarray]:
@@ -172,6 +190,14 @@ def combined_maps(
     tell = counted(f"map of {chosen.fault.name} with {second.name}", progress)
     grid = build_grid(plant, chosen, second, folder, jobs=jobs, progress=tell)
     return CombinedMap(folder, (chosen.fault.name, len(grid.x)), (second.name, len(grid.y)))
+
+
+@names_missing_packages
+def default_settings() -> Path:
+    """The settings of the paper's actuator, a TOML file that explains every entry: copy it and begin from there."""
+    from lacuna.analysis.settings import PAPER
+
+    return PAPER
 
 
 def _settings(path: str | Path | None) -> Settings:

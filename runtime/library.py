@@ -15,7 +15,7 @@ STATUS = (
     "step_collapse", "non_finite", "singular", "domain", "assert", "memory",
 )  # fmt: skip
 EVENT_KINDS = ("state", "time", "sample", "terminate")
-FLAG_KINDS = ("grazing", "order", "non_finite")
+FLAG_KINDS = ("grazing", "order", "non_finite", "rounding")
 STORAGE = ("state", "algebraic", "discrete", "parameter", "input", "derivative")
 TYPES = ("Real", "Integer", "Boolean")
 
@@ -85,7 +85,7 @@ class CFlag(Structure):
 class COptions(Structure):
     _fields_ = [
         ("solver", c_char_p), ("rtol", c_double), ("atol", c_double), ("step", c_double), ("max_step", c_double),
-        ("locate_events", c_int), ("record_events", c_int), ("max_steps", c_long),
+        ("locate_events", c_int), ("record_events", c_int), ("max_steps", c_long), ("unchecked", c_int),
     ]  # fmt: skip
 
 

@@ -47,6 +47,7 @@ class Session:
     interval. With `events`, a row before and one after each event is added. `locate_events=False` takes state and
     time events at the end of the step in which they fall, which is what fixed-step simulations usually do.
     A run that takes more than `max_steps` ends with a failure. `atol` is per unit of a variable's nominal value.
+    `checks=False` leaves out the look at each accepted point for numbers that are not finite and divisors at zero.
     `sensitivities` names parameters, and states for their initial values, by which every output is differentiated
     (`Result.sensitivity`); the model must have been compiled with them, and the solver be dopri5 or ida.
     Raises SimulationError for what cannot be used.
@@ -62,6 +63,7 @@ class Session:
         step: float | None = None,
         max_step: float | None = None,
         max_steps: int | None = None,
+        checks: bool = True,
         locate_events: bool = True,
         outputs: Sequence[str] | None = None,
         output_times: np.ndarray | None = None,
@@ -77,7 +79,7 @@ class Session:
         self.settings = {"solver": solver, "rtol": rtol, "atol": atol, "step": step, "max_step": max_step,
                          "locate_events": locate_events}  # fmt: skip
         limits = (rtol or 0, atol or 0, step or 0, max_step or 0)
-        options = COptions(solver.encode(), *limits, locate_events, events, max_steps or 0)
+        options = COptions(solver.encode(), *limits, locate_events, events, max_steps or 0, not checks)
         message = ctypes.create_string_buffer(MESSAGE_SIZE)
         self._handle = self._lib.rt_session_new(model.handle, ctypes.byref(options), message, MESSAGE_SIZE)
         if not self._handle:

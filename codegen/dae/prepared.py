@@ -5,11 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from lacuna.codegen import flat
+from lacuna.codegen.dae.divisions import Quotient
 from lacuna.codegen.dae.events import EventStep
 from lacuna.codegen.dae.hybrid import Relation
 from lacuna.codegen.dae.initial import InitialSystem
 from lacuna.codegen.dae.storage import Storage
 from lacuna.codegen.structure.causal import Step
+from lacuna.codegen.structure.nominal import Size
 from lacuna.codegen.structure.residual_form import Jacobian, ResidualForm
 from lacuna.codegen.structure.system import System
 from lacuna.codegen.symbolic.expr import Expr
@@ -28,6 +30,8 @@ class Prepared:
     residual: ResidualForm
     jacobian: Jacobian
     initial: InitialSystem
+    nominals: dict[Expr, Size]  # sizes of variables and derivatives
+    divisions: list[Quotient]
     hash: str = ""
 
     @property

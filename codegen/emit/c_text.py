@@ -11,12 +11,16 @@ from lacuna.codegen.search_path import outermost
 _SHORT = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\r": "\\r", "\t": "\\t", "\a": "\\a", "\b": "\\b", "\f": "\\f",
           "\v": "\\v"}  # fmt: skip
 
+_PLAIN = re.compile(r"[ !#-&(->@-\[\]-~']*")  # printable ASCII without quotes, backslashes and question marks
+
 
 def c_string(text: str) -> str:
     """A C string literal of `text` in UTF-8; what does not print is written in octal, byte by byte.
 
     Of two question marks the second is escaped, so that no trigraph can arise.
     """
+    if _PLAIN.fullmatch(text):
+        return f'"{text}"'
     parts = (_SHORT.get(c) or (c if c.isprintable() else _octal(c)) for c in text)
     return '"' + re.sub(r"(?<=\?)\?", r"\\?", "".join(parts)) + '"'
 
@@ -27,6 +31,8 @@ def _octal(c: str) -> str:
 
 def c_comment(text: str) -> str:
     """`text` on one line of a comment that it cannot end, nor open another; what does not print is a space."""
+    if _PLAIN.fullmatch(text) and "*" not in text and "/" not in text:
+        return " ".join(text.split())
     printed = "".join(c if c.isprintable() else " " for c in text)
     return " ".join(printed.split()).replace("*/", "* /").replace("/*", "/ *").replace("??/", "?? /")
 

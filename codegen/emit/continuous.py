@@ -14,7 +14,7 @@ from lacuna.codegen.emit.steps import StepWriter, comment, place
 from lacuna.codegen.structure.causal import Step, unknowns_of
 from lacuna.codegen.structure.residual_form import CJ, needed
 from lacuna.codegen.structure.tearing import Assignment
-from lacuna.codegen.symbolic.expr import Expr, is_const, relation, sub, var
+from lacuna.codegen.symbolic.expr import ONE, Expr, relation, sub, var
 from lacuna.codegen.symbolic.leaves import leaves
 
 RHS = "static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double *v)"
@@ -61,9 +61,9 @@ class Continuous:
         body.plan(writer.plan(steps))
         writer.write(steps)
 
-    def nominal(self, unknown: Expr) -> float:
-        v = self._p.model.variables.get(str(unknown.value)) if unknown.op == "var" else None
-        return float(v.nominal.value) if v and v.nominal is not None and is_const(v.nominal) else 1.0
+    def nominal(self, unknown: Expr) -> Expr:
+        size = self._p.nominals.get(unknown)
+        return size.expression if size else ONE
 
     def rhs(self) -> str:
         body = Body(self._names, self._storage.explicit)

@@ -14,13 +14,26 @@ from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.emit.discrete import Discrete
 from lacuna.codegen.emit.lanes import Lanes, rows_of
 from lacuna.codegen.emit.names import Names
-from lacuna.codegen.symbolic.expr import REAL, pre, var
+from lacuna.codegen.symbolic.expr import REAL, Expr, pre, var, walk
 from lacuna.codegen.symbolic.gradient import Gradients, Terms
+from lacuna.codegen.symbolic.leaves import leaves
+from lacuna.codegen.symbolic.rewrite import expressions
 
 EVENT = (
     "static int mdl_event_tangent(mdl_data *m, double t, double *x, const double *xdot, const double *v,\n"
     "                             mdl_tangent *tangent)"
 )
+
+
+FLOOR = "$floor"  # names of what hybrid.py keeps for a floor that moves at located events
+STEPWISE = ("floor", "ceil", "integer", "div", "mod", "rem")
+
+
+def _values(step: DiscreteEquation | flat.When | flat.Algorithm) -> list[Expr]:
+    """What a step of an event assigns to Real variables, and to those that they are computed from."""
+    if isinstance(step, DiscreteEquation):
+        return [] if step.target.startswith(FLOOR) else [step.value]
+    return list(expressions([step] if isinstance(step, flat.When) else step.statements))
 
 
 class EventTangent(Discrete):
@@ -56,6 +69,21 @@ class EventTangent(Discrete):
         elif isinstance(s, flat.Reinit) and (slot := self._storage.slot(s.target)):
             self._tangent(f"x_after[{slot.index}]", self._gradients(s.value))
         super()._statement(s)
+
+    def rounds(self) -> bool:
+        """Whether events round values that move, as a converter does: its derivative is that between two steps."""
+        return any(
+            n.op == "call" and n.value in STEPWISE and any(self._moves(leaf) for leaf in leaves(n))
+            for step in self._p.events
+            for e in _values(step)
+            for n in walk(e)
+        )
+
+    def _moves(self, leaf: Expr) -> bool:
+        if leaf.op != "var" or leaf.type != REAL:
+            return leaf.op == "der"
+        slot = self._storage.slot(str(leaf.value))
+        return slot is not None and slot.array in "xv"
 
     def _row(self, name: str) -> str:
         return f"d[{self._storage.slot(name).index}]"

@@ -22,23 +22,29 @@ static inline int mdl_index(const mdl_data *m, double subscript, int size) {
 }"""
 
 _SOLVE = """\
-/* Solve a x = b in place (row-major, n x n) by Gaussian elimination with scaled partial pivoting; b becomes x.
- * Returns 1 where a is singular to working precision. */
+/* Solve a x = b in place (row-major, n x n) by Gaussian elimination with scaled partial pivoting; b becomes x. Where a
+ * is singular to working precision, 1 + the unknown that it does not determine: rows and columns have no scale. */
 static int mdl_solve(int n, double *a, double *b) {
+  double size[n];
   for (int i = 0; i < n; ++i) {
     double largest = 0.0;
     for (int j = 0; j < n; ++j)
       if (fabs(a[i * n + j]) > largest) largest = fabs(a[i * n + j]);
-    if (!(largest > 0.0) || !isfinite(largest)) return 1;
+    if (!(largest > 0.0) || !isfinite(largest)) return 1 + i;
     const double scale = 1.0 / largest;
     for (int j = 0; j < n; ++j) a[i * n + j] *= scale;
     b[i] *= scale;
+  }
+  for (int j = 0; j < n; ++j) {
+    size[j] = 0.0;
+    for (int i = 0; i < n; ++i)
+      if (fabs(a[i * n + j]) > size[j]) size[j] = fabs(a[i * n + j]);
   }
   for (int k = 0; k < n; ++k) {
     int pivot = k;
     for (int i = k + 1; i < n; ++i)
       if (fabs(a[i * n + k]) > fabs(a[pivot * n + k])) pivot = i;
-    if (!(fabs(a[pivot * n + k]) > 1e-14)) return 1;
+    if (!(fabs(a[pivot * n + k]) > 1e-14 * size[k])) return 1 + k;
     if (pivot != k) {
       for (int j = k; j < n; ++j) {
         const double swap = a[k * n + j];

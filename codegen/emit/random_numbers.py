@@ -30,10 +30,10 @@ static void mdl_ModelicaRandom_xorshift64star(const double *in, double *out, dou
 static void mdl_ModelicaRandom_xorshift128plus(const double *in, double *out, double *y) {
   unsigned long long a = mdl_word(in), b = mdl_word(in + 2);
   a ^= a << 23;
-  a = a ^ b ^ (a >> 17) ^ (b >> 26);
+  a = (a ^ b ^ (a >> 17) ^ (b >> 26)) + b;
   mdl_store_word(b, out);
   mdl_store_word(a, out + 2);
-  *y = mdl_unit(a + b);
+  *y = mdl_unit(a);
 }""",
     "mdl_ModelicaRandom_xorshift1024star": """\
 static void mdl_ModelicaRandom_xorshift1024star(const double *in, double *out, double *y) {

@@ -7,6 +7,7 @@ from lacuna.codegen.dae.events import DiscreteEquation
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.emit.asserts import assert_index
 from lacuna.codegen.emit.c_text import SourceNames, c_comment, c_string
+from lacuna.codegen.emit.checks import Checks
 from lacuna.codegen.emit.continuous import Continuous
 from lacuna.codegen.emit.discrete import Discrete
 from lacuna.codegen.emit.equations import EquationTable
@@ -23,8 +24,9 @@ from lacuna.codegen.symbolic.rewrite import expressions
 
 _CALLBACKS = (
     "starts", "parameters", "samples", "initial_system", "rhs", "residual", "jacobian", "roots", "time_relations",
-    "next_time_event", "event", "check",
+    "next_time_event", "event", "check", "nominals", "divisions",
 )  # fmt: skip
+_COUNTED = ("variables", "equations", "asserts", "messages", "z", "computed", "divisions")
 
 
 def generate(prepared: Prepared, sensitivities: bool = False) -> str:
@@ -35,13 +37,14 @@ def generate(prepared: Prepared, sensitivities: bool = False) -> str:
     tables = Tables(prepared, equations)
     continuous = Continuous(prepared, names, equations)
     discrete = Discrete(prepared, names, tables.rows())
+    checks = Checks(prepared, equations, names, tables.rows())
     large = Large(prepared, names, equations, tables.rows())
     functions = [
         large.parameters() or discrete.parameters(), large.starts() or continuous.starts(), discrete.samples(),
         large.rhs() or continuous.rhs(), large.initial_system() or continuous.initial_system(),
         large.residual() or continuous.residual(), large.jacobian() or continuous.jacobian(),
         large.roots() or continuous.roots(), discrete.time_relations(), discrete.next_time_event(), discrete.event(),
-        large.check() or continuous.check(),
+        large.check() or continuous.check(), checks.nominals(), checks.divisions(),
     ]  # fmt: skip
     everything = expressions_of_model(prepared)
     tangents = Tangents(prepared, names, equations, tables.rows()) if sensitivities else None
@@ -52,7 +55,7 @@ def generate(prepared: Prepared, sensitivities: bool = False) -> str:
     called = user_functions(model.functions, calls(everything), names, lambda a: assert_index(prepared, a))
     code = "\n\n".join(filter(None, [called, code]))
     tables_text = "\n".join(constant_table(name, e) for e, name in names.tables.items())
-    arrays, counts = _arrays(tables, discrete.messages)
+    arrays, counts = _arrays(tables, checks, discrete.messages)
     counts |= {
         "n_p": len(storage.parameters), "n_u": len(storage.inputs), "n_x": len(storage.states),
         "n_v": len(storage.algebraics), "n_d": len(storage.discretes), "n_sample": len(prepared.samples),
@@ -97,7 +100,9 @@ def _files(prepared: Prepared) -> list[tuple[str, str]]:
     return SourceNames().digests(prepared.declared.files.items())
 
 
-def _arrays(tables: Tables, messages: list[str]) -> tuple[list[str], dict[str, int]]:
+def _arrays(tables: Tables, checks: Checks, messages: list[str]) -> tuple[list[str], dict[str, int]]:
+    computed, divided = checks.computed(), checks.division_equations()  # which may add to the equations
+    first, variables = checks.equation_variables()
     contents = {
         "variables": ("mdl_variable mdl_variables", tables.variables()),
         "relations": ("mdl_relation mdl_relations", tables.relations()),
@@ -110,15 +115,21 @@ def _arrays(tables: Tables, messages: list[str]) -> tuple[list[str], dict[str, i
         "rowidx": ("int mdl_jac_rowidx", tables.row_indices()),
         "messages": ("char *const mdl_messages", [c_string(text) for text in messages]),
         "equations": ("mdl_equation mdl_equations", tables.equations()),
+        "computed": ("mdl_computed mdl_computed_by", computed),
+        "first": ("int mdl_equation_first", first),
+        "equation_variables": ("int mdl_equation_variables", variables),
+        "divisions": ("int mdl_division_equation", divided),
     }
     arrays = [tables.array(declaration, rows) for declaration, rows in contents.values()]
-    counts = {f"n_{key}": len(contents[key][1]) for key in ("variables", "equations", "asserts", "messages", "z")}
+    counts = {f"n_{key}": len(contents[key][1]) for key in _COUNTED}
+    counts["n_shown"] = len(variables)
     counts["n_rel"], counts["jac_nnz"] = len(contents["relations"][1]), len(contents["rowidx"][1])
     return arrays, counts
 
 
 def _descriptor(prepared: Prepared, counts: dict[str, int], tangents: bool) -> str:
     experiment: flat.Experiment = prepared.declared.experiment
+    shown = counts.pop("n_shown")
     fields = {
         "abi_version": "MDL_ABI_VERSION",
         "name": c_string(prepared.declared.name),
@@ -138,6 +149,10 @@ def _descriptor(prepared: Prepared, counts: dict[str, int], tangents: bool) -> s
         "interval": repr(float(experiment.interval or 0.0)),
         "jac_colptr": "mdl_jac_colptr",
         "jac_rowidx": _pointer("mdl_jac_rowidx", counts["jac_nnz"]),
+        "computed": _pointer("mdl_computed_by", counts["n_computed"]),
+        "equation_first": "mdl_equation_first",
+        "equation_variables": _pointer("mdl_equation_variables", shown),
+        "division_equation": _pointer("mdl_division_equation", counts["n_divisions"]),
         **{name: f"mdl_{name}" for name in _CALLBACKS},
         **({"tangents": "&mdl_model_tangents"} if tangents else {}),
     }

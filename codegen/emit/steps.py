@@ -36,7 +36,7 @@ class StepWriter:
         body: Body,
         equation_index: Callable[[flat.Equation], int],
         start: Callable[[Expr], str],
-        nominal: Callable[[Expr], float],
+        nominal: Callable[[Expr], Expr],
     ):
         self._body, self._equation_index, self._start, self._nominal = body, equation_index, start, nominal
         self._last_comment = ""
@@ -70,6 +70,13 @@ class StepWriter:
     def _fail(self, kind: str, row: Row, value: str = "0.0") -> str:
         return f"return mdl_fail(m, MDL_FAILURE_{kind}, {self._equation_index(row.source)}, {value});"
 
+    def _solve(self, matrix: str, right: str, rows: Sequence[Row]) -> None:
+        """A singular matrix is told at the equation that comes with the unknown that it does not determine."""
+        equations = ", ".join(str(self._equation_index(row.source)) for row in rows)
+        self._body.line(f"const int {matrix}_singular = mdl_solve({len(rows)}, {matrix}, {right});")
+        self._body.line(f"if ({matrix}_singular) return mdl_fail(m, MDL_FAILURE_SINGULAR, "
+                        f"(const int[]){{{equations}}}[{matrix}_singular - 1], 0.0);")  # fmt: skip
+
     def _division(self, step: Division) -> None:
         body = self._body
         self.note(step.row)
@@ -98,7 +105,7 @@ class StepWriter:
             block = f"{names[0]}_block"
             body.line(f"double {block}_a[{size * size}] = {{{', '.join(matrix)}}};")
             body.line(f"double {block}_b[{size}] = {{{', '.join(right)}}};")
-            body.line(f"if (mdl_solve({size}, {block}_a, {block}_b)) {self._fail('SINGULAR', step.residuals[0])}")
+            self._solve(f"{block}_a", f"{block}_b", step.residuals)
             for k, name in enumerate(names):
                 body.line(f"const double {name} = {block}_b[{k}];")
         for u in step.tears:
@@ -130,12 +137,12 @@ class StepWriter:
             body.line(f"if ({block}.converged) break;")
             matrix = ", ".join(body.value(j) for line in step.jacobian for j in line)
             body.line(f"double {block}_a[{size * size}] = {{{matrix}}};")
-            body.line(f"if (mdl_solve({size}, {block}_a, {block}_r)) {self._fail('SINGULAR', step.residuals[0])}")
+            self._solve(f"{block}_a", f"{block}_r", step.residuals)
             body.line(f"if (++{block}.iterations > {NEWTON_ITERATIONS}) {self._fail('NEWTON', step.residuals[0])}")
             body.line(f"{block}.converged = 1;")
             for k, u in enumerate(step.tears):
                 body.line(f"{block}_step[{k}] = {block}_r[{k}];")
-                small = f"1e-9 * fabs({names[k]}) + {1e-12 * self._nominal(u)!r}"
+                small = f"1e-9 * fabs({names[k]}) + 1e-12 * {body.value(self._nominal(u), 8)}"
                 body.line(f"{block}.converged &= fabs({block}_r[{k}]) <= {small};")
                 body.line(f"{names[k]} -= {block}_r[{k}];")
         for a in (*step.tears, *(a.unknown for a in step.assignments)):

@@ -41,6 +41,7 @@ ROOTS = f"static int mdl_roots_tangent{POINT}, mdl_lanes *tangent_g)"
 TABLE = """\
 static const struct mdl_tangents mdl_model_tangents = {
   .differentiable = %s,
+  .rounds = %d,
   .parameters = mdl_parameters_tangent,
   .starts = mdl_starts_tangent,
   .samples = mdl_samples_tangent,
@@ -70,10 +71,12 @@ class Tangents:
         """The table of functions; `everything` are all expressions of the model's own code."""
         parameters = self._storage.parameters
         differentiable = self._differentiable(everything)
+        rounds = self._event.rounds()
         if not parameters:
-            return TABLE % "NULL"
+            return TABLE % ("NULL", rounds)
         flags = ", ".join("01"[name in differentiable] for name in parameters)
-        return f"static const unsigned char mdl_differentiable[] = {{{flags}}};\n\n{TABLE % 'mdl_differentiable'}"
+        array = f"static const unsigned char mdl_differentiable[] = {{{flags}}};"
+        return f"{array}\n\n{TABLE % ('mdl_differentiable', rounds)}"
 
     def _differentiable(self, everything: Iterable[Expr]) -> set[str]:
         """Real parameters that a derivative was taken for, themselves or through parameters that depend on them, and

@@ -134,17 +134,20 @@ def assignment(item: ast.Assignment, scope: Scope) -> list[flat.Statement]:
 
 
 def _chosen(target: Expr | str, value: Expr | str) -> list[tuple[Expr | str, Expr | str]]:
-    """An element by a subscript that varies is a choice among all of them: the one chosen is set, the others stay."""
+    """An element by a subscript that varies is a choice among all of them: the one chosen is set, the others stay; a
+    subscript of none of them leaves no number."""
     if not isinstance(target, Expr) or target.op != "if" or not isinstance(value, Expr):
         return [(target, value)]
-    pairs: list[tuple[Expr | str, Expr | str]] = []
+    elements: list[tuple[Expr, Expr]] = []
     none_before = TRUE
     while isinstance(target, Expr) and target.op == "if":
         condition, element, target = target.args
-        chosen = ex.logical_and(none_before, condition)
-        pairs.append((element, ex.if_else(chosen, value, element)))
+        elements.append((element, ex.logical_and(none_before, condition)))
         none_before = ex.logical_and(none_before, ex.logical_not(condition))
-    return [*pairs, (target, ex.if_else(none_before, value, target))]
+    if target.op == "var":
+        elements.append((target, none_before))
+        return [(element, ex.if_else(chosen, value, element)) for element, chosen in elements]
+    return [(e, ex.if_else(chosen, value, ex.if_else(none_before, target, e))) for e, chosen in elements]
 
 
 def _simultaneous(result: list[flat.Statement]) -> list[flat.Statement]:

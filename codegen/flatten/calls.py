@@ -9,6 +9,7 @@ from lacuna.codegen.flatten.arrays import map_call, size_of_array
 from lacuna.codegen.flatten.constants import is_parameter, known, variability
 from lacuna.codegen.flatten.derivative import time_derivative
 from lacuna.codegen.flatten.enumerations import as_integer
+from lacuna.codegen.flatten.function_code import is_done
 from lacuna.codegen.flatten.functions import call_function, construct_record
 from lacuna.codegen.flatten.lower import Handler, lower, lower_scalar
 from lacuna.codegen.flatten.scope import Scope, enumeration, find_class, own_or_inherited
@@ -42,7 +43,7 @@ def lower_call(e: ast.Call, scope: Scope) -> Value:
     if handler is not None:
         return handler(e, scope)
     results = call_of_model(e, scope)
-    if not results:
+    if not results or is_done(results[0], scope.context):
         raise Diagnostic("R004", f"{name} has no result", e.span, "call it as a statement of its own: f(x);")
     return results[0]
 

@@ -57,7 +57,8 @@ def _value_of(name: str, context: Context, span: Span, what: str) -> Expr:
     leaf, position = context.scalars[name]
     if not leaf.is_structural or leaf.is_free:
         hint = "only parameters and constants are known then"
-        raise Diagnostic("F021", f"{what} depends on {name}, which varies in time", span, hint)
+        why = "which the initial equations determine" if leaf.is_free else "which varies in time"
+        raise Diagnostic("F021", f"{what} depends on {name}, {why}", span, hint)
     if name in context.evaluating:
         circle = " -> ".join([*context.evaluating, name])
         raise Diagnostic("F022", f"parameters depend on each other: {circle}", leaf.span, "break the circle")

@@ -20,7 +20,7 @@ def _ordinal(enumeration: str) -> type[int]:
 
 def literal(cls: ast.Class, number: int) -> Expr:
     """Literal `number`, from 1, of an enumeration."""
-    return ex.const(_ordinal(cls.path)(number))
+    return ex.const(_ordinal((cls.origin or cls).path)(number))
 
 
 def as_integer(e: Expr) -> Expr:
@@ -34,7 +34,7 @@ def enumeration_of(e: Expr, context: Context) -> str:
         return getattr(type(e.value), "enumeration", "")
     if e.op == "var" and e.value in context.scalars:
         kind = context.scalars[str(e.value)][0].type
-        return kind.cls.path if kind.literals else ""
+        return (kind.cls.origin or kind.cls).path if kind.literals else ""
     if e.op in ("pre", "if", "min", "max"):
         return enumeration_of(e.args[-1], context)
     return ""

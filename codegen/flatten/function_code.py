@@ -42,6 +42,12 @@ class Sources(dict[str, Source]):
     """Of the kept functions, by their names."""
 
 
+def is_done(value: Value, context: Context) -> bool:
+    """Does `value` only say that a function without results has run?"""
+    called = context.functions.get(str(value.value)) if isinstance(value, Expr) and value.op == "call" else None
+    return called is not None and called.outputs == (DONE,)
+
+
 def emitted_call(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
     """Calls that give the results of the function, one for each scalar of each result."""
     base = _base(signature, arguments, context, span)
@@ -131,7 +137,9 @@ def _emit(name: str, signature: Signature, shapes: dict[str, tuple[int, ...]], c
             writer.declare(DONE, BOOLEAN, ())
             function.defaults[DONE] = TRUE
         if cls.external is not None:
-            function.body.append(flat.Native(cls.external.function, inputs, outputs, cls.span))
+            order = [str(a) for a in cls.external.args]
+            given, wanted = (tuple(n for n in order if (n in inputs) == asked) for asked in (True, False))
+            function.body.append(flat.Native(cls.external.function, given, wanted, cls.span))
         function.body += writer.block(signature.body)
         function.body = Rewriter(lambda e: _package_constant(e, context, span)).statements(function.body)
     except AtRunTime as reason:

@@ -18,6 +18,7 @@ from lacuna.codegen.flatten.leaf import Leaf
 from lacuna.codegen.flatten.lower import modifier_value
 from lacuna.codegen.flatten.modifiers import Modifier, for_each, from_tree, merge, narrow
 from lacuna.codegen.flatten.prefixes import check_block, check_outer, check_prefixes
+from lacuna.codegen.flatten.redeclared import check_modifier, check_redeclared
 from lacuna.codegen.flatten.scope import Scope, own_or_inherited
 from lacuna.codegen.flatten.subtypes import mismatch, require_subtype
 from lacuna.codegen.flatten.types import Type, resolve_type
@@ -81,6 +82,10 @@ class Instance:
         inherited = Inheritance(context, self, cls, modifier)
         self.elements, self.sections, self.classes = inherited.elements, inherited.sections, inherited.classes
         self._visible = inherited.visible
+        for own in self.classes:
+            check_redeclared(own, context, self._elements_of)
+        if modifier is not None:
+            check_modifier(cls, modifier, context, self._elements_of)
 
     def _inherit_prefixes(self, declaration: ast.Component | None) -> None:
         """Prefixes of a structured component hold for its elements (4.4.2.2)."""

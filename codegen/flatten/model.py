@@ -48,6 +48,7 @@ def flatten(
         inside = library.models(cls)[:5] if cls.kind == "package" else []
         hint = f"name a model in it, such as {' or '.join(inside)}" if inside else "name a complete model"
         raise Diagnostic("F003", f"{cls.path} is a {what}, not a model to simulate", cls.span, hint)
+    library.forget_views()
     context = Context(library, Path(cls.span.file).resolve().parent, LOWERING, cls.path)
     top = Instance(context, cls, "", None, _outside_modifier(modifications or {}, cls.span))
     leaves, sections, buses = _instantiate(top)

@@ -3,6 +3,7 @@
 Marsaglia, J. Stat. Softw. 8 (2003) 14; Vigna, ACM Trans. Math. Softw. 42 (2016) 30 (xorshift64*, xorshift1024*) and
 J. Comput. Appl. Math. 315 (2017) 175-181 (xorshift128+). Two words make one number of 64 bits, the lower first; it
 becomes a Real above 0 and up to 1 as int64/2^64 + 1/2 (Doornik, ACM Trans. Model. Comput. Simul. 17 (2007) 3).
+As in the library, xorshift64* and xorshift128+ keep the number that they give, not that before the last operation.
 The same in C is in emit/random_numbers.py, for states that are not known at translation.
 """
 
@@ -41,8 +42,8 @@ def xorshift64star(state: list[int]) -> tuple[list[int], float]:
 def xorshift128plus(state: list[int]) -> tuple[list[int], float]:
     a, b = _joined(state)
     a = (a ^ a << 23) & _MASK
-    a = a ^ b ^ (a >> 17) ^ (b >> 26)
-    return _divided([b, a]), _real((a + b) & _MASK)
+    a = (a ^ b ^ (a >> 17) ^ (b >> 26)) + b & _MASK
+    return _divided([b, a]), _real(a)
 
 
 def xorshift1024star(state: list[int]) -> tuple[list[int], float]:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+import math
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.class_values import from_class
@@ -16,7 +18,7 @@ from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.values import Array, Record, Value, elementwise, scalars, shape_of, stack
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
-from lacuna.codegen.symbolic.expr import BOOLEAN, Expr
+from lacuna.codegen.symbolic.expr import BOOLEAN, REAL, Expr
 from lacuna.codegen.syntax import ast
 
 
@@ -151,11 +153,11 @@ def apply_subscripts(
     first, rest = subscripts[0], subscripts[1:]
     later = kinds[1:] if kinds is not None else None
     if isinstance(first, ast.Colon):
-        return _stacked([apply_subscripts(r, rest, scope, ref, later) for r in value.rows()], value, ref, len(rest))
+        return _stacked(value.rows(), value, lambda r: apply_subscripts(r, rest, scope, ref, later), ref)
     index = _index(first, kinds, replace(scope, end=shape[0]), ref)
     if isinstance(index, Array):
         picked = [_row(value, i, scope, ref, first) for i in index.items]
-        return _stacked([apply_subscripts(r, rest, scope, ref, later) for r in picked], value, ref, len(rest))
+        return _stacked(picked, value, lambda r: apply_subscripts(r, rest, scope, ref, later), ref)
     if index.op == "const" or (is_known(index, scope.context) and not scope.in_function):
         return apply_subscripts(_row(value, index, scope, ref, first), rest, scope, ref, later)
     if scope.in_function:
@@ -181,11 +183,12 @@ def _index(written: ast.Expression, kinds: tuple[IndexType, ...] | None, scope: 
     return Array(index.shape, tuple(items)) if isinstance(index, Array) else items[0]
 
 
-def _stacked(rows: list[Value], value: Array, ref: ast.Ref, subscripts_left: int) -> Value:
-    """The rows as one array; of no rows, the sizes of the dimensions without a subscript are kept."""
-    if rows:
-        return stack(rows, ref.span)
-    return Array((0, *value.shape[1 + subscripts_left :]), ())
+def _stacked(rows: list[Value], value: Array, part: Callable[[Value], Value], ref: ast.Ref) -> Value:
+    """A part of each row as one array; of no rows, with the sizes that the part of a row has."""
+    if rows or len(value.shape) == 1:
+        return stack([part(r) for r in rows], ref.span)
+    shape = value.shape[1:]
+    return Array((0, *shape_of(part(Array(shape, (ex.ZERO,) * math.prod(shape))))), ())
 
 
 def _row(array: Array, index: Expr, scope: Scope, ref: ast.Ref, written: ast.Expression) -> Value:
@@ -196,10 +199,15 @@ def _row(array: Array, index: Expr, scope: Scope, ref: ast.Ref, written: ast.Exp
 
 
 def _choose(rows: list[Value], index: Expr, written: ast.Expression, scope: Scope) -> Value:
-    """An element by a number known only at run time: an if-expression over all of them."""
+    """An element by a number known only at run time: an if-expression over all of them, and not a number outside."""
     if not rows:
         raise Diagnostic("R045", "a subscript of an empty array", written.span, "it has no element")
-    result = rows[-1]
+    is_last = ex.relation("==", index, ex.const(len(rows)))
+
+    def inside(a: Expr) -> Expr:
+        return ex.if_else(is_last, a, ex.const(math.nan)) if a.type == REAL else a
+
+    result = elementwise(inside, [rows[-1]], written.span, "elements")
     for number in range(len(rows) - 1, 0, -1):
         condition = ex.relation("==", index, ex.const(number))
 

@@ -78,12 +78,13 @@ def base_class(library: Library, cls: ast.Class, ref: ast.Ref, tree: ast.Modific
     if base is None:
         return None
     redeclared = {n: new for n, (new, _) in redeclarations(library, cls, tree).items()} | cls.redeclared
-    if not redeclared and not (is_specialised(cls) or (base.kind == "package" and tree.arguments)):
-        return base
     for argument in tree.arguments:
-        plain = own_or_inherited(library, base, argument.name) if argument.redeclare is None else None
+        parts = argument.redeclare is None and argument.modification.arguments
+        plain = own_or_inherited(library, base, argument.name) if parts else None
         if plain is not None and argument.name not in redeclared:
             redeclared[argument.name] = modified(library, plain, argument.modification, cls.written, cls)
+    if not redeclared and not (is_specialised(cls) or (base.kind == "package" and tree.arguments)):
+        return base
     return view(library, base, base.parent, redeclared, cls.whole or cls)
 
 

@@ -85,11 +85,12 @@ def _compared(values: list[Value], call: ExternalCall) -> list[Value]:
 
 
 def hash_string(text: str) -> int:
-    """A 32-bit signed number from a text: djb2, as the library's hashString gives it."""
-    value = 5381
-    for byte in text.encode():
-        value = (value * 33 + byte) & 0xFFFFFFFF
-    return value - (1 << 32) if value >= 1 << 31 else value
+    """A 32-bit signed number from a text: the AP hash of Arash Partow (General Purpose Hash Function Algorithms)."""
+    value, mask = 0xAAAAAAAA, 0xFFFFFFFF
+    for at, byte in enumerate(text.encode()):
+        mixed = ~((value << 11) + (byte ^ (value >> 5))) if at & 1 else (value << 7) ^ byte * (value >> 3)
+        value ^= mixed & mask
+    return value - (1 << 32) if value >> 31 else value
 
 
 def _seed(values: list[Value], call: ExternalCall) -> list[Value]:

@@ -40,6 +40,7 @@ def view(
             constrained=cls.constrained,
         )  # fmt: skip
         library.views[key] = found
+        found.number = library.count_path(found.path)
         library.kept += [origin, parent, whole, written, holding, cls.constrained]  # their identities name the view
     return found
 
@@ -80,6 +81,7 @@ def modified(library: Library, cls: ast.Class, tree: ast.Modification, written: 
         alias = ast.Alias(tree.span, ast.Ref(tree.span, (cls.name,), (None,)), [], tree, target=cls)
         found = ast.Class(cls.span, cls.kind, cls.name, alias=alias, parent=scope, written=written)
         library.views[key] = found
+        found.number = library.count_path(found.path)
         library.kept += [cls, tree, written, scope]
     return found
 
@@ -108,5 +110,6 @@ def constrain(library: Library, new: ast.Class, old: ast.Class, by_element: bool
     if found is None:
         found = replace(new, origin=new.origin or new, constrained=(old.constraint.modification, old.parent))
         library.views[key] = found
+        found.number = library.count_path(found.path)
         library.kept += [new, old]
     return found

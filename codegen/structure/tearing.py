@@ -88,8 +88,8 @@ class Tearing:
         reach = Reach(users, [leaf])
         for k in reach:
             step = torn.assignments[k]
-            used = sorted((n for n in step.row.leaves if n in slopes and n is not step.unknown),
-                          key=lambda n: place.get(n, -1))  # fmt: skip
+            few, many = sorted((slopes, step.row.leaves), key=len)
+            used = sorted((n for n in few if n in many and n is not step.unknown), key=lambda n: place.get(n, -1))
             parts = [(own(k, n), slopes[n]) for n in used]
             slopes[step.unknown] = sum(slope * before for slope, before in parts if slope is not None)
             reach.add(step.unknown)

@@ -55,12 +55,14 @@ class Rewriter:
         return [self.statement(s) for s in body]
 
     def equation(self, e: flat.Equation) -> flat.Equation:
-        return replace(e, lhs=self.expression(e.lhs), rhs=self.expression(e.rhs))
+        lhs, rhs = self.expression(e.lhs), self.expression(e.rhs)
+        return e if lhs is e.lhs and rhs is e.rhs else replace(e, lhs=lhs, rhs=rhs)
 
     def variable(self, v: flat.Variable) -> flat.Variable:
         fields = ("binding", "start", "fixed", "min", "max", "nominal")
-        changed = {f: self.expression(e) for f in fields if (e := getattr(v, f)) is not None}
-        return replace(v, **changed)
+        given = {f: e for f in fields if (e := getattr(v, f)) is not None and e.op != "const"}
+        changed = {f: new for f, e in given.items() if (new := self.expression(e)) is not e}
+        return replace(v, **changed) if changed else v
 
     def _algorithm(self, a: flat.Algorithm) -> flat.Algorithm:
         targets = tuple(self._target(name)[0] for name in a.targets)

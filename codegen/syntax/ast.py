@@ -257,10 +257,12 @@ class Class:
     whole: Class | None = None
     written: object = None  # the scope of its modifications
     constrained: tuple[Modification, Class] | None = None  # of a constraining clause, and where that stands
+    number: int = 1  # among the views that would have one path
 
     @property
     def path(self) -> str:
         """Full name, such as Lacuna.Electrical.Resistor."""
+        name = self.name if self.number == 1 else f"{self.name}#{self.number}"
         if self.parent is not None and self.parent.name:
-            return f"{self.parent.path}.{self.name}"
-        return f"{self.within}.{self.name}" if self.within else self.name
+            return f"{self.parent.path}.{name}"
+        return f"{self.within}.{name}" if self.within else name

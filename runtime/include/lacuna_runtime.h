@@ -68,9 +68,10 @@ typedef struct {
 
 /* Where sensitivities are not what they seem, because the order of events is about to change. */
 typedef enum {
-  RT_FLAG_GRAZING,  /* `relation` only touches its threshold: from here on there are no sensitivities */
-  RT_FLAG_ORDER,    /* two events at one instant, as far as it is known, that move differently with a parameter */
-  RT_FLAG_NONFINITE /* a derivative is infinite or overflows: from here on there are no sensitivities */
+  RT_FLAG_GRAZING,   /* `relation` only touches its threshold: from here on there are no sensitivities */
+  RT_FLAG_ORDER,     /* two events at one instant, as far as it is known, that move differently with a parameter */
+  RT_FLAG_NONFINITE, /* a derivative is infinite or overflows: from here on there are no sensitivities */
+  RT_FLAG_ROUNDING   /* the model rounds values at events: their derivative is that between two steps, which is zero */
 } rt_flag_kind;
 
 typedef struct {
@@ -87,6 +88,7 @@ typedef struct {
   int locate_events;  /* 0: state and time events are taken at the end of the step in which they fall */
   int record_events;  /* 1: a row before and a row after each event */
   long max_steps;     /* <= 0: none; a run that needs more ends as RT_STEP_COLLAPSE */
+  int unchecked;      /* 1: accepted points are not looked at for numbers that are not finite and divisors at zero */
 } rt_options;
 
 typedef enum { RT_LINEAR, RT_HOLD } rt_interpolation;

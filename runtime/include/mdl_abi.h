@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 6
+#define MDL_ABI_VERSION 7
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
@@ -107,6 +107,11 @@ typedef struct {
   int is_time; /* 1: depends on time, parameters and discretes only; switched by a time event, not a root */
 } mdl_relation;
 
+/* What an equation gives, in the order in which it is computed: a dependent parameter, a derivative, an algebraic. */
+typedef struct {
+  mdl_storage storage; /* MDL_PARAMETER, MDL_DERIVATIVE or MDL_ALGEBRAIC */
+  int index, equation;
+} mdl_computed;
 struct mdl_tangents;
 
 typedef struct mdl_descriptor {
@@ -172,6 +177,21 @@ typedef struct mdl_descriptor {
   int (*check)(mdl_data *m, double t, const double *x, const double *xdot, const double *v);
 
   const struct mdl_tangents *tangents; /* derivatives (mdl_tangent.h); NULL where they were not asked for */
+  int n_computed;
+  const mdl_computed *computed;  /* [n_computed] */
+  const int *equation_first;     /* [n_equations + 1] where the variables of an equation begin in */
+  const int *equation_variables; /* rows of `variables` */
+
+  /* Sizes of the unknowns [n_x + n_z] and of the guards [n_rel] for the present parameters, as far as the model tells;
+   * 0 where it does not. */
+  int (*nominals)(mdl_data *m, double *nominal);
+
+  /* value[2 k], value[2 k + 1]: numerator and divisor of division k, at a complete point; NAN where the division is in
+   * a branch that does not hold. A divisor that passes through zero while the numerator does not is a division by
+   * zero. */
+  int n_divisions;
+  const int *division_equation; /* [n_divisions] */
+  int (*divisions)(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *value);
 } mdl_descriptor;
 
 typedef const mdl_descriptor *(*mdl_descriptor_fn)(void);

@@ -41,6 +41,8 @@ struct mdl_tangents {
   /* [n_p] 0: a settable parameter that enters conditions and discrete equations alone; nothing depends on it smoothly
    */
   const unsigned char *differentiable;
+  int rounds; /* 1: events round values that move (converters, encoders), so that what they keep has the derivative zero
+               */
 
   /* p of the dependent parameters from p of the settable ones. */
   int (*parameters)(mdl_data *m, mdl_tangent *tangent);

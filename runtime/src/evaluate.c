@@ -5,7 +5,7 @@
 
 #include "session.h"
 
-static int find_row(const rt_session *s, mdl_storage storage, int index) {
+int rt_find_row(const rt_session *s, mdl_storage storage, int index) {
   for (int i = 0; i < s->d->n_variables; i++)
     if (s->d->variables[i].storage == storage && s->d->variables[i].index == index) return i;
   return -1;
@@ -13,19 +13,20 @@ static int find_row(const rt_session *s, mdl_storage storage, int index) {
 
 /* Row in the variable table of a state, and of an unknown of the residual form; -1 where it has no name. */
 int rt_state_variable(const rt_session *s, int state) {
-  return find_row(s, MDL_STATE, state);
+  return rt_find_row(s, MDL_STATE, state);
 }
 
 int rt_unknown_variable(const rt_session *s, int k) {
-  return k < s->d->n_x ? rt_state_variable(s, k) : find_row(s, MDL_ALGEBRAIC, s->d->z_index[k - s->d->n_x]);
+  return k < s->d->n_x ? rt_state_variable(s, k) : rt_find_row(s, MDL_ALGEBRAIC, s->d->z_index[k - s->d->n_x]);
 }
 
-/* 0 if all n_x numbers are finite; else 1, with the first state that is not in m->failure. */
+/* 0 if all n_x derivatives are finite; else 1, with the equation to blame, or the first state, in m->failure. */
 int rt_check_finite(rt_session *s, const double *x) {
   double sum = 0;
   for (int i = 0; i < s->d->n_x; i++)
     sum += x[i] - x[i];
   if (sum == 0) return 0;
+  if (rt_blame(s, MDL_DERIVATIVE, x, s->data.v)) return 1;
   int state = 0;
   while (isfinite(x[state]))
     state++;
@@ -63,20 +64,23 @@ void rt_residual_point(rt_session *s) {
 }
 
 /* |F| against the size of what is added up in each row of F, estimated by sum_j |dF/dy_j y_j| + |dF/dy'_j y'_j|. */
-static rt_status compare(rt_session *s, double *r, double *scale, double *fy, double *fyp) {
+static rt_status compare(rt_session *s, double *r, double *scale, double *smallest, double *fy, double *fyp) {
   const mdl_descriptor *d = s->d;
   mdl_data *m = &s->data;
   if (d->residual(m, s->t, s->y, s->yp, r) || d->jacobian(m, s->t, s->y, s->yp, 0, fy) ||
       d->jacobian(m, s->t, s->y, s->yp, 1, fyp))
     return rt_fail_model(s, s->t, "evaluating the residual form");
   int n = d->n_x + d->n_z;
+  double rate = 1 / (s->stop - s->start);
   for (int i = 0; i < n; i++)
-    scale[i] = 0;
+    scale[i] = smallest[i] = 0;
   for (int j = 0; j < n; j++)
-    for (int k = d->jac_colptr[j]; k < d->jac_colptr[j + 1]; k++)
+    for (int k = d->jac_colptr[j]; k < d->jac_colptr[j + 1]; k++) {
       scale[d->jac_rowidx[k]] += fabs(fy[k] * s->y[j]) + fabs((fyp[k] - fy[k]) * s->yp[j]);
+      smallest[d->jac_rowidx[k]] += (fabs(fy[k]) + fabs(fyp[k] - fy[k]) * rate) * s->nominal[j];
+    }
   for (int i = 0; i < n; i++)
-    if (!(fabs(r[i]) <= 1e-6 * scale[i] + 1e-9))
+    if (!(fabs(r[i]) <= 1e-6 * scale[i] + 1e-9 * smallest[i] + DBL_MIN))
       return rt_fail(s, RT_INCONSISTENT, s->t, -1, &d->equations[d->residual_equation[i]],
                      "the residual form of the model disagrees with its explicit form at time %.9g s (residual %.3g)",
                      s->t, r[i]);
@@ -86,10 +90,10 @@ static rt_status compare(rt_session *s, double *r, double *scale, double *fy, do
 /* The two generated forms of the model must agree at the start: a guard against errors in the translation. */
 rt_status rt_check_forms(rt_session *s) {
   size_t n = (size_t)(s->d->n_x + s->d->n_z), nnz = (size_t)s->d->jac_nnz;
-  double *work = calloc(2 * n + 2 * nnz + 1, sizeof *work);
+  double *work = calloc(3 * n + 2 * nnz + 1, sizeof *work);
   if (!work) return rt_fail(s, RT_MEMORY, s->t, -1, NULL, "out of memory");
   rt_residual_point(s);
-  rt_status status = compare(s, work, work + n, work + 2 * n, work + 2 * n + nnz);
+  rt_status status = compare(s, work, work + n, work + 2 * n, work + 3 * n, work + 3 * n + nnz);
   free(work);
   return status;
 }

@@ -86,17 +86,23 @@ static double present_value(const rt_session *s, const mdl_variable *v) {
   return v->sign * arrays[v->storage][v->index];
 }
 
-/* Append the values that the rule compares: ` (a.y_min = 3 V, a.y_max = 1 V)`. */
-static void append_values(rt_session *s, const mdl_assert *rule) {
+/* Append the values of variables: ` (a.y_min = 3 V, a.y_max = 1 V)`. */
+static void append_values(rt_session *s, int n_values, const int *rows) {
   char *message = s->failure.message;
   size_t size = sizeof s->failure.message, n = strlen(message);
-  for (int k = 0; k < rule->n_values && n < size; k++) {
-    const mdl_variable *v = &s->d->variables[rule->values[k]];
+  for (int k = 0; k < n_values && n < size; k++) {
+    const mdl_variable *v = &s->d->variables[rows[k]];
     int written = snprintf(message + n, size - n, "%s%s = %.9g%s%s", k ? ", " : " (", v->name, present_value(s, v),
                            v->unit[0] ? " " : "", v->unit);
     n += written > 0 ? (size_t)written : 0;
   }
-  if (rule->n_values && n < size) snprintf(message + n, size - n, ")");
+  if (n_values && n < size) snprintf(message + n, size - n, ")");
+}
+
+/* The values of the variables of an equation. */
+static void append_equation(rt_session *s, int equation) {
+  const int *first = s->d->equation_first + equation;
+  append_values(s, first[1] - first[0], s->d->equation_variables + first[0]);
 }
 
 static rt_status fail_assert(rt_session *s, double time, const mdl_assert *rule) {
@@ -104,10 +110,20 @@ static rt_status fail_assert(rt_session *s, double time, const mdl_assert *rule)
   const char *component = where->origin;
   rt_fail(s, RT_ASSERT, time, -1, NULL, "%s:%d: %s%sassertion violated at time %.9g s: %s", where->file, where->line,
           component, component[0] ? ": " : "", time, where->text);
-  append_values(s, rule);
+  append_values(s, rule->n_values, rule->values);
   s->failure.file = where->file;
   s->failure.line = where->line;
   return RT_ASSERT;
+}
+
+/* Row of the variable that an equation of the explicit form is solved for, -1 where it is none. */
+static int unknown_of(const rt_session *s, int equation) {
+  for (int k = 0; k < s->d->n_computed; k++) {
+    const mdl_computed *c = &s->d->computed[k];
+    if (c->equation == equation && c->storage != MDL_PARAMETER)
+      return rt_find_row(s, c->storage == MDL_DERIVATIVE ? MDL_STATE : c->storage, c->index);
+  }
+  return -1;
 }
 
 /* Turn the failure that a model function has left in m->failure into the session's. `doing` says what for. */
@@ -118,11 +134,15 @@ rt_status rt_fail_model(rt_session *s, double time, const char *doing) {
   bool placed = f->equation >= 0 && f->equation < (is_assert ? d->n_asserts : d->n_equations);
   if (is_assert && placed) return fail_assert(s, time, &d->asserts[f->equation]);
   const mdl_equation *where = placed && !is_assert ? &d->equations[f->equation] : NULL;
-  bool named = f->variable >= 0 && f->variable < d->n_variables;
-  int variable = named ? f->variable : -1;
+  int variable = f->kind == MDL_FAILURE_SINGULAR && placed ? unknown_of(s, f->equation) : f->variable;
+  bool named = variable >= 0 && variable < d->n_variables;
+  if (!named) variable = -1;
   if (f->kind == MDL_FAILURE_BOUND && named) return fail_bound(s, time, f);
-  return rt_fail(s, status_of(f->kind), time, variable, where, "%s at time %.9g s: %s%s%s (value %.9g)", doing, time,
-                 describe(f->kind), named ? ", variable " : "", named ? d->variables[variable].name : "", f->value);
+  rt_fail(s, status_of(f->kind), time, variable, where, "%s at time %.9g s: %s%s%s (value %.9g)", doing, time,
+          describe(f->kind), named ? ", variable " : "", named ? d->variables[variable].name : "",
+          isnan(f->value) ? fabs(f->value) : f->value);
+  if (where && d->equation_first) append_equation(s, f->equation);
+  return s->failure.status;
 }
 
 /* The solver asks for steps of h seconds, too small to get anywhere: the fault is in the state that changes fastest. */

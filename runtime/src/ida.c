@@ -9,7 +9,8 @@
 #include "ida.h"
 #include "vector.h"
 
-enum { DENSE_LIMIT = 10 }; /* unknowns up to which a dense matrix is faster than KLU */
+enum { MAX_ERROR_FAILS = 25 }; /* in one step: each divides it by four, and a first step may be far too long */
+enum { DENSE_LIMIT = 10 };     /* unknowns up to which a dense matrix is faster than KLU */
 
 static int residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user) {
   rt_session *s = user;
@@ -63,7 +64,7 @@ static void destroy(void *p) {
   if (m->ida) IDAFree(&m->ida);
   if (m->solver) SUNLinSolFree(m->solver);
   if (m->matrix) SUNMatDestroy(m->matrix);
-  N_Vector vectors[] = {m->y, m->yp, m->atol, m->work};
+  N_Vector vectors[] = {m->y, m->yp, m->work};
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
     if (vectors[i]) N_VDestroy(vectors[i]);
   if (m->context) SUNContext_Free(&m->context);
@@ -73,11 +74,20 @@ static void destroy(void *p) {
 
 static bool create_vectors(rt_session *s, rt_ida *m) {
   sunindextype n = s->d->n_x + s->d->n_z;
-  N_Vector *vectors[] = {&m->y, &m->yp, &m->atol, &m->work};
+  N_Vector *vectors[] = {&m->y, &m->yp, &m->work};
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
     if (!(*vectors[i] = rt_vector_new(n, m->context))) return false;
-  memcpy(N_VGetArrayPointer(m->atol), s->atol, (size_t)n * sizeof *s->atol);
   return true;
+}
+
+/* Weights of the error test, by tolerances that follow the sizes of the states. */
+static int weights(N_Vector y, N_Vector weight, void *user) {
+  const rt_session *s = user;
+  const double *value = N_VGetArrayPointer(y);
+  double *w = N_VGetArrayPointer(weight);
+  for (int i = 0; i < s->d->n_x + s->d->n_z; i++)
+    w[i] = 1 / (s->options.rtol * fabs(value[i]) + s->atol[i]);
+  return 0;
 }
 
 static bool create_linear_solver(rt_session *s, rt_ida *m) {
@@ -98,8 +108,9 @@ static bool set_options(rt_session *s, rt_ida *m) {
   for (int i = 0; i < s->d->n_x; i++)
     N_VGetArrayPointer(m->work)[i] = 1;
   return rt_silence(m->context, m->ida) == 0 && IDASetUserData(m->ida, s) == IDA_SUCCESS &&
-         IDASVtolerances(m->ida, s->options.rtol, m->atol) == IDA_SUCCESS && IDASetId(m->ida, m->work) == IDA_SUCCESS &&
+         IDAWFtolerances(m->ida, weights) == IDA_SUCCESS && IDASetId(m->ida, m->work) == IDA_SUCCESS &&
          IDASetSuppressAlg(m->ida, s->d->n_z > 0) == IDA_SUCCESS && IDASetMaxNumSteps(m->ida, -1) == IDA_SUCCESS &&
+         IDASetMaxErrTestFails(m->ida, MAX_ERROR_FAILS) == IDA_SUCCESS &&
          (!(s->options.max_step > 0) || IDASetMaxStep(m->ida, s->options.max_step) == IDA_SUCCESS);
 }
 
@@ -143,12 +154,20 @@ static double weighted_norm(const rt_session *s, const double *e) {
   return sqrt(sum / s->d->n_x);
 }
 
-/* A short explicit step gives x'' and z'. The first BDF step, of order 1, errs by h^2/2 x'': the largest h within
- * tolerance follows. */
+/* The fastest state crosses its nominal value in 1 / this (s). */
+static double fastest(const rt_session *s) {
+  double rate = 0;
+  for (int i = 0; i < s->d->n_x; i++)
+    rate = rt_max(rate, fabs(s->data.xdot[i]) / s->nominal[i]);
+  return rate;
+}
+
+/* A short explicit step gives x'' and z': short on the scale of the states, long on that of rounding. The first BDF
+ * step, of order 1, errs by h^2/2 x'': the largest h within tolerance follows. */
 static double first_step(rt_session *s, double *zdot) {
   const mdl_descriptor *d = s->d;
   double speed = weighted_norm(s, s->data.xdot), span = s->stop - s->start;
-  double delta = fmin(1e-6 * span, speed > 0 ? 0.01 / speed : INFINITY);
+  double rate = fastest(s), delta = fmin(1e-6 * span, rate > 0 ? 1e-6 / rate : INFINITY);
   memcpy(s->v_trial, s->data.v, (size_t)d->n_v * sizeof *s->v_trial);
   for (int i = 0; i < d->n_x; i++)
     s->x_trial[i] = s->data.x[i] + delta * s->data.xdot[i];

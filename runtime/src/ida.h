@@ -8,7 +8,7 @@
 typedef struct {
   SUNContext context;
   void *ida;
-  N_Vector y, yp, atol, work;
+  N_Vector y, yp, work;
   SUNMatrix matrix;
   SUNLinearSolver solver;
   double *values;        /* [jac_nnz] */

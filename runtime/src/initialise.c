@@ -25,6 +25,7 @@ static void clear(rt_session *s) {
   m->terminal = m->reinitialised = m->terminated = 0;
   m->failure = (mdl_failure){.equation = -1, .variable = -1};
   memset(s->flip, 0, (size_t)d->n_rel);
+  memset(s->division_sign, 0, (size_t)d->n_divisions);
   memset(s->rebound, 0, (size_t)d->n_rel);
   memset(s->g_span, 0, (size_t)d->n_rel * sizeof *s->g_span);
   memset(s->g_travel, 0, (size_t)d->n_rel * sizeof *s->g_travel);
@@ -40,7 +41,9 @@ static rt_status set_parameters_and_starts(rt_session *s) {
   memcpy(s->data.p, s->p_run, (size_t)s->d->n_p * sizeof *s->p_run);
   if (s->d->parameters(&s->data)) return rt_fail_model(s, s->start, "computing parameters");
   if (s->d->starts(&s->data)) return rt_fail_model(s, s->start, "computing start values");
-  return s->sensitivities ? rt_tangent_start(s) : RT_OK;
+  rt_status status = rt_check_parameters(s);
+  if (!status) status = rt_scale_parameters(s);
+  return !status && s->sensitivities ? rt_tangent_start(s) : status;
 }
 
 /* At the start there is no history: a relation is exactly what its guard says. */

@@ -87,6 +87,8 @@ static rt_status write_interpolated(rt_session *s, double t, bool alone) {
   if (r->needs_rhs) {
     memcpy(r->v, s->data.v, (size_t)s->d->n_v * sizeof *r->v);
     if (rt_rhs(s, t, r->x, r->xdot, r->v)) return rt_fail_model(s, t, "evaluating outputs");
+    rt_status status = rt_check_values(s, t, r->x, r->xdot, r->v);
+    if (status) return status;
   } else {
     rt_inputs_at(s, t);
   }

@@ -40,6 +40,7 @@ typedef struct {
   double *matrix;   /* [n * n] of the stages, factored; n = n_x + n_z */
   double *right;    /* [n] */
   double *dfdt;     /* [n_x] */
+  double *row;      /* [n] powers of two that give the rows of the matrix size 1, in units of the unknowns' sizes */
   int *pivot;       /* [n] */
   double t;         /* where fy, fyp and dfdt were computed */
   bool known;       /* whether they were, in this run */
@@ -47,7 +48,7 @@ typedef struct {
 
 static size_t work_size(const mdl_descriptor *m) {
   size_t n_x = (size_t)m->n_x, n = n_x + (size_t)m->n_z;
-  return sizeof(work) + (2 * (size_t)m->jac_nnz + n * n + n + n_x) * sizeof(double) + n * sizeof(int);
+  return sizeof(work) + (2 * (size_t)m->jac_nnz + n * n + 2 * n + n_x) * sizeof(double) + n * sizeof(int);
 }
 
 static work *layout(const rt_session *s, void *memory) {
@@ -58,7 +59,8 @@ static work *layout(const rt_session *s, void *memory) {
   w->matrix = w->fyp + nnz;
   w->right = w->matrix + n * n;
   w->dfdt = w->right + n;
-  w->pivot = (int *)(w->dfdt + n_x);
+  w->row = w->dfdt + n_x;
+  w->pivot = (int *)(w->row + n);
   return w;
 }
 
@@ -87,6 +89,21 @@ static int differentiate_time(rt_session *s, rt_onestep *o, work *w, double h) {
   return status;
 }
 
+/* Rows of size 1, by powers of two, so that the choice of pivots has no units. */
+static void equilibrate(const rt_session *s, work *w) {
+  int n = s->d->n_x + s->d->n_z;
+  for (int i = 0; i < n; i++) {
+    double largest = 0;
+    int exponent = 0;
+    for (int j = 0; j < n; j++)
+      largest = rt_max(largest, fabs(w->matrix[j * n + i]) * s->nominal[j]);
+    if (largest > 0 && isfinite(largest)) frexp(largest, &exponent);
+    w->row[i] = ldexp(1, -exponent);
+    for (int j = 0; j < n; j++)
+      w->matrix[j * n + i] *= w->row[i];
+  }
+}
+
 static int factor(rt_session *s, work *w, double h) {
   const mdl_descriptor *m = s->d;
   int n = m->n_x + m->n_z;
@@ -95,6 +112,7 @@ static int factor(rt_session *s, work *w, double h) {
   for (int j = 0; j < n; j++)
     for (int k = m->jac_colptr[j]; k < m->jac_colptr[j + 1]; k++)
       w->matrix[j * n + m->jac_rowidx[k]] = w->fy[k] + cj * w->fyp[k];
+  equilibrate(s, w);
   int singular = rt_lu_factor(n, w->matrix, w->pivot);
   if (!singular) return 0;
   s->data.failure = (mdl_failure){MDL_FAILURE_SINGULAR, -1, rt_unknown_variable(s, singular - 1), 0, 0};
@@ -120,6 +138,8 @@ static void solve(const rt_session *s, work *w, double *k) {
   for (int j = 0; j < n_x; j++)
     for (int l = m->jac_colptr[j]; l < m->jac_colptr[j + 1]; l++)
       w->right[m->jac_rowidx[l]] += w->fyp[l] * k[j];
+  for (int i = 0; i < n; i++)
+    w->right[i] *= w->row[i];
   rt_lu_solve(n, w->matrix, w->pivot, w->right);
   memcpy(k, w->right, (size_t)n_x * sizeof *k);
 }

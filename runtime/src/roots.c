@@ -10,14 +10,6 @@
 
 #include "session.h"
 
-static const double VISIBLE_DIP = 1e-3; /* of the hysteresis: more than rounding */
-
-/* In the unit of the guard. 1e-10 is far above rounding of operands of 1e4 and far below any physical play; the second
- * part covers guards that run over a larger range. */
-double rt_hysteresis(const rt_session *s, int r) {
-  return 1e-10 + 1e-12 * s->g_span[r];
-}
-
 /* Positive while relation r keeps its value. */
 static double margin(const rt_session *s, int r, double g) {
   bool holds = s->data.rel[r];
@@ -25,23 +17,21 @@ static double margin(const rt_session *s, int r, double g) {
   return (holds ? g : -g) + (at_start > 0 ? 0 : rt_hysteresis(s, r));
 }
 
-static bool is_state_relation(const rt_session *s, int r) {
-  return !s->d->relations[r].is_time;
-}
-
 static bool any_changed(const rt_session *s) {
-  for (int r = 0; r < s->d->n_rel; r++)
-    if (is_state_relation(s, r) && (s->data.rel[r] ? s->g[r] : -s->g[r]) < -rt_hysteresis(s, r)) return true;
+  for (int r = 0; r < s->d->n_rel; r++) {
+    double held = s->data.rel[r] ? s->g[r] : -s->g[r];
+    if (held < 0 && held < -rt_hysteresis(s, r) && rt_is_state_relation(s, r)) return true;
+  }
   return false;
 }
 
 static bool any_negative(const rt_session *s, const double *g) {
   for (int r = 0; r < s->d->n_rel; r++)
-    if (is_state_relation(s, r) && margin(s, r, g[r]) < 0) return true;
+    if (rt_is_state_relation(s, r) && margin(s, r, g[r]) < 0) return true;
   return false;
 }
 
-static int guards_at(rt_session *s, double t, double *g) {
+int rt_guards_at(rt_session *s, double t, double *g) {
   rt_dense_eval(&s->dense, s->d->n_x, t, s->x_trial);
   int status = rt_rhs(s, t, s->x_trial, s->xdot_trial, s->v_trial);
   s->result->counters.root_evaluations++;
@@ -54,54 +44,9 @@ static double first_secant(const rt_session *s, const double *ga, double wa, con
   double fraction = 1;
   for (int r = 0; r < s->d->n_rel; r++) {
     double ma = wa * margin(s, r, ga[r]), mb = wb * margin(s, r, gb[r]);
-    if (is_state_relation(s, r) && mb < 0) fraction = rt_min(fraction, rt_max(0, ma) / (rt_max(0, ma) - mb));
+    if (rt_is_state_relation(s, r) && mb < 0) fraction = rt_min(fraction, rt_max(0, ma) / (rt_max(0, ma) - mb));
   }
   return fraction;
-}
-
-/* Smallest value on [0, 1] of the parabola through (0, a), (1, b) with second derivative c, and where it is. */
-static double lowest(double a, double b, double c, double *where) {
-  double slope = b - a - 0.5 * c;
-  *where = c > 0 ? rt_min(1, rt_max(0, -slope / c)) : a < b ? 0 : 1;
-  return a + *where * (slope + 0.5 * c * *where);
-}
-
-/* Could a guard have crossed twice inside the step? Judged by the parabola through the last three points with four
- * times its curvature; there is no third point after a restart, so then it could. */
-static bool may_dip(const rt_session *s) {
-  if (isnan(s->t_before)) return true;
-  double h = s->t - s->t_previous, before = s->t_previous - s->t_before, where;
-  double weight = 2 * h / (h + before), back = weight * h / before;
-  for (int r = 0; r < s->d->n_rel; r++) {
-    double sign = s->data.rel[r] ? 1 : -1, a = sign * s->g_previous[r], b = sign * s->g[r];
-    double c = weight * (b - a) - back * (a - sign * s->g_before[r]);
-    double least = a < b ? a : b;
-    if (c > 1.5 * least && c > 0 && is_state_relation(s, r) && lowest(a, b, 4 * c, &where) < 0.25 * least) return true;
-  }
-  return false;
-}
-
-/* Look inside the step for a guard that crossed twice: at the middle, then at the bottom of each parabola through three
- * points. Where one is found s->g belongs to *inside, otherwise *inside stays as it is. */
-static int find_dip(rt_session *s, double *inside) {
-  double h = s->t - s->t_previous, where;
-  rt_dense_prepare(s);
-  memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
-  int status = guards_at(s, s->t_previous + 0.5 * h, s->g_low);
-  for (int r = 0; !status && r < s->d->n_rel; r++) {
-    if (!is_state_relation(s, r)) continue;
-    double sign = s->data.rel[r] ? 1 : -1, a = sign * s->g_previous[r], middle = sign * s->g_low[r], b = sign * s->g[r];
-    double eps = rt_hysteresis(s, r), noticeable = s->rebound[r] ? VISIBLE_DIP * eps : eps;
-    if (lowest(a, b, 4 * (a - 2 * middle + b), &where) >= -noticeable || where <= 0 || where >= 1) continue;
-    status = guards_at(s, s->t_previous + where * h, s->g_trial);
-    if (status) break;
-    s->g_lowest[r] = rt_min(s->g_lowest[r], sign * s->g_trial[r]);
-    if (sign * s->g_trial[r] >= -eps) continue;
-    *inside = s->t_previous + where * h;
-    memcpy(s->g, s->g_trial, (size_t)s->d->n_rel * sizeof *s->g);
-    return 0;
-  }
-  return status;
 }
 
 /* The interval in which the first crossing lies: no guard has crossed at a, one has at b. g_low and g belong to a, b.
@@ -113,7 +58,7 @@ typedef struct {
 
 /* Look at t and move the end that belongs there; the value at an end that stays put twice is halved. */
 static int narrow(rt_session *s, bracket *k, double t) {
-  int status = guards_at(s, t, s->g_trial);
+  int status = rt_guards_at(s, t, s->g_trial);
   if (status) return status;
   bool crossed = any_negative(s, s->g_trial);
   memcpy(crossed ? s->g : s->g_low, s->g_trial, (size_t)s->d->n_rel * sizeof *s->g);
@@ -121,6 +66,8 @@ static int narrow(rt_session *s, bracket *k, double t) {
   k->wa = crossed && k->side == 1 ? 0.5 * k->wa : 1;
   k->wb = !crossed && k->side == -1 ? 0.5 * k->wb : 1;
   k->side = crossed ? 1 : -1;
+  for (int r = 0; !crossed && r < s->d->n_rel; r++)
+    rt_extend_guard(s, r, fabs(s->g_trial[r]));
   return 0;
 }
 
@@ -131,10 +78,10 @@ static int narrow(rt_session *s, bracket *k, double t) {
  * to *crossing, the end of the interval on entry and the crossing on return. */
 static int locate(rt_session *s, double *crossing) {
   bracket k = {s->t_previous, *crossing, 1, 1, 0};
-  double tolerance = 1e-12 * (k.b - k.a) + 4 * DBL_EPSILON * fabs(k.b), length = k.b - k.a;
+  double length = k.b - k.a, tolerance;
   memcpy(s->g_low, s->g_previous, (size_t)s->d->n_rel * sizeof *s->g);
   memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
-  for (int i = 1; k.b - k.a > tolerance; i++) {
+  for (int i = 1; k.b - k.a > (tolerance = 1e-12 * (k.b - s->t_previous) + 4 * DBL_EPSILON * fabs(k.b)); i++) {
     bool creeps = i % 3 == 0 && k.b - k.a > 0.5 * length;
     double t = k.a + (k.b - k.a) * (creeps ? 0.5 : first_secant(s, s->g_low, k.wa, s->g, k.wb));
     t = rt_min(rt_max(t, k.a + 0.5 * tolerance), k.b - 0.5 * tolerance);
@@ -143,17 +90,23 @@ static int locate(rt_session *s, double *crossing) {
     if (i % 3 == 0) length = k.b - k.a;
   }
   *crossing = k.b;
+  s->t_uncrossed = k.a;
   return 0;
 }
 
+/* To the crossing, or to just before it where the branch that is left there has no finite values any more. */
 static rt_status move_back(rt_session *s, double t) {
   const mdl_descriptor *d = s->d;
   memcpy(s->x_end, s->data.x, (size_t)d->n_x * sizeof(double));
   memcpy(s->xdot_end, s->data.xdot, (size_t)d->n_x * sizeof(double));
   memcpy(s->v_end, s->data.v, (size_t)d->n_v * sizeof(double));
-  s->t = t;
-  rt_dense_eval(&s->dense, d->n_x, t, s->data.x);
-  return rt_evaluate(s) ? rt_fail_model(s, t, "evaluating the model at an event") : RT_OK;
+  for (int k = 0; k < 2; k++) {
+    s->t = k ? s->t_uncrossed : t;
+    rt_dense_eval(&s->dense, d->n_x, s->t, s->data.x);
+    if (!rt_evaluate(s) && rt_finite(d->n_v, s->data.v)) return RT_OK;
+    memcpy(s->data.v, s->v_end, (size_t)d->n_v * sizeof(double));
+  }
+  return rt_fail_model(s, t, "evaluating the model at an event");
 }
 
 /* Go on to the end of the step that an event without consequences cut short. */
@@ -166,23 +119,19 @@ void rt_resume_step(rt_session *s) {
   memcpy(s->data.v, s->v_end, (size_t)d->n_v * sizeof(double));
 }
 
-/* Extremes of the guards. A guard that was thrown back by reinit, dipped to the other side by less than the hysteresis
- * and comes through again has lost an event to rounding: the events of its relation were piling up. */
+/* Extremes of the guards. A guard that was thrown back and comes through again without having switched its relation has
+ * lost an event: the events of its relation were piling up (Zeno), and the last hops are smaller than rounding. */
 static rt_status follow(rt_session *s) {
   for (int r = 0; r < s->d->n_rel; r++) {
-    double size = fabs(s->g[r]), held = s->data.rel[r] ? s->g[r] : -s->g[r];
-    if (size > s->g_span[r]) s->g_span[r] = size;
-    if (size > s->g_travel[r]) s->g_travel[r] = size;
-    if (!s->rebound[r] || !s->options.locate_events) continue;
-    double eps = rt_hysteresis(s, r);
-    s->g_lowest[r] = rt_min(s->g_lowest[r], held);
-    if (held <= eps) continue;
+    double held = s->data.rel[r] ? s->g[r] : -s->g[r];
+    rt_extend_guard(s, r, fabs(held));
+    if (!s->rebound[r] || !s->options.locate_events || held <= rt_hysteresis(s, r)) continue;
     s->rebound[r] = 0;
-    if (s->g_lowest[r] < -VISIBLE_DIP * eps)
-      return rt_fail(
-          s, RT_CHATTERING, s->t_previous, -1, &s->d->relations[r].source,
-          "chattering: the events of this relation come faster and faster at time %.9g s, until rounding swallows one",
-          s->t_previous);
+    return rt_fail(s, RT_CHATTERING, s->t_previous, -1, &s->d->relations[r].source,
+                   "the events of this relation come faster and faster at time %.9g s (Zeno), until rounding swallows "
+                   "one: give the "
+                   "model a mode in which it rests, for instance when the speed after the event is below a threshold",
+                   s->t_previous);
   }
   return RT_OK;
 }
@@ -190,8 +139,8 @@ static rt_status follow(rt_session *s) {
 static int search(rt_session *s, double *crossing) {
   bool located = s->options.locate_events, changed = any_changed(s);
   int status = 0;
-  if (!changed && located && may_dip(s)) {
-    status = find_dip(s, crossing);
+  if (!changed && located && rt_may_dip(s)) {
+    status = rt_find_dip(s, crossing);
     changed = *crossing < s->t;
   }
   if (!changed) return status;
@@ -216,7 +165,7 @@ rt_status rt_find_state_event(rt_session *s) {
   if (search(s, &crossing)) return rt_fail_model(s, s->t, "locating an event");
   if (s->pending) {
     for (int r = 0; r < d->n_rel; r++)
-      s->flip[r] = is_state_relation(s, r) && margin(s, r, s->g[r]) < 0;
+      s->flip[r] = rt_is_state_relation(s, r) && margin(s, r, s->g[r]) < 0;
     if (crossing < s->t && move_back(s, crossing)) return s->failure.status;
   }
   s->t_before = s->t_previous;

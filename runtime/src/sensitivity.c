@@ -207,6 +207,7 @@ rt_status rt_tangent_begin(rt_session *s) {
     f->scale[k] = scale_of(s, &s->d->variables[f->variables[k]]);
   for (int k = 0; k < f->columns; k++)
     f->weight[k] = k >= f->n ? 1 : f->scale[k] > 0 ? 1 / f->scale[k] : INFINITY;
+  if (s->d->tangents->rounds) rt_result_flag(s->result, s->start, RT_FLAG_ROUNDING, -1, -1);
   rt_status status = rt_tangent_evaluate(s);
   rt_tangent_check_finite(s);
   return status;

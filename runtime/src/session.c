@@ -31,12 +31,13 @@ static bool allocate_numbers(rt_session *s) {
   rt_recorder *r = &s->recorder;
   double **parameters[] = {&m->p, &s->p_run}, **inputs[] = {&m->u},
          **discrete[] = {&m->d, &m->pre_d, &s->d_swept, &s->d_before, &s->d_after};
-  double **unknowns[] = {&s->atol, &s->y, &s->yp}, **samples[] = {&s->clock.first, &s->clock.interval};
+  double **unknowns[] = {&s->range, &s->outgrown, &s->atol, &s->y, &s->yp},
+         **samples[] = {&s->clock.first, &s->clock.interval};
   double **algebraic[] = {&m->v, &s->v_trial, &s->v_before, &s->v_end, &r->v}, **dense[] = {&s->dense.c};
   double **states[] = {&m->x,           &m->xdot,  &s->initial_value, &s->x_trial, &s->xdot_trial, &s->x_before,
                        &s->xdot_before, &s->x_end, &s->xdot_end,      &r->x,       &r->xdot,       &s->x_swept};
-  double **guards[] = {&s->g,        &s->g_previous, &s->g_low,    &s->g_trial,
-                       &s->g_before, &s->g_span,     &s->g_travel, &s->g_lowest};
+  double **sizes[] = {&s->nominal}, **division[] = {&s->division};
+  double **guards[] = {&s->g, &s->g_previous, &s->g_low, &s->g_trial, &s->g_before, &s->g_span, &s->g_travel};
   const group groups[] = {{parameters, COUNT(parameters), d->n_p},
                           {inputs, COUNT(inputs), d->n_u},
                           {discrete, COUNT(discrete), d->n_d},
@@ -45,6 +46,8 @@ static bool allocate_numbers(rt_session *s) {
                           {algebraic, COUNT(algebraic), d->n_v},
                           {dense, COUNT(dense), (RT_DENSE_DEGREE + 1) * d->n_x},
                           {states, COUNT(states), d->n_x},
+                          {sizes, COUNT(sizes), d->n_x + d->n_z + d->n_rel},
+                          {division, COUNT(division), 2 * d->n_divisions},
                           {guards, COUNT(guards), d->n_rel}};
   size_t total = 1;
   for (size_t i = 0; i < COUNT(groups); i++)
@@ -53,6 +56,7 @@ static bool allocate_numbers(rt_session *s) {
   for (size_t i = 0; next && i < COUNT(groups); i++)
     for (size_t j = 0; j < groups[i].count; j++, next += groups[i].n)
       *groups[i].places[j] = next;
+  s->g_nominal = s->nominal + d->n_x + d->n_z;
   return s->numbers != NULL;
 }
 
@@ -61,13 +65,14 @@ static bool allocate_flags(rt_session *s) {
   mdl_data *m = &s->data;
   unsigned char **relations[] = {&m->rel, &s->flip, &s->rel_before, &s->rel_trial, &s->rebound, &s->rel_swept};
   unsigned char *next = s->flags =
-      calloc(COUNT(relations) * (size_t)d->n_rel + (size_t)(d->n_sample + 2 * d->n_when) + 1, 1);
+      calloc(COUNT(relations) * (size_t)d->n_rel + (size_t)(d->n_sample + 2 * d->n_when + d->n_divisions) + 1, 1);
   if (!next) return false;
   for (size_t i = 0; i < COUNT(relations); i++, next += d->n_rel)
     *relations[i] = next;
   m->tick = next;
   m->when = next + d->n_sample;
   s->when_before = m->when + d->n_when;
+  s->division_sign = (signed char *)s->when_before + d->n_when;
   return true;
 }
 
@@ -76,22 +81,6 @@ static bool allocate_session(rt_session *s) {
   s->clock.next = calloc((size_t)s->d->n_sample + 1, sizeof *s->clock.next);
   s->initial_index = calloc((size_t)s->d->n_x + 1, sizeof *s->initial_index);
   return s->inputs && s->clock.next && s->initial_index && allocate_numbers(s) && allocate_flags(s);
-}
-
-/* Absolute tolerances: atol for each unit of a variable's nominal value. */
-static void set_tolerances(rt_session *s) {
-  const mdl_descriptor *d = s->d;
-  if (!(s->options.rtol > 0)) s->options.rtol = d->tolerance > 0 ? d->tolerance : 1e-6;
-  if (!(s->options.atol > 0)) s->options.atol = 0.01 * s->options.rtol;
-  for (int i = 0; i < d->n_x + d->n_z; i++)
-    s->atol[i] = s->options.atol;
-  for (int i = 0; i < d->n_variables; i++) {
-    const mdl_variable *v = &d->variables[i];
-    if (!(v->nominal > 0)) continue;
-    if (v->storage == MDL_STATE) s->atol[v->index] = s->options.atol * v->nominal;
-    for (int k = 0; k < d->n_z && v->storage == MDL_ALGEBRAIC; k++)
-      if (d->z_index[k] == v->index) s->atol[d->n_x + k] = s->options.atol * v->nominal;
-  }
 }
 
 static void declared_parameters(rt_session *s) {
@@ -120,7 +109,9 @@ rt_session *rt_session_new(const rt_model *model, const rt_options *options, cha
   bool done = allocate_session(s);
   if (done) {
     declared_parameters(s);
-    set_tolerances(s);
+    if (!(s->options.rtol > 0)) s->options.rtol = s->d->tolerance > 0 ? s->d->tolerance : 1e-6;
+    s->atol_given = s->options.atol > 0;
+    if (!s->atol_given) s->options.atol = 0.01 * s->options.rtol;
     s->memory = s->method->create(s);
   }
   if (s->memory) return s;

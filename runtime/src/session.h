@@ -104,11 +104,17 @@ struct rt_session {
   double *initial_value;
   rt_input *inputs;  /* [n_u]; n = 0: constant at its start value */
   double input_time; /* where data.u was last computed */
-  double *atol;      /* [n_x + n_z] */
-  double *y, *yp;    /* [n_x + n_z] scratch for the residual form */
+  double *nominal;   /* [n_x + n_z + n_rel] sizes of unknowns and, g_nominal, of guards (0: not known) */
+  double *g_nominal;
+  double *range;    /* [n_x + n_z] largest size so far, followed up to the nominal value */
+  double *outgrown; /* [n_x] size from which on range is to be followed again */
+  bool atol_given;  /* by the caller: it stays as it is */
+  double *atol;     /* [n_x + n_z] */
+  double *y, *yp;   /* [n_x + n_z] scratch for the residual form */
 
   double start, stop;
   double t_previous, t;             /* what is being looked at of the last step; data belongs to t */
+  double t_uncrossed;               /* where the last event located has not happened yet */
   double t_end;                     /* end of the last step; later than t when an event cut it short, and then */
   double *x_end, *xdot_end, *v_end; /* the point there */
   long steps_taken;                 /* in this run */
@@ -125,14 +131,15 @@ struct rt_session {
   double *d_before, *d_after;             /* discrete variables before an event; and aside while it is differentiated */
   double *x_swept, *d_swept;              /* states after a sweep of an event, discrete variables before it */
   unsigned char *rel_swept, *when_before; /* relations before a sweep, when conditions before its pass */
-  double *g_lowest;                       /* [n_rel] furthest on the other side since it switched, where rebound */
   unsigned char *rebound;                 /* [n_rel] the event at which it last switched reinitialised states */
   bool reinitialised;                     /* the last event did */
   unsigned char *flip;                    /* [n_rel] relations that switch at t */
   unsigned char *rel_before, *rel_trial;  /* [n_rel] */
   int pending;
-  double last_event; /* time of the last event (s) */
-  int futile_events; /* consecutive events that got nowhere, see check_chattering */
+  double last_event;          /* time of the last event (s) */
+  int futile_events;          /* consecutive events that got nowhere, see check_chattering */
+  double *division;           /* [2 n_divisions] numerators and divisors */
+  signed char *division_sign; /* [n_divisions] of their products when they were last looked at; 0 not known */
   rt_recorder recorder;
   rt_sensitivities *sensitivities; /* NULL: none are asked for */
   rt_failure failure;
@@ -147,9 +154,34 @@ static inline double rt_max(double a, double b) {
   return a > b ? a : b;
 }
 
+static inline bool rt_finite(int n, const double *a) {
+  double sum = 0;
+  for (int i = 0; i < n; i++)
+    sum += a[i] - a[i];
+  return sum == 0;
+}
+
 /* Steps smaller than this (s) are lost in the rounding of time. */
 static inline double rt_smallest_step(const rt_session *s) {
   return 16 * DBL_EPSILON * rt_max(fabs(s->t), 1e-3 * (s->stop - s->start));
+}
+
+/* A relation that is switched by the root of its guard. */
+static inline bool rt_is_state_relation(const rt_session *s, int r) {
+  return !s->d->relations[r].is_time;
+}
+
+/* In the unit of the guard: far above the rounding of what it compares, far below any play of it. The second part
+ * covers guards that run over a larger range than the model told. */
+static inline double rt_hysteresis(const rt_session *s, int r) {
+  double size = s->g_nominal[r] > 0 ? s->g_nominal[r] : s->g_span[r];
+  return 1e-10 * size + 1e-12 * s->g_span[r];
+}
+
+/* The guard of relation r has had this size since the relation switched. */
+static inline void rt_extend_guard(rt_session *s, int r, double size) {
+  if (size > s->g_span[r]) s->g_span[r] = size;
+  if (size > s->g_travel[r]) s->g_travel[r] = size;
 }
 
 /* failure.c */
@@ -165,8 +197,20 @@ int rt_check_finite(rt_session *s, const double *x);
 int rt_evaluate(rt_session *s);
 void rt_residual_point(rt_session *s);
 rt_status rt_check_forms(rt_session *s);
+int rt_find_row(const rt_session *s, mdl_storage storage, int index);
 int rt_state_variable(const rt_session *s, int state);
 int rt_unknown_variable(const rt_session *s, int k);
+
+/* scale.c */
+rt_status rt_scale_parameters(rt_session *s);
+void rt_scale_start(rt_session *s);
+void rt_scale_grow(rt_session *s);
+
+/* check.c */
+bool rt_blame(rt_session *s, mdl_storage storage, const double *xdot, const double *v);
+rt_status rt_check_parameters(rt_session *s);
+rt_status rt_check_values(rt_session *s, double t, const double *x, const double *xdot, const double *v);
+rt_status rt_check_point(rt_session *s, bool fresh);
 
 /* inputs.c */
 void rt_inputs_reset(rt_session *s);
@@ -190,8 +234,14 @@ void rt_dense_eval(const rt_dense *dense, int n, double t, double *x);
 void rt_dense_column(const rt_dense *dense, int n, int i, size_t points, const double *t, double *x);
 
 /* roots.c */
-double rt_hysteresis(const rt_session *s, int r);
 rt_status rt_find_state_event(rt_session *s);
+int rt_guards_at(rt_session *s, double t, double *g);
+
+/* dips.c */
+bool rt_may_dip(const rt_session *s);
+int rt_find_dip(rt_session *s, double *inside);
+int rt_mark_rebounds(rt_session *s, double since);
+
 void rt_resume_step(rt_session *s);
 
 /* events.c */

@@ -17,7 +17,10 @@ static rt_status begin(rt_session *s) {
     return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "stop time %.9g s is not later than start time %.9g s", s->stop,
                    s->start);
   rt_status status = rt_initialise(s);
-  if (!status) status = check_asserts(s);
+  if (status) return status;
+  rt_scale_start(s);
+  status = check_asserts(s);
+  if (!status) status = rt_check_point(s, true);
   if (!status) status = s->method->begin(s, s->memory);
   rt_record_begin(s);
   return status ? status : rt_record_step(s);
@@ -38,6 +41,11 @@ static rt_status move_on(rt_session *s) {
   if (s->sensitivities) s->sensitivities->dense.valid = false;
   rt_status status = s->method->step(s, s->memory, rt_clock_limit(s));
   s->t_end = s->t;
+  for (int i = 0; i < s->d->n_x; i++)
+    if (fabs(s->data.x[i]) > s->outgrown[i]) {
+      rt_scale_grow(s);
+      break;
+    }
   s->tiny_steps = s->t - s->t_previous < rt_smallest_step(s) ? s->tiny_steps + 1 : 0;
   if (s->tiny_steps > MAX_TINY_STEPS) return rt_fail_collapse(s, s->t - s->t_previous, "its steps vanish");
   return status;
@@ -48,10 +56,14 @@ static rt_status advance(rt_session *s) {
   if (!status) status = rt_find_state_event(s);
   if (!status) status = rt_tangent_follow(s);
   if (!status) status = check_asserts(s);
+  if (!status) status = rt_check_point(s, false);
   if (status) return status;
   s->pending |= rt_clock_due(s);
   if ((status = rt_record_step(s))) return status;
-  return s->pending ? rt_event(s) : RT_OK;
+  if (!s->pending) return RT_OK;
+  status = rt_event(s);
+  s->pending = 0;
+  return status ? status : rt_check_point(s, true);
 }
 
 static rt_status finish(rt_session *s, rt_status status) {

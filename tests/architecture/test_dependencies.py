@@ -30,7 +30,7 @@ FACE = {"lacuna", "lacuna.native", "lacuna.extras", "lacuna.units", "lacuna.reco
 C_MAY_INCLUDE = {
     "runtime": ("runtime", ("idas/", "nvector/", "sunmatrix/", "sunlinsol/", "sundials/")),
     "analysis": ("analysis", ("Eigen/", "unsupported/Eigen/", "fftw3.h")),
-    "bench": ("bench", ("ida/", "nvector/", "sunmatrix/", "sunlinsol/", "sundials/")),
+    "bench": ("bench", ("ida/", "idas/", "nvector/", "sunmatrix/", "sunlinsol/", "sundials/")),
     "tests/proof": ("tests/proof", ()),
 }
 C_SUFFIXES = (".c", ".h", ".cpp", ".hpp")

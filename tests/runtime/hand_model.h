@@ -140,6 +140,14 @@ template <class M> struct Generated {
                                      M::next_time_event,
                                      M::event,
                                      M::check,
+                                     nullptr,
+                                     0,
+                                     nullptr,
+                                     nullptr,
+                                     nullptr,
+                                     nullptr,
+                                     0,
+                                     nullptr,
                                      nullptr};
     return &d;
   }
@@ -176,7 +184,7 @@ public:
   explicit Session(const Options &o = {}) {
     char message[300] = "";
     model_ = {rt_model_wrap(Generated<M>::descriptor(), message, sizeof message), rt_model_close};
-    rt_options options = {o.solver.c_str(), o.rtol, o.atol, o.step, 0, o.locate, o.events, 0};
+    rt_options options = {o.solver.c_str(), o.rtol, o.atol, o.step, 0, o.locate, o.events, 0, 0};
     session_ = {rt_session_new(model_.get(), &options, message, sizeof message), rt_session_free};
     EXPECT_NE(session_, nullptr) << message;
     std::vector<int> columns;

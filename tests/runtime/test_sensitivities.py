@@ -258,3 +258,21 @@ def test_through_the_public_face(tmp_path: Path) -> None:
     assert result.flags == []
     falling = result.time < np.sqrt(2 / 5)
     np.testing.assert_allclose(result.sensitivity("h", "g")[falling], -(result.time[falling] ** 2) / 2, rtol=1e-6)
+
+
+def test_rounding_at_events_is_flagged(tmp_path: Path) -> None:
+    """A converter: between two of its steps the held value does not change; a difference of runs would see steps."""
+    text = """model Converter
+  parameter Real a = 1;
+  Real x(start = 0, fixed = true);
+  discrete Real y(start = 0, fixed = true);
+equation
+  der(x) = a;
+  when sample(0.1, 0.1) then
+    y = 0.01*floor(x/0.01 + 0.5);
+  end when;
+end Converter;"""
+    result = run(compiled(tmp_path, text), stop=1.0, interval=0.25, sensitivities=["a"])
+    assert [f.kind for f in result.flags] == ["rounding"]
+    np.testing.assert_array_equal(result.sensitivity("y", "a"), 0.0)
+    np.testing.assert_allclose(result.sensitivity("x", "a"), result.time)

@@ -18,7 +18,7 @@ from lacuna.codegen.compile import compile_model
 
 ROOT = Path(__file__).parents[2]
 BOUND = 1e-5  # of the largest value of each sensitivity
-RTOL, REFERENCE_RTOL = 1e-9, 1e-12
+RTOL, REFERENCE_RTOL = 1e-9, 1e-13
 ROWS = 300
 EMA = ["R", "L", "Ke", "Jm", "bm", "tau_m", "V", "Js", "bs", "tau_s", "k", "controller.Kp"]
 CASES = {

@@ -101,7 +101,7 @@ def test_precedence_is_that_of_arithmetic(tmp_path: Path, term: str) -> None:
         ("A[end, end]", "A[2,3]"),
         ("sum(A[1, {1, 3}])", "A[1,1] + A[1,3]"),
         ("sum(A[1, 2:end])", "A[1,2] + A[1,3]"),
-        ("A[k, 1]", "if k == 1 then A[1,1] else A[2,1]"),
+        ("A[k, 1]", "if k == 1 then A[1,1] else if k == 2 then A[2,1] else nan"),
         ("v*v", "v[1] * v[1] + v[2] * v[2] + v[3] * v[3]"),
         ("(A*v)*{1, 0}", "A[1,1] * v[1] + A[1,2] * v[2] + A[1,3] * v[3]"),
         ("max(v)", "max(max(v[1], v[2]), v[3])"),

@@ -61,7 +61,46 @@ static const mdl_equation mdl_equations[] = {
   {"u = if time < T then U else -U", "Diode.mo", 13, ""},
   {"u = R*i + v + u_C", "Diode.mo", 14, ""},
   {"i = I_s*(exp(v/V_t) - 1)", "Diode.mo", 15, ""},
-  {"C*der(u_C) = i", "Diode.mo", 16, ""}
+  {"C*der(u_C) = i", "Diode.mo", 16, ""},
+  {"inverse of V_t = 1.0 / V_t", "Diode.mo", 1, ""},
+  {"inverse of C = 1.0 / C", "Diode.mo", 1, ""}
+};
+
+static const mdl_computed mdl_computed_by[] = {
+  {MDL_PARAMETER, 6, 4},
+  {MDL_PARAMETER, 7, 5},
+  {MDL_ALGEBRAIC, 0, 0},
+  {MDL_ALGEBRAIC, 1, 1},
+  {MDL_ALGEBRAIC, 2, 2},
+  {MDL_DERIVATIVE, 0, 3}
+};
+
+static const int mdl_equation_first[] = {
+  0,
+  2,
+  7,
+  11,
+  13,
+  14,
+  15
+};
+
+static const int mdl_equation_variables[] = {
+  4,
+  6,
+  0,
+  8,
+  6,
+  9,
+  7,
+  2,
+  3,
+  8,
+  7,
+  1,
+  8,
+  3,
+  1
 };
 
 static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double value) {
@@ -69,23 +108,29 @@ static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double val
   return 1;
 }
 
-/* Solve a x = b in place (row-major, n x n) by Gaussian elimination with scaled partial pivoting; b becomes x.
- * Returns 1 where a is singular to working precision. */
+/* Solve a x = b in place (row-major, n x n) by Gaussian elimination with scaled partial pivoting; b becomes x. Where a
+ * is singular to working precision, 1 + the unknown that it does not determine: rows and columns have no scale. */
 static int mdl_solve(int n, double *a, double *b) {
+  double size[n];
   for (int i = 0; i < n; ++i) {
     double largest = 0.0;
     for (int j = 0; j < n; ++j)
       if (fabs(a[i * n + j]) > largest) largest = fabs(a[i * n + j]);
-    if (!(largest > 0.0) || !isfinite(largest)) return 1;
+    if (!(largest > 0.0) || !isfinite(largest)) return 1 + i;
     const double scale = 1.0 / largest;
     for (int j = 0; j < n; ++j) a[i * n + j] *= scale;
     b[i] *= scale;
+  }
+  for (int j = 0; j < n; ++j) {
+    size[j] = 0.0;
+    for (int i = 0; i < n; ++i)
+      if (fabs(a[i * n + j]) > size[j]) size[j] = fabs(a[i * n + j]);
   }
   for (int k = 0; k < n; ++k) {
     int pivot = k;
     for (int i = k + 1; i < n; ++i)
       if (fabs(a[i * n + k]) > fabs(a[pivot * n + k])) pivot = i;
-    if (!(fabs(a[pivot * n + k]) > 1e-14)) return 1;
+    if (!(fabs(a[pivot * n + k]) > 1e-14 * size[k])) return 1 + k;
     if (pivot != k) {
       for (int j = k; j < n; ++j) {
         const double swap = a[k * n + j];
@@ -170,6 +215,7 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
   (void)t;
   const double R = m->p[0];
   const double I_s = m->p[2];
+  const double V_t = m->p[3];
   const double U = m->p[4];
   const double inverse_of_V_t = m->p[6];
   const double inverse_of_C = m->p[7];
@@ -196,11 +242,12 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
     }
     if (v_2_block.converged) break;
     double v_2_block_a[1] = {-(R * (I_s * (tmp1 * inverse_of_V_t)) + 1.0)};
-    if (mdl_solve(1, v_2_block_a, v_2_block_r)) return mdl_fail(m, MDL_FAILURE_SINGULAR, 1, 0.0);
+    const int v_2_block_a_singular = mdl_solve(1, v_2_block_a, v_2_block_r);
+    if (v_2_block_a_singular) return mdl_fail(m, MDL_FAILURE_SINGULAR, (const int[]){1}[v_2_block_a_singular - 1], 0.0);
     if (++v_2_block.iterations > 50) return mdl_fail(m, MDL_FAILURE_NEWTON, 1, 0.0);
     v_2_block.converged = 1;
     v_2_block_step[0] = v_2_block_r[0];
-    v_2_block.converged &= fabs(v_2_block_r[0]) <= 1e-9 * fabs(v_2) + 1e-12;
+    v_2_block.converged &= fabs(v_2_block_r[0]) <= 1e-9 * fabs(v_2) + 1e-12 * fabs(V_t);
     v_2 -= v_2_block_r[0];
   }
   /* Diode.mo:16  C*der(u_C) = i */
@@ -298,14 +345,35 @@ static int mdl_check(mdl_data *m, double t, const double *x, const double *xdot,
   return 0;
 }
 
+static int mdl_nominals(mdl_data *m, double *nominal) {
+  const double V_t = m->p[3];
+  const double tmp1 = fabs(V_t);
+  nominal[0] = tmp1;
+  nominal[1] = tmp1;
+  nominal[2] = 1.0;
+  return 0;
+}
+
+static int mdl_divisions(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *value) {
+  (void)m;
+  (void)t;
+  (void)x;
+  (void)xdot;
+  (void)v;
+  (void)value;
+  return 0;
+}
+
 static const mdl_descriptor mdl_model = {
   .abi_version = MDL_ABI_VERSION,
   .name = "Diode",
   .hash = "",
   .jac_nnz = 4,
   .n_asserts = 0,
+  .n_computed = 6,
   .n_d = 0,
-  .n_equations = 4,
+  .n_divisions = 0,
+  .n_equations = 6,
   .n_messages = 0,
   .n_p = 8,
   .n_rel = 1,
@@ -330,6 +398,10 @@ static const mdl_descriptor mdl_model = {
   .interval = 0.0,
   .jac_colptr = mdl_jac_colptr,
   .jac_rowidx = mdl_jac_rowidx,
+  .computed = mdl_computed_by,
+  .equation_first = mdl_equation_first,
+  .equation_variables = mdl_equation_variables,
+  .division_equation = NULL,
   .starts = mdl_starts,
   .parameters = mdl_parameters,
   .samples = mdl_samples,
@@ -342,6 +414,8 @@ static const mdl_descriptor mdl_model = {
   .next_time_event = mdl_next_time_event,
   .event = mdl_event,
   .check = mdl_check,
+  .nominals = mdl_nominals,
+  .divisions = mdl_divisions,
 };
 
 const mdl_descriptor *mdl_descriptor_get(void);

@@ -49,6 +49,21 @@ static const mdl_equation mdl_equations[] = {
   {"der(x) = rate*(u - x)", "Sampler.mo", 10, ""}
 };
 
+static const mdl_computed mdl_computed_by[] = {
+  {MDL_DERIVATIVE, 0, 0}
+};
+
+static const int mdl_equation_first[] = {
+  0,
+  3
+};
+
+static const int mdl_equation_variables[] = {
+  1,
+  3,
+  4
+};
+
 static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double value) {
   m->failure = (mdl_failure){kind, equation, -1, value, 0.0};
   return 1;
@@ -188,13 +203,33 @@ static int mdl_check(mdl_data *m, double t, const double *x, const double *xdot,
   return 0;
 }
 
+static int mdl_nominals(mdl_data *m, double *nominal) {
+  (void)m;
+  nominal[0] = 0.2;
+  nominal[1] = 0.7;
+  nominal[2] = 0.2;
+  return 0;
+}
+
+static int mdl_divisions(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *value) {
+  (void)m;
+  (void)t;
+  (void)x;
+  (void)xdot;
+  (void)v;
+  (void)value;
+  return 0;
+}
+
 static const mdl_descriptor mdl_model = {
   .abi_version = MDL_ABI_VERSION,
   .name = "Sampler",
   .hash = "",
   .jac_nnz = 1,
   .n_asserts = 1,
+  .n_computed = 1,
   .n_d = 3,
+  .n_divisions = 0,
   .n_equations = 1,
   .n_messages = 0,
   .n_p = 3,
@@ -220,6 +255,10 @@ static const mdl_descriptor mdl_model = {
   .interval = 0.0,
   .jac_colptr = mdl_jac_colptr,
   .jac_rowidx = mdl_jac_rowidx,
+  .computed = mdl_computed_by,
+  .equation_first = mdl_equation_first,
+  .equation_variables = mdl_equation_variables,
+  .division_equation = NULL,
   .starts = mdl_starts,
   .parameters = mdl_parameters,
   .samples = mdl_samples,
@@ -232,6 +271,8 @@ static const mdl_descriptor mdl_model = {
   .next_time_event = mdl_next_time_event,
   .event = mdl_event,
   .check = mdl_check,
+  .nominals = mdl_nominals,
+  .divisions = mdl_divisions,
 };
 
 const mdl_descriptor *mdl_descriptor_get(void);

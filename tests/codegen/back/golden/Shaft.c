@@ -60,7 +60,57 @@ static const mdl_equation mdl_equations[] = {
   {"phi1 = ratio*phi2", "Shaft.mo", 17, ""},
   {"drive = min(k*(w_ref - w1), tau_max)", "Shaft.mo", 18, ""},
   {"J1*der(w1) = drive - tau", "Shaft.mo", 19, ""},
-  {"J2*der(w2) = ratio*tau", "Shaft.mo", 20, ""}
+  {"J2*der(w2) = ratio*tau", "Shaft.mo", 20, ""},
+  {"inverse of ratio = 1.0 / ratio", "Shaft.mo", 1, ""},
+  {"inverse of J2 = 1.0 / J2", "Shaft.mo", 1, ""}
+};
+
+static const mdl_computed mdl_computed_by[] = {
+  {MDL_PARAMETER, 6, 6},
+  {MDL_PARAMETER, 7, 7},
+  {MDL_DERIVATIVE, 0, 0},
+  {MDL_ALGEBRAIC, 5, 2},
+  {MDL_ALGEBRAIC, 1, 1},
+  {MDL_ALGEBRAIC, 0, 2},
+  {MDL_ALGEBRAIC, 2, 3},
+  {MDL_DERIVATIVE, 1, 2},
+  {MDL_ALGEBRAIC, 3, 4},
+  {MDL_ALGEBRAIC, 4, 0},
+  {MDL_ALGEBRAIC, 7, 5},
+  {MDL_ALGEBRAIC, 6, 1}
+};
+
+static const int mdl_equation_first[] = {
+  0,
+  1,
+  2,
+  5,
+  10,
+  13,
+  16,
+  17,
+  18
+};
+
+static const int mdl_equation_variables[] = {
+  8,
+  9,
+  6,
+  7,
+  2,
+  10,
+  3,
+  4,
+  8,
+  5,
+  0,
+  10,
+  11,
+  1,
+  2,
+  11,
+  2,
+  1
 };
 
 static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double value) {
@@ -246,14 +296,36 @@ static int mdl_check(mdl_data *m, double t, const double *x, const double *xdot,
   return 0;
 }
 
+static int mdl_nominals(mdl_data *m, double *nominal) {
+  const double tau_max = m->p[4];
+  const double w_ref = m->p[5];
+  const double tmp1 = fabs(w_ref);
+  nominal[0] = tmp1;
+  nominal[1] = tmp1;
+  nominal[2] = fabs(tau_max);
+  return 0;
+}
+
+static int mdl_divisions(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *value) {
+  (void)m;
+  (void)t;
+  (void)x;
+  (void)xdot;
+  (void)v;
+  (void)value;
+  return 0;
+}
+
 static const mdl_descriptor mdl_model = {
   .abi_version = MDL_ABI_VERSION,
   .name = "Shaft",
   .hash = "",
   .jac_nnz = 3,
   .n_asserts = 0,
+  .n_computed = 12,
   .n_d = 0,
-  .n_equations = 6,
+  .n_divisions = 0,
+  .n_equations = 8,
   .n_messages = 0,
   .n_p = 8,
   .n_rel = 1,
@@ -278,6 +350,10 @@ static const mdl_descriptor mdl_model = {
   .interval = 0.0,
   .jac_colptr = mdl_jac_colptr,
   .jac_rowidx = mdl_jac_rowidx,
+  .computed = mdl_computed_by,
+  .equation_first = mdl_equation_first,
+  .equation_variables = mdl_equation_variables,
+  .division_equation = NULL,
   .starts = mdl_starts,
   .parameters = mdl_parameters,
   .samples = mdl_samples,
@@ -290,6 +366,8 @@ static const mdl_descriptor mdl_model = {
   .next_time_event = mdl_next_time_event,
   .event = mdl_event,
   .check = mdl_check,
+  .nominals = mdl_nominals,
+  .divisions = mdl_divisions,
 };
 
 const mdl_descriptor *mdl_descriptor_get(void);

@@ -1,0 +1,265 @@
+"""Nominal values: the size that each variable has by what the model says, so that no tolerance has a scale of its own.
+
+In this order, for each continuous variable:
+
+1. its declared `nominal`, else the size of its start value where that is not zero;
+2. the balance of an equation: the largest of its terms whose size is known is as large as the terms in which one
+   thing is unknown, so that V = R i + k w gives i = V/R and w = V/k, and a relation x > limit gives x = limit.
+   Parameters have the size of their values, sin and cos 1, and first of all what stands in them has. Of several
+   balances the smallest counts. What is found serves in the next round. Where a round finds nothing, sums inside
+   products are looked at, then numbers that stand as terms (a threshold of 1e-6 says less than a parameter, but more
+   than nothing);
+3. then the length of the experiment links a variable and its derivative;
+4. an angle (unit rad) has at most size 1, at which it acts, however many turns it makes;
+5. else none: the runtime takes the size at the start of the run, and 1 in the variable's unit where that is zero.
+
+All of it is products, quotients and powers of what the model gives: in other units the nominal value is the same
+quantity. It is an expression in the parameters, computed for the values of each run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+import math
+
+from lacuna.codegen import flat
+from lacuna.codegen.structure.system import DeclaredValues, System
+from lacuna.codegen.symbolic.expr import BOOLEAN, ONE, Expr, call, const, der, div, is_const, mul, power, var, walk
+from lacuna.codegen.symbolic.leaves import leaves
+
+BOUNDED = frozenset(("sin", "cos", "tanh", "sign", "asin", "acos", "atan", "atan2"))
+ANGLES = frozenset(("sin", "cos", "tan", "tanh", "exp"))  # their argument is of size 1 where they bend
+_SUMS = ("+", "-")
+
+
+@dataclass(frozen=True)
+class Size:
+    """The size of a quantity: as an expression in parameters, with the declared values, and by which rule."""
+
+    expression: Expr
+    value: float
+    reason: str = ""
+    terms: int = 1  # that the expression is made of
+
+    def smaller(self, other: Size) -> bool:
+        """Whether it is the smaller estimate, or as large and simpler."""
+        if math.isclose(self.value, other.value, rel_tol=1e-9):
+            return self.terms < other.terms
+        return self.value < other.value
+
+
+def infer(system: System, relations: Iterable[tuple[Expr, Expr, str]]) -> dict[Expr, Size]:
+    """Sizes by variable and derivative. `relations`: (left, right, where), each compares two quantities of one size."""
+    balances = [(row.lhs, row.rhs, f"line {row.source.span.line}") for row in system.rows] + list(relations)
+    inference = _Inference(system.model, [b for b in balances if BOOLEAN not in (b[0].type, b[1].type)])
+    inference.seed(system)
+    span = abs(system.model.experiment.stop_time - system.model.experiment.start_time) or 1.0
+    while inference.balance() or inference.link(system.states, span):
+        pass
+    return {e: _angle(size, e, system.model) for e, size in inference.sizes.items()}
+
+
+def difference(left: Expr, right: Expr, sizes: dict[Expr, Size], model: flat.FlatModel) -> Size | None:
+    """The size of a guard, left - right."""
+    inference = _Inference(model, [])
+    inference.sizes = sizes
+    return _largest([s for s in (inference.size(left), inference.size(right)) if s])
+
+
+def _angle(size: Size, e: Expr, model: flat.FlatModel) -> Size:
+    """An angle acts at 1 rad, however many turns it makes."""
+    large = e.op == "var" and model.variables[str(e.value)].unit == "rad" and size.value > 1
+    return Size(ONE, 1.0, "an angle") if large else size
+
+
+class _Inference:
+    def __init__(self, model: flat.FlatModel, balances: Sequence[tuple[Expr, Expr, str]]):
+        self.sizes: dict[Expr, Size] = {}
+        self._model, self._balances = model, balances
+        self._values = DeclaredValues(model)
+        self._memo: dict[Expr, Size | None] = {}
+        self._found: dict[Expr, Size] = {}
+        self._numbers = False  # whether a number that stands as a term has a size
+        sums = ((self._whole, False), (self._inside, False), (self._whole, True), (self._inside, True))
+        self._looks = ((self._angles, False), *sums)  # each with whether numbers count
+        self._pending = [dict.fromkeys(range(len(balances))) for _ in self._looks]  # balances that may tell more
+        self._users: dict[Expr, list[int]] = {}
+        for k, (left, right, _) in enumerate(balances):
+            for n in leaves(left) | leaves(right):
+                self._users.setdefault(n, []).append(k)
+
+    def seed(self, system: System) -> None:
+        for name in (*system.states, *system.algebraics):
+            v = self._model.variables[name]
+            for given, reason in ((v.nominal, "declared"), (v.start, "start value")):
+                size = self._parametric(given, reason) if given is not None else None
+                if size is not None:
+                    self.sizes[var(name)] = size
+                    break
+
+    def _parametric(self, e: Expr, reason: str = "") -> Size | None:
+        value = self._values.parametric(e)
+        return _size(call("abs", e), abs(value), reason) if value is not None else None
+
+    # -- the size of an expression ----------------------------------------------------------------------------
+
+    def size(self, e: Expr) -> Size | None:
+        """None where it is not known."""
+        if e not in self._memo:
+            self._memo[e] = self._size(e)
+        return self._memo[e]
+
+    def _size(self, e: Expr) -> Size | None:
+        known = self.sizes.get(e)
+        if known is not None or e.op in ("var", "der", "pre", "const", "time"):
+            return known or (self._leaf(e))
+        if e.op in _SUMS or e.op in ("min", "max", "if"):
+            return _largest([s for a in (e.args[1:] if e.op == "if" else e.args) if (s := self.size(a))])
+        if e.op == "call" and e.value in BOUNDED:
+            return Size(ONE, 1.0)
+        if e.op == "neg" or (e.op == "call" and e.value == "abs"):
+            return self.size(e.args[0])
+        if e.op == "call" and e.value == "sqrt":
+            return _power(self.size(e.args[0]), const(0.5))
+        if e.op == "^" and is_const(e.args[1]):
+            return _power(self.size(e.args[0]), e.args[1])
+        if e.op in ("*", "/"):
+            return _combine(e.op, self.size(e.args[0]), self.size(e.args[1]))
+        return None
+
+    def _leaf(self, e: Expr) -> Size | None:
+        if e.op == "time":
+            end = max(abs(self._model.experiment.stop_time), abs(self._model.experiment.start_time))
+            return _size(const(end), end)
+        if e.op == "pre":
+            e = e.args[0]
+        if e.op == "var" and self._model.variables[str(e.value)].type != "Real":
+            return None
+        return self._parametric(e) if e.op in ("var", "const") else None
+
+    # -- balances ---------------------------------------------------------------------------------------------
+
+    def balance(self) -> bool:
+        """One round of balances, of the first kind that finds anything; whether one did."""
+        for (look, numbers), pending in zip(self._looks, self._pending, strict=True):
+            self._numbers = numbers
+            self._memo, self._found = {}, {}
+            for k in sorted(pending):
+                look(*self._balances[k])
+            pending.clear()
+            if self._found:
+                self._accept(self._found)
+                return True
+        return False
+
+    def _accept(self, found: dict[Expr, Size]) -> None:
+        self.sizes.update(found)
+        for e in found:
+            for pending in self._pending:
+                pending.update(dict.fromkeys(self._users.get(e, ())))
+
+    def _whole(self, left: Expr, right: Expr, where: str) -> None:
+        self._sum([*_terms(left), *_terms(right)], where)
+
+    def _angles(self, left: Expr, right: Expr, where: str) -> None:
+        for n in (*walk(left), *walk(right)):
+            if n.op == "call" and n.value in ANGLES and self.size(n.args[0]) is None:
+                self._assign(n.args[0], Size(ONE, 1.0, where))
+
+    def _inside(self, left: Expr, right: Expr, where: str) -> None:
+        for n in (*walk(left), *walk(right)):
+            if n.op in _SUMS:
+                self._sum(list(_terms(n)), where)
+
+    def _sum(self, terms: Sequence[Expr], where: str) -> None:
+        sized = [t for t in terms if self._numbers or t.op != "const"]
+        largest = _largest([s for t in sized if (s := self.size(t))])
+        for t in terms if largest else ():
+            if self.size(t) is None:
+                self._assign(t, _named(largest, where))
+
+    def _assign(self, e: Expr, size: Size | None) -> None:
+        """What is unknown in `e` is such that `e` has this size."""
+        if size is None:
+            return
+        if e.op in ("var", "der"):
+            best = self._found.get(e)
+            if e not in self.sizes and self._is_continuous(e) and (best is None or size.smaller(best)):
+                self._found[e] = size
+        elif e.op == "neg" or (e.op == "call" and e.value == "abs"):
+            self._assign(e.args[0], size)
+        elif e.op == "if":
+            for a in e.args[1:]:
+                if self.size(a) is None:
+                    self._assign(a, size)
+        elif e.op in ("*", "/"):
+            self._factor(e, size)
+        elif e.op == "^" and is_const(e.args[1]) and e.args[1].value != 0:
+            self._assign(e.args[0], _named(_power(size, const(1 / e.args[1].value)), size.reason))
+        elif e.op in _SUMS:
+            for t in _terms(e):
+                if self.size(t) is None:
+                    self._assign(t, size)
+
+    def _factor(self, e: Expr, size: Size) -> None:
+        a, b = e.args
+        known_a, known_b = self.size(a), self.size(b)
+        if known_b is not None and known_a is None:
+            self._assign(a, _named(_combine("/" if e.op == "*" else "*", size, known_b), size.reason))
+        elif known_a is not None and known_b is None:
+            pair = (size, known_a) if e.op == "*" else (known_a, size)
+            self._assign(b, _named(_combine("/", *pair), size.reason))
+
+    def _is_continuous(self, e: Expr) -> bool:
+        v = self._model.variables[str((e.args[0] if e.op == "der" else e).value)]
+        return v.type == "Real" and v.variability == flat.CONTINUOUS
+
+    def link(self, states: Iterable[str], span: float) -> bool:
+        """States of which only the value or only the derivative has a size get the other one."""
+        found = {}
+        for x in map(var, states):
+            rate = der(x)
+            if (x in self.sizes) != (rate in self.sizes):
+                known, unknown = (x, rate) if x in self.sizes else (rate, x)
+                size = _combine("*" if unknown is x else "/", self.sizes[known], Size(const(span), span))
+                if size is not None:
+                    found[unknown] = _named(size, "length of the experiment")
+        self._accept(found)
+        return bool(found)
+
+
+def _terms(e: Expr) -> Iterator[Expr]:
+    if e.op in _SUMS or e.op == "neg":
+        for a in e.args:
+            yield from _terms(a)
+    elif e.op != "const" or e.value != 0:
+        yield e
+
+
+def _size(expression: Expr, value: float, reason: str = "", terms: int = 1) -> Size | None:
+    return Size(expression, value, reason, terms) if 0 < value < math.inf else None
+
+
+def _named(size: Size | None, reason: str) -> Size | None:
+    return replace(size, reason=reason) if size else None
+
+
+def _largest(sizes: Sequence[Size]) -> Size | None:
+    return max(sizes, key=lambda s: (s.value, -s.terms)) if sizes else None
+
+
+def _power(size: Size | None, exponent: Expr) -> Size | None:
+    if size is None:
+        return None
+    try:
+        return _size(power(size.expression, exponent), size.value ** float(exponent.value))
+    except (OverflowError, ZeroDivisionError):
+        return None
+
+
+def _combine(op: str, a: Size | None, b: Size | None) -> Size | None:
+    if a is None or b is None:
+        return None
+    value = a.value * b.value if op == "*" else a.value / b.value
+    return _size((mul if op == "*" else div)(a.expression, b.expression), value, "", a.terms + b.terms)

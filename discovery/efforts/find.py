@@ -1,0 +1,100 @@
+"""The law of a missing effort: located, screened as a regression, fitted by output error, simplified.
+
+Places are taken by their evidence. Where the law found at one leaves noise, only places that the evidence does not
+tell from it are tried beside it, so that a tie is said as one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from lacuna.codegen.library import Library
+from lacuna.discovery.amend import Amendment
+from lacuna.discovery.cases import Case
+from lacuna.discovery.comparison import score
+from lacuna.discovery.efforts.located import Locator, Site
+from lacuna.discovery.efforts.numeric import NotNumeric
+from lacuna.discovery.efforts.opened import opened
+from lacuna.discovery.efforts.screening import proposals
+from lacuna.discovery.empirical_law import fitted_law, simplified
+from lacuna.discovery.evidence import nearly_noise, settled
+from lacuna.discovery.fit import Fit
+from lacuna.discovery.law_screen import Proposal
+from lacuna.discovery.screen import Candidate
+from lacuna.runtime import SimulationError
+
+PLACES = 3  # at most, at which laws are fitted
+LAWS = 3  # of one group of terms, and as many of two, that are fitted at a place
+INDIFFERENT = 5.0  # nats, below which two places are told as one
+WORTH = 0.3  # of the best place's gain, that another one must have to be tried where the best one's law leaves too much
+
+Progress = Callable[[str], None]
+
+
+@dataclass
+class Found:
+    """What a search at all places says: the places, those not open, and the best law at each that was tried."""
+
+    sites: list[Site] = field(default_factory=list)
+    closed: list[tuple[str, str]] = field(default_factory=list)
+    laws: list[Candidate] = field(default_factory=list)  # best first
+    reason: str = ""  # why nothing could be located
+
+
+def find(case: Case, amendment: Amendment, base: Fit, library: Library, progress: Progress) -> Found:
+    """Locate what `base`, the fit of `amendment`, lacks, and fit laws there."""
+    progress("opening every place of the equations")
+    try:
+        door = opened(case, amendment, library, [f.name for f in base.estimate.free if _is_common(f.name)])
+        locator = Locator(case, door, base)
+        progress(f"locating among {len(locator.places)} places")
+        found = Found(locator.ranked(), door.closed)
+    except (NotNumeric, SimulationError, np.linalg.LinAlgError) as reason:
+        return Found(reason=str(reason))
+    efforts = [s for s in found.sites if s.place is not None and s.gain > 0]
+    for site in efforts[:PLACES]:
+        enough = bool(found.laws) and nearly_noise(found.laws[0].fit)
+        if efforts[0].gain - site.gain > INDIFFERENT and (enough or site.gain < WORTH * efforts[0].gain):
+            break
+        law = _law_at(case, amendment, base, locator, site, progress)
+        if law is not None:
+            found.laws.append(law)
+            correlation = min((c.fit for c in found.laws), key=lambda f: f.deviance()).correlation()
+            found.laws.sort(key=lambda c: score(c, base, correlation))
+    return found
+
+
+def _is_common(name: str) -> bool:
+    return not name.startswith("start:") and "@" not in name
+
+
+def _law_at(
+    case: Case, amendment: Amendment, base: Fit, locator: Locator, site: Site, progress: Progress
+) -> Candidate | None:
+    """The best law at a place: of one group of terms, or of two where one does not leave noise."""
+    try:
+        guided = locator.guided(site)
+        progress(f"screening laws at {site.location}")
+        offered = proposals(locator, site, guided, LAWS)
+    except (NotNumeric, SimulationError, np.linalg.LinAlgError):
+        return None
+    best: Proposal | None = None
+    for size in (1, 2):
+        if best is not None and settled(best.candidate.fit):
+            break
+        tried = [p for p in offered if len(p.law.groups) == size]
+        for proposal in tried:
+            progress(f"fitting a law at {site.location}: {proposal.law.text()}")
+            proposal.candidate = fitted_law(case, amendment, base, proposal.law, proposal.start, guided.point)
+        best = _best([p for p in (best, *tried) if p is not None and p.candidate is not None], base)
+    return None if best is None else simplified(case, amendment, base, best)
+
+
+def _best(fitted: list[Proposal], base: Fit) -> Proposal | None:
+    if not fitted:
+        return None
+    correlation = min((p.candidate.fit for p in fitted), key=lambda f: f.deviance()).correlation()
+    return min(fitted, key=lambda p: score(p.candidate, base, correlation))

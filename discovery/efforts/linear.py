@@ -1,0 +1,193 @@
+"""The equations of a model linearised along its trajectory: how states and outputs answer to inputs and parameters.
+
+With rows F(u; x, p, q) = 0 in the unknowns u = (der(x), algebraic variables), inputs q and parameters p, the first
+variation is M du + F_x dx + F_q dq + F_p dp = 0, M = dF/du. The derivatives are the symbolic ones of the generator,
+evaluated at all samples of a trajectory at once; nothing is differenced.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import expm
+
+from lacuna.codegen import flat
+from lacuna.codegen.compile import translate
+from lacuna.codegen.symbolic.differentiate import Differentiator, partial
+from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, var
+from lacuna.discovery.cases import Recording
+from lacuna.discovery.efforts.numeric import Evaluator, NotNumeric, Value, table
+from lacuna.discovery.machine import Machine
+from lacuna.runtime import RecordedInput
+
+NEWTON = 4  # rounds at most; the trajectory solves the equations, only the derivatives are to be found
+
+
+@dataclass
+class Along:
+    """The linear model along one recording, n samples, x states, y outputs, b columns (inputs, then parameters).
+
+    From sample k to the next, x -> step[k] x + drive[k] q with q held; y = read[k] x + feed[k] q.
+    """
+
+    time: np.ndarray  # (n,)
+    step: np.ndarray  # (n - 1, x, x)
+    drive: np.ndarray  # (n - 1, x, b)
+    read: np.ndarray  # (n, y, x)
+    feed: np.ndarray  # (n, y, b)
+    direct: np.ndarray  # (n, u, b): du / dq, of derivatives first
+    values: dict[str, np.ndarray]  # of every variable, (n,); of parameters a number
+
+    def response(self, columns: np.ndarray, courses: np.ndarray, hold: bool = False, every: int = 1) -> np.ndarray:
+        """(n, y, j): outputs to each of j courses (n, j), course i acting in column columns[i]; from rest.
+
+        Courses are linear between samples, or held; `every` keeps one sample in so many.
+        """
+        n, count = len(self.time), len(columns)
+        state = np.zeros((self.step.shape[1], count))
+        result = np.empty((-(-n // every), self.read.shape[1], count))
+        for k in range(n):
+            if k % every == 0:
+                result[k // every] = self.read[k] @ state + self.feed[k][:, columns] * courses[k]
+            if k < n - 1:
+                acting = courses[k] if hold else 0.5 * (courses[k] + courses[k + 1])
+                state = self.step[k] @ state + self.drive[k][:, columns] * acting
+        return result
+
+
+class Linear:
+    """A machine's equations with their derivatives; `inputs` and `parameters` are what the columns belong to."""
+
+    def __init__(self, machine: Machine, inputs: list[str], parameters: list[str]) -> None:
+        self.machine, self.inputs, self.parameters = machine, inputs, parameters
+        self.prepared, _ = translate(str(machine.path), search_path=machine.case.search_path)
+        system = self.prepared.system
+        self.states, self.unknowns = system.states, system.unknowns
+        residuals = [row.residual for row in system.rows]
+        self.residuals = residuals
+        self._by_unknown = [_partials(r, self.unknowns) for r in residuals]
+        self._by_state = [_partials(r, [var(n) for n in self.states]) for r in residuals]
+        probes = [var(self.prepared.aliases.get(n, (n, 1))[0]) for n in inputs]
+        self._by_column = [_partials(r, probes) for r in residuals]
+        for j, name in enumerate(parameters, len(inputs)):
+            differentiate = self._by_parameter(name)
+            for row, residual in zip(self._by_column, residuals, strict=True):
+                if (d := differentiate(residual)) is not ZERO:
+                    row[j] = d
+
+    def _by_parameter(self, name: str) -> Differentiator:
+        """Derivatives by a parameter, those through what is bound to it included."""
+        variables = self.prepared.model.variables
+
+        def seed(n: Expr) -> Expr:
+            if n.op != "var":
+                return ZERO
+            if n.value == name:
+                return ONE
+            v = variables.get(str(n.value))
+            bound = v is not None and v.variability in (flat.CONSTANT, flat.PARAMETER) and v.binding is not None
+            return inner(v.binding) if bound else ZERO
+
+        inner = Differentiator(seed)
+        return inner
+
+    def along(
+        self, point: Mapping[str, float], recording: Recording, efforts: Mapping[str, RecordedInput] | None = None
+    ) -> Along:
+        """The linear model along the trajectory from `point`. Raises SimulationError, NotNumeric."""
+        values, fixed = self._trajectory(point, recording, efforts)
+        evaluator = self._solved(values, fixed, recording.time)
+        n, states, columns = len(recording.time), len(self.states), len(self.inputs) + len(self.parameters)
+        matrix = table(self._by_unknown, len(self.unknowns), evaluator, n)
+        right = np.concatenate(
+            [table(self._by_state, states, evaluator, n), table(self._by_column, columns, evaluator, n)], axis=2
+        )
+        answer = -np.linalg.solve(matrix, right)
+        a, b = answer[:, :states, :states], answer[:, :states, states:]
+        step, drive = _discrete(a, b, np.diff(recording.time))
+        read, feed = self._outputs(answer, n)
+        return Along(recording.time, step, drive, read, feed, answer[:, :, states:], {**fixed, **values})
+
+    def _trajectory(
+        self, point: Mapping[str, float], recording: Recording, efforts: Mapping[str, RecordedInput] | None
+    ) -> tuple[dict[str, np.ndarray], dict[str, float]]:
+        """(values of what varies, values of parameters); unknowns that the model does not show are zero as yet."""
+        storage, known = self.prepared.storage, self.machine.model.variables
+        names = [*storage.states, *storage.algebraics, *storage.inputs, *storage.discretes]
+        values = self.machine.trajectory(point, recording, [n for n in names if n in known], efforts)
+        values |= {n: np.zeros(len(recording.time)) for n in names if n not in known}
+        return values, self.machine.constants(point)
+
+    def _solved(self, values: dict[str, np.ndarray], fixed: Mapping[str, float], time: np.ndarray) -> Evaluator:
+        """An evaluator at the trajectory, with what the run does not give solved for: der(x) are added to `values`."""
+        names = [f"der({u.args[0].value})" if u.op == "der" else str(u.value) for u in self.unknowns]
+        for name in names[: len(self.states)]:
+            values[name] = np.zeros(len(time))
+        for _ in range(NEWTON):
+            evaluator = Evaluator(self._leaf(values, fixed, time))
+            matrix = table(self._by_unknown, len(names), evaluator, len(time))
+            miss = np.stack([np.broadcast_to(evaluator(r), time.shape) for r in self.residuals], axis=1)
+            change = -np.linalg.solve(matrix, miss[:, :, None])[:, :, 0]
+            for k, name in enumerate(names):
+                values[name] = values[name] + change[:, k]
+            size = np.array([np.abs(values[name]).max(initial=0.0) for name in names])
+            if np.all(np.abs(change).max(axis=0, initial=0.0) <= 1e-9 * size + 1e-300):
+                break
+        return Evaluator(self._leaf(values, fixed, time))
+
+    def _leaf(
+        self, values: Mapping[str, np.ndarray], fixed: Mapping[str, float], time: np.ndarray
+    ) -> Callable[[Expr], Value]:  # fmt: skip
+        relations = self.prepared.relations
+
+        def leaf(n: Expr) -> Value:
+            if n.op == "time":
+                return time
+            if n.op == "der":
+                return values[f"der({n.args[0].value})"]
+            if n.op == "rel":
+                relation = relations[n.value]
+                inner = Evaluator(leaf)
+                return np.greater(inner(relation.left), inner(relation.right))
+            if n.op in ("tick", "initial", "terminal"):
+                return False
+            name = str(n.args[0].value if n.op == "pre" else n.value)
+            if name in values:
+                return values[name]
+            if name in fixed:
+                return float(fixed[name])
+            raise NotNumeric(f"{name} is not known along the trajectory")
+
+        return leaf
+
+    def _outputs(self, answer: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
+        states, names = len(self.states), list(self.machine.columns.values())
+        both = np.zeros((n, len(names), answer.shape[2]))
+        place = {str(u.value): k for k, u in enumerate(self.unknowns) if u.op == "var"}
+        for i, name in enumerate(names):
+            kept, sign = self.prepared.aliases.get(name, (name, 1))
+            if kept in self.states:
+                both[:, i, self.states.index(kept)] = sign
+            elif kept in place:
+                both[:, i] = sign * answer[:, place[kept]]
+            elif kept not in self.prepared.storage.inputs:
+                raise NotNumeric(f"{name} is no state and no algebraic variable")
+        return both[:, :, :states], both[:, :, states:]
+
+
+def _partials(residual: Expr, leaves: list[Expr]) -> dict[int, Expr]:
+    found = {k: partial(residual, leaf) for k, leaf in enumerate(leaves)}
+    return {k: d for k, d in found.items() if d is not ZERO and not (d.op == "const" and d.value == 0)}
+
+
+def _discrete(a: np.ndarray, b: np.ndarray, intervals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(step (n-1, x, x), drive (n-1, x, b)): exact for matrices and inputs that are constant between two samples."""
+    mean, source = 0.5 * (a[:-1] + a[1:]), 0.5 * (b[:-1] + b[1:])
+    x = a.shape[1]
+    block = np.zeros((len(mean), 2 * x, 2 * x))
+    block[:, :x, :x] = mean * intervals[:, None, None]
+    block[:, :x, x:] = np.eye(x) * intervals[:, None, None]
+    exponential = expm(block)
+    return exponential[:, :x, :x], exponential[:, :x, x:] @ source

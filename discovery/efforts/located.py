@@ -1,0 +1,161 @@
+"""Where an effort is missing: the evidence of an unknown effort at every place, over all recordings together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from lacuna.discovery.cases import Case, Recording
+from lacuna.discovery.efforts.opened import Opened, Place
+from lacuna.discovery.efforts.smoother import Latent, Piece, course, evidence, thinned
+from lacuna.discovery.fit import Fit
+from lacuna.discovery.least_squares import Free
+from lacuna.runtime import RecordedInput
+
+SIZES = 10.0 ** np.arange(-1.0, 2.1, 0.5)  # of the effort that would explain the misfit by itself: half decades
+TIMES = (1 / 300, 1 / 50, 1 / 8)  # of the longest recording: shorter is noise, longer is a constant
+SAMPLES = 1500  # of all recordings together, that hypotheses are weighed on: locating needs no more
+ROUNDS = 2  # linearisations: about the believed model, then about the effort that was found
+
+
+@dataclass
+class Site:
+    """A place or a sensor with its evidence, in nats over no effort at all; `explains` of all that there is to gain."""
+
+    location: str
+    kind: str  # effort | sensor
+    gain: float
+    explains: float
+    place: Place | None = None
+    effort: dict[str, tuple[np.ndarray, np.ndarray, np.ndarray]] = field(default_factory=dict)  # time, mean, std
+
+
+@dataclass
+class Guided:
+    """The model led along the data by an effort at one place: where laws are screened."""
+
+    point: dict[str, float]
+    pieces: list[Piece]
+    efforts: list[np.ndarray]  # (n,) on each recording
+    mean: np.ndarray
+    latent: Latent
+
+
+class Locator:
+    """Places of an opened model on a case; `base` is the fit of the model without any effort."""
+
+    def __init__(self, case: Case, opened: Opened, base: Fit) -> None:
+        self.case, self.opened, self.base = case, opened, base
+        self.free = [f for f in base.estimate.free if f.name in opened.linear.parameters]
+        self.noise = np.array([base.noise[s.column].std for s in case.outputs])
+        self.sigma = np.array([f.sigma or f.scale for f in self.free])
+        self.pieces = [self.piece(base.point, r, None) for r in case.fit]
+        self.places = opened.places(self.pieces[0].along)
+
+    def piece(self, point: dict[str, float], recording: Recording, effort: tuple[int, np.ndarray] | None) -> Piece:
+        """The linear model about a run from `point` with an effort (column, course), and what is left for it."""
+        opened, time = self.opened, recording.time
+        drive = {opened.linear.inputs[effort[0]]: RecordedInput(time, effort[1], "hold")} if effort else None
+        along = opened.linear.along(point, recording, drive)
+        run = opened.machine.trajectory(point, recording, list(opened.machine.columns.values()), drive)
+        left = np.stack([recording.columns[c] - run[v] for c, v in opened.machine.columns.items()], axis=1)
+        if effort:
+            left = left + along.response(np.array([effort[0]]), effort[1][:, None], hold=True)[:, :, 0]
+        inputs, count = len(opened.linear.inputs), len(self.free)
+        columns = np.arange(inputs, inputs + count)
+        answers = along.response(columns, np.ones((len(time), count))) * self.sigma
+        believed = np.array([(f.centre - point[f.name]) for f in self.free]) / self.sigma
+        data = np.concatenate([(left - answers @ believed)[:, :, None], -answers], axis=2)
+        return Piece(along, data, self.noise, self._start(recording))
+
+    def _start(self, recording: Recording) -> np.ndarray:
+        """Standard deviations of the states at the first sample: that of the noise where they are recorded."""
+        result = np.zeros(len(self.opened.linear.states))
+        own = self.case.own.get(recording.name)
+        for name, value in (self.case.initial | (own.initial if own else {})).items():
+            signal = next((s for s in self.case.outputs if name in (s.column, s.variable)), None)
+            kept, _ = self.opened.linear.prepared.aliases.get(name, (name, 1))
+            if value == "recorded" and signal is not None and kept in self.opened.linear.states:
+                result[self.opened.linear.states.index(kept)] = self.base.noise[signal.column].std
+        return result
+
+    def ranked(self) -> list[Site]:
+        """Places and sensors, best first."""
+        hypotheses, owners = self._hypotheses()
+        thin = thinned_all(self.pieces)
+        found = evidence(thin, hypotheses)
+        null = float(found.log[-1])
+        samples = sum(np.isfinite(p.data[:, :, 0]).sum() for p in thin)
+        whole = max(-0.5 * samples - null, 1e-9)
+        result = []
+        for owner in dict.fromkeys(owners[:-1]):
+            mine = [k for k, o in enumerate(owners) if o == owner and np.isfinite(found.log[k])]
+            best = max(mine, key=lambda k: found.log[k], default=None)
+            if best is None:
+                continue
+            gain = float(found.log[best]) - null
+            kind, number = owner
+            place = self.places[number] if kind == "effort" else None
+            location = place.location if place else f"sensor:{self.case.outputs[number].column}"
+            site = Site(location, kind, gain, max(0.0, min(1.0, gain / whole)), place)
+            self._chosen[id(site)] = _one(hypotheses, best), found.mean[best]
+            result.append(site)
+        return sorted(result, key=lambda s: -s.gain)
+
+    _chosen: dict[int, tuple[Latent, np.ndarray]]
+
+    def _hypotheses(self) -> tuple[Latent, list[tuple[str, int]]]:
+        self._chosen = {}
+        longest = max(p.along.time[-1] - p.along.time[0] for p in self.pieces)
+        misfit = self._size([p.data[:, :, 0] for p in self.pieces])
+        rows, owners = [], []
+        for number, place in enumerate(self.places):
+            answer = [p.along.response(np.array([place.column]), np.ones((len(p.along.time), 1)))[:, :, 0]
+                      for p in self.pieces]  # fmt: skip
+            unit = misfit / max(self._size(answer), 1e-300)
+            rows += [(place.column, -1, s * unit, t * longest) for s in SIZES for t in TIMES]
+            owners += [("effort", number)] * (len(SIZES) * len(TIMES))
+        for number in range(len(self.case.outputs)):
+            rows += [(-1, number, s * misfit * self.noise[number], t * longest) for s in SIZES for t in TIMES]
+            owners += [("sensor", number)] * (len(SIZES) * len(TIMES))
+        rows.append((-1, -1, 0.0, longest))
+        column, sensor, size, time = (np.array(v) for v in zip(*rows, strict=True))
+        return Latent(column.astype(int), sensor.astype(int), size, time), [*owners, ("none", 0)]
+
+    def _size(self, outputs: list[np.ndarray]) -> float:
+        """RMS over samples and outputs, in units of noise."""
+        return float(np.sqrt(np.nanmean(np.concatenate([o / self.noise for o in outputs]) ** 2)))
+
+    def guided(self, site: Site) -> Guided:
+        """The model led along the data by the effort at a place, linearised anew about the run that it gives."""
+        latent, mean = self._chosen[id(site)]
+        pieces = self.pieces
+        point, efforts = dict(self.base.point), []
+        for k in range(ROUNDS):
+            efforts = [course(p, latent, mean) for p in pieces]
+            if k == ROUNDS - 1:
+                break
+            point = dict(self.base.point) | _values(self.free, self.sigma, mean)
+            pieces = [
+                self.piece(point, r, (site.place.column, e)) for r, (e, _) in zip(self.case.fit, efforts, strict=True)
+            ]
+            mean = evidence(thinned_all(pieces), latent).mean[0]
+        site.effort = {
+            r.name: (r.time, e, s) for r, (e, s) in zip(self.case.fit, efforts, strict=True)
+        }  # fmt: skip
+        return Guided(point, pieces, [e for e, _ in efforts], mean, latent)
+
+
+def thinned_all(pieces: list[Piece]) -> list[Piece]:
+    """The recordings with so few samples that a search over many hypotheses is quick."""
+    every = -(-sum(len(p.along.time) for p in pieces) // SAMPLES)
+    return [thinned(p, every) for p in pieces]
+
+
+def _values(free: list[Free], sigma: np.ndarray, mean: np.ndarray) -> dict[str, float]:
+    return {f.name: f.clip(f.centre + s * m) for f, s, m in zip(free, sigma, mean, strict=True)}
+
+
+def _one(latent: Latent, k: int) -> Latent:
+    return Latent(latent.column[k : k + 1], latent.sensor[k : k + 1], latent.size[k : k + 1], latent.time[k : k + 1])

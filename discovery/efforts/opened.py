@@ -1,0 +1,137 @@
+"""The open places of a model: each with an input, the equations linearised, those that are alike put together.
+
+Two places are alike where an effort at one does to the states and outputs what an effort at the other does, whatever
+the data: they are one place to this case, and its name is that of the state whose balance it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from lacuna.codegen.cache import CompilerError
+from lacuna.codegen.compile import translate
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.library import Library
+from lacuna.codegen.units.inference import UnitInference, of_variable
+from lacuna.discovery.amend import Amendment
+from lacuna.discovery.cases import Case
+from lacuna.discovery.efforts.insertion import probe
+from lacuna.discovery.efforts.linear import Along, Linear
+from lacuna.discovery.efforts.sites import Site, read
+from lacuna.discovery.machine import Machine, write_source
+from lacuna.units import Unit
+
+ALIKE = 1e-5  # of a direction, by which two places may differ: rounding of the linearisation
+SILENT = 1e-9  # share of the strongest place's effect, below which a place has none
+_ORDER = {"node": 0, "equation": 1, "edge": 2}
+
+
+@dataclass(frozen=True)
+class Place:
+    """Sites that the data cannot tell apart, the one that an amendment uses first; `column` is its input's."""
+
+    location: str
+    sites: tuple[Site, ...]
+    column: int
+    unit: str
+
+
+@dataclass
+class Opened:
+    """The believed model with an input at every site, linearised; `closed` says what was not open, and why."""
+
+    machine: Machine
+    linear: Linear
+    sites: list[Site]
+    closed: list[tuple[str, str]]
+
+    def places(self, along: Along) -> list[Place]:
+        """Places that have an effect, those alike put together."""
+        effect = self._effect(along)
+        size = np.sqrt(np.mean(np.sum(effect**2, axis=1), axis=0))
+        unit = effect / np.maximum(np.sqrt(np.sum(effect**2, axis=1, keepdims=True)), 1e-300)
+        groups: list[list[int]] = []
+        for k in np.flatnonzero(size > SILENT * size.max(initial=0.0)):
+            for group in groups:
+                cosine = np.abs(np.sum(unit[:, :, k] * unit[:, :, group[0]], axis=1))
+                if np.mean(1.0 - cosine) < ALIKE:
+                    group.append(k)
+                    break
+            else:
+                groups.append([k])
+        return [self._place(group, effect) for group in groups]
+
+    def _effect(self, along: Along) -> np.ndarray:
+        """(n, x + y, sites): rates of the states and outputs, each in its own size, that an effort causes at once."""
+        states, count = self.linear.states, len(self.sites)
+        rates = [np.sqrt(np.mean(along.values[f"der({s})"] ** 2)) or 1.0 for s in states]
+        outputs = [np.std(along.values.get(v, np.ones(1))) or 1.0 for v in self.machine.columns.values()]
+        direct = along.direct[:, : len(states), :count] / np.array(rates)[None, :, None]
+        return np.concatenate([direct, along.feed[:, :, :count] / np.array(outputs)[None, :, None]], axis=1)
+
+    def _place(self, group: list[int], effect: np.ndarray) -> Place:
+        states = self.linear.states
+        strength = np.sqrt(np.mean(effect[:, : len(states), group[0]] ** 2, axis=0))
+        sites = [self.sites[k] for k in group]
+        if strength.max(initial=0.0) > 0:
+            state = states[int(np.argmax(strength))]
+            location = state.rpartition(".")[0] or state
+        else:
+            location = sites[0].instance or (sites[0].ends[0].split(".")[0] if sites[0].ends else sites[0].label)
+        order = sorted(group, key=lambda k: (not _touches(self.sites[k], location), _ORDER[self.sites[k].kind]))
+        chosen = order[0]
+        return Place(location, tuple(self.sites[k] for k in order), chosen, self._unit(chosen))
+
+    def _unit(self, number: int) -> str:
+        site, variables = self.sites[number], self.machine.model.variables
+        if site.kind == "node":
+            return variables[f"probe{number}.port.{site.port.flow}"].unit
+        if site.kind == "edge":
+            return variables[f"probe{number}.a.{site.port.potential}"].unit
+        declared = self.linear.prepared.declared
+        left = site.label.removeprefix(f"{site.instance}: ").partition("=")[0].strip()
+        equation = next(
+            (e for e in declared.equations if e.origin == site.instance and e.text.partition("=")[0].strip() == left),
+            None,
+        )
+        if equation is None:
+            return ""
+        inference = UnitInference(lambda e: _declared_unit(declared.variables, str(e.value)), lambda name: "")
+        found = inference.of(equation.lhs)
+        return str(found) if isinstance(found, Unit) and found.factor == 1.0 else ""
+
+
+def _declared_unit(variables: Mapping, name: str) -> object:
+    v = variables[name]
+    return of_variable(v.unit, v.type, v.variability)
+
+
+def _touches(site: Site, location: str) -> bool:
+    if site.kind == "equation":
+        return f"der({location})" in site.label or site.instance == location
+    return any(end.rpartition(".")[0] == location for end in site.ends)
+
+
+def opened(case: Case, amendment: Amendment, library: Library, parameters: list[str]) -> Opened:
+    """The amended model with an input at every site where one can act."""
+    found = read(library, amendment.structure.model)
+    closed = list(found.closed)
+    sites = []
+    for site in found.places:
+        attachment, name = probe(site, 0)
+        trial = replace(amendment, attachments=[*amendment.attachments, attachment], inputs=(name,))
+        try:
+            translate(str(write_source(trial)), search_path=case.search_path)
+        except (Diagnostic, CompilerError) as reason:
+            closed.append((site.label, str(reason).split(": error", 1)[-1].split("\n")[0]))
+        else:
+            sites.append(site)
+    pairs = [probe(site, k) for k, site in enumerate(sites)]
+    whole = replace(
+        amendment, attachments=[*amendment.attachments, *(a for a, _ in pairs)], inputs=tuple(n for _, n in pairs)
+    )
+    machine = Machine(case, whole)
+    return Opened(machine, Linear(machine, list(whole.inputs), parameters), sites, closed)

@@ -1,0 +1,132 @@
+"""Places of any model where an effort may be missing, read from the class itself.
+
+A *node* is a set of connected ports: something may flow in. An *edge* is a connection: something may be lost across it.
+An *equation* written in the class is a balance: a term may be missing. Ports are any connectors of one flow and one
+potential; which is which the declaration says. Nothing is known here of domains, classes or names.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from lacuna.codegen.errors import Span
+from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.inheritance import written
+from lacuna.codegen.flatten.instance import Instance
+from lacuna.codegen.flatten.language import LOWERING
+from lacuna.codegen.library import Library
+from lacuna.codegen.syntax import ast
+
+
+@dataclass(frozen=True)
+class Port:
+    """A connector class of one flow and one potential, by the names of its variables."""
+
+    path: str
+    flow: str
+    potential: str
+
+
+@dataclass(frozen=True)
+class Site:
+    """A place. `ends` are those of its connection (of a node one suffices); `span` is where its equation stands, in
+    the class or in one that it declares and has one `instance` of."""
+
+    kind: str  # node | edge | equation
+    label: str
+    ends: tuple[str, ...] = ()
+    port: Port | None = None
+    span: Span | None = None
+    instance: str = ""
+
+
+@dataclass(frozen=True)
+class Sites:
+    """The places of a class that are open, and what is not and why."""
+
+    cls: ast.Class
+    places: tuple[Site, ...]
+    closed: tuple[tuple[str, str], ...]
+
+
+def read(library: Library, name: str) -> Sites:
+    """The places of class `name`. Raises Diagnostic."""
+    cls = library.find(name)
+    top = Instance(Context(library, Path(cls.span.file).resolve().parent, LOWERING), cls, "", None, None)
+    found: list[Site] = []
+    closed: list[tuple[str, str]] = []
+    group: dict[str, str] = {}
+    ports: dict[str, Port] = {}
+    for section, owner in top.sections:
+        for item in section.items:
+            if isinstance(item, ast.Connect):
+                found += _connection(item, top, group, ports, closed)
+            elif isinstance(item, ast.Equality) and not section.algorithm and not section.initial:
+                if owner is cls:
+                    found.append(Site("equation", item.text, span=item.span))
+                else:
+                    closed.append((item.text, f"the equation stands in {owner.path}"))
+    found += _inside(top)
+    roots = dict.fromkeys(_root(group, end) for end in ports)
+    nodes = [Site("node", root, (root,), ports[root]) for root in roots if root in ports]
+    return Sites(cls, (*nodes, *found), tuple(closed))
+
+
+def _inside(top: Instance) -> list[Site]:
+    """Equations of classes that the class itself declares and uses once."""
+    users: dict[str, list[str]] = {}
+    classes: dict[str, ast.Class] = {}
+    for name in top.elements:
+        node = top.child(name)
+        if isinstance(node, Instance) and node.cls.parent is top.cls and node.cls.kind in ("model", "block"):
+            users.setdefault(node.cls.name, []).append(name)
+            classes[node.cls.name] = node.cls
+    return [
+        Site("equation", f"{names[0]}: {item.text}", span=item.span, instance=names[0])
+        for name, names in users.items() if len(names) == 1
+        for section in classes[name].sections if not section.algorithm and not section.initial
+        for item in section.items if isinstance(item, ast.Equality)
+    ]  # fmt: skip
+
+
+def _connection(
+    item: ast.Connect, top: Instance, group: dict[str, str], ports: dict[str, Port], closed: list[tuple[str, str]]
+) -> list[Site]:
+    left, right = written(item.left), written(item.right)
+    pair = [_port(top, end) for end in (left, right)]
+    if None in pair:
+        if any(_is_connector(top, end) for end in (left, right)):
+            closed.append((f"{left}, {right}", "its connectors are not one flow and one potential"))
+        return []
+    ports[left], ports[right] = pair
+    group[_root(group, right)] = _root(group, left)
+    return [Site("edge", f"{left} to {right}", (left, right), pair[0])]
+
+
+def _root(group: dict[str, str], end: str) -> str:
+    while group.setdefault(end, end) != end:
+        end = group[end]
+    return end
+
+
+def _node(top: Instance, end: str) -> Instance | None:
+    node: object = top
+    for name in end.split("."):
+        node = node.child(name) if isinstance(node, Instance) and "[" not in name else None
+    return node if isinstance(node, Instance) and "." in end else None
+
+
+def _is_connector(top: Instance, end: str) -> bool:
+    node = _node(top, end)
+    return node is None or node.cls.kind == "connector"
+
+
+def _port(top: Instance, end: str) -> Port | None:
+    node = _node(top, end)
+    if node is None or node.cls.kind != "connector":
+        return None
+    flows = [n for n, e in node.elements.items() if e.declaration.flow]
+    others = [n for n, e in node.elements.items() if not e.declaration.flow and not e.declaration.variability]
+    plain = all(not isinstance(node.child(n), Instance) for n in (*flows, *others))
+    return Port(node.cls.path, flows[0], others[0]) if plain and len(flows) == len(others) == 1 else None

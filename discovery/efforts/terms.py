@@ -1,0 +1,152 @@
+"""Terms that a law at any place may be the sum of, in the model's own variables, each scaled by its largest value.
+
+Powers of either sign, roots, dry and saturating forms, exponentials, dead zones, waves along a variable, products of
+two, and a quantity that another one saturates (an inductance that falls with the current: a rate times a function).
+Texts are Modelica.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from lacuna.codegen.units.inference import SECOND
+from lacuna.discovery.efforts.linear import Along
+from lacuna.discovery.law_terms import DRY, Group, Shape, Variable
+from lacuna.units import parse_unit
+
+MOST = 12  # variables at a place, the nearest first: their pairs are what a search costs
+SAME = 1e-3  # of their largest value, within which two variables are one, but for a factor
+MOVES = 1e-6  # share of its largest value that a variable must move by
+LEAST = 1.5  # cycles over the range: less of a wave is a bend, which powers say with fewer numbers
+CYCLES = 30  # of a wave along a variable, over the range that it has
+TURN = 1.6  # rad from one wave number to the next at the ends of the range: so that none is missed
+EXPONENTS = (0.5, 1.5, 2.0, 3.0, 4.0)
+_WHOLE = (1 / 3, 2 / 3, 1.0, 7 / 4, *EXPONENTS, 5.0)
+
+
+def variables(
+    along: Sequence[Along], location: str, units: dict[str, str], states: list[str], answering: frozenset[str]
+) -> list[Variable]:
+    """The variables of a law at `location`, the nearest first; those that are others times a factor are left out.
+
+    `answering` are those that the effort changes at once: they are in the balance that says what the effort is, and a
+    sum of them is that balance again. Of them only rates of states serve, where something else multiplies them.
+    """
+    names = [n for n, v in along[0].values.items() if np.ndim(v) == 1 and (n in units or n.startswith("der("))]
+    names = [n for n in names if not n.startswith("probe") and (n not in answering or n.startswith("der("))]
+    largest: dict[str, float] = {}
+    for n in names:
+        unit = units.get(n, n)
+        largest[unit] = max(largest.get(unit, 0.0), max(float(np.abs(a.values[n]).max()) for a in along))
+    order = {s: k for k, s in enumerate(states)}
+
+    def rank(name: str) -> tuple:
+        inner = name.removeprefix("der(").removesuffix(")")
+        near = inner == location or inner.rpartition(".")[0] == location
+        return name.startswith("der(") and not near, not near, inner not in order, name.startswith("der("), name
+
+    kept: list[Variable] = []
+    courses: list[np.ndarray] = []
+    for name in sorted(names, key=rank):
+        course = np.concatenate([a.values[name] for a in along])
+        size = float(np.abs(course).max(initial=0.0))
+        if not np.isfinite(size) or np.ptp(course) <= MOVES * largest[units.get(name, name)]:
+            continue
+        scaled = course / size
+        if any(min(np.abs(scaled - c).max(), np.abs(scaled + c).max()) < SAME for c in courses):
+            continue
+        unit = units.get(name) or _rate(units.get(name.removeprefix("der(").removesuffix(")"), ""))
+        kind = "state" if name in order else "rate" if name in answering else "other"
+        kept.append(Variable(f"x{len(kept) + 1}", name, unit, kind, float(f"{size:.2g}")))
+        courses.append(scaled)
+        if len(kept) == MOST:
+            break
+    return kept
+
+
+def _rate(unit: str) -> str:
+    return str(parse_unit(unit) / SECOND) if unit else ""
+
+
+def groups(found: Sequence[Variable], ranges: dict[str, tuple[float, float]]) -> list[Group]:
+    """Every group of terms in these variables; `ranges` are those of their scaled values."""
+    result = [Group(("1",))]
+    for v in found:
+        low, high = ranges[v.local]
+        if v.kind != "rate":
+            result += _alone(v) if low < 0 < high else _of_one_sign(v)
+        if v.kind == "state":
+            result += _waves(v, high - low)
+    for a in found:
+        for b in found:
+            if a is not b and b.kind != "rate":
+                both = a.kind != "rate" and a.local > b.local
+                result += _together(a, b, ranges[a.local][0] < 0 < ranges[a.local][1], not both)
+    return result
+
+
+def _of_one_sign(v: Variable) -> list[Group]:
+    x = v.scaled
+    power = _powers(f"abs{x}")
+    bend = [
+        Group((f"exp({{q}}*{x})",), (Shape("q", "1", q, min(q / 9, q * 9), max(q / 9, q * 9), (), 3.0),))
+        for q in (-4, 4)
+    ]
+    ends = [
+        Group((f"(abs({x} - {{q}}) + {x} - {{q}})",), (Shape("q", "1", q, -0.99, 0.99, (), 0.25),))
+        for q in (0.25, 0.5, 0.75)
+    ]
+    return [Group((x,)), *power, *bend, *ends]
+
+
+def _powers(base: str) -> list[Group]:
+    """Powers with the exponents that physics has, and with any other."""
+    free = [Group((f"{base}^{{p}}",), (Shape("p", "1", p, 0.1, 8.0, _WHOLE, 0.75),)) for p in (0.75, 2.5, 5.0)]
+    return [*(Group((f"{base}^{p:.4g}",)) for p in EXPONENTS), *free]
+
+
+def _alone(v: Variable) -> list[Group]:
+    x, sign = v.scaled, f"sign({v.local})"
+    power = [
+        Group((f"{sign}*abs{x}^{{p}}",), (Shape("p", "1", p, 0.1, 8.0, _WHOLE, 0.75),)) for p in (0.5, 2.0, 3.0, 4.0)
+    ]
+    bend = [
+        Group((f"exp({{q}}*{x})",), (Shape("q", "1", q, min(q / 9, q * 9), max(q / 9, q * 9), (), 3.0),))
+        for q in (-4, 4)
+    ]
+    reach = [
+        Group((f"tanh({{q}}*{x})",), (Shape("q", "1", q, 0.5, 5e3, (), 0.8 * q),)) for q in (3.0, 15.0, 75.0, 375.0)
+    ]
+    ends = [
+        Group((f"(abs({side}{x} - {{q}}) + {side}{x} - {{q}})",), (Shape("q", "1", q, -0.99, 0.99, (), 0.25),))
+        for side in ("", "-") for q in (0.0, 0.5)
+    ]  # fmt: skip
+    stribeck = Group(
+        (DRY.format(x=x), f"{DRY.format(x=x)}*exp(-abs{x}/{{q}})"), (Shape("q", "1", 0.1, 0.01, 1.0, (), 0.08),)
+    )
+    plain = [Group((x,)), Group((f"abs{x}",)), Group((f"{x}^2",)), Group((DRY.format(x=x),))]
+    return [*plain, *power, *bend, *reach, *ends, stribeck]
+
+
+def _waves(v: Variable, span: float) -> list[Group]:
+    """Waves along a variable: sine and cosine, the wave numbers so close that the next is never out of step."""
+    step = TURN / max(span, 1e-9)
+    numbers = np.arange(2 * np.pi * LEAST / max(span, 1e-9), 2 * np.pi * CYCLES / max(span, 1e-9), step)
+    return [
+        Group(
+            (f"sin({{k}}*{v.scaled})", f"cos({{k}}*{v.scaled})"),
+            (Shape("k", "1", float(k), 0.5 * k, 2.0 * k, (), step),),
+        )
+        for k in numbers
+    ]
+
+
+def _together(a: Variable, b: Variable, signed: bool, once: bool) -> list[Group]:
+    """Products: those that are alike both ways once."""
+    x, y = a.scaled, b.scaled
+    saturating = Group((f"({x}/(1 + {{q}}*{y}^2) - {x})",), (Shape("q", "1", 1.0, 0.01, 100.0, (), 0.9),))
+    found = [Group((f"{x}*{y}^2",)), Group((f"{x}*abs{y}",)), saturating]
+    found += [Group((DRY.format(x=x) + f"*abs{y}",))] if signed and a.kind != "rate" else []
+    return [Group((f"{x}*{y}",)), *found] if once else found

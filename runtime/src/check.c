@@ -1,0 +1,123 @@
+/* Checks of accepted points: every variable is a finite number, and no divisor has passed through zero unseen.
+ *
+ * What is wrong is told at the first equation, in the order in which they are computed, that gives no finite number:
+ * the others only pass it on. */
+#include <math.h>
+#include <string.h>
+
+#include "session.h"
+
+enum { HALVINGS = 45 };         /* of a step, to find where a divisor is zero */
+static const double pole = 1e6; /* growth of a quotient on the way there that tells a pole from 0/0 */
+
+/* The first equation that gives no finite number, as failure; false where all do. */
+bool rt_blame(rt_session *s, mdl_storage storage, const double *xdot, const double *v) {
+  for (int k = 0; k < s->d->n_computed; k++) {
+    const mdl_computed *c = &s->d->computed[k];
+    if ((c->storage == MDL_PARAMETER) != (storage == MDL_PARAMETER)) continue;
+    double value = (c->storage == MDL_PARAMETER ? s->data.p : c->storage == MDL_DERIVATIVE ? xdot : v)[c->index];
+    if (isfinite(value)) continue;
+    int row = rt_find_row(s, c->storage == MDL_DERIVATIVE ? MDL_STATE : c->storage, c->index);
+    if (c->storage == MDL_PARAMETER && row < 0) continue; /* an inverse that may not be used */
+    s->data.failure = (mdl_failure){MDL_FAILURE_NONFINITE, c->equation, row, value, 0};
+    return true;
+  }
+  return false;
+}
+
+rt_status rt_check_parameters(rt_session *s) {
+  if (rt_finite(s->d->n_p, s->data.p) || !rt_blame(s, MDL_PARAMETER, NULL, NULL)) return RT_OK;
+  return rt_fail_model(s, s->start, "computing parameters");
+}
+
+/* Finite numbers in v [n_v], at a point at time t. */
+rt_status rt_check_values(rt_session *s, double t, const double *x, const double *xdot, const double *v) {
+  if (s->options.unchecked || rt_finite(s->d->n_v, v) || !rt_blame(s, MDL_ALGEBRAIC, xdot, v)) return RT_OK;
+  memmove(s->data.x, x, (size_t)s->d->n_x * sizeof *x); /* what the message shows */
+  memmove(s->data.v, v, (size_t)s->d->n_v * sizeof *v);
+  return rt_fail_model(s, t, "computing variables");
+}
+
+/* A guard that is no number although no event lies between now and when it was one: it still matters. */
+static rt_status check_guards(rt_session *s) {
+  for (int r = 0; r < s->d->n_rel; r++)
+    if (isnan(s->g[r]) && isfinite(s->g_previous[r]))
+      return rt_fail(s, RT_NONFINITE, s->t, -1, &s->d->relations[r].source,
+                     "at time %.9g s one side of this relation is not a number", s->t);
+  return RT_OK;
+}
+
+static rt_status check_discrete(rt_session *s) {
+  if (rt_finite(s->d->n_d, s->data.d)) return RT_OK;
+  int i = 0;
+  while (isfinite(s->data.d[i]))
+    i++;
+  int row = rt_find_row(s, MDL_DISCRETE, i);
+  const char *name = row >= 0 ? s->d->variables[row].name : "without a name";
+  return rt_fail(s, RT_NONFINITE, s->t, row, NULL, "at time %.9g s the discrete variable %s is %.9g", s->t, name,
+                 s->data.d[i]);
+}
+
+static int sign(double a) {
+  return (a > 0) - (a < 0);
+}
+
+/* Numerators and divisors at time t inside the last step. */
+static int divisions_at(rt_session *s, double t) {
+  rt_dense_eval(&s->dense, s->d->n_x, t, s->x_trial);
+  int status = rt_rhs(s, t, s->x_trial, s->xdot_trial, s->v_trial);
+  return status ? status : s->d->divisions(&s->data, t, s->x_trial, s->xdot_trial, s->v_trial, s->division);
+}
+
+/* The divisor of division k has changed its sign against the numerator's in the last step: it is a pole where the
+ * quotient grows without bound on the way there. */
+static rt_status look_for_pole(rt_session *s, int k) {
+  double *value = s->division + 2 * k, a = s->t_previous, b = s->t;
+  int before = s->division_sign[k];
+  double ordinary = fabs(value[0] / value[1]), nearest = ordinary;
+  rt_dense_prepare(s);
+  for (int i = 0; i < HALVINGS; i++) {
+    double middle = 0.5 * (a + b);
+    if (divisions_at(s, middle)) break;
+    nearest = fabs(value[0] / value[1]);
+    if (isnan(nearest)) return RT_OK; /* 0/0, or a branch that does not hold there */
+    *(sign(value[0] * value[1]) == before ? &a : &b) = middle;
+    if (nearest > pole * ordinary)
+      return rt_fail(s, RT_DOMAIN, middle, -1, &s->d->equations[s->d->division_equation[k]],
+                     "division by zero: a divisor passes through zero at time %.9g s (numerator %.3g)", middle,
+                     value[0]);
+  }
+  return RT_OK;
+}
+
+/* Divisors on their way since the last accepted point; `fresh`: there is none, an event lies between. */
+static rt_status check_divisions(rt_session *s, bool fresh) {
+  const mdl_descriptor *d = s->d;
+  if (!d->n_divisions) return RT_OK;
+  if (d->divisions(&s->data, s->t, s->data.x, s->data.xdot, s->data.v, s->division))
+    return rt_fail_model(s, s->t, "checking divisors");
+  for (int k = 0; k < d->n_divisions; k++) {
+    double product = s->division[2 * k] * s->division[2 * k + 1];
+    int now = sign(product), before = s->division_sign[k];
+    if (isnan(product) || fresh || now) s->division_sign[k] = (signed char)now;
+    if (fresh || isnan(product) || now * before >= 0) continue;
+    s->division_sign[k] = (signed char)before;
+    rt_status status = look_for_pole(s, k);
+    if (status) return status;
+    s->division_sign[k] = (signed char)now;
+    d->divisions(&s->data, s->t, s->data.x, s->data.xdot, s->data.v, s->division);
+  }
+  return RT_OK;
+}
+
+/* The accepted point; `fresh`: after an event or at the start. Where an event is about to happen, what is no number
+ * may come from the branch that it leaves. */
+rt_status rt_check_point(rt_session *s, bool fresh) {
+  const mdl_descriptor *d = s->d;
+  if (s->options.unchecked) return RT_OK;
+  if (!fresh && !d->n_divisions && rt_finite(d->n_v, s->data.v) && rt_finite(d->n_rel, s->g)) return RT_OK;
+  bool leaving = s->pending & RT_PENDING_STATE;
+  rt_status status = leaving ? RT_OK : rt_check_values(s, s->t, s->data.x, s->data.xdot, s->data.v);
+  if (!status && !leaving) status = fresh ? check_discrete(s) : check_guards(s);
+  return status ? status : check_divisions(s, fresh);
+}

@@ -1,0 +1,92 @@
+/* Guards that cross twice inside a step: what the ends of the step do not show. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "session.h"
+
+/* Smallest value on [0, 1] of the parabola through (0, a), (1, b) with second derivative c, and where it is. */
+static double lowest(double a, double b, double c, double *where) {
+  double slope = b - a - 0.5 * c;
+  *where = c > 0 ? rt_min(1, rt_max(0, -slope / c)) : a < b ? 0 : 1;
+  return a + *where * (slope + 0.5 * c * *where);
+}
+
+/* Could a guard have crossed twice inside the step? Judged by the parabola through the last three points with four
+ * times its curvature; there is no third point after a restart, so then it could. */
+bool rt_may_dip(const rt_session *s) {
+  if (isnan(s->t_before)) return true;
+  double h = s->t - s->t_previous, before = s->t_previous - s->t_before, where;
+  double weight = 2 * h / (h + before), back = weight * h / before;
+  for (int r = 0; r < s->d->n_rel; r++) {
+    double sign = s->data.rel[r] ? 1 : -1, a = sign * s->g_previous[r], b = sign * s->g[r];
+    double c = weight * (b - a) - back * (a - sign * s->g_before[r]);
+    double least = a < b ? a : b;
+    if (c > 1.5 * least && c > 0 && rt_is_state_relation(s, r) && lowest(a, b, 4 * c, &where) < 0.25 * least)
+      return true;
+  }
+  return false;
+}
+
+/* The return of a guard that an event has thrown back: it lies anywhere from the start of the step on, so the step is
+ * halved towards its start until the guard is on the other side. */
+static int find_return(rt_session *s, double *inside) {
+  double h = s->t - s->t_previous, least = rt_smallest_step(s);
+  for (int r = 0; r < s->d->n_rel; r++) {
+    if (!s->rebound[r]) continue;
+    double sign = s->data.rel[r] ? 1 : -1;
+    for (double part = 0.5 * h; part > least; part *= 0.5) {
+      int status = rt_guards_at(s, s->t_previous + part, s->g_trial);
+      if (status) return status;
+      if (sign * s->g_trial[r] >= -rt_hysteresis(s, r)) continue;
+      *inside = s->t_previous + part;
+      memcpy(s->g, s->g_trial, (size_t)s->d->n_rel * sizeof *s->g);
+      return 0;
+    }
+  }
+  return 0;
+}
+
+/* Look inside the step for a guard that crossed twice: at the middle, then at the bottom of each parabola through three
+ * points. Where one is found s->g belongs to *inside, otherwise *inside stays as it is. */
+int rt_find_dip(rt_session *s, double *inside) {
+  double h = s->t - s->t_previous, where;
+  rt_dense_prepare(s);
+  memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
+  int status = find_return(s, inside);
+  if (status || *inside < s->t) return status;
+  status = rt_guards_at(s, s->t_previous + 0.5 * h, s->g_low);
+  for (int r = 0; !status && r < s->d->n_rel; r++) {
+    if (!rt_is_state_relation(s, r)) continue;
+    double sign = s->data.rel[r] ? 1 : -1, a = sign * s->g_previous[r], middle = sign * s->g_low[r], b = sign * s->g[r];
+    if (middle > 0) rt_extend_guard(s, r, middle);
+    double eps = rt_hysteresis(s, r);
+    if (lowest(a, b, 4 * (a - 2 * middle + b), &where) >= -eps || where <= 0 || where >= 1) continue;
+    status = rt_guards_at(s, s->t_previous + where * h, s->g_trial);
+    if (status) break;
+    if (sign * s->g_trial[r] >= -eps) continue;
+    *inside = s->t_previous + where * h;
+    memcpy(s->g, s->g_trial, (size_t)s->d->n_rel * sizeof *s->g);
+    return 0;
+  }
+  return status;
+}
+
+/* Guards that an event with reinit has thrown back: they rest at zero, or where they left the hysteresis, and move to
+ * the other side. Each must switch its
+ * relation back before it comes through again. */
+int rt_mark_rebounds(rt_session *s, double since) {
+  const mdl_descriptor *d = s->d;
+  double t = s->t + rt_max(1e-3 * since, rt_smallest_step(s));
+  for (int i = 0; i < d->n_x; i++)
+    s->x_trial[i] = s->data.x[i] + (t - s->t) * s->data.xdot[i];
+  memcpy(s->v_trial, s->data.v, (size_t)d->n_v * sizeof *s->v_trial);
+  int status = rt_rhs(s, t, s->x_trial, s->xdot_trial, s->v_trial);
+  if (!status) status = d->roots(&s->data, t, s->x_trial, s->xdot_trial, s->v_trial, s->g_trial);
+  for (int r = 0; !status && r < d->n_rel; r++) {
+    double sign = s->data.rel[r] ? 1 : -1;
+    if (!rt_is_state_relation(s, r) || fabs(s->g[r]) > 2 * rt_hysteresis(s, r)) continue;
+    s->rebound[r] = sign * (s->g_trial[r] - s->g[r]) < 0;
+  }
+  return status;
+}

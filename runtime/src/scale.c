@@ -1,0 +1,63 @@
+/* Sizes of unknowns and guards: what absolute tolerances and the hysteresis of events are measured in, so that a model
+ * behaves the same in any units.
+ *
+ * The model tells nominal values for the parameters of the run (codegen/structure/nominal.py has the rule); an unknown
+ * is no smaller than at its start, and one that nothing is known of has size 1. The absolute tolerance of an unknown
+ * follows the largest size that it has had, no further than its nominal value, and from a floor up that rounding does
+ * not reach. */
+#include <math.h>
+#include <string.h>
+
+#include "session.h"
+
+static const double rounding = 1e-14; /* of the nominal value: no absolute tolerance is below it */
+static const double lowest = 1e-3;    /* of the nominal value: where a tolerance by the largest size begins */
+
+static double sized(double nominal, double start) {
+  double size = nominal > 0 && isfinite(nominal) ? nominal : 0;
+  if (isfinite(start)) size = rt_max(size, fabs(start));
+  return size > 0 ? size : 1;
+}
+
+/* Sizes that follow from the parameters; those of guards are complete, 0 where the model does not tell. */
+rt_status rt_scale_parameters(rt_session *s) {
+  const mdl_descriptor *d = s->d;
+  size_t n = (size_t)(d->n_x + d->n_z + d->n_rel);
+  memset(s->nominal, 0, n * sizeof *s->nominal);
+  if (d->nominals && d->nominals(&s->data, s->nominal)) return rt_fail_model(s, s->start, "computing nominal values");
+  for (int i = 0; i < d->n_variables; i++) { /* hand-written models declare theirs in the table alone */
+    const mdl_variable *v = &d->variables[i];
+    if (!d->nominals && v->storage == MDL_STATE && v->nominal > 0) s->nominal[v->index] = v->nominal;
+  }
+  for (int r = 0; r < d->n_rel; r++)
+    if (!(s->g_nominal[r] > 0) || !isfinite(s->g_nominal[r])) s->g_nominal[r] = 0;
+  for (int i = 0; i < d->n_x + d->n_z; i++) /* until the start is known */
+    s->atol[i] = s->options.atol * sized(s->nominal[i], 0);
+  return RT_OK;
+}
+
+static void set_tolerances(rt_session *s) {
+  for (int i = 0; i < s->d->n_x; i++)
+    s->outgrown[i] = s->range[i] < s->nominal[i] ? 2 * s->range[i] : INFINITY;
+  double relative = s->options.atol, least = s->atol_given ? 1 : rt_min(1, rt_max(lowest, rounding / relative));
+  for (int i = 0; i < s->d->n_x + s->d->n_z; i++)
+    s->atol[i] = relative * rt_min(s->nominal[i], rt_max(s->range[i], least * s->nominal[i]));
+}
+
+/* At the start: sizes of what the model tells nothing of, and the first tolerances. */
+void rt_scale_start(rt_session *s) {
+  const mdl_descriptor *d = s->d;
+  for (int i = 0; i < d->n_x + d->n_z; i++) {
+    double start = i < d->n_x ? s->data.x[i] : s->data.v[d->z_index[i - d->n_x]];
+    s->nominal[i] = sized(s->nominal[i], start);
+    s->range[i] = i < d->n_x ? fabs(start) : s->nominal[i];
+  }
+  set_tolerances(s);
+}
+
+/* A state has outgrown what is known of its size. */
+void rt_scale_grow(rt_session *s) {
+  for (int i = 0; i < s->d->n_x; i++)
+    s->range[i] = rt_max(s->range[i], fabs(s->data.x[i]));
+  set_tolerances(s);
+}

@@ -1,0 +1,8 @@
+// section: 11.2.4
+// refuse: R059 5
+model BreakOutside
+  Real x;
+algorithm
+  x := 1;
+  break;
+end BreakOutside;

@@ -1,0 +1,266 @@
+"""Unknown efforts: linearisation, smoother, regression on closed forms; places; a law, from case to verdict."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.linalg import block_diag
+
+from lacuna.codegen.compile import compile_model
+from lacuna.codegen.library import Library
+from lacuna.discovery import diagnosis
+from lacuna.discovery.amend import Amendment
+from lacuna.discovery.cases import load
+from lacuna.discovery.efforts.copied import right_side
+from lacuna.discovery.efforts.linear import Along
+from lacuna.discovery.efforts.located import Locator
+from lacuna.discovery.efforts.opened import opened
+from lacuna.discovery.efforts.sites import read
+from lacuna.discovery.efforts.smoother import Latent, Piece, Whitener, course, evidence
+from lacuna.discovery.explain import explain, judge_written, write_amended
+from lacuna.discovery.intervals import undetermined
+from lacuna.discovery.machine import Machine
+from lacuna.discovery.places import read as read_structure
+from lacuna.discovery.steps import fit_believed
+from lacuna.runtime import Model, RecordedInput, simulate
+
+DATA = np.random.default_rng(5)
+
+
+def piece(n: int, missing: int = 0, scale: float = 1.0) -> Piece:
+    """A random stable linear model of two states, two outputs and two columns; `missing` readings are left out."""
+    random = np.random.default_rng(11 + n)
+    along = Along(
+        np.cumsum(random.uniform(0.5, 1.5, n)),
+        0.8 * np.eye(2) + 0.1 * random.normal(size=(n - 1, 2, 2)),
+        random.normal(size=(n - 1, 2, 2)),
+        scale * random.normal(size=(n, 2, 2)),
+        scale * random.normal(size=(n, 2, 2)),
+        np.zeros((n, 2, 2)),
+        {},
+    )
+    data = scale * random.normal(size=(n, 2, 3))
+    for k in random.choice(n, missing, replace=False):
+        data[k, k % 2] = np.nan
+    return Piece(along, data, scale * np.array([0.3, 0.7]), np.array([0.2, 0.0]))
+
+
+def dense(p: Piece, latent: Latent) -> tuple[np.ndarray, np.ndarray]:
+    """(covariance of the readings seen, that of the effort with them) by the definition, without any recursion."""
+    n, h = len(p.along.time), np.exp(-np.abs(np.subtract.outer(p.along.time, p.along.time)) / latent.time[0])
+    effort = latent.size[0] ** 2 * h
+    answer, start = np.zeros((n, 2, n)), np.zeros((n, 2, 2))
+    state, free = np.zeros((2, n)), np.eye(2)
+    for k in range(n):
+        unit = np.eye(n)[k]
+        answer[k] = p.along.read[k] @ state + np.outer(p.along.feed[k][:, latent.column[0]], unit)
+        start[k] = p.along.read[k] @ free
+        if k < n - 1:
+            state = p.along.step[k] @ state + np.outer(p.along.drive[k][:, latent.column[0]], unit)
+            free = p.along.step[k] @ free
+    seen = np.isfinite(p.data).all(axis=2)
+    g, s = answer[seen], start[seen]
+    noise = np.broadcast_to(p.noise, seen.shape)[seen]
+    return g @ effort @ g.T + s @ np.diag(p.start**2) @ s.T + np.diag(noise**2), effort @ g.T
+
+
+LATENT = Latent(np.array([1]), np.array([-1]), np.array([0.8]), np.array([3.0]))
+
+
+def test_the_smoother_equals_one_dense_solve() -> None:
+    pieces = [piece(30, missing=7), piece(21)]
+    parts = [dense(p, LATENT) for p in pieces]
+    rows = np.concatenate([p.data[np.isfinite(p.data).all(axis=2)] for p in pieces])
+    noise = np.concatenate(
+        [np.broadcast_to(p.noise, p.data.shape[:2])[np.isfinite(p.data).all(axis=2)] for p in pieces]
+    )
+    cover, residual, answers = block_diag(*(c for c, _ in parts)), rows[:, 0], -rows[:, 1:]
+    whole = cover + answers @ answers.T
+    log = -0.5 * (residual @ np.linalg.solve(whole, residual) + np.linalg.slogdet(whole)[1] - 2 * np.log(noise).sum())
+    found = evidence(pieces, LATENT)
+    assert found.log[0] == pytest.approx(log, rel=1e-9)
+    mean = answers.T @ np.linalg.solve(whole, residual)
+    np.testing.assert_allclose(found.mean[0], mean, rtol=1e-9)
+    at = 0
+    for p, (c, crossed) in zip(pieces, parts, strict=True):
+        left = (residual - answers @ mean)[at : at + len(c)]
+        effort, error = course(p, LATENT, mean)
+        np.testing.assert_allclose(effort, crossed @ np.linalg.solve(c, left), rtol=1e-8, atol=1e-10)
+        variance = LATENT.size[0] ** 2 - np.sum(crossed * np.linalg.solve(c, crossed.T).T, axis=1)
+        np.testing.assert_allclose(error**2, variance, rtol=1e-7)
+        at += len(c)
+
+
+def test_whitened_columns_make_the_dense_gram_matrix() -> None:
+    p = piece(25, missing=5)
+    cover, _ = dense(p, LATENT)
+    rows = p.data[np.isfinite(p.data).all(axis=2)]
+    white = Whitener(p, LATENT)(p.data)
+    np.testing.assert_allclose(white.T @ white, rows.T @ np.linalg.solve(cover, rows), rtol=1e-9)
+
+
+def test_other_units_and_readings_at_other_rates_change_nothing() -> None:
+    """Outputs in thousandths; and an output that is read at every third sample only, with or without its empty rows."""
+    assert evidence([piece(30, 4, 1e3)], LATENT).log == pytest.approx(evidence([piece(30, 4)], LATENT).log, rel=1e-9)
+    sparse = piece(30)
+    sparse.data[np.arange(30) % 3 != 0, 1] = np.nan
+    cover, _ = dense(sparse, LATENT)
+    assert len(cover) == 40
+    rows = sparse.data[np.isfinite(sparse.data).all(axis=2)]
+    white = Whitener(sparse, LATENT)(sparse.data)
+    np.testing.assert_allclose(white.T @ white, rows.T @ np.linalg.solve(cover, rows), rtol=1e-9)
+
+
+def test_an_effort_of_no_size_is_none() -> None:
+    none = Latent(np.array([-1]), np.array([-1]), np.array([0.0]), np.array([1.0]))
+    p = piece(12)
+    p.start[:] = 0.0
+    p.data = p.data[:, :, :1]
+    assert evidence([p], none).log[0] == pytest.approx(-0.5 * np.sum((p.data[:, :, 0] / p.noise) ** 2), rel=1e-12)
+
+
+CASCADE = """model Cascade "Two tanks, one above the other"
+  parameter Real A(unit="m2", min=0) = 0.01;
+  parameter Real B(unit="m2", min=0) = 0.02;
+  parameter Real k(unit="m2/s", min=0) = 3e-4;
+  input Real q(unit="m3/s");
+  Real upper(unit="m", start=0.3, fixed=true);
+  Real lower(unit="m", start=0.2, fixed=true);
+equation
+  A*der(upper) = q - {upper};
+  B*der(lower) = {upper} - {lower};
+end Cascade;
+"""
+BELIEVED = CASCADE.format(upper="k*upper", lower="k*lower")
+TORRICELLI = CASCADE.format(upper="k*upper", lower="1.9e-4*sqrt(lower)")
+CASE = """model = "Cascade.mo"
+[uncertainty]
+A = 0.02
+B = 0.05
+k = 0.1
+[signals.q]
+role = "input"
+unit = "m3/s"
+[signals.lower]
+role = "output"
+unit = "m"
+noise_std = 0.001
+[signals.upper]
+role = "output"
+unit = "m"
+noise_std = 0.001
+[recordings]
+fit = ["r1.csv", "r2.csv"]
+validate = ["r3.csv"]
+"""
+
+
+def cascade(folder: Path, truth: str) -> Path:
+    """A case of the two tanks whose truth is another class of the same variables."""
+    (folder / "truth").mkdir(parents=True)
+    (folder / "truth" / "Cascade.mo").write_text(truth, encoding="utf-8")
+    machine = Model(compile_model(str(folder / "truth" / "Cascade.mo"), units="warn").path)
+    case = folder / "case"
+    case.mkdir()
+    (case / "Cascade.mo").write_text(BELIEVED, encoding="utf-8")
+    (case / "case.toml").write_text(CASE, encoding="utf-8")
+    random, time = np.random.default_rng(3), np.arange(300) * 2.0
+    for n in (1, 2, 3):
+        q = np.repeat(random.uniform(2e-5, 1.8e-4, 10), 30)
+        run = simulate(machine, solver="dopri5", rtol=1e-9, inputs={"q": RecordedInput(time, q)}, start=0.0,
+                       stop=float(time[-1]), output_times=time, outputs=["upper", "lower"], events=False)  # fmt: skip
+        levels = [run[v] + 0.001 * random.normal(size=300) for v in ("upper", "lower")]
+        np.savetxt(case / f"r{n}.csv", np.column_stack([time, q, *levels]), "%.7g", ",", header="time,q,upper,lower",
+                   comments="")  # fmt: skip
+    return case
+
+
+def test_the_linear_response_is_the_closed_form(tmp_path: Path) -> None:
+    """A constant effort in the upper balance: (1 - exp(-k t / A)) / k in its level; k answers as d/dk of the level."""
+    case = load(cascade(tmp_path, BELIEVED))
+    amendment = Amendment(read_structure(case.library(), case.base))
+    door = opened(case, amendment, case.library(), ["k"])
+    recording = case.fit[0]
+    along = door.linear.along({"A": 0.01, "B": 0.02, "k": 3e-4}, recording)
+    upper = next(k for k, s in enumerate(door.sites) if "upper) = q" in s.label)
+    answer = along.response(np.array([upper]), np.ones((300, 1)))[:, 1, 0]
+    np.testing.assert_allclose(answer, (1 - np.exp(-recording.time * 3e-4 / 0.01)) / 3e-4, atol=1e-6 / 3e-4)
+    step = 1e-6
+    higher, lower = (
+        door.machine.simulate({"A": 0.01, "B": 0.02, "k": 3e-4 + s}, recording)["upper"] for s in (step, -step)
+    )
+    by_k = along.response(np.array([len(door.sites)]), np.ones((300, 1)))[:, 1, 0]
+    np.testing.assert_allclose(by_k, (higher - lower) / (2 * step), atol=2e-3 * np.abs(by_k).max())
+
+
+def test_places_of_a_model_without_connectors(tmp_path: Path) -> None:
+    case = load(cascade(tmp_path, TORRICELLI))
+    amendment = Amendment(read_structure(case.library(), case.base))
+    base, _ = fit_believed(case, Machine(case, amendment))
+    locator = Locator(case, opened(case, amendment, case.library(), ["A", "B", "k"]), base)
+    assert {(p.location, p.unit) for p in locator.places} == {("upper", "m3/s"), ("lower", "m3/s")}
+    ranked = locator.ranked()
+    assert ranked[0].location == "lower" and ranked[0].gain > ranked[1].gain + 100
+    assert {s.location for s in ranked} == {"upper", "lower", "sensor:upper", "sensor:lower"}
+
+
+def test_places_of_a_bench_and_what_is_closed() -> None:
+    found = read(Library(), "Benches.DcServo")
+    kinds = {s.kind for s in found.places}
+    assert kinds == {"node", "edge", "equation"}
+    assert any("shaft.flange_b" in s.ends for s in found.places if s.kind == "node")
+
+
+def test_the_right_side_of_an_equation() -> None:
+    for text, expected in (
+        ("a = b + c;", " b + c"),
+        ('a*der(x) = if u >= 1 then f(x=2) else 3 "why; so" annotation(Icon());', " if u >= 1 then f(x=2) else 3 "),
+        ("v = // = no\n  der(x);", " // = no\n  der(x)"),
+    ):
+        side, end = right_side(text, 0)
+        assert text[side:end] == expected
+
+
+def test_a_direction_that_nothing_holds_is_undetermined() -> None:
+    rows = np.column_stack([np.ones(50), np.arange(50.0), 1e-9 * np.arange(50.0)])
+    assert undetermined(rows.T @ rows).tolist() == [False, True, True]
+
+
+@pytest.fixture(scope="module")
+def torricelli(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict, Path]:
+    folder = tmp_path_factory.mktemp("torricelli")
+    result = explain(load(cascade(folder, TORRICELLI)))
+    path = write_amended(result, folder)
+    judge_written(result, path)
+    return json.loads(diagnosis.write(result, folder, path).read_text()), path
+
+
+def test_a_law_outside_the_catalogue_is_found_where_it_is(torricelli: tuple[dict, Path]) -> None:
+    told, _ = torricelli
+    assert told["verdict"] == "missing_physics"
+    (finding,) = told["findings"]
+    assert (finding["effect"], finding["location"]) == ("unknown", "lower")
+    assert told["explained"] > 0.99 and finding["confidence"] <= 0.999
+    assert told["nrmse"]["validate"]["after"] < 1.1 * np.sqrt(
+        np.mean([s["noise_floor"] ** 2 for s in told["per_signal"].values()])
+    )
+    for name, true in (("A", 0.01), ("k", 3e-4)):
+        fitted = told["parameters"][name]
+        assert abs(fitted["value"] - true) < 4 * fitted["std"]
+    assert {p["location"] for p in told["places"]} >= {"upper", "lower", "sensor:upper"}
+
+
+def test_the_amended_model_has_the_law_in_its_balance(torricelli: tuple[dict, Path]) -> None:
+    _, path = torricelli
+    model = Model(compile_model(str(path)).path)
+    run = simulate(model, solver="dopri5", inputs={"q": RecordedInput([0.0, 1.0], [1e-4, 1e-4])}, stop=4000.0,
+                   outputs=["upper", "lower"])  # fmt: skip
+    assert run["lower"][-1] == pytest.approx((1e-4 / 1.9e-4) ** 2, rel=0.02)  # where the outflow equals the inflow
+
+
+def test_nothing_is_found_where_nothing_is_missing(tmp_path: Path) -> None:
+    result = explain(load(cascade(tmp_path, BELIEVED)))
+    assert result.verdict == "consistent" and not result.findings

@@ -1,0 +1,93 @@
+"""What is no finite number ends a run with the equation, its values and the time, at the start and on the way."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.events.models import simulated
+
+SOLVERS = ("ida", "dopri5", "rodas4")
+POLE = """model Pole
+  parameter Real c = 1;
+  Real x(start=-1, fixed=true);
+  Real y = c/x;
+equation
+  der(x) = 2;
+end Pole;
+"""
+ROOT = POLE.replace("Pole", "Root").replace("start=-1", "start=1").replace("c/x", "sqrt(x)").replace("= 2", "= -2")
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_divisor_that_passes_through_zero_is_a_division_by_zero(tmp_path: Path, solver: str) -> None:
+    failure = simulated(tmp_path, POLE, solver=solver).failure
+    assert failure.status == "domain"
+    assert failure.time == pytest.approx(0.5, abs=1e-6)
+    assert "Pole.mo:4: division by zero: a divisor passes through zero at time 0.5" in str(failure)
+    assert failure.line == 4
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_the_root_of_a_negative_number_is_told_with_its_values(tmp_path: Path, solver: str) -> None:
+    failure = simulated(tmp_path, ROOT, solver=solver, max_step=0.05).failure
+    assert failure.status == "non_finite"
+    assert 0.5 < failure.time < 0.56
+    assert "variable y (value nan); in: y = sqrt(x) (x = -0.0" in str(failure)
+
+
+def test_between_two_steps_a_recorded_value_is_looked_at_too(tmp_path: Path) -> None:
+    """x = 1 - 4 (1 - t) t touches -1e-2 between steps that end on positive values."""
+    text = ROOT.replace("sqrt(x)", "sqrt((time - 0.5)^2 - 1e-4)")
+    failure = simulated(tmp_path, text, solver="dopri5", interval=0.005, events=False).failure
+    assert failure.status == "non_finite"
+    assert 0.49 < failure.time < 0.51
+
+
+def test_a_parameter_that_divides_by_zero_is_refused(tmp_path: Path) -> None:
+    text = "model Inverse\n  parameter Real a = 0;\n  parameter Real b = 1/a;\n  Real y = b*time;\nend Inverse;\n"
+    failure = simulated(tmp_path, text).failure
+    assert failure.status == "non_finite"
+    assert "Inverse.mo:3: computing parameters" in str(failure)
+    assert "b = 1 / a (a = 0, b = inf)" in str(failure)
+
+
+def test_at_the_start_too(tmp_path: Path) -> None:
+    failure = simulated(tmp_path, POLE.replace("start=-1", "start=0")).failure
+    assert failure.time == 0.0
+    assert "variable y (value inf); in: y = c / x (c = 1, x = 0, y = inf)" in str(failure)
+
+
+def test_overflow(tmp_path: Path) -> None:
+    failure = simulated(tmp_path, POLE.replace("c/x", "exp(1000*x + 1000)"), solver="dopri5").failure
+    assert failure.status == "non_finite"
+    assert "variable y (value inf)" in str(failure)
+
+
+@pytest.mark.parametrize("y", ["sin(x)/x", "(1 - cos(x))/x", "if x > 0 then c/x else 0", "c/(1 + x^2)", "x/sqrt(x^2)"])
+def test_what_only_looks_like_a_pole_passes(tmp_path: Path, y: str) -> None:
+    """0/0 that has a limit, a branch that does not hold there, a sum of squares."""
+    result = simulated(tmp_path, POLE.replace("c/x", y), solver="dopri5", interval=0.03, events=False)
+    assert result.complete or "if x" in y, result.failure
+
+
+def test_an_index_outside_its_array_is_told(tmp_path: Path) -> None:
+    text = """model Outside
+  Real v[3] = {time, 2*time, 3*time};
+  Integer k(start=1, fixed=true);
+  Real y = v[k];
+equation
+  when time > 0.5 then
+    k = 7;
+  end when;
+end Outside;
+"""
+    failure = simulated(tmp_path, text).failure
+    assert failure.time == 0.5
+    assert "Outside.mo:4" in str(failure)
+    assert "k = 7" in str(failure)
+
+
+def test_checks_may_be_switched_off(tmp_path: Path) -> None:
+    assert simulated(tmp_path, POLE, solver="dopri5", checks=False).complete
