@@ -21,13 +21,9 @@ if TYPE_CHECKING:
     from lacuna.drafts import Drafted, convert, new_case
     from lacuna.errors import UserError, is_user_error, message_of, nearest
     from lacuna.examples import copy_examples
-<<<<<<< HEAD
-    from lacuna.faults import Assessment, CombinedMap, OperatingMap, assess, combined_maps, maps
+    from lacuna.faults import Assessment, CombinedMap, OperatingMap, assess, combined_maps, default_settings, maps
     from lacuna.fleets import fleet
     from lacuna.history import export_history, refresh, remember
-=======
-    from lacuna.faults import Assessment, CombinedMap, OperatingMap, assess, combined_maps, default_settings, maps
->>>>>>> main
     from lacuna.inputs import Input, recorded
     from lacuna.listings import Entry, list_effects, list_models, list_solvers
     from lacuna.models import Finding, Model, check, dump, load
@@ -42,13 +38,9 @@ _HOMES = {
     "drafts": ("Drafted", "convert", "new_case"),
     "errors": ("UserError", "is_user_error", "message_of", "nearest"),
     "examples": ("copy_examples",),
-<<<<<<< HEAD
-    "faults": ("Assessment", "CombinedMap", "OperatingMap", "assess", "combined_maps", "maps"),
+    "faults": ("Assessment", "CombinedMap", "OperatingMap", "assess", "combined_maps", "default_settings", "maps"),
     "fleets": ("fleet",),
     "history": ("export_history", "refresh", "remember"),
-=======
-    "faults": ("Assessment", "CombinedMap", "OperatingMap", "assess", "combined_maps", "default_settings", "maps"),
->>>>>>> main
     "inputs": ("Input", "recorded"),
     "listings": ("Entry", "list_effects", "list_models", "list_solvers"),
     "models": ("Finding", "Model", "check", "dump", "load"),
