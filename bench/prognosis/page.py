@@ -11,17 +11,13 @@ from bench.prognosis.study import Arm, Removals
 
 PAGE = """# Prognosis, measured
 
-Written by `make prognosis` (seed {seed}, version {version}); do not edit. {count} parts, each with a life by a law
-drawn from six
-that are much like the catalogue's and four that it lacks ({outside} parts: slow start, knee, seasons, shocks), with
-a wandering
-rate, written in `bench/prognosis/` without a line of the filter. Tests come at irregular intervals, 20 to 120 a
-life; 5 % are
-missing, 2 % outliers, a tenth of the parts follows another one. Each test is read as a simulated pre-flight test of
-[robustness.md](robustness.md) was read, its friction and inertia those of the actuator for life. Forecasts are made
-at every tenth
-of life, with what is known then. Seeds, scores and goals were committed before the first run. How it is done:
-[forecast.md](forecast.md).
+Written by `make prognosis` (seed {seed}, version {version}); do not edit. {count} of the {planned} planned parts,
+each with a life by a law drawn from six that are much like the catalogue's and four that it lacks ({outside} parts:
+slow start, knee, seasons, shocks), with a wandering rate, written in `bench/prognosis/` without a line of the
+filter. Tests come at irregular intervals, 20 to 120 a life; 5 % are missing, 2 % outliers, a tenth of the parts
+follows another one. Each test is read as a simulated pre-flight test of [robustness.md](robustness.md) was read, its
+friction and inertia those of the actuator for life. Forecasts are made at every tenth of life, with what is known
+then. Seeds, scores and goals were committed before the first run. How it is done: [forecast.md](forecast.md).
 
 ## Goals
 
@@ -30,8 +26,8 @@ of life, with what is known then. Seeds, scores and goals were committed before 
 {goals}
 
 *With the fleet's past*: the prior is learnt from {past} more parts of the fleet whose lives have ended, as the
-command does where a
-history has twenty or more of them. *Alone*: every actuator by itself, with the prior that knows no fleet.
+command does where a history has twenty or more of them. *Alone*: every actuator by itself, with the prior that knows
+no fleet.
 
 ## By share of life
 
