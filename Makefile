@@ -15,7 +15,7 @@ run_ctest = ctest --test-dir $(1) --output-on-failure -j 2 > $(1)/ctest.log && t
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*')
 
 .PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined prognosis tolerance-study \
-        figures wheel examples belts msl format lint sanitize ctest pytest lock clean
+        figures wheel examples belts hybrid msl compliance format lint sanitize ctest pytest lock clean
 
 help: ## Print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -90,6 +90,9 @@ wheel: setup ## A wheel and an sdist, into out/dist/
 examples: setup ## Write the recordings of lacuna/examples anew
 	@$(PYTHON) -m bench.examples
 
+compliance: setup ## Every case of the Modelica Association's compliance library, writes docs/compliance.md
+	@$(PYTHON) -m bench.compliance --page
+
 figures: maps ## Copy the map's figures that the documentation shows into docs/figures/
 	@cp $(OUT)/maps/paper/fig5_mean_rms.svg docs/figures/mean_rms.svg
 
@@ -123,6 +126,9 @@ fuzz: setup ## [FUZZ_SECONDS=180] random and mutated models through the parser, 
 
 belts: setup ## Stick and slip against closed forms: 200 machines, rtol 1e-4 to 1e-10, all adaptive solvers
 	@$(PYTHON) -m tests.events belts
+
+hybrid: setup ## 20 000 runs of random hybrid systems against closed-form switching times (a quarter of an hour)
+	@$(PYTHON) -m tests.events systems
 
 format: setup ## Format all sources
 	@$(PYTHON) -m ruff format .

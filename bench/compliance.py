@@ -66,12 +66,9 @@ def table(verdicts: dict[str, bool], results: dict[str, dict[str, object]]) -> s
     """Counts by chapter of the specification's subjects."""
     chapters: dict[str, Counter[str]] = {}
     for name, should in verdicts.items():
-        right = results[name]["status"] == ("passed" if should else "refused")
-        if not should and results[name]["status"] == "violated":
-            right = True  # refused by its own assertion, or at run time: it did not pass
         count = chapters.setdefault(name.split(".")[1], Counter())
         count[f"{should} of"] += 1
-        count[f"{should} right"] += right
+        count[f"{should} right"] += right(should, results[name])
         count["crash"] += results[name]["status"] in ("crash", "timeout")
     total = sum(chapters.values(), Counter())
     lines = ["| chapter | should pass: do | should fail: refused | crashes |", "| --- | ---: | ---: | ---: |"]
@@ -81,12 +78,40 @@ def table(verdicts: dict[str, bool], results: dict[str, dict[str, object]]) -> s
     return "\n".join(lines)
 
 
+HEAD = """# The Modelica Association's compliance library
+
+Written by `make compliance`: every case translated at default settings and run to its stop time. One that should fail
+counts where it is refused with code and place, or stopped by its own assertion.
+
+"""
+
+
+def right(should: bool, outcome: dict[str, object]) -> bool:
+    """Did a case come out as it should?"""
+    return outcome["status"] == "passed" if should else outcome["status"] in ("refused", "violated")
+
+
+def page(verdicts: dict[str, bool], results: dict[str, dict[str, object]]) -> str:
+    """The table, and each case that came out otherwise with what was said of it."""
+    text = HEAD + table(verdicts, results) + "\n"
+    for should, title in ((True, "Should pass and do not"), (False, "Should fail and pass")):
+        text += f"\n## {title}\n\n"
+        for name, verdict in verdicts.items():
+            if verdict == should and not right(should, results[name]):
+                r = results[name]
+                said = " ".join(str(r.get(k, "")) for k in ("code", "message")).strip()
+                said = " ".join(said.split())[:160]
+                text += f"- {name.removeprefix('ModelicaCompliance.')}" + (f": {said}\n" if said else "\n")
+    return text
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("names", nargs="*", help="parts of names of cases (default: all)")
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "compliance")
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--keep", action="store_true", help="keep results of an earlier generator")
+    parser.add_argument("--page", action="store_true", help="write docs/compliance.md")
     parser.add_argument("--wrong", action="store_true", help="print only what came out otherwise than it should")
     chosen = parser.parse_args(arguments)
     folder = shared_folder()
@@ -99,12 +124,13 @@ def main(arguments: Sequence[str] | None = None) -> None:
     )  # fmt: skip
     for name, should in verdicts.items():
         status = str(results[name]["status"])
-        right = status == "passed" if should else status in ("refused", "violated")
-        if (chosen.wrong and not right) or (chosen.names and not chosen.wrong):
+        if (chosen.wrong and not right(should, results[name])) or (chosen.names and not chosen.wrong):
             r = results[name]
             what = " ".join(str(r.get(k, "")) for k in ("code", "place", "message"))[-300:]
             print(f"{'should pass' if should else 'should fail'} {status:8s} {name.split('.', 1)[1]}: {what}")
     print(table(verdicts, results))
+    if chosen.page:
+        (ROOT / "docs" / "compliance.md").write_text(page(verdicts, results))
 
 
 if __name__ == "__main__":

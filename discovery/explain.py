@@ -108,7 +108,9 @@ def _withdraw(result: Explanation, best: Ranked) -> None:
     result.reason = f"{best.attachment.label} fits best, but " + (
         f"an effort at {_first_place(result)} explains as much, for which no law was found"
         if result.opened and result.opened.sites
-        else f"no place in the equations of {result.case.model} was open to this search: it may as well be physics"
+        else f"no place in the equations of {result.case.model} was open to this search"
+        + (f" ({result.opened.reason})" if result.opened and result.opened.reason else "")
+        + ": it may as well be physics"
     )
     result.experiment = "record the same motion with the quantities that are not recorded now"
     result.findings, result.final, result.after = [], result.base, result.before

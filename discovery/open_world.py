@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from lacuna.codegen.library import Library
+from lacuna.discovery.beyond import MARGIN
 from lacuna.discovery.comparison import MIN_GAIN, TIE, Ranked, confidences, held_out_deviance, price, score
 from lacuna.discovery.efforts.find import Found, find
 from lacuna.discovery.evidence import like_noise, nearly_noise
@@ -41,7 +42,7 @@ def _take(search: Search, unbegun: Search, found: Found, progress: Progress) -> 
     correlation = law.fit.correlation()
     ranked = [Ranked(c, c.fit, score(c, base, correlation)) for c in _one_a_place(found.laws)]
     gain = ranked[0].score
-    if gain > -MIN_GAIN or (search.findings and gain > _score_of(search, unbegun, correlation) - TIE):
+    if gain > -MIN_GAIN or (search.findings and not _better(search, unbegun, law, gain, correlation)):
         return
     progress("what the law says of recordings left out")
     if not _tells(unbegun, ranked[0], correlation):
@@ -53,6 +54,15 @@ def _take(search: Search, unbegun: Search, found: Found, progress: Progress) -> 
     search.findings[:] = [Finding(ranked[0], Naming(ranked, []), unbegun.judgement, after)]
     search.take([law.attachment], law.fit, after)
     search.reason = ""
+
+
+def _better(search: Search, unbegun: Search, law: Candidate, gain: float, correlation: dict[str, float]) -> bool:
+    """Whether a law takes the place of findings: of effects in the equations, which have a name and a reason, only where
+    it leaves noise and the evidence is clearly for it; of sensors where it is better."""
+    before = _score_of(search, unbegun, correlation)
+    if all(f.ranked.attachment.variable for f in search.findings):
+        return gain < before - TIE
+    return gain < before - MARGIN and (nearly_noise(law.fit) or like_noise(law.fit))
 
 
 def _one_a_place(laws: list[Candidate]) -> list[Candidate]:

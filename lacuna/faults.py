@@ -255,6 +255,8 @@ def assess(
     from lacuna.analysis.severity.combined.grid import GRID_FILE
 
     folder = Path(map) if isinstance(map, str | Path) else map.folder
+    if not (folder / "settings.toml").is_file():
+        raise UserError(f"{folder} holds no map: `lacuna maps --prepare` (or maps(prepare=True)) draws one")
     (progress or silent)(f"reading {recording}", None)
     names = list(columns) if columns else None
     target = Path(out) if out else None

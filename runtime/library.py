@@ -13,6 +13,7 @@ from lacuna.runtime.errors import SimulationError
 STATUS = (
     "ok", "model", "argument", "bound", "initialisation", "inconsistent", "event_cycle", "chattering",
     "step_collapse", "non_finite", "singular", "domain", "assert", "memory",
+    "interrupted",
 )  # fmt: skip
 EVENT_KINDS = ("state", "time", "sample", "terminate")
 FLAG_KINDS = ("grazing", "order", "non_finite", "rounding")
@@ -90,12 +91,15 @@ class COptions(Structure):
 
 
 _INTS, _DOUBLES = POINTER(c_int), POINTER(c_double)
+INTERRUPTED = ctypes.CFUNCTYPE(c_int)
+
 _SIGNATURES = {
     "rt_model_open": (c_void_p, c_char_p, c_char_p, c_size_t),
     "rt_model_close": (None, c_void_p),
     "rt_model_descriptor": (POINTER(CDescriptor), c_void_p),
     "rt_session_new": (c_void_p, c_void_p, POINTER(COptions), c_char_p, c_size_t),
     "rt_session_free": (None, c_void_p),
+    "rt_session_watch": (None, c_void_p, INTERRUPTED),
     "rt_session_failure": (POINTER(CFailure), c_void_p),
     "rt_session_parameters": (c_int, c_void_p, c_int, _INTS, _DOUBLES),
     "rt_session_initial": (c_int, c_void_p, c_int, _INTS, _DOUBLES),

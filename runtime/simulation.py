@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 import ctypes
 from dataclasses import dataclass
 from functools import partial
+import signal
+import threading
 from typing import Literal
 import weakref
 
 import numpy as np
 
 from lacuna.runtime.errors import SimulationError
-from lacuna.runtime.library import COptions, library
+from lacuna.runtime.library import INTERRUPTED, COptions, library
 from lacuna.runtime.model import MESSAGE_SIZE, Model
 from lacuna.runtime.result import Result
 
@@ -157,14 +160,44 @@ class Session:
         self._assign(lib.rt_session_initial, initial or {}, "state", model.states)
         if inputs:
             self.set_inputs(inputs)
-        handle = lib.rt_session_run(
-            self._handle, model.start_time if start is None else start, model.stop_time if stop is None else stop
-        )
+        handle = None
+        try:
+            with _interruptible(lib, self._handle):
+                handle = lib.rt_session_run(
+                    self._handle,
+                    model.start_time if start is None else start,
+                    model.stop_time if stop is None else stop,
+                )
+        except KeyboardInterrupt:
+            lib.rt_result_free(handle)
+            raise
         if not handle:
             raise MemoryError("no memory for the result of a simulation")
         return Result(
             model, handle, self._columns, self.settings, partial(lib.rt_result_free, handle), self._sensitivities
         )
+
+
+@contextmanager
+def _interruptible(lib: ctypes.CDLL, session: int) -> Iterator[None]:
+    """Ctrl-C ends the run inside: the runtime comes back to Python now and then, where the signal is delivered, to the
+    main thread alone. Who has a handler of his own keeps it."""
+    if threading.current_thread() is not threading.main_thread() or (
+        signal.getsignal(signal.SIGINT) is not signal.default_int_handler
+    ):
+        yield
+        return
+    pressed: list[int] = []
+    watch = INTERRUPTED(lambda: len(pressed))
+    before = signal.signal(signal.SIGINT, lambda number, _: pressed.append(number))
+    lib.rt_session_watch(session, watch)
+    try:
+        yield
+    finally:
+        lib.rt_session_watch(session, INTERRUPTED())
+        signal.signal(signal.SIGINT, before)
+    if pressed:
+        raise KeyboardInterrupt
 
 
 def simulate(

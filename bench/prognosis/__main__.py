@@ -108,9 +108,10 @@ def measured(parts: list[Part], past: list[Part], seed: int) -> str:
 
 REMOVALS = f"""A part is removed at the first test after which the risk of violet by the next exceeds {RISK:g};
 by thresholds, at the first test that reads red (27 %)."""
-PROGPY = """Version {version}, its particle filter of 500, told the law and its shape, on the first {count} parts
-of a law of the catalogue's kind. First its mean and spread must follow the Kalman filter to 0.3 standard
-deviations on our test; with its default resampling (of filterpy 2.0.0) they do not, so that systematic resampling is used."""
+PROGPY = """Version {version}, its particle filter of 500, told the law and its shape, on the first {count} parts of
+a law of the catalogue's kind. First its mean and spread must follow the Kalman filter to 0.3 standard
+deviations on our test; with its default resampling (of filterpy 2.0.0) they do not, so that systematic
+resampling is used."""
 
 
 def _removals(parts: list[Part], removed: study.Removals, alone: study.Removals) -> list[str]:

@@ -142,7 +142,7 @@ static int mdl_newton_grows(mdl_newton *s, int n, const double *r) {
 _TIME = """\
 /* Value of a time relation just after t: g is left minus right at t, slope its derivative. */
 static int mdl_time_relation(double g, double slope, double t) {
-  const double tolerance = 1e-12 * (1.0 + fabs(t)) * fabs(slope);
+  const double tolerance = 4e-15 * fabs(t) * fabs(slope);
   return slope > 0.0 ? g >= -tolerance : g > tolerance;
 }"""
 
@@ -150,7 +150,7 @@ _NEXT = """\
 /* The earlier of `next` and the instant after t at which a time relation switches. */
 static double mdl_next_switch(double g, double slope, double t, double next) {
   const double instant = t - g / slope;
-  return instant > t + 1e-12 * (1.0 + fabs(t)) && instant < next ? instant : next;
+  return instant > t + 4e-15 * fabs(t) && instant < next ? instant : next;
 }"""
 
 _HELPERS = {

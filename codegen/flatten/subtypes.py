@@ -26,7 +26,8 @@ def require_subtype(chosen: Type, bound: Type, context: Context, elements: Eleme
 def mismatch(chosen: Type, bound: Type, context: Context, elements: ElementsOf, depth: int = 0) -> str:
     """Why `chosen` is no subtype of `bound`; "" where it is one."""
     if chosen.primitive or bound.primitive:
-        if chosen.primitive != bound.primitive or chosen.literals != bound.literals:
+        open_ended = bound.cls is not None and bound.cls.literals == () and bool(chosen.literals)  # enumeration(:)
+        if chosen.primitive != bound.primitive or (chosen.literals != bound.literals and not open_ended):
             return f"{_name(chosen)} is no {_name(bound)}"
         if len(chosen.dimensions) != len(bound.dimensions):
             return f"{len(chosen.dimensions)} dimensions where {len(bound.dimensions)} are needed"

@@ -158,6 +158,9 @@ class Linear:
                 return values[name]
             if name in fixed:
                 return float(fixed[name])
+            bound = self.prepared.model.variables.get(name)
+            if bound is not None and bound.binding is not None:  # what the generator computes once from parameters
+                return Evaluator(leaf)(bound.binding)
             raise NotNumeric(f"{name} is not known along the trajectory")
 
         return leaf

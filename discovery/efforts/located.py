@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from lacuna.runtime import RecordedInput
 SIZES = 10.0 ** np.arange(-1.0, 2.1, 0.5)  # of the effort that would explain the misfit by itself: half decades
 TIMES = (1 / 300, 1 / 50, 1 / 8)  # of the longest recording: shorter is noise, longer is a constant
 SAMPLES = 1500  # of all recordings together, that hypotheses are weighed on: locating needs no more
-ROUNDS = 2  # linearisations: about the believed model, then about the effort that was found
+COARSE = (1.0, 0.5, 0.0)  # powers of the misfit that noise is taken to have when the model is led: from coarse to fine
 
 
 @dataclass
@@ -129,18 +129,17 @@ class Locator:
 
     def guided(self, site: Site) -> Guided:
         """The model led along the data by the effort at a place, linearised anew about the run that it gives."""
-        latent, mean = self._chosen[id(site)]
-        pieces = self.pieces
-        point, efforts = dict(self.base.point), []
-        for k in range(ROUNDS):
-            efforts = [course(p, latent, mean) for p in pieces]
-            if k == ROUNDS - 1:
-                break
-            point = dict(self.base.point) | _values(self.free, self.sigma, mean)
-            pieces = [
-                self.piece(point, r, (site.place.column, e)) for r, (e, _) in zip(self.case.fit, efforts, strict=True)
-            ]
-            mean = evidence(thinned_all(pieces), latent).mean[0]
+        latent, _ = self._chosen[id(site)]
+        pieces, point = self.pieces, dict(self.base.point)
+        level = np.array([self.base.level[s.column] for s in self.case.outputs])
+        for share in COARSE:
+            led = [replace(p, noise=self.noise * level**share) for p in pieces]
+            mean = evidence(thinned_all(led), latent).mean[0]
+            efforts = [course(p, latent, mean) for p in led]
+            if share > 0:
+                point = dict(self.base.point) | _values(self.free, self.sigma, mean)
+                acting = [(site.place.column, e) for e, _ in efforts]
+                pieces = [self.piece(point, r, a) for r, a in zip(self.case.fit, acting, strict=True)]
         site.effort = {
             r.name: (r.time, e, s) for r, (e, s) in zip(self.case.fit, efforts, strict=True)
         }  # fmt: skip

@@ -129,4 +129,11 @@ def _port(top: Instance, end: str) -> Port | None:
     flows = [n for n, e in node.elements.items() if e.declaration.flow]
     others = [n for n, e in node.elements.items() if not e.declaration.flow and not e.declaration.variability]
     plain = all(not isinstance(node.child(n), Instance) for n in (*flows, *others))
-    return Port(node.cls.path, flows[0], others[0]) if plain and len(flows) == len(others) == 1 else None
+    if not plain or len(flows) != 1 or len(others) != 1:
+        return None
+    return Port(_seen_from(top.cls, node.cls.path), flows[0], others[0])
+
+
+def _seen_from(model: ast.Class, path: str) -> str:
+    """A class as a model that extends `model` names it: what that declares is inherited, all else has its full name."""
+    return path.removeprefix(f"{model.path}.")

@@ -37,7 +37,8 @@ typedef enum {
   RT_SINGULAR,       /* a block of equations has no unique solution, or none that Newton's method finds */
   RT_DOMAIN,         /* an argument outside a function's domain */
   RT_ASSERT,         /* assert(..., level = error) violated */
-  RT_MEMORY
+  RT_MEMORY,         /* none left, or more results than fit */
+  RT_INTERRUPTED     /* the caller asked for it, see rt_session_watch */
 } rt_status;
 
 /* Why a run ended early. `message` is complete: it names time, variable or equation, and the line of the model. */
@@ -126,6 +127,10 @@ RT_API void rt_session_tolerances(const rt_session *session, double *rtol, doubl
 /* The next runs also give the derivatives of all outputs by these: rows of parameters, or of states for their initial
  * values. n = 0: none. Refused, with the variable's name, where nothing depends on one of them smoothly. */
 RT_API rt_status rt_session_sensitivities(rt_session *session, int n, const int *variables);
+
+/* While a run goes on, `interrupted` is called about ten times a second, in the thread of the run; where it gives a
+ * number other than 0 the run ends with what it has. NULL: it is not asked. */
+RT_API void rt_session_watch(rt_session *session, int (*interrupted)(void));
 
 /* Run from `start` to `stop`. Always gives a result (NULL only without memory): see rt_result_failure. */
 RT_API rt_result *rt_session_run(rt_session *session, double start, double stop);

@@ -10,7 +10,7 @@ static double tick_time(const rt_clock *c, int i) {
 
 rt_status rt_clock_begin(rt_session *s) {
   rt_clock *c = &s->clock;
-  c->tolerance = 1e-13 * (fabs(s->start) + fabs(s->stop));
+  c->tolerance = rt_max(1e-13 * (s->stop - s->start), rt_time_resolution(s));
   c->step = 1;
   if (s->d->n_sample && s->d->samples(&s->data, c->first, c->interval))
     return rt_fail_model(s, s->start, "computing sample times");
@@ -18,6 +18,10 @@ rt_status rt_clock_begin(rt_session *s) {
     if (!(c->interval[i] > 0))
       return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "sample() number %d has interval %.9g s", i + 1,
                      c->interval[i]);
+    if (c->interval[i] < 16 * rt_time_resolution(s))
+      return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL,
+                     "sample() number %d has interval %.9g s, which is lost in the rounding of time (%.3g s here)",
+                     i + 1, c->interval[i], rt_time_resolution(s));
     c->next[i] = (long)rt_max(0, ceil((s->start - c->tolerance - c->first[i]) / c->interval[i]));
   }
   if (s->d->time_relations(&s->data, s->start)) return rt_fail_model(s, s->start, "evaluating time relations");

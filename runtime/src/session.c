@@ -212,6 +212,8 @@ void rt_session_tolerances(const rt_session *s, double *rtol, double *atol) {
 rt_status rt_session_grid(rt_session *s, int n, const double *times, double interval) {
   for (int i = 0; i < n; i++)
     if (!(i ? times[i] >= times[i - 1] : isfinite(times[i]))) return refuse(s, "output times must not decrease");
+  if (!(interval >= 0) || isinf(interval))
+    return refuse(s, "the output interval must not be negative, infinite or NaN");
   s->recorder.grid = times;
   s->recorder.n_grid = n;
   s->recorder.interval = interval;

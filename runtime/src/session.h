@@ -142,9 +142,15 @@ struct rt_session {
   signed char *division_sign; /* [n_divisions] of their products when they were last looked at; 0 not known */
   rt_recorder recorder;
   rt_sensitivities *sensitivities; /* NULL: none are asked for */
+  int (*interrupted)(void);        /* asked now and then; NULL: never */
+  long looks;
+  double looked_at; /* monotonic clock (s) */
   rt_failure failure;
   rt_result *result;
 };
+
+/* Values that a result may hold: 4 GiB. */
+#define RT_MOST_VALUES 5e8
 
 /* fmin and fmax without a call: neither argument is NaN here. */
 static inline double rt_min(double a, double b) {
@@ -159,6 +165,11 @@ static inline bool rt_finite(int n, const double *a) {
   for (int i = 0; i < n; i++)
     sum += a[i] - a[i];
   return sum == 0;
+}
+
+/* Rounding of time in this run (s): the same for seconds since the start and for seconds since 1970. */
+static inline double rt_time_resolution(const rt_session *s) {
+  return 2 * DBL_EPSILON * rt_max(fabs(s->start), fabs(s->stop));
 }
 
 /* Steps smaller than this (s) are lost in the rounding of time. */

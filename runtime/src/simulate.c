@@ -1,10 +1,13 @@
 /* The hybrid loop: step, look for events, record, let events happen, go on. */
 #include <math.h>
 #include <string.h>
+#include <time.h>
 
 #include "sensitivity.h"
 
-enum { MAX_TINY_STEPS = 100 };
+enum { MAX_TINY_STEPS = 100, STEPS_BETWEEN_LOOKS = 1024 };
+static const double most_steps = 1e10; /* of a fixed size: weeks */
+static const double look_every = 0.1;  /* s of wall time: has the caller lost interest? */
 
 static rt_status check_asserts(rt_session *s) {
   mdl_data *m = &s->data;
@@ -12,11 +15,39 @@ static rt_status check_asserts(rt_session *s) {
   return rt_fail_model(s, s->t, "checking");
 }
 
+/* Settings that would keep a run from ever getting anywhere. */
+static rt_status check_settings(rt_session *s) {
+  double span = s->stop - s->start, step = s->options.step, interval = s->recorder.interval;
+  if (step > 0 && (step < 16 * rt_time_resolution(s) || span / step > most_steps))
+    return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "a step of %.9g s does not get through %.9g s", step, span);
+  if (s->recorder.n_grid == 0 && interval > 0 && (span / interval) * (s->recorder.n + 2) > RT_MOST_VALUES)
+    return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL,
+                   "an output interval of %.9g s makes %.3g rows of %d variables: more than %.0g values", interval,
+                   span / interval, s->recorder.n, RT_MOST_VALUES);
+  return RT_OK;
+}
+
+/* Ask the caller now and then whether to go on. */
+static rt_status look_up(rt_session *s) {
+  struct timespec now;
+  if (!s->interrupted || s->looks++ % STEPS_BETWEEN_LOOKS) return RT_OK;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  double seconds = (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+  if (seconds - s->looked_at < look_every) return RT_OK;
+  s->looked_at = seconds;
+  return s->interrupted() ? rt_fail(s, RT_INTERRUPTED, s->t, -1, NULL, "interrupted at time %.9g s", s->t) : RT_OK;
+}
+
+void rt_session_watch(rt_session *s, int (*interrupted)(void)) {
+  s->interrupted = interrupted;
+}
+
 static rt_status begin(rt_session *s) {
   if (!(s->stop > s->start) || !isfinite(s->start) || !isfinite(s->stop))
     return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "stop time %.9g s is not later than start time %.9g s", s->stop,
                    s->start);
-  rt_status status = rt_initialise(s);
+  rt_status status = check_settings(s);
+  if (!status) status = rt_initialise(s);
   if (status) return status;
   rt_scale_start(s);
   status = check_asserts(s);
@@ -52,7 +83,8 @@ static rt_status move_on(rt_session *s) {
 }
 
 static rt_status advance(rt_session *s) {
-  rt_status status = move_on(s);
+  rt_status status = look_up(s);
+  if (!status) status = move_on(s);
   if (!status) status = rt_find_state_event(s);
   if (!status) status = rt_tangent_follow(s);
   if (!status) status = check_asserts(s);

@@ -24,6 +24,9 @@ FILES = {
     "Drives/package.mo": "package Drives end Drives;",
     "Drives/Motor.mo": "within Drives; model Motor extends Lacuna.Actuators.PreflightEma; end Motor;",
     "Box.mo": "package Box model Small Real x(start=1, fixed=true); equation der(x) = -x; end Small; end Box;",
+    "Names.mo": 'model Names parameter Real p(unit="m") = 2; Real v(unit="m/s", start=1, fixed=true); Real back = -v; '
+    'Real a = p + p; Real e = v*v/p; parameter Real T(unit="s") = 3; constant Real c = 3; '
+    "equation der(v) = -v/T; end Names;",
     "again/Alpha/package.mo": "package Alpha end Alpha;",
     "Folder.mo/readme.txt": "no model",
     "empty/readme.txt": "no package",
@@ -79,6 +82,23 @@ def test_one_model_by_its_names(model: list[str]) -> None:
     same = answer("compare", *model, "--against", "run/Plant.csv", "-u", "u=12", "-p", "k=2", "--tolerance", "1e-4")
     assert same["beyond"] == []
     assert "y" in refused("compare", *model, "--against", "run/Plant.csv", "-u", "u=11", "-p", "k=2")
+
+
+def test_every_declared_variable_is_in_the_file_with_what_is_known_of_it() -> None:
+    written = answer("simulate", "Names.mo", "--out", "run")["written"][0]
+    columns, meta = runtime.read_csv(written)
+    assert list(columns) == ["time", "v", "back", "a", "e"]  # neither parameters nor constants
+    assert (columns["back"] == -columns["v"]).all()
+    assert (columns["a"] == 4).all()  # which parameters alone decide
+    said = {name: (c["unit"], c.get("unit_inferred", False)) for name, c in meta["columns"].items()}
+    assert said["v"] == ("m/s", False)
+    assert (said["back"], said["a"], said["e"]) == (("m/s", True), ("m", True), ("m/s2", True))
+    assert (meta["solver"]["rtol"], meta["parameters"]["p"]) == (1e-6, 2.0)
+
+
+def test_an_actuator_s_whole_second_is_a_file_that_one_can_mail() -> None:
+    written = Path(answer("simulate", "Actuators.EccentricBldc", "--out", "run")["written"][0])
+    assert written.stat().st_size < 5e6  # bytes, all its variables
 
 
 def test_a_class_in_a_file_and_what_the_file_offers() -> None:

@@ -1,16 +1,20 @@
-"""Campaigns of hybrid systems with closed-form event times: python -m tests.events belts [--draws N]."""
+"""Campaigns of hybrid systems with closed-form event times: python -m tests.events belts|systems [--draws N]."""
 
 from __future__ import annotations
 
 import argparse
-from collections import defaultdict
+from collections import Counter, defaultdict
+from pathlib import Path
 import sys
+import tempfile
 
 import numpy as np
 
 from lacuna import runtime
 from lacuna.codegen.compile import compile_model
-from tests.events import belts
+from tests.events import belts, hybrid
+from tests.events.judge import wrong
+from tests.events.models import compiled
 
 TOLERANCES = tuple(10 ** (-k / 2) for k in range(8, 21))  # 1e-4 to 1e-10 in half decades
 
@@ -37,12 +41,30 @@ def run_belts(draws: int) -> int:
     return wrong
 
 
+def run_systems(draws: int) -> int:
+    """Random hybrid systems: each right within its budget, or ended by an error; the number of wrong runs."""
+    rng, verdicts = np.random.default_rng(2026), Counter()
+    with tempfile.TemporaryDirectory() as folder:
+        for number in range(draws):
+            system = hybrid.draw(rng, number)
+            model = compiled(Path(folder), system.text)
+            for solver in belts.SOLVERS:
+                for rtol in TOLERANCES:
+                    said = wrong(model, system, solver, rtol)
+                    verdicts["right" if not said else "error" if said.startswith("error") else "wrong"] += 1
+                    if said:
+                        print(f"{hybrid.KINDS[number % 4]} {number}, {solver}, rtol {rtol:.1e}: {said}")
+    print(", ".join(f"{count} {what}" for what, count in verdicts.items()), f"of {verdicts.total()} runs")
+    return verdicts["wrong"]
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("campaign", choices=["belts"])
-    parser.add_argument("--draws", type=int, default=200)
+    parser.add_argument("campaign", choices=["belts", "systems"])
+    parser.add_argument("--draws", type=int, default=None)
     arguments = parser.parse_args()
-    return 1 if run_belts(arguments.draws) else 0
+    count = run_belts(arguments.draws or 200) if arguments.campaign == "belts" else run_systems(arguments.draws or 520)
+    return 1 if count else 0
 
 
 if __name__ == "__main__":

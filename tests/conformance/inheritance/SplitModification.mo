@@ -1,0 +1,10 @@
+// section: 7.2
+// value: a.x = 2
+model SplitModification
+  model A
+    Real x(start=1);
+  end A;
+  A a(x(start=2), x.fixed=true);
+equation
+  der(a.x) = 0;
+end SplitModification;

@@ -1,0 +1,67 @@
+"""A run ends: settings that get nowhere are refused, and Ctrl-C is heard."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+import signal
+import threading
+import time
+
+import pytest
+
+from lacuna import runtime
+from tests.events.models import compiled, simulated
+
+CLOCK = """model Clock
+  parameter Real first = 0, interval = 1;
+  discrete Real n(start=0, fixed=true);
+  Boolean late(start=false, fixed=true);
+equation
+  when sample(first, interval) then
+    n = pre(n) + 1;
+  end when;
+  late = time > first + 2.5*interval;
+end Clock;
+"""
+FAST = "model Fast\n  Real x(start=1, fixed=true);\nequation\n  der(x) = 1e300*x;\nend Fast;\n"
+
+
+@pytest.mark.parametrize("epoch", [0.0, 1.7e9])
+def test_seconds_since_1970_are_no_different(tmp_path: Path, epoch: float) -> None:
+    settings = {"parameters": {"first": epoch, "interval": 1e-4}, "start": epoch, "stop": epoch + 1.00005}
+    result = simulated(tmp_path, CLOCK, **settings)
+    assert result.complete, result.failure
+    assert result["n"][-1] == 10001
+    late = [e.time - epoch for e in result.event_log if e.kind == "time"]
+    assert late == pytest.approx([2.5e-4], abs=1e-6)
+
+
+def test_a_clock_faster_than_the_resolution_of_time_is_refused(tmp_path: Path) -> None:
+    failure = simulated(tmp_path, CLOCK, parameters={"interval": 1e-300}).failure
+    assert failure.status == "argument"
+    assert "lost in the rounding of time" in str(failure)
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+def test_what_explodes_ends(tmp_path: Path, solver: str) -> None:
+    assert simulated(tmp_path, FAST, solver=solver).failure is not None
+
+
+def test_steps_and_intervals_that_get_nowhere_are_refused(tmp_path: Path) -> None:
+    model = compiled(tmp_path, CLOCK)
+    assert "does not get through" in str(runtime.simulate(model, solver="rk4", step=1e-300).failure)
+    assert "makes 1e+09 rows" in str(runtime.simulate(model, interval=1e-9).failure)
+    for interval in (-1.0, float("nan"), float("inf")):
+        with pytest.raises(runtime.SimulationError, match="interval"):
+            runtime.Session(model, interval=interval)
+
+
+def test_ctrl_c_ends_a_run(tmp_path: Path) -> None:
+    text = "model Long\n  Real x(start=1, fixed=true);\nequation\n  der(x) = -x;\nend Long;\n"
+    model = compiled(tmp_path, text)
+    threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+    began = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        runtime.simulate(model, solver="rk4", step=1e-6, stop=1e3, interval=1.0)
+    assert time.monotonic() - began < 5
