@@ -76,7 +76,7 @@ def _session(
     model: runtime.Model, machine: Machine, solver: str, sensitive: bool, rtol: float = RTOL
 ) -> runtime.Session:
     return runtime.Session(
-        model, solver=solver, rtol=rtol, atol=0.01 * rtol, interval=machine.interval, outputs=machine.outputs,
+        model, solver=solver, rtol=rtol, interval=machine.interval, outputs=machine.outputs,
         events=False, sensitivities=machine.parameters if sensitive else (),
     )  # fmt: skip
 

@@ -57,8 +57,8 @@ def _take(search: Search, unbegun: Search, found: Found, progress: Progress) -> 
 
 
 def _better(search: Search, unbegun: Search, law: Candidate, gain: float, correlation: dict[str, float]) -> bool:
-    """Whether a law takes the place of findings: of effects in the equations, which have a name and a reason, only where
-    it leaves noise and the evidence is clearly for it; of sensors where it is better."""
+    """Whether a law takes the place of findings: of effects in the equations, which have a name and a reason, only
+    where it leaves noise and the evidence is clearly for it; of sensors where it is better."""
     before = _score_of(search, unbegun, correlation)
     if all(f.ranked.attachment.variable for f in search.findings):
         return gain < before - TIE

@@ -173,12 +173,23 @@ class FunctionBody:
         self._line(result if first is None else f"{self.c_name(first)} = {result}")
 
     def _for(self, s: flat.For) -> None:
-        i, last, step = self.c_name(s.variable), self._text(s.last), self._text(s.step)
+        """The range is evaluated once, before the loop and its variable begin (Modelica 3.6, 11.2.2)."""
+        i, range_ = self.c_name(s.variable), {"first": s.first, "last": s.last, "step": s.step}
+        kept = {what: self._names.identifier(f"{s.variable} {what}") for what, e in range_.items() if not is_const(e)}
+        if kept:
+            self._line("{")
+            self._depth += 1
+        for what, name in kept.items():
+            self._line(f"const double {name} = {self._text(range_[what])};")
+        first, last, step = (kept.get(what) or self._text(e) for what, e in range_.items())
         if is_const(s.step):
             test = f"{i} {'<=' if s.step.value > 0 else '>='} {last}"
         else:
             test = f"({step}) > 0.0 ? {i} <= {last} : {i} >= {last}"
-        self._block(f"for (double {i} = {self._text(s.first)}; {test}; {i} += {step})", s.body)
+        self._block(f"for (double {i} = {first}; {test}; {i} += {step})", s.body)
+        if kept:
+            self._depth -= 1
+            self._line("}")
 
     # -- expressions ------------------------------------------------------------------------------------------
 

@@ -71,4 +71,8 @@ class ConnectionSets:
 
 
 def _is_source(part: Part) -> bool:
-    return part.leaf.causality == ("input" if part.end.outside else "output")
+    """An output of a component, or an input of the model itself that can be connected from outside."""
+    outside = part.end.outside
+    return part.leaf.causality == ("input" if outside else "output") and not (
+        outside and part.leaf.declaration.protected
+    )

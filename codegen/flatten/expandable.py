@@ -25,7 +25,15 @@ def expand(connections: Connections, context: Context) -> None:
 
     Raises R061 where neither side of a connection is declared anywhere.
     """
-    waiting = [c for c in connections if any(_touches_expandable(ref, c[1]) for ref in (c[0].left, c[0].right))]
+    found: dict[tuple[int, tuple[str, ...]], bool] = {}  # by what a name means, all elements of arrays together
+
+    def touches(ref: ast.Ref, scope: Scope) -> bool:
+        key = id(scope.instance), ref.names
+        if key not in found:
+            found[key] = _touches_expandable(ref, scope)
+        return found[key]
+
+    waiting = [c for c in connections if any(touches(ref, c[1]) for ref in (c[0].left, c[0].right))]
     changed = True
     while changed:
         changed = False

@@ -97,7 +97,7 @@ static bool set_tolerances(rt_session *s, rt_ida *m) {
     if (isinf(weight)) {
       weight = 0;
       for (int i = 0; i < s->d->n_x; i++)
-        weight = rt_max(weight, fabs(x[i * f->columns + k]) * s->options.atol / s->atol[i]);
+        weight = rt_max(weight, fabs(x[i * f->columns + k]) / s->nominal[i]);
     }
     for (int i = 0; i < s->d->n_x + s->d->n_z; i++)
       atol[i] = weight > 0 ? s->atol[i] * weight : NOT_TESTED;

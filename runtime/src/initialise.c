@@ -105,6 +105,6 @@ rt_status rt_initialise(rt_session *s) {
   if (status) return status;
   rt_inputs_reset(s);
   rt_inputs_begin(s, s->start);
-  if ((status = solve_initial_equations(s)) || (status = first_events(s))) return status;
-  return s->sensitivities ? rt_tangent_begin(s) : RT_OK;
+  if ((status = solve_initial_equations(s))) return status;
+  return first_events(s);
 }

@@ -92,7 +92,7 @@ static void weights(const rt_session *s, const rt_onestep *t, int first, double 
     if (!isinf(weight[k])) continue;
     weight[k] = 0;
     for (int i = 0; i < s->d->n_x; i++)
-      weight[k] = rt_max(weight[k], fabs(t->x1[i * f->columns + first + k]) * s->options.atol / s->atol[i]);
+      weight[k] = rt_max(weight[k], fabs(t->x1[i * f->columns + first + k]) / s->nominal[i]);
   }
 }
 

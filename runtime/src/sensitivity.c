@@ -129,7 +129,8 @@ rt_status rt_session_sensitivities(rt_session *s, int n, const int *variables) {
 /* The size of a change of a parameter or initial value: what the model calls nominal, else its value, else its range.
  */
 static double scale_of(const rt_session *s, const mdl_variable *v) {
-  double value = v->storage == MDL_STATE ? s->data.x[v->index] : s->data.p[v->index];
+  if (v->storage == MDL_STATE) return s->nominal[v->index];
+  double value = s->data.p[v->index];
   if (v->nominal > 0) return v->nominal;
   if (value != 0 && isfinite(value)) return fabs(value);
   return isfinite(v->max - v->min) && v->max > v->min ? v->max - v->min : 0;

@@ -50,6 +50,7 @@ static rt_status begin(rt_session *s) {
   if (!status) status = rt_initialise(s);
   if (status) return status;
   rt_scale_start(s);
+  if (!status && s->sensitivities) status = rt_tangent_begin(s);
   status = check_asserts(s);
   if (!status) status = rt_check_point(s, true);
   if (!status) status = s->method->begin(s, s->memory);

@@ -60,3 +60,20 @@ end Names;""")  # fmt: skip
     result = simulate(compiled, stop=1.0)
     assert result["u"][-1] == pytest.approx(0.6)
     assert result["w"][-1] == pytest.approx(0.85)
+
+
+def test_the_range_of_a_loop_is_evaluated_once(tmp_path: Path) -> None:
+    model = write_model(tmp_path, """model Once
+  function f input Real x; output Real y; protected Integer n; algorithm
+    n := integer(x); y := 0;
+    for i in 1:n loop n := n + 1; for i in i:n loop y := y + 1; n := n - 1; end for; end for;
+  end f;
+  Real y = f(3.5 + 0*time);
+end Once;""")  # fmt: skip
+    result = simulate(Model(compile_model(model, cache_directory=str(tmp_path)).path), stop=1.0)
+    n, y = 3, 0
+    for i in range(1, n + 1):
+        n += 1
+        for _ in range(i, n + 1):
+            y, n = y + 1, n - 1
+    assert result["y"][-1] == y
