@@ -14,7 +14,7 @@ run_ctest = ctest --test-dir $(1) --output-on-failure -j 2 > $(1)/ctest.log && t
   || { cat $(1)/ctest.log; exit 1; }
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*')
 
-.PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined tolerance-study \
+.PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined prognosis tolerance-study \
         figures wheel examples belts hybrid msl compliance format lint sanitize ctest pytest lock clean
 
 help: ## Print this list
@@ -57,6 +57,10 @@ assess: setup ## RECORDING=file [MAP=folder]: severity of a recorded pre-flight 
 
 robustness: setup ## Thousands of simulated pre-flight tests over nuisances (long), writes docs/robustness.md
 	@$(PYTHON) -m bench.robustness --out $(OUT)/robustness
+
+prognosis: setup ## Forecasts on a simulated fleet, scored beside rivals (long), writes docs/prognosis.md
+	@$(PYTHON) -m pip install --quiet 'progpy>=1.9' || echo 'progpy cannot be installed: it is not compared' >&2
+	@$(PYTHON) -m bench.prognosis --out $(OUT)/prognosis
 
 combined: setup ## Maps over two faults at once and how well both are read (minutes), writes docs/combined.md
 	@$(PYTHON) -m bench.combined --out $(OUT)/combined

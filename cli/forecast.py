@@ -13,7 +13,9 @@ from lacuna.cli.answer import Answer, answered
 
 @answered
 def forecast(
-    history: Annotated[Path, typer.Argument(help="Folder with history.csv or history.parquet, or such a file")],
+    history: Annotated[
+        str, typer.Argument(help="Folder with history.csv or .parquet, such a file, or a history store")
+    ],
     map: Annotated[
         Path | None, typer.Option(help="Folder of the actuator's map: its bands, and what assesses recordings")
     ] = None,
@@ -39,7 +41,7 @@ def forecast(
     file beside it), and event (empty or replaced). Writes forecast.json, report.html and fan charts. "Too early to
     say" is an answer; a history that contradicts itself is refused with the row.
     """
-    folder = out or Path("out/forecast") / (history.stem if history.is_file() else history.resolve().name)
+    folder = out or Path("out/forecast") / _name(history)
     found = lacuna.forecast(
         history, map, folder, laws=laws or (), risk=risk, horizon=horizon, unit=unit, columns=current,
         unfiltered=unfiltered,
@@ -48,6 +50,13 @@ def forecast(
     more = [f"... and {len(sentences) - SHOWN} more actuators"] if len(sentences) > SHOWN else []
     parts: list = [*sentences[:SHOWN], *more]
     return Answer(found.content, parts, [folder], [f"warning: {text}" for text in found.warnings])
+
+
+def _name(history: str) -> str:
+    if "://" in history:
+        return "store"
+    path = Path(history)
+    return path.stem if path.is_file() else path.resolve().name
 
 
 SHOWN = 20  # sentences that are printed

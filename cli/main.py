@@ -15,6 +15,7 @@ from lacuna.cli import (
     compile,
     examples,
     explain,
+    fleet,
     forecast,
     list,
     maps,
@@ -74,6 +75,7 @@ app.command("maps", rich_help_panel=FAULTS)(maps.maps)
 app.command("sweep", rich_help_panel=FAULTS)(sweep.sweep)
 app.command("assess", rich_help_panel=FAULTS)(assess.assess)
 app.command("forecast", rich_help_panel=FAULTS)(forecast.forecast)
+app.command("fleet", rich_help_panel=FAULTS)(fleet.fleet)
 app.add_typer(case.app, name="case", rich_help_panel=PHYSICS)
 app.command("convert", rich_help_panel=PHYSICS)(examples.convert)
 app.command("explain", rich_help_panel=PHYSICS)(explain.explain)

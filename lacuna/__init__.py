@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from lacuna.errors import UserError, is_user_error, message_of, nearest
     from lacuna.examples import copy_examples
     from lacuna.faults import Assessment, CombinedMap, OperatingMap, assess, combined_maps, default_settings, maps
+    from lacuna.fleets import fleet
+    from lacuna.history import export_history, refresh, remember
     from lacuna.inputs import Input, recorded
     from lacuna.listings import Entry, list_effects, list_models, list_solvers
     from lacuna.models import Finding, Model, check, dump, load
@@ -37,6 +39,8 @@ _HOMES = {
     "errors": ("UserError", "is_user_error", "message_of", "nearest"),
     "examples": ("copy_examples",),
     "faults": ("Assessment", "CombinedMap", "OperatingMap", "assess", "combined_maps", "default_settings", "maps"),
+    "fleets": ("fleet",),
+    "history": ("export_history", "refresh", "remember"),
     "inputs": ("Input", "recorded"),
     "listings": ("Entry", "list_effects", "list_models", "list_solvers"),
     "models": ("Finding", "Model", "check", "dump", "load"),
@@ -79,6 +83,8 @@ __all__ = [
     "degradation_laws",
     "dump",
     "explain",
+    "export_history",
+    "fleet",
     "forecast",
     "is_user_error",
     "list_effects",
@@ -91,6 +97,8 @@ __all__ = [
     "new_case",
     "open_case",
     "recorded",
+    "refresh",
+    "remember",
     "sweep",
 ]
 

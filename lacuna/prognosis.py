@@ -71,7 +71,8 @@ def forecast(
 ) -> Prognosis:
     """When each actuator of `history` reaches the bands of `map`, how sure that is, and its last advisable test.
 
-    `history` is a folder with history.csv (or .parquet), or such a file, or what `read_histories` gave. `map` is the
+    `history` is a folder with history.csv (or .parquet), such a file, a history store (URL, or .db file), or what
+    `read_histories` gave. `map` is the
     folder of the actuator's map, which gives the bands and assesses recordings that have no severity yet; without it
     the
     paper's bands are taken. `laws` are further folders or files of degradation laws; `risk` the greatest probability
@@ -85,7 +86,12 @@ def forecast(
     settings = map_settings(map)
     options = Options(risk, horizon)
     if isinstance(history, Path | str):
-        history = read_histories(history, assessor(map, columns, unfiltered), unit)
+        if "://" in str(history) or Path(history).suffix in (".db", ".sqlite"):
+            from lacuna.analysis.history.store import Store
+
+            history = Store(history).histories(unit)
+        else:
+            history = read_histories(history, assessor(map, columns, unfiltered), unit)
     bank = Bank(degradation_laws(laws))
     limits = {fault: limits_of(settings, fault) for fault in {h.fault for h in history}}
     said = forecasts(history, bank, lambda h: limits[h.fault], options)

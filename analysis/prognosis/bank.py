@@ -7,6 +7,7 @@ rate. Arrays are [S, B, K]: S laws with their shapes, B histories, K = rates x n
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,6 +16,7 @@ from lacuna.analysis.prognosis.law import Law, prior, tables
 from lacuna.analysis.prognosis.settings import DEFAULT, FilterSettings
 
 LOST = 1e-3  # of the greatest weight
+GONE = 1e-10  # weight below which a hypothesis can be left out for good
 
 
 class Bank:
@@ -40,15 +42,28 @@ class Bank:
         within = np.multiply.outer(of_life / of_life.sum(), noises[:, 0] / noises[:, 0].sum())
         self.prior = self._unfold(prior(self.laws)[:, None, None, None] * within[None, :, :, None] / len(commons))
 
+    def only(self, kept: np.ndarray) -> Bank:
+        """The same with some of the columns K."""
+        other = copy(self)
+        for name in ("wander2", "diffusion2", "change", "common", "prior"):
+            setattr(other, name, getattr(self, name)[:, :, kept])
+        return other
+
     def learn(self, weights: np.ndarray) -> None:
-        """Take the prior of a fleet: weights [S, B, K] of its hypotheses, each after its whole history.
+        """Take laws and lives of a fleet into the prior: weights [S, B, K] of its hypotheses, each after its whole
+        history.
 
         One step of the EM algorithm for a mixture's shares under a Dirichlet prior (empirical Bayes: Robbins 1956),
         worth
-        `settings.actuators`.
+        `settings.actuators`. Noises and common errors keep their prior: they stand for what a catalogue lacks, and a
+        fleet that shows little of it is no reason to believe in none.
         """
         own = self.settings.actuators
-        self.prior = (own * self.prior + weights.sum(axis=1, keepdims=True)) / (own + weights.shape[1])
+        mean = (own * self.prior + weights.sum(axis=1, keepdims=True)) / (own + weights.shape[1])
+        shape = (len(self.laws), 1, *self.shape)
+        of_life = mean.reshape(shape).sum(axis=(3, 4), keepdims=True)
+        others = self.prior.reshape(shape).sum(axis=(0, 2), keepdims=True)
+        self.prior = (of_life * others).reshape(self.prior.shape)
 
     def _unfold(self, values: np.ndarray) -> np.ndarray:
         """[S|1, rates|1, noises|1, commons|1] -> [S, 1, K]."""
@@ -90,6 +105,10 @@ class Beliefs:
     def rows(self, select: np.ndarray) -> Beliefs:
         """Of some histories only."""
         return replace(self, **{name: value[:, select] for name, value in vars(self).items()})
+
+    def only(self, kept: np.ndarray) -> Beliefs:
+        """Of some columns K only."""
+        return replace(self, **{name: value[:, :, kept] for name, value in vars(self).items()})
 
     def put(self, select: np.ndarray, others: Beliefs) -> None:
         """Replace some histories', in place."""

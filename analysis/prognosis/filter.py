@@ -20,9 +20,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lacuna.analysis.prognosis.bank import Bank, Beliefs
+from lacuna.analysis.prognosis.bank import GONE, Bank, Beliefs
 
 ROOT_2PI = np.sqrt(2 * np.pi)
+PRUNED_EVERY = 4  # tests
 STEEPEST = 50.0  # growth of a deviation between two tests: beyond it a Gaussian means nothing
 
 
@@ -44,8 +45,10 @@ class Series:
 
 @dataclass(frozen=True)
 class Step:
-    """What one column of tests did: beliefs before and after, and the way in which each test was read."""
+    """What one column of tests did: beliefs before and after, and the way in which each test was read; `bank` has the
+    hypotheses that the beliefs are of."""
 
+    bank: Bank
     predicted: Beliefs
     slope: tuple[np.ndarray, np.ndarray]  # dx'/dx, dx'/dl from the test before
     filtered: Beliefs
@@ -53,15 +56,19 @@ class Step:
     evidence: np.ndarray  # [B] logarithm of the test's likelihood
 
 
-def run(bank: Bank, series: Series) -> Iterator[Step]:
-    """One Step for each column of `series`."""
+def run(bank: Bank, series: Series, *, prune: bool = False) -> Iterator[Step]:
+    """One Step for each column of `series`. With `prune`, hypotheses that no history needs any more are left out."""
     beliefs = bank.start(series.interval)
     before = np.zeros(len(series.use))
     for k in range(series.use.shape[1]):
         predicted, slope = predict(bank, beliefs, series.use[:, k] - before)
         beliefs, outlier, evidence = update(bank, predicted, slope[1], series, k)
         before = series.use[:, k]
-        yield Step(predicted, slope, beliefs, outlier, evidence)
+        yield Step(bank, predicted, slope, beliefs, outlier, evidence)
+        if prune and k % PRUNED_EVERY == PRUNED_EVERY - 1:
+            kept = np.flatnonzero((beliefs.w > GONE).any(axis=(0, 1)))
+            if len(kept) < beliefs.w.shape[2]:
+                bank, beliefs = bank.only(kept), beliefs.only(kept)
 
 
 def predict(bank: Bank, b: Beliefs, use: np.ndarray) -> tuple[Beliefs, tuple[np.ndarray, np.ndarray]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 import math
 
 import numpy as np
@@ -13,13 +13,13 @@ from lacuna.analysis.prognosis.bank import Bank, Beliefs, in_use
 from lacuna.analysis.prognosis.crossing import Remaining, remaining
 from lacuna.analysis.prognosis.filter import Series, Step, run
 from lacuna.analysis.prognosis.history import TWO_SIDED_95, History
-from lacuna.analysis.prognosis.verdict import FORECAST, verdict_on
+from lacuna.analysis.prognosis.verdict import FEWEST, FORECAST, verdict_on
 
 LEVELS = (0.025, 0.1, 0.5, 0.9, 0.975)
 BATCH = 64  # histories a call of the filter: its arrays then stay in the cache
 LONG = 10.0  # the horizon, in the use that was watched: a forecast further ahead than ten times the past is a guess
 LISTED = 200  # future tests that are listed
-FLEET = 20  # actuators from which on a fleet has a prior of its own
+FLEET = 20  # ended lives from which on a fleet has a prior of its own
 
 
 @dataclass(frozen=True)
@@ -103,6 +103,7 @@ class Options:
 
     risk: float = 0.001
     horizon: float | None = None
+    listed: int = LISTED  # future tests whose risk is told, at most
 
     def __post_init__(self):
         if not 0 < self.risk < 1:
@@ -124,7 +125,7 @@ def forecasts(
     of = limits if callable(limits) else lambda _: limits
     for history in histories:
         check_range(history, of(history))
-    if learn and len(histories) >= FLEET:
+    if learn:
         fleet_prior(histories, bank, of)
     result: dict[int, Forecast] = {}
     for rows in _batches(histories):
@@ -132,23 +133,47 @@ def forecasts(
         scale = [of(h) for h in batch]
         series = joined([series_of([h], one.removal, bank.settings.floor) for h, one in zip(batch, scale, strict=True)])
         outliers = []
-        for step in run(bank, series):
+        for step in run(bank, series, prune=True):
             outliers.append(step.outlier)
             last = step
-        said = _forecasts(batch, bank, scale, options, last, series, np.array(outliers).T)
+        said = _forecasts(batch, last.bank, scale, options, last, series, np.array(outliers).T)
         result |= dict(zip(rows, said, strict=True))
     return [result[k] for k in range(len(histories))]
 
 
 def fleet_prior(histories: Sequence[History], bank: Bank, of: Callable[[History], Limits], most: int = 400) -> None:
-    """Replace the bank's prior by that of the fleet: up to `most` histories, evenly chosen."""
-    chosen = [histories[k] for k in np.unique(np.linspace(0, len(histories) - 1, most).round().astype(int))]
+    """Replace the bank's prior by that of the lives that have ended, where there are FLEET of them or more.
+
+    A life has ended where its part was replaced beyond half of the limit, or has reached it. Lives that go on are
+    left out:
+    of how long they will be they know little but the prior. Of more than `most`, that many are taken, evenly.
+    """
+    ended = [life for h in histories for life in _ended(h, of(h))]
+    if len(ended) < FLEET:
+        return
+    chosen = [ended[k] for k in np.unique(np.linspace(0, len(ended) - 1, most).round().astype(int))]
     weights = []
     for rows in _batches(chosen):
         batch = [chosen[k] for k in rows]
         *_, last = run(bank, joined([series_of([h], of(h).removal, bank.settings.floor) for h in batch]))
         weights.append(last.filtered.w)
     bank.learn(np.concatenate(weights, axis=1))
+
+
+def _ended(h: History, limits: Limits) -> list[History]:
+    """The ended lives of a history, each as one of its own."""
+    result = []
+    for k, life in enumerate(h.lives):
+        known = h.severity[life][np.isfinite(h.severity[life])]
+        share = 1.0 if k == len(h.lives) - 1 else 0.5
+        if len(known) >= FEWEST and np.median(known[-FEWEST:]) >= share * limits.removal:
+            none = np.zeros(life.stop - life.start, bool)
+            result.append(
+                replace(
+                    h, use=h.use[life], severity=h.severity[life], low=h.low[life], high=h.high[life], replaced=none
+                )
+            )
+    return result
 
 
 def check_range(history: History, limits: Limits) -> None:
@@ -182,9 +207,15 @@ def joined(parts: Sequence[Series]) -> Series:
 
 
 def _batches(histories: Sequence[History]) -> list[list[int]]:
-    """Rows of about equal length together, so that little is padded."""
-    order = sorted(range(len(histories)), key=lambda k: len(histories[k].use))
+    """Rows of about equal length and pace together, so that little is padded and many hypotheses go for all of them."""
+    order = sorted(range(len(histories)), key=lambda k: _likeness(histories[k]))
     return [order[k : k + BATCH] for k in range(0, len(order), BATCH)]
+
+
+def _likeness(h: History) -> tuple[int, float]:
+    part = h.lives[-1]
+    known = h.severity[part][np.isfinite(h.severity[part])]
+    return (part.stop - part.start) // 8, float(known[-1]) if len(known) else 0.0
 
 
 def _forecasts(batch, bank: Bank, scale: list[Limits], options, step: Step, series: Series, outliers) -> list[Forecast]:
@@ -193,11 +224,12 @@ def _forecasts(batch, bank: Bank, scale: list[Limits], options, step: Step, seri
     watched = np.array([h.use[h.lives[-1]][-1] - h.use[h.lives[-1]][0] for h in batch])
     watched = np.where(watched > 0, watched, series.interval)
     horizon = np.full(len(batch), options.horizon) if options.horizon else LONG * watched
-    quantiles = np.stack([r.quantiles(LEVELS, 10 * horizon) for r in reaching], axis=1)
+    quantiles = np.maximum.accumulate(np.stack([r.quantiles(LEVELS, 10 * horizon) for r in reaching], axis=1), axis=1)
     again = reaching[-1].reached(watched[:, None])[:, 0]
-    count = np.minimum(np.maximum(horizon / series.interval, 1).astype(int), LISTED)
+    count = np.minimum(np.maximum(horizon / series.interval, 1).astype(int), options.listed)
     steps = series.interval[:, None] * np.arange(count.max() + 1)
-    risk = np.stack([r.reached(steps) for r in reaching], axis=1)  # [B, limits, 1 + tests]
+    # [B, limits, 1 + tests]; a limit is not reached before the one below it, which sums of lognormals do not know
+    risk = np.minimum.accumulate(np.stack([r.reached(steps) for r in reaching], axis=1), axis=1)
     law = _law_weights(bank, step.filtered)
     mean, deviation = _tracked(step.filtered)
     result = []

@@ -21,12 +21,12 @@ class FilterSettings:
         noise, each tried: calmer than declared, as declared, which is believed most, and rougher. Only where the
         noise is rough can a change be merged into one Gaussian without spoiling what is known of a steady rate.
     `commons`: share of an assessment's variance that all tests of one actuator have in common (its own inertia and
-        friction, say) and that the trend can not show; each tried. 0.35 is what docs/robustness.md attributes to the
-        actuator.
+        friction, say) and that the trend cannot show; each tried, and told by how much less than stated the tests
+        scatter. Half is what the tests of docs/robustness.md have, sorted by friction and inertia.
     `wide`, `wide_scale`: share of tests with an error of so many of the assessment's own standard deviations.
     `outlier`, `outlier_range`: share of tests that say nothing, spread over so many limits.
-    `change`, `change_size`: probability a test that the rate changes abruptly, standard deviation of its logarithm
-        then.
+    `change`, `change_size`: probability a test that the rate changes abruptly (duty, lubrication: about once in two
+        lives), and the standard deviation of its logarithm then.
     `actuators`: how many of a fleet this prior is worth, against what the fleet itself says.
     `floor`: least standard deviation of an assessment.
     """
@@ -41,12 +41,12 @@ class FilterSettings:
         (0.6, 1.0, 1.0, 0.0),
         (0.2, 4.0, 3.0, 1.0),
     )
-    commons: tuple[float, ...] = (0.0, 0.35)
+    commons: tuple[float, ...] = (0.0, 0.5)
     wide: float = 0.05
     wide_scale: float = 3.5
     outlier: float = 0.02
     outlier_range: float = 1.5
-    change: float = 0.003
+    change: float = 0.008
     change_size: float = 0.7
     actuators: float = 10.0
     floor: float = 1e-3

@@ -163,13 +163,13 @@ class Instance:
         found = resolve_type(declaration.type, type_scope)
         check_prefixes(declaration, found, self._elements_of)
         check_block(element.cls, declaration, found, self._elements_of)
-        sizes = evaluate_dimensions([*declaration.dimensions], type_scope, modifier, declaration.name)
-        index_types = tuple(index_type(d, type_scope) for d in declaration.dimensions)
-        sizes += found.dimensions
         record, outside = self._record_value(), element.modifier
         given = record is not None and declaration.name in record.fields
         if given and (outside is None or outside.value is None or outside.weak):
             modifier = replace(modifier, value=record.fields[declaration.name], index=())
+        sizes = evaluate_dimensions([*declaration.dimensions], type_scope, modifier, declaration.name)
+        index_types = tuple(index_type(d, type_scope) for d in declaration.dimensions)
+        sizes += found.dimensions
         self.context.spend(prod(sizes), declaration.span)
         name = self.path_of(declaration.name)
         if found.primitive is not None:

@@ -1,0 +1,1 @@
+"""The history store: every assessment that was made, in a database."""
