@@ -9,11 +9,13 @@ import typer
 
 import lacuna
 from lacuna.cli.answer import Answer, answered, progress
+from lacuna.cli.options import Libraries
 
 
 @answered
 def explain(
     case: Annotated[Path, typer.Argument(metavar="CASE", help="Folder with case.toml and its recordings")],
+    library: Libraries = None,
     out: Annotated[Path | None, typer.Option(help="Folder of the results; default: out/explain/CASE")] = None,
     limit: Annotated[
         float, typer.Option(min=0, metavar="SECONDS", help="Stop searching after this time; what was found stands")
@@ -26,5 +28,5 @@ def explain(
     amended model; prints the verdict. After an interruption, the same call takes up the fits that were finished.
     """
     with progress() as tell:
-        found = lacuna.explain(case, out=out, limit=limit, progress=tell)
+        found = lacuna.explain(case, libraries=library or [], out=out, limit=limit, progress=tell)
     return Answer(found.diagnosis, [found.sentence], list(found.written))

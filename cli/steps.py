@@ -10,6 +10,7 @@ import typer
 
 import lacuna
 from lacuna.cli.answer import Answer, answered, progress
+from lacuna.cli.options import Libraries
 
 Case = Annotated[Path, typer.Argument(metavar="CASE", help="Folder with case.toml and its recordings")]
 Out = Annotated[Path | None, typer.Option(help="Folder of report.html; default: out/STEP/CASE")]
@@ -17,36 +18,37 @@ SHOWN = 12  # rows of a ranking
 
 
 @answered
-def fit(case: Case, out: Out = None) -> Answer:
+def fit(case: Case, library: Libraries = None, out: Out = None) -> Answer:
     """Are the believed equations enough? Fit all parameters that are not exact; print them with their intervals."""
     with progress() as tell:
-        found = lacuna.open_case(case).fit(out=out, progress=tell)
+        found = lacuna.open_case(case, libraries=library or []).fit(out=out, progress=tell)
     return Answer(found.diagnosis, [_parameters(found), _errors(found, "before")], list(found.written))
 
 
 @answered
-def locate(case: Case, out: Out = None) -> Answer:
+def locate(case: Case, library: Libraries = None, out: Out = None) -> Answer:
     """Which effort is missing, and where? Rank the places of the model by what an effort there would explain."""
     with progress() as tell:
-        return _ranking(lacuna.open_case(case).locate(out=out, progress=tell))
+        return _ranking(lacuna.open_case(case, libraries=library or []).locate(out=out, progress=tell))
 
 
 @answered
-def name(case: Case, out: Out = None) -> Answer:
+def name(case: Case, library: Libraries = None, out: Out = None) -> Answer:
     """Which physics is it? Attach the catalogue's effects, simulate and fit again, and rank them by the evidence."""
     with progress() as tell:
-        return _ranking(lacuna.open_case(case).name(out=out, progress=tell))
+        return _ranking(lacuna.open_case(case, libraries=library or []).name(out=out, progress=tell))
 
 
 @answered
 def amend(
     case: Case,
     effect: Annotated[str, typer.Option(help="Identifier, such as friction.coulomb; default: the best")] = "",
+    library: Libraries = None,
     out: Out = None,
 ) -> Answer:
     """Write the model amended by one effect of the catalogue, fitted, and judge the file as it is written."""
     with progress() as tell:
-        found = lacuna.open_case(case).amend(effect, out=out, progress=tell)
+        found = lacuna.open_case(case, libraries=library or []).amend(effect, out=out, progress=tell)
     return Answer(found.diagnosis, [_errors(found, "after")], list(found.written))
 
 
@@ -54,10 +56,11 @@ def amend(
 def judge(
     case: Case,
     model: Annotated[Path, typer.Argument(metavar="MODEL.mo", help="A model file with the believed model's variables")],
+    library: Libraries = None,
     out: Out = None,
 ) -> Answer:
     """How well does a model file, as written, simulate the recordings that nothing was fitted to?"""
-    found = lacuna.open_case(case).judge(model, out=out)
+    found = lacuna.open_case(case, libraries=library or []).judge(model, out=out)
     table = Table("signal", "NRMSE, validation")
     for signal, value in found.validate.items():
         table.add_row(signal or "all", f"{value:.4g}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -90,18 +91,19 @@ class Judged:
         return page(f"judged: {self.report}", table(("signal", "NRMSE, unseen", "fitted"), rows))
 
 
-def open_case(folder: str | Path) -> Case:
+def open_case(folder: str | Path, *, libraries: Iterable[str | Path] = ()) -> Case:
     """A recording case: a folder with case.toml and its recordings. Raises CaseError naming file and entry.
 
-    Needs the extra `explain`.
+    `libraries` are looked up besides those that case.toml names. Needs the extra `explain`.
     """
-    return Case(folder)
+    return Case(folder, libraries)
 
 
 @names_missing_packages
 def explain(
     case: str | Path,
     *,
+    libraries: Iterable[str | Path] = (),
     out: str | Path | None = None,
     limit: float = LIMIT,
     progress: Progress | None = None,
@@ -114,7 +116,7 @@ def explain(
     stands. After an interruption the same call takes up the fits that were finished. Raises CaseError where model and
     case do not fit, Diagnostic where the model is wrong. Needs the extra `explain`.
     """
-    return open_case(case).explain(out=out, limit=limit, progress=progress)
+    return open_case(case, libraries=libraries).explain(out=out, limit=limit, progress=progress)
 
 
 class Case:
@@ -124,11 +126,11 @@ class Case:
     """
 
     @names_missing_packages
-    def __init__(self, folder: str | Path) -> None:
+    def __init__(self, folder: str | Path, libraries: Iterable[str | Path] = ()) -> None:
         from lacuna.discovery.cases import load
 
         self.folder = Path(folder)
-        self._case: cases.Case = load(self.folder)
+        self._case: cases.Case = load(self.folder, list(libraries))
 
     @property
     def title(self) -> str:

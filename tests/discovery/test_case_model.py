@@ -9,7 +9,9 @@ import shutil
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
+from lacuna.cli.main import app
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.errors import Diagnostic
 from lacuna.discovery import case_keys, diagnosis, report
@@ -100,6 +102,18 @@ def test_a_class_in_a_package_file_and_in_a_package_folder(tmp_path: Path) -> No
         case = tank_case(tmp_path / f"case{len(libraries)}", model, libraries, source="")
         assert load(case).base == "Works.Tank"
         assert simulated(case) == pytest.approx(1.0, abs=0.15)
+
+
+def test_a_library_given_to_the_command(tmp_path: Path) -> None:
+    folder = tmp_path / "lib" / "Works"
+    folder.mkdir(parents=True)
+    (folder / "package.mo").write_text("package Works\nend Works;\n", encoding="utf-8")
+    (folder / "Tank.mo").write_text("within Works;\n" + TANK.format(outflow="k*h"), encoding="utf-8")
+    case = tank_case(tmp_path / "case", "Works.Tank", "", source="")
+    words = ["fit", str(case), "--out", str(tmp_path / "out")]
+    assert CliRunner().invoke(app, words).exit_code == 1
+    result = CliRunner().invoke(app, [*words, "-L", str(folder)])
+    assert result.exit_code == 0, result.output
 
 
 def test_a_model_that_extends_one_of_ours(tmp_path: Path, consistent_case: Path) -> None:
