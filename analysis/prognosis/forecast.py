@@ -24,12 +24,16 @@ FLEET = 20  # ended lives from which on a fleet has a prior of its own
 
 @dataclass(frozen=True)
 class Limits:
-    """Severities at which bands begin, rising; the last one is where a part is removed. `last`: end of the map."""
+    """Severities at which bands begin, rising; the last one is where a part is removed.
+
+    `first`, `last`: ends of the map. `healthy`: severity of a new part, from which the laws count.
+    """
 
     names: tuple[str, ...]
     values: tuple[float, ...]
     first: float
     last: float
+    healthy: float = 0.0
 
     def __post_init__(self):
         if not all(a < b for a, b in zip((self.first, *self.values), (*self.values, np.inf), strict=True)):
@@ -38,6 +42,11 @@ class Limits:
     @property
     def removal(self) -> float:
         return self.values[-1]
+
+    @property
+    def span(self) -> float:
+        """From a new part to its removal."""
+        return self.removal - self.healthy
 
 
 @dataclass(frozen=True)
@@ -66,7 +75,7 @@ class Forecast:
     remaining: tuple[Remaining, ...] = field(default=(), repr=False)
 
 
-def series_of(histories: Sequence[History], limit: float, floor: float) -> Series:
+def series_of(histories: Sequence[History], limit: float, floor: float, healthy: float = 0.0) -> Series:
     """The parts in service, padded, as shares of `limit`. A side of an interval that the map's edge cuts takes the
     other's width."""
     parts = [(h, h.lives[-1]) for h in histories]
@@ -80,7 +89,7 @@ def series_of(histories: Sequence[History], limit: float, floor: float) -> Serie
         use[b, :m], use[b, m:] = own, own[-1]
         known = np.isfinite(h.severity[part])
         valid[b, :m] = known
-        value[b, :m] = np.where(known, h.severity[part], 0) / limit
+        value[b, :m] = np.where(known, h.severity[part] - healthy, 0) / limit
         lower = np.where(known, h.severity[part] - h.low[part], 1) / limit / TWO_SIDED_95
         upper = np.where(known, h.high[part] - h.severity[part], 1) / limit / TWO_SIDED_95
         below[b, :m] = np.maximum(np.where(lower > 0, lower, upper), floor)
@@ -131,7 +140,9 @@ def forecasts(
     for rows in _batches(histories):
         batch = [histories[k] for k in rows]
         scale = [of(h) for h in batch]
-        series = joined([series_of([h], one.removal, bank.settings.floor) for h, one in zip(batch, scale, strict=True)])
+        series = joined(
+            [series_of([h], one.span, bank.settings.floor, one.healthy) for h, one in zip(batch, scale, strict=True)]
+        )
         outliers = []
         for step in run(bank, series, prune=True):
             outliers.append(step.outlier)
@@ -155,7 +166,7 @@ def fleet_prior(histories: Sequence[History], bank: Bank, of: Callable[[History]
     weights = []
     for rows in _batches(chosen):
         batch = [chosen[k] for k in rows]
-        *_, last = run(bank, joined([series_of([h], of(h).removal, bank.settings.floor) for h in batch]))
+        *_, last = run(bank, joined([series_of([h], of(h).span, bank.settings.floor, of(h).healthy) for h in batch]))
         weights.append(last.filtered.w)
     bank.learn(np.concatenate(weights, axis=1))
 
@@ -166,7 +177,7 @@ def _ended(h: History, limits: Limits) -> list[History]:
     for k, life in enumerate(h.lives):
         known = h.severity[life][np.isfinite(h.severity[life])]
         share = 1.0 if k == len(h.lives) - 1 else 0.5
-        if len(known) >= FEWEST and np.median(known[-FEWEST:]) >= share * limits.removal:
+        if len(known) >= FEWEST and np.median(known[-FEWEST:]) >= limits.healthy + share * limits.span:
             none = np.zeros(life.stop - life.start, bool)
             result.append(
                 replace(
@@ -239,12 +250,12 @@ def _forecasts(batch, bank: Bank, scale: list[Limits], options, step: Step, seri
         at = float(h.use[-1])
         below = np.flatnonzero(np.maximum.accumulate(risk[b, -1, own]) > options.risk)
         advised = None if not len(below) or verdict != FORECAST else at + float(steps[b, max(below[0] - 1, 0)])
-        limit = scale[b].removal
+        limit = scale[b].span
         result.append(
             Forecast(
                 h, verdict, reason, np.where(quantiles[b] > horizon[b], np.inf, quantiles[b]), float(horizon[b]),
                 at + steps[b, own][1:], risk[b, :, own][:, 1:], advised, law[b], scale[b], at,
-                (mean[b] * limit, deviation[b] * limit), outliers[b, : len(h.use[h.lives[-1]])],
+                (scale[b].healthy + mean[b] * limit, deviation[b] * limit), outliers[b, : len(h.use[h.lives[-1]])],
                 (*h.warnings, *h.doubts, *warnings), tuple(_row(r, b) for r in reaching),
             )
         )  # fmt: skip
@@ -263,7 +274,7 @@ def last_error(series: Series, b: int) -> float:
 
 def _reaching(bank, beliefs, scale: list[Limits], j: int, error, interval) -> Remaining:
     """Up to limit j of each history's own limits."""
-    shares = np.array([one.values[j] / one.removal for one in scale])
+    shares = np.array([(one.values[j] - one.healthy) / one.span for one in scale])
     if np.ptp(shares) == 0:
         return remaining(bank, beliefs, float(shares[0]), error, interval)
     parts = []

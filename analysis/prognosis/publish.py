@@ -81,12 +81,12 @@ def _cell(value: float) -> str:
 
 def curves(f: Forecast, bank: Bank):
     """(smoothed, levels) for `figure.draw`: what the tests say of the past, and when each severity is reached."""
-    limit = f.limits.removal
-    series = series_of([f.history], limit, bank.settings.floor)
+    limit, healthy = f.limits.span, f.limits.healthy
+    series = series_of([f.history], limit, bank.settings.floor, healthy)
     steps = list(run(bank, series))
     mean, deviation = tracked(bank, steps)
     part = f.history.lives[-1]
-    smoothed = (f.history.use[part], mean[:, 0] * limit, deviation[:, 0] * limit)
+    smoothed = (f.history.use[part], healthy + mean[:, 0] * limit, deviation[:, 0] * limit)
     if f.verdict != FORECAST or mean[-1, 0] >= 1:
         return smoothed, None
     shares = np.linspace(min(mean[-1, 0], 0.99), 1.1, LEVELS)
@@ -96,4 +96,4 @@ def curves(f: Forecast, bank: Bank):
         remaining(bank, last, s, error, series.interval).quantiles(PROBABILITIES, np.array([10 * f.horizon]))[0]
         for s in shares
     ]
-    return smoothed, (shares * limit, np.array(quantiles))
+    return smoothed, (healthy + shares * limit, np.array(quantiles))

@@ -200,7 +200,7 @@ def two_faults(parts: Sequence[Part], bank: Callable[[], Bank], seed: int) -> di
     """
     from lacuna.analysis.prognosis.forecast import Limits as Bounds
 
-    friction = Bounds(LIMITS.names, (0.14036, 0.18714, 0.23393), 0.046785, 0.28071)
+    friction = Bounds(LIMITS.names, (0.14036, 0.18714, 0.23393), 0.046785, 0.28071, 0.0936)
     random = np.random.default_rng(seed)
     pairs = [(a, b) for a, b in zip(parts[::2], parts[1::2], strict=False)]
     result = {}
