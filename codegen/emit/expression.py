@@ -80,7 +80,7 @@ def _print(e: Expr, name: Lookup) -> tuple[str, int]:
     if e.op == "^":
         return f"pow({_list(e.args, name)})", _PRIMARY
     if e.op == "array":
-        return f"(const double[]){{{_list(e.args, name)}}}", _PRIMARY
+        return f"(const double[]){{{_list(e.args, name) or '0.0'}}}", _PRIMARY  # C has no empty arrays
     if e.op == "call":
         return _print_call(e, name), _PRIMARY
     if e.op in ("noEvent", "smooth"):

@@ -71,8 +71,8 @@ class FunctionBody:
         if not shape:
             self._line(f"{c_type(self._f, name)} {c_name} = {self._text(default) if default is not None else '0'};")
             return
-        elements = default.args if default is not None else (const(0.0),)
-        self._line(f"double {c_name}[{math.prod(shape)}] = {{{', '.join(map(self._text, elements))}}};")
+        elements = default.args if default is not None and default.args else (const(0.0),)
+        self._line(f"double {c_name}[{max(1, math.prod(shape))}] = {{{', '.join(map(self._text, elements))}}};")
 
     def _leave(self) -> str:
         """Statements that hand over the results and return."""

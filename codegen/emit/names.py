@@ -42,7 +42,7 @@ class Names:
 
     def table(self, e: Expr) -> str | None:
         """The name of a constant array, which is written once for the file; None where `e` is not constant."""
-        if e.op != "array" or any(a.op != "const" for a in e.args):
+        if e.op != "array" or not e.args or any(a.op != "const" for a in e.args):
             return None
         return self.tables.setdefault(e, f"mdl_table{len(self.tables) + 1}")
 
