@@ -17,7 +17,8 @@ from lacuna.analysis.prognosis.crossing import remaining
 from lacuna.analysis.prognosis.figure import LEVELS, draw
 from lacuna.analysis.prognosis.filter import run
 from lacuna.analysis.prognosis.forecast import LEVELS as PROBABILITIES
-from lacuna.analysis.prognosis.forecast import Forecast, last_error, series_of
+from lacuna.analysis.prognosis.forecast import Forecast
+from lacuna.analysis.prognosis.series import last_error, series_of
 from lacuna.analysis.prognosis.smoother import tracked
 from lacuna.analysis.prognosis.telling import counted_verdicts, forecast_json, sentence, urgency
 from lacuna.analysis.prognosis.verdict import FORECAST

@@ -15,8 +15,9 @@ from bench.prognosis.scores import CHECKPOINTS, HORIZON, LEVELS, Scores, crps_of
 from lacuna.analysis.prognosis.bank import Bank
 from lacuna.analysis.prognosis.crossing import Remaining, remaining
 from lacuna.analysis.prognosis.filter import run
-from lacuna.analysis.prognosis.forecast import LONG, Limits, forecasts, joined, last_error, series_of
+from lacuna.analysis.prognosis.forecast import LONG, Limits, forecasts
 from lacuna.analysis.prognosis.history import TWO_SIDED_95, History
+from lacuna.analysis.prognosis.series import joined, last_error, series_of
 from lacuna.analysis.prognosis.verdict import FORECAST, verdict_on
 
 LIMITS = Limits(("orange", "red", "violet"), (0.11, 0.27, LIMIT), 0.0, 0.5)
