@@ -44,6 +44,10 @@ class Limits:
     def removal(self) -> float:
         return self.values[-1]
 
+    def only_last(self) -> Limits:
+        """The removal alone, which is all that a fleet is sorted by."""
+        return replace(self, names=self.names[-1:], values=self.values[-1:])
+
     @property
     def span(self) -> float:
         """From a new part to its removal."""
