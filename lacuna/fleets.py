@@ -45,7 +45,7 @@ def fleet(
 
     settings = map_settings(map)
     read = _histories(histories)
-    limits = {fault: limits_of(settings, fault) for fault in {h.fault for h in read}}
+    limits = {fault: limits_of(settings, fault).only_last() for fault in {h.fault for h in read}}
     work = FleetWork(Bank(degradation_laws(laws)), limits, Options(risk, horizon, LISTED))
     folder, tell = Path(out), progress or silent
     table = run_fleet(

@@ -118,14 +118,20 @@ def limits_of(settings: Settings, fault: str = "") -> Limits:
     bands = settings.bands[1:]
     names = tuple(band.name for band in bands)
     if fault in ("", own.symbol, own.parameter):
-        return Limits(names, tuple(band.first for band in bands), own.first, own.last)
+        return Limits(names, tuple(band.first for band in bands), own.first, own.last, own.healthy)
     others = {entry["symbol"]: entry for entry in settings.raw.get("combined", [])}
     entry = others.get(fault)
     if entry is None:
         raise AnalysisError(f"{settings.path}: no fault {fault!r}; known: {', '.join([own.symbol, *others])}")
     if len(entry.get("limits", ())) != len(bands):
         raise AnalysisError(f"{settings.path}: fault {fault} needs as many `limits` as there are bands after the first")
-    return Limits(names, tuple(floats(entry["limits"])), float(entry["first"]), float(entry["last"]))
+    return Limits(
+        names,
+        tuple(floats(entry["limits"])),
+        float(entry["first"]),
+        float(entry["last"]),
+        float(entry.get("healthy", 0.0)),
+    )
 
 
 def floats(values: Sequence[float]) -> list[float]:

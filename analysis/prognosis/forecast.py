@@ -12,7 +12,8 @@ from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis.bank import Bank, Beliefs, in_use
 from lacuna.analysis.prognosis.crossing import Remaining, remaining
 from lacuna.analysis.prognosis.filter import Series, Step, run
-from lacuna.analysis.prognosis.history import TWO_SIDED_95, History
+from lacuna.analysis.prognosis.history import History
+from lacuna.analysis.prognosis.series import joined, last_error, series_of
 from lacuna.analysis.prognosis.verdict import FEWEST, FORECAST, verdict_on
 
 LEVELS = (0.025, 0.1, 0.5, 0.9, 0.975)
@@ -24,12 +25,16 @@ FLEET = 20  # ended lives from which on a fleet has a prior of its own
 
 @dataclass(frozen=True)
 class Limits:
-    """Severities at which bands begin, rising; the last one is where a part is removed. `last`: end of the map."""
+    """Severities at which bands begin, rising; the last one is where a part is removed.
+
+    `first`, `last`: ends of the map. `healthy`: severity of a new part, from which the laws count.
+    """
 
     names: tuple[str, ...]
     values: tuple[float, ...]
     first: float
     last: float
+    healthy: float = 0.0
 
     def __post_init__(self):
         if not all(a < b for a, b in zip((self.first, *self.values), (*self.values, np.inf), strict=True)):
@@ -38,6 +43,15 @@ class Limits:
     @property
     def removal(self) -> float:
         return self.values[-1]
+
+    def only_last(self) -> Limits:
+        """The removal alone, which is all that a fleet is sorted by."""
+        return replace(self, names=self.names[-1:], values=self.values[-1:])
+
+    @property
+    def span(self) -> float:
+        """From a new part to its removal."""
+        return self.removal - self.healthy
 
 
 @dataclass(frozen=True)
@@ -64,37 +78,6 @@ class Forecast:
     outliers: np.ndarray  # [rows] probability that the test says nothing
     warnings: tuple[str, ...] = ()
     remaining: tuple[Remaining, ...] = field(default=(), repr=False)
-
-
-def series_of(histories: Sequence[History], limit: float, floor: float) -> Series:
-    """The parts in service, padded, as shares of `limit`. A side of an interval that the map's edge cuts takes the
-    other's width."""
-    parts = [(h, h.lives[-1]) for h in histories]
-    n = max(1, *(part.stop - part.start for _, part in parts))
-    shape = (len(parts), n)
-    use, value, below, above = (np.zeros(shape) for _ in range(4))
-    valid, interval = np.zeros(shape, bool), np.ones(len(parts))
-    for b, (h, part) in enumerate(parts):
-        m = part.stop - part.start
-        own = h.use[part] - h.use[part.start]
-        use[b, :m], use[b, m:] = own, own[-1]
-        known = np.isfinite(h.severity[part])
-        valid[b, :m] = known
-        value[b, :m] = np.where(known, h.severity[part], 0) / limit
-        lower = np.where(known, h.severity[part] - h.low[part], 1) / limit / TWO_SIDED_95
-        upper = np.where(known, h.high[part] - h.severity[part], 1) / limit / TWO_SIDED_95
-        below[b, :m] = np.maximum(np.where(lower > 0, lower, upper), floor)
-        above[b, :m] = np.maximum(np.where(upper > 0, upper, lower), floor)
-        interval[b] = usual_interval(h)
-    below[:, :] = np.where(below > 0, below, 1)
-    above[:, :] = np.where(above > 0, above, 1)
-    return Series(use, value, below, above, valid, interval)
-
-
-def usual_interval(history: History) -> float:
-    """The median use between tests; that up to the only test, where there is one."""
-    steps = np.diff(history.use)
-    return float(np.median(steps)) if len(steps) else float(history.use[-1] or 1.0)
 
 
 @dataclass(frozen=True)
@@ -131,7 +114,9 @@ def forecasts(
     for rows in _batches(histories):
         batch = [histories[k] for k in rows]
         scale = [of(h) for h in batch]
-        series = joined([series_of([h], one.removal, bank.settings.floor) for h, one in zip(batch, scale, strict=True)])
+        series = joined(
+            [series_of([h], one.span, bank.settings.floor, one.healthy) for h, one in zip(batch, scale, strict=True)]
+        )
         outliers = []
         for step in run(bank, series, prune=True):
             outliers.append(step.outlier)
@@ -155,7 +140,7 @@ def fleet_prior(histories: Sequence[History], bank: Bank, of: Callable[[History]
     weights = []
     for rows in _batches(chosen):
         batch = [chosen[k] for k in rows]
-        *_, last = run(bank, joined([series_of([h], of(h).removal, bank.settings.floor) for h in batch]))
+        *_, last = run(bank, joined([series_of([h], of(h).span, bank.settings.floor, of(h).healthy) for h in batch]))
         weights.append(last.filtered.w)
     bank.learn(np.concatenate(weights, axis=1))
 
@@ -166,7 +151,7 @@ def _ended(h: History, limits: Limits) -> list[History]:
     for k, life in enumerate(h.lives):
         known = h.severity[life][np.isfinite(h.severity[life])]
         share = 1.0 if k == len(h.lives) - 1 else 0.5
-        if len(known) >= FEWEST and np.median(known[-FEWEST:]) >= share * limits.removal:
+        if len(known) >= FEWEST and np.median(known[-FEWEST:]) >= limits.healthy + share * limits.span:
             none = np.zeros(life.stop - life.start, bool)
             result.append(
                 replace(
@@ -187,23 +172,6 @@ def check_range(history: History, limits: Limits) -> None:
             f"actuator {history.actuator}, {history.unit} {history.use[k]:g}: severity {history.severity[k]:g} is "
             f"outside the map, {limits.first:g} to {limits.last:g}{percent}"
         )
-
-
-def joined(parts: Sequence[Series]) -> Series:
-    """Series of several histories as one, padded to the longest."""
-    n = max(p.use.shape[1] for p in parts)
-
-    def padded(values: np.ndarray, mode: str) -> np.ndarray:
-        return np.pad(values, ((0, 0), (0, n - values.shape[1])), mode=mode)
-
-    return Series(
-        *(
-            np.concatenate([padded(getattr(p, name), "edge") for p in parts])
-            for name in ("use", "value", "below", "above")
-        ),
-        np.concatenate([padded(p.valid, "constant") for p in parts]),
-        np.concatenate([p.interval for p in parts]),
-    )
 
 
 def _batches(histories: Sequence[History]) -> list[list[int]]:
@@ -239,12 +207,12 @@ def _forecasts(batch, bank: Bank, scale: list[Limits], options, step: Step, seri
         at = float(h.use[-1])
         below = np.flatnonzero(np.maximum.accumulate(risk[b, -1, own]) > options.risk)
         advised = None if not len(below) or verdict != FORECAST else at + float(steps[b, max(below[0] - 1, 0)])
-        limit = scale[b].removal
+        limit = scale[b].span
         result.append(
             Forecast(
                 h, verdict, reason, np.where(quantiles[b] > horizon[b], np.inf, quantiles[b]), float(horizon[b]),
                 at + steps[b, own][1:], risk[b, :, own][:, 1:], advised, law[b], scale[b], at,
-                (mean[b] * limit, deviation[b] * limit), outliers[b, : len(h.use[h.lives[-1]])],
+                (scale[b].healthy + mean[b] * limit, deviation[b] * limit), outliers[b, : len(h.use[h.lives[-1]])],
                 (*h.warnings, *h.doubts, *warnings), tuple(_row(r, b) for r in reaching),
             )
         )  # fmt: skip
@@ -255,15 +223,9 @@ def _row(r: Remaining, b: int) -> Remaining:
     return Remaining(r.mean[b : b + 1], r.sd[b : b + 1], r.weight[b : b + 1])
 
 
-def last_error(series: Series, b: int) -> float:
-    """Standard deviation of the assessments now: the median of the last five."""
-    known = np.flatnonzero(series.valid[b])[-5:]
-    return float(np.median((series.below[b, known] + series.above[b, known]) / 2)) if len(known) else 0.0
-
-
 def _reaching(bank, beliefs, scale: list[Limits], j: int, error, interval) -> Remaining:
     """Up to limit j of each history's own limits."""
-    shares = np.array([one.values[j] / one.removal for one in scale])
+    shares = np.array([(one.values[j] - one.healthy) / one.span for one in scale])
     if np.ptp(shares) == 0:
         return remaining(bank, beliefs, float(shares[0]), error, interval)
     parts = []

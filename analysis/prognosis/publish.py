@@ -17,7 +17,8 @@ from lacuna.analysis.prognosis.crossing import remaining
 from lacuna.analysis.prognosis.figure import LEVELS, draw
 from lacuna.analysis.prognosis.filter import run
 from lacuna.analysis.prognosis.forecast import LEVELS as PROBABILITIES
-from lacuna.analysis.prognosis.forecast import Forecast, last_error, series_of
+from lacuna.analysis.prognosis.forecast import Forecast
+from lacuna.analysis.prognosis.series import last_error, series_of
 from lacuna.analysis.prognosis.smoother import tracked
 from lacuna.analysis.prognosis.telling import counted_verdicts, forecast_json, sentence, urgency
 from lacuna.analysis.prognosis.verdict import FORECAST
@@ -81,12 +82,12 @@ def _cell(value: float) -> str:
 
 def curves(f: Forecast, bank: Bank):
     """(smoothed, levels) for `figure.draw`: what the tests say of the past, and when each severity is reached."""
-    limit = f.limits.removal
-    series = series_of([f.history], limit, bank.settings.floor)
+    limit, healthy = f.limits.span, f.limits.healthy
+    series = series_of([f.history], limit, bank.settings.floor, healthy)
     steps = list(run(bank, series))
     mean, deviation = tracked(bank, steps)
     part = f.history.lives[-1]
-    smoothed = (f.history.use[part], mean[:, 0] * limit, deviation[:, 0] * limit)
+    smoothed = (f.history.use[part], healthy + mean[:, 0] * limit, deviation[:, 0] * limit)
     if f.verdict != FORECAST or mean[-1, 0] >= 1:
         return smoothed, None
     shares = np.linspace(min(mean[-1, 0], 0.99), 1.1, LEVELS)
@@ -96,4 +97,4 @@ def curves(f: Forecast, bank: Bank):
         remaining(bank, last, s, error, series.interval).quantiles(PROBABILITIES, np.array([10 * f.horizon]))[0]
         for s in shares
     ]
-    return smoothed, (shares * limit, np.array(quantiles))
+    return smoothed, (healthy + shares * limit, np.array(quantiles))

@@ -39,6 +39,7 @@ class Fault:
     first: float
     last: float
     step: float
+    healthy: float = 0.0  # of a new part
     limits: tuple[float, ...] = ()  # of a fault beside the map's: where each band after the first begins
 
     def shown(self, severity):

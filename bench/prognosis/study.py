@@ -15,8 +15,9 @@ from bench.prognosis.scores import CHECKPOINTS, HORIZON, LEVELS, Scores, crps_of
 from lacuna.analysis.prognosis.bank import Bank
 from lacuna.analysis.prognosis.crossing import Remaining, remaining
 from lacuna.analysis.prognosis.filter import run
-from lacuna.analysis.prognosis.forecast import LONG, Limits, forecasts, joined, last_error, series_of
+from lacuna.analysis.prognosis.forecast import LONG, Limits, forecasts
 from lacuna.analysis.prognosis.history import TWO_SIDED_95, History
+from lacuna.analysis.prognosis.series import joined, last_error, series_of
 from lacuna.analysis.prognosis.verdict import FORECAST, verdict_on
 
 LIMITS = Limits(("orange", "red", "violet"), (0.11, 0.27, LIMIT), 0.0, 0.5)
@@ -200,7 +201,7 @@ def two_faults(parts: Sequence[Part], bank: Callable[[], Bank], seed: int) -> di
     """
     from lacuna.analysis.prognosis.forecast import Limits as Bounds
 
-    friction = Bounds(LIMITS.names, (0.14036, 0.18714, 0.23393), 0.046785, 0.28071)
+    friction = Bounds(LIMITS.names, (0.14036, 0.18714, 0.23393), 0.046785, 0.28071, 0.0936)
     random = np.random.default_rng(seed)
     pairs = [(a, b) for a, b in zip(parts[::2], parts[1::2], strict=False)]
     result = {}

@@ -12,8 +12,9 @@ from scipy.stats import invgauss, multivariate_normal
 from lacuna.analysis.prognosis.bank import Bank
 from lacuna.analysis.prognosis.crossing import remaining
 from lacuna.analysis.prognosis.filter import Series, run
-from lacuna.analysis.prognosis.forecast import forecasts, series_of
+from lacuna.analysis.prognosis.forecast import forecasts
 from lacuna.analysis.prognosis.law import Law
+from lacuna.analysis.prognosis.series import series_of
 from lacuna.analysis.prognosis.settings import FilterSettings
 from lacuna.analysis.prognosis.smoother import smooth
 from tests.analysis.prognosis import particles

@@ -120,7 +120,7 @@ def test_severities_outside_the_map_are_refused(value):
 def test_two_faults_have_two_lives():
     from lacuna.analysis.prognosis.forecast import Limits
 
-    other = Limits(LIMITS.names, (0.14, 0.187, 0.234), 0.047, 0.28)
+    other = Limits(LIMITS.names, (0.14, 0.187, 0.234), 0.047, 0.28, healthy=0.09)
     first = history(linear, TESTS)
     second = replace(history(lambda n: 0.09 + 0.144 * n / 7000, TESTS, seed=4), fault="friction")
     one, two = forecasts([first, second], Bank(LAWS), lambda h: other if h.fault else LIMITS)
