@@ -10,7 +10,8 @@ In this order, for each continuous variable:
    products are looked at, then numbers that stand as terms (a threshold of 1e-6 says less than a parameter, but more
    than nothing);
 3. then the length of the experiment links a variable and its derivative;
-4. an angle (unit rad) has at most size 1, at which it acts, however many turns it makes;
+4. an angle (unit rad) without a declared nominal has size 1, at which it acts, however many turns it makes and however
+   small a play is that it is compared with;
 5. else none: the runtime takes the size at the start of the run, and 1 in the variable's unit where that is zero.
 
 All of it is products, quotients and powers of what the model gives: in other units the nominal value is the same
@@ -61,16 +62,22 @@ def infer(system: System, relations: Iterable[tuple[Expr, Expr, str]]) -> dict[E
 
 
 def difference(left: Expr, right: Expr, sizes: dict[Expr, Size], model: flat.FlatModel) -> Size | None:
-    """The size of a guard, left - right."""
+    """The size of a guard, left - right. One of angles has size 1 rad: what it compares are often differences of angles
+    of many turns, whose rounding does not know how small a play between them is."""
+    compared = [
+        n for n in leaves(left) | leaves(right) if n.op == "var" and model.variables[str(n.value)].type == "Real"
+    ]
+    if compared and all(model.variables[str(n.value)].unit == "rad" for n in compared):
+        return Size(ONE, 1.0, "an angle")
     inference = _Inference(model, [])
     inference.sizes = sizes
     return _largest([s for s in (inference.size(left), inference.size(right)) if s])
 
 
 def _angle(size: Size, e: Expr, model: flat.FlatModel) -> Size:
-    """An angle acts at 1 rad, however many turns it makes."""
-    large = e.op == "var" and model.variables[str(e.value)].unit == "rad" and size.value > 1
-    return Size(ONE, 1.0, "an angle") if large else size
+    """An angle acts at 1 rad, however many turns it makes and however small a play is that it is compared with."""
+    told = e.op == "var" and model.variables[str(e.value)].unit == "rad" and size.reason != "declared"
+    return Size(ONE, 1.0, "an angle") if told else size
 
 
 class _Inference:

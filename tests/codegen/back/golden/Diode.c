@@ -348,8 +348,9 @@ static int mdl_check(mdl_data *m, double t, const double *x, const double *xdot,
 static int mdl_nominals(mdl_data *m, double *nominal) {
   const double V_t = m->p[3];
   const double tmp1 = fabs(V_t);
-  nominal[0] = tmp1;
-  nominal[1] = tmp1;
+  const double tmp2 = tmp1 > 0.0 ? tmp1 : 0.025;
+  nominal[0] = tmp2;
+  nominal[1] = tmp2;
   nominal[2] = 1.0;
   return 0;
 }

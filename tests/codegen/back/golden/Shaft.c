@@ -300,9 +300,11 @@ static int mdl_nominals(mdl_data *m, double *nominal) {
   const double tau_max = m->p[4];
   const double w_ref = m->p[5];
   const double tmp1 = fabs(w_ref);
-  nominal[0] = tmp1;
-  nominal[1] = tmp1;
-  nominal[2] = fabs(tau_max);
+  const double tmp2 = tmp1 > 0.0 ? tmp1 : 1.0;
+  nominal[0] = tmp2;
+  nominal[1] = tmp2;
+  const double tmp3 = fabs(tau_max);
+  nominal[2] = tmp3 > 0.0 ? tmp3 : 10.0;
   return 0;
 }
 
