@@ -16,7 +16,6 @@ from lacuna.discovery.noise import level, quantum
 MIN_SAMPLES = 50
 GAP = 5.0  # a pause longer than this many sample intervals is a gap
 FROZEN_RUN = 25  # equal samples in a row that noise above the resolution cannot give
-MOVES = 2.0  # noise alone spreads over its own standard deviation, whose estimate is good to some per cent
 CLIPPED_RUN, CLIPPED_SHARE = 5, 0.003  # equal samples in a row, and in all, at the end of a noisy signal's range
 
 
@@ -176,17 +175,10 @@ def _constant(case: Case) -> list[Problem]:
         others = [r for r in case.fit + case.validate if r not in still]
         if all(_noisy(r.columns[signal.column], signal) for r in others):
             problems += [_still(r, signal, "constant, where other recordings of it are noisy") for r in still]
-    driven = any(_changes(r, s) for s in case.inputs for r in case.fit)
-    if case.inputs and not driven and not any(_moves(r, s) for s in case.outputs for r in case.fit):
-        text = "no input ever changes, and no output moves beyond its noise: there is nothing to learn from"
+    if case.inputs and not any(_changes(r, s) for s in case.inputs for r in case.fit):
+        text = "no input ever changes: there is nothing to learn from"
         problems.append(_still(case.fit[0], case.inputs[0], text))
     return problems
-
-
-def _moves(recording: Recording, signal: Signal) -> bool:
-    """Whether a signal spreads over more than its noise, as one that settles or swings does."""
-    values = recording.columns[signal.column]
-    return float(np.nanstd(values)) > MOVES * max(level([values]), quantum(values))
 
 
 def _changes(recording: Recording, signal: Signal) -> bool:

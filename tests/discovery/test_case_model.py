@@ -9,9 +9,8 @@ import shutil
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
-from lacuna.cli.main import app
+import lacuna
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.errors import Diagnostic
 from lacuna.discovery import case_keys, diagnosis, report
@@ -110,10 +109,9 @@ def test_a_library_given_to_the_command(tmp_path: Path) -> None:
     (folder / "package.mo").write_text("package Works\nend Works;\n", encoding="utf-8")
     (folder / "Tank.mo").write_text("within Works;\n" + TANK.format(outflow="k*h"), encoding="utf-8")
     case = tank_case(tmp_path / "case", "Works.Tank", "", source="")
-    words = ["fit", str(case), "--out", str(tmp_path / "out")]
-    assert CliRunner().invoke(app, words).exit_code == 1
-    result = CliRunner().invoke(app, [*words, "-L", str(folder)])
-    assert result.exit_code == 0, result.output
+    with pytest.raises(Diagnostic, match="Works"):
+        lacuna.open_case(case)
+    assert lacuna.open_case(case, libraries=[folder]).model == "Works.Tank"
 
 
 def test_a_model_that_extends_one_of_ours(tmp_path: Path, consistent_case: Path) -> None:
