@@ -15,7 +15,7 @@ run_ctest = ctest --test-dir $(1) --output-on-failure -j 2 > $(1)/ctest.log && t
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*')
 
 .PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined prognosis tolerance-study \
-        figures wheel examples belts hybrid msl compliance format lint sanitize ctest pytest lock clean
+        prove-machines figures wheel examples belts hybrid msl compliance format lint sanitize ctest pytest lock clean
 
 help: ## Print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -67,6 +67,9 @@ combined: setup ## Maps over two faults at once and how well both are read (minu
 
 prove: setup ## The blind proof of the diagnosis (long, resumes), writes docs/proof.md
 	@$(PYTHON) -m tests.proof --out $(OUT)/prove
+
+prove-machines: setup ## The proof on machines of others (SMALL=1: two cases of each; resumes)
+	@$(PYTHON) -m tests.proof.machines --out $(OUT)/prove-machines $(if $(SMALL),--small)
 
 degrade: setup ## The diagnosis with more noise, shorter recordings and no current, writes docs/degradation.md
 	@$(PYTHON) -m tests.proof.degrade --out $(OUT)/degrade

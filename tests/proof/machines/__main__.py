@@ -1,0 +1,63 @@
+"""The proof on machines of others: `python -m tests.proof.machines [--seed 101] [--small | --report] [--jobs 1]`.
+
+Resumes; the page of a run is beside its cases, in OUT/seed.../VERSION.md.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+import sys
+
+from tests.proof.machines.generate import generate
+from tests.proof.machines.plan import plan, small
+from tests.proof.machines.score import by_style, listing, score_folder, table
+from tests.proof.runner import ROOT, content_hash, diagnose, finished, run_all, tool_hash
+
+EXPLAIN = (sys.executable, "-m", "lacuna.cli.main", "explain", "--limit", "120")
+LIMIT = 200.0  # seconds for a case
+
+
+def _arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--out", type=Path, default=ROOT / "out" / "prove-machines")
+    parser.add_argument("--seed", type=int, default=101)
+    parser.add_argument("--small", action="store_true", help="two cases of every machine")
+    parser.add_argument("--prepare", action="store_true", help="only the cases")
+    parser.add_argument("--report", action="store_true", help="score and write up what is finished by this version")
+    parser.add_argument("--jobs", type=int, default=1)
+    return parser.parse_args()
+
+
+def main() -> int:
+    arguments = _arguments()
+    cases = plan(arguments.seed)
+    cases = small(cases) if arguments.small else cases
+    out = arguments.out / f"seed{arguments.seed}-{content_hash([Path(__file__).parent / 'generate.py'])[:6]}"
+    version = tool_hash()
+
+    def work(name: str) -> str:
+        if not (out / "truth" / f"{name}.toml").exists():
+            generate(next(c for c in cases if c[0] == name), out)
+        if arguments.prepare:
+            return "prepared"
+        if tool_hash() != version:
+            raise SystemExit("the tool has been edited since the run began: start it again")
+        return diagnose(EXPLAIN, out / "cases" / name, out / version / name, version, LIMIT)
+
+    if not arguments.report:
+        run_all([c[0] for c in cases], work, arguments.jobs)
+    if arguments.prepare:
+        return 0
+    names = [c[0] for c in cases if finished(out / version / c[0], version)]
+    scores = score_folder(out / version, out / "truth", names)
+    text = f"Seed {arguments.seed}, {len(scores)} of {len(plan(arguments.seed))} cases, tool `{version}`.\n\n"
+    text += f"{table(scores)}\n"
+    text += f"By how the model is written: {by_style(scores)}.\n\n{listing(scores)}"
+    (out / f"{version}.md").write_text(text)
+    print(text)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
