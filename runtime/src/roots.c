@@ -107,18 +107,18 @@ static rt_status move_back(rt_session *s, double t) {
   return rt_fail_model(s, t, "evaluating the model at an event");
 }
 
-/* Extremes of the guards. A guard that was thrown back and comes through again without having switched its relation has
- * lost an event: the events of its relation were piling up (Zeno), and the last hops are smaller than rounding. */
+/* Extremes of the guards. A guard that was thrown back and comes through again in time without having switched its
+ * relation has lost an event: the last hops of its series are smaller than the hysteresis. */
 static rt_status follow(rt_session *s) {
   for (int r = 0; r < s->d->n_rel; r++) {
     double held = s->data.rel[r] ? s->g[r] : -s->g[r];
     rt_extend_guard(s, r, fabs(held));
-    if (!s->rebound[r] || !s->options.locate_events || held <= rt_hysteresis(s, r)) continue;
-    s->rebound[r] = 0;
+    if (s->due_back[r] < s->t_previous || !s->options.locate_events || held <= rt_hysteresis(s, r)) continue;
+    s->due_back[r] = -INFINITY;
     return rt_fail(s, RT_CHATTERING, s->t_previous, -1, &s->d->relations[r].source,
                    "the events of this relation come faster and faster at time %.9g s (Zeno), until rounding swallows "
-                   "one: give the "
-                   "model a mode in which it rests, for instance when the speed after the event is below a threshold",
+                   "one: give the model a mode in which it rests, for instance when the speed after the event is below "
+                   "a threshold",
                    s->t_previous);
   }
   return RT_OK;

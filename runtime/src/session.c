@@ -37,7 +37,8 @@ static bool allocate_numbers(rt_session *s) {
   double **states[] = {&m->x,           &m->xdot,  &s->initial_value, &s->x_trial, &s->xdot_trial, &s->x_before,
                        &s->xdot_before, &s->x_end, &s->xdot_end,      &r->x,       &r->xdot,       &s->x_swept};
   double **sizes[] = {&s->nominal}, **division[] = {&s->division};
-  double **guards[] = {&s->g, &s->g_previous, &s->g_low, &s->g_trial, &s->g_before, &s->g_span, &s->g_travel};
+  double **guards[] = {&s->g,      &s->g_previous, &s->g_low,         &s->g_trial,       &s->g_before,
+                       &s->g_span, &s->g_travel,   &s->changed_at[0], &s->changed_at[1], &s->due_back};
   double **turns[] = {&s->phase, &s->phase_start};
   const group groups[] = {{parameters, COUNT(parameters), d->n_p},
                           {inputs, COUNT(inputs), d->n_u},
@@ -65,7 +66,7 @@ static bool allocate_numbers(rt_session *s) {
 static bool allocate_flags(rt_session *s) {
   const mdl_descriptor *d = s->d;
   mdl_data *m = &s->data;
-  unsigned char **relations[] = {&m->rel, &s->flip, &s->rel_before, &s->rel_trial, &s->rebound, &s->rel_swept};
+  unsigned char **relations[] = {&m->rel, &s->flip, &s->rel_before, &s->rel_trial, &s->rel_swept};
   unsigned char *next = s->flags =
       calloc(COUNT(relations) * (size_t)d->n_rel + (size_t)(d->n_sample + 2 * d->n_when + d->n_divisions) + 1, 1);
   if (!next) return false;
