@@ -263,7 +263,9 @@ def sentence(result: Explanation) -> str:
         names = [f.name for f in fitted if _outside(f, result.final.point[f.name])]
         return f"Nothing is missing; {', '.join(names)} differ{'s' if len(names) == 1 else ''} from what was believed."
     if result.verdict == "consistent":
-        return "The model explains the recordings: what is left is noise."
+        left = [w.column for w in whiteness(result.final).values() if not w.passed]
+        more = f", and less than that of {' and '.join(left)}, as of an instrument that drifts" if left else ""
+        return f"The model explains the recordings: what is left is noise{more}."
     return "These recordings cannot say what is missing: " + (result.reason or "the residual is not noise") + "."
 
 

@@ -11,7 +11,16 @@ from lacuna.codegen.library import Library
 from lacuna.discovery.cases import Case
 from lacuna.discovery.comparison import Ranked
 from lacuna.discovery.efforts.find import INDIFFERENT
-from lacuna.discovery.evidence import TOLERANCE, astray, holds, is_noise, like_noise, outside_belief, settled, whiteness
+from lacuna.discovery.evidence import (
+    astray,
+    holds,
+    is_noise,
+    like_noise,
+    nearly_noise,
+    outside_belief,
+    settled,
+    whiteness,
+)
 from lacuna.discovery.experiments import separate
 from lacuna.discovery.explanation import Clock, Explanation
 from lacuna.discovery.judge import judge_file
@@ -52,6 +61,8 @@ def explain(
 
 def _conclude(result: Explanation) -> None:
     """The verdict, from the findings, the whiteness of what is left and the believed parameters."""
+    if result.findings and _accuses_sensors(result) and nearly_noise(result.base):
+        _believe_again(result)  # an error of an instrument that is smaller than its noise is no finding
     if result.findings:
         _conclude_from_findings(result)
         return
@@ -69,7 +80,7 @@ def _conclude(result: Explanation) -> None:
 def _conclude_from_findings(result: Explanation) -> None:
     """Physics is missing, unless every finding is tied with another place or nearly all of what is missing is left."""
     first = result.findings[0]
-    if all(f.ranked.attachment.variable for f in result.findings) and _equations_may_be_wrong(result):
+    if _accuses_sensors(result) and _equations_may_be_wrong(result):
         _withdraw(result, first.ranked)
         return
     taken = 1.0 - result.after.validate[""] / result.before.validate[""]
@@ -113,8 +124,18 @@ def _withdraw(result: Explanation, best: Ranked) -> None:
         + ": it may as well be physics"
     )
     result.experiment = "record the same motion with the quantities that are not recorded now"
+    _believe_again(result)
+
+
+def _believe_again(result: Explanation) -> None:
+    """Put the believed model, as fitted, in the place of what was found."""
     result.findings, result.final, result.after = [], result.base, result.before
     result.amendment = replace(result.amendment, attachments=[])
+
+
+def _accuses_sensors(result: Explanation) -> bool:
+    """Whether nothing but sensors is said to be wrong."""
+    return all(f.ranked.attachment.variable for f in result.findings)
 
 
 def _first_place(result: Explanation) -> str:
@@ -122,10 +143,11 @@ def _first_place(result: Explanation) -> str:
 
 
 def _quiet(result: Explanation) -> bool:
-    """Whether what is left, though some of it is not white, is no more than the noise: by its size or by its colour."""
+    """Whether what is left, though some of it is not white, is no more than the noise: by its size or by its colour.
+
+    Instruments drift and are off by parts of their noise: what is left of that size, and of no form, is theirs."""
     final = result.final
-    within = max(final.level.values()) < 1.0 + TOLERANCE
-    return within or like_noise(final) or settled(final, rough=not result.lead.direct)
+    return nearly_noise(final) or like_noise(final) or settled(final, rough=not result.lead.direct)
 
 
 def experiment_for(best: Ranked, rivals: list[Ranked]) -> str:

@@ -8,7 +8,7 @@ import re
 from lacuna.discovery.amend import Attachment
 from lacuna.discovery.catalogue import Effect, EffectParameter
 from lacuna.discovery.efforts import sites
-from lacuna.discovery.efforts.insertion import component
+from lacuna.discovery.efforts.insertion import Lag, component
 from lacuna.discovery.law_terms import Group, Shape, Variable
 from lacuna.discovery.places import Device, Line, Shaft
 
@@ -132,7 +132,22 @@ def _source_at(law: Law, place: sites.Site) -> str:
     used = law.references()
     parameters += [EffectParameter(f"{v.local}_ref", v.unit, "Largest value", 0, 0, v.size) for v in used]
     signals = [(v.local, v.name, v.unit) for v in used]
-    return component(place, class_name(law), "Law", signals, parameters, f"noEvent({law.text()})", unit)
+    text, lags = _with_states(law.text())
+    return component(place, class_name(law), "Law", signals, parameters, f"noEvent({text})", unit, lags)
+
+
+def _with_states(text: str) -> tuple[str, list[Lag]]:
+    """A law's text with a variable in the place of each quantity that lags, and what these are."""
+    lags: list[Lag] = []
+
+    def named(found: re.Match) -> str:
+        lag = found["of"], found["time"]
+        number = next((k for k, (_, *known) in enumerate(lags, 1) if tuple(known) == lag), 0) or len(lags) + 1
+        if number > len(lags):
+            lags.append((f"z_{number}", *lag))
+        return f"z_{number}"
+
+    return re.sub(r"\blag\((?P<of>[^,]+), (?P<time>[^,)]+)\)", named, text), lags
 
 
 def _renamed(text: str, local: str, name: str) -> str:

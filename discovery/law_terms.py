@@ -1,7 +1,8 @@
 """Terms of empirical laws: expressions in the variables at a place, each made dimensionless by its largest value.
 
 A term's text is Modelica and is evaluated along a trajectory from that same text, so what is screened is what will be
-simulated. `{p}`, `{k}`, `{tau}` and `{omega}` stand for shape parameters, which a fit may move.
+simulated. `{p}`, `{k}`, `{tau}` and `{omega}` stand for shape parameters, which a fit may move. `lag(x, tau)` is x
+behind a first-order lag that begins at rest: a state of the law's own.
 """
 
 from __future__ import annotations
@@ -64,8 +65,21 @@ class Group:
 def evaluate(text: str, trajectory: Mapping[str, np.ndarray], sizes: Mapping[str, float]) -> np.ndarray:
     """A term's text (of this module's making) along a trajectory."""
     names = {**_FUNCTIONS, **trajectory, **{f"{n}_ref": s for n, s in sizes.items()}}
+    names["lag"] = lambda values, tau: lagged(trajectory["time"], values, tau)
     value = eval(text.replace("^", "**"), {"__builtins__": {}}, names)
     return np.broadcast_to(np.asarray(value, float), trajectory["time"].shape)
+
+
+def lagged(time: np.ndarray, values: np.ndarray, tau: float) -> np.ndarray:
+    """(n,) of values (n,) behind a first-order lag of `tau` seconds, exact for values that are linear in between."""
+    keeps = np.exp(-np.diff(time) / tau)
+    mean = (1 - keeps) / (np.diff(time) / tau)  # of what is kept over an interval
+    added = (1 - mean) * values[1:] + (mean - keeps) * values[:-1]
+    result = np.empty(len(values))
+    result[0] = state = values[0]
+    for k, (keep, more) in enumerate(zip(keeps, added, strict=True), start=1):
+        result[k] = state = keep * state + more
+    return result
 
 
 def groups(variables: list[Variable], duration: float) -> list[Group]:

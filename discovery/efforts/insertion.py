@@ -9,6 +9,7 @@ from lacuna.discovery.catalogue import Effect, EffectParameter
 from lacuna.discovery.efforts.sites import Site
 
 Signal = tuple[str, str, str]  # name in the component, expression of the model, unit
+Lag = tuple[str, str, str]  # name of a state of the component, what it follows, its time constant
 
 
 def probe(site: Site, number: int) -> tuple[Attachment, str]:
@@ -21,7 +22,7 @@ def probe(site: Site, number: int) -> tuple[Attachment, str]:
 
 def component(
     site: Site, name: str, title: str, signals: Sequence[Signal], parameters: Sequence[EffectParameter], text: str,
-    unit: str = "",
+    unit: str = "", lags: Sequence[Lag] = (),
 ) -> str:  # fmt: skip
     """Source of a class that gives the effort `text`: into a node, lost across an edge, or added to an equation."""
     lines = [f'model {name} "{title}"']
@@ -35,7 +36,10 @@ def component(
     for local, _, unit in signals:
         lines.append(f"  input Real {local}{_unit(unit)};")
     lines += [f'  parameter Real {p.name}{_unit(p.unit)} = {p.default:.10g} "{p.description}";' for p in parameters]
+    lines += [f'  Real {state} "{followed}, late";' for state, followed, _ in lags]
+    lines += ["initial equation", *(f"  {state} = {followed};" for state, followed, _ in lags)] if lags else []
     lines.append("equation")
+    lines += [f"  {time}*der({state}) = {followed} - {state};" for state, followed, time in lags]
     if site.kind == "node":
         lines.append(f"  port.{port.flow} = -({text});")
     elif site.kind == "edge":

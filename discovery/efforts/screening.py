@@ -26,7 +26,7 @@ NEAR = 5.0  # believed sigmas, within which parameters are looked for
 KINDS = 40  # kinds of terms that are kept
 FAMILIES = 12  # kinds of terms whose shapes are refined
 ZOOMS, FINE = 3, 9  # times that a shape is refined, and values each time; each is a quarter of the last one's spacing
-FIRST = 12  # terms that a second one is looked for beside
+FIRST = 12  # terms that a second one is looked for beside, and a constant: zero of a temperature is anywhere
 CHECKED = 400  # pairs that are looked through for those
 PAIRS = 6  # kinds of pairs whose shapes are refined
 DEPENDENT = 1e-6  # share of a column that is left beside the others, below which it is none of its own
@@ -173,7 +173,9 @@ def proposals(locator: Locator, site: Site, guided: Guided, most: int) -> list[P
     ranges = {local: (float(c.min()), float(c.max())) for local, c in courses.items()}
     place = LawSite(site.place.sites[0], site.location, site.place.unit, tuple(found))
     regression = Regression(guided, place, site.place.column)
-    every = regression.add(groups(found, ranges))
+    longest = max((a.time for a in along), key=lambda t: t[-1] - t[0])
+    interval, duration = float(np.median(np.diff(longest))), float(longest[-1] - longest[0])
+    every = regression.add(groups(found, ranges, interval, duration))
     single = _refined(regression, every)
     double = _doubled(regression, single, every)
     return [_proposal(regression, chosen) for chosen in (*single[:most], *double[:most])]
@@ -223,7 +225,8 @@ def _doubled(regression: Regression, single: list[tuple[int, ...]], every: range
     """The best two groups together, best first, a kind of pair once."""
     scored: dict[tuple[int, ...], float] = {}
     others = [*every, *(g for (g,) in single if g not in every)]
-    for first in single[:FIRST]:
+    level = next((g,) for g in every if regression.groups[g].texts == ("1",))
+    for first in dict.fromkeys([level, *single[:FIRST]]):
         for other, score in zip(others, regression.scores(first, others), strict=True):
             scored[(*first, other)] = score
     kinds: dict[frozenset, tuple[int, ...]] = {}

@@ -1,8 +1,8 @@
 """Terms that a law at any place may be the sum of, in the model's own variables, each scaled by its largest value.
 
-Powers of either sign, roots, dry and saturating forms, exponentials, dead zones, waves along a variable, products of
-two, and a quantity that another one saturates (an inductance that falls with the current: a rate times a function).
-Texts are Modelica.
+Powers of either sign, relaxations, roots, dry and saturating forms, exponentials, dead zones, waves along a variable,
+products of two, and a quantity that another one saturates (an inductance that falls with the current: a rate times a
+function). Texts are Modelica.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ LEAST = 1.5  # cycles over the range: less of a wave is a bend, which powers say
 CYCLES = 30  # of a wave along a variable, over the range that it has
 TURN = 1.6  # rad from one wave number to the next at the ends of the range: so that none is missed
 EXPONENTS = (0.5, 1.5, 2.0, 3.0, 4.0)
+OCTAVES = 3.0  # from one time constant of a relaxation to the next: half a bandwidth either way
 _WHOLE = (1 / 3, 2 / 3, 1.0, 7 / 4, *EXPONENTS, 5.0)
 
 
@@ -70,10 +71,14 @@ def _rate(unit: str) -> str:
     return str(parse_unit(unit) / SECOND) if unit else ""
 
 
-def groups(found: Sequence[Variable], ranges: dict[str, tuple[float, float]]) -> list[Group]:
-    """Every group of terms in these variables; `ranges` are those of their scaled values."""
+def groups(
+    found: Sequence[Variable], ranges: dict[str, tuple[float, float]], interval: float, duration: float
+) -> list[Group]:
+    """Every group of terms in these variables; `ranges` are those of their scaled values, `interval` and `duration`
+    (s) those of the samples and of the longest recording."""
     result = [Group(("1",))]
     for v in found:
+        result += _remembering(v, interval, duration) if v.kind != "rate" else []
         low, high = ranges[v.local]
         if v.kind != "rate":
             result += _alone(v) if low < 0 < high else _of_one_sign(v)
@@ -128,6 +133,17 @@ def _alone(v: Variable) -> list[Group]:
     )
     plain = [Group((x,)), Group((f"abs{x}",)), Group((f"{x}^2",)), Group((DRY.format(x=x),))]
     return [*plain, *power, *bend, *reach, *ends, stribeck]
+
+
+def _remembering(v: Variable, interval: float, duration: float) -> list[Group]:
+    """A relaxation: storage behind a resistance, a damper behind a spring, a winding around a core; all that is faster
+    than the samples or slower than a recording is something else."""
+    count = max(2, int(np.ceil(np.log(duration / interval) / np.log(OCTAVES))))
+    times = interval * OCTAVES ** (np.arange(count) + 0.5)
+    return [
+        Group((f"({v.scaled} - lag({v.scaled}, {{t}}))",), (Shape("t", "s", float(t), t / 9, t * 9, (), 0.6 * t),))
+        for t in times if t < duration
+    ]  # fmt: skip
 
 
 def _waves(v: Variable, span: float) -> list[Group]:
