@@ -1,7 +1,8 @@
 """The open places of a model: each with an input, the equations linearised, those that are alike put together.
 
 Two places are alike where an effort at one does to the states and outputs what an effort at the other does, whatever
-the data: they are one place to this case, and its name is that of the state whose balance it is.
+the data: they are one place to this case, and its name is that of the state whose balance it is, or of the output that
+it changes where it changes no state.
 """
 
 from __future__ import annotations
@@ -74,13 +75,10 @@ class Opened:
 
     def _place(self, group: list[int], effect: np.ndarray) -> Place:
         states = self.linear.states
-        strength = np.sqrt(np.mean(effect[:, : len(states), group[0]] ** 2, axis=0))
-        sites = [self.sites[k] for k in group]
-        if strength.max(initial=0.0) > 0:
-            state = states[int(np.argmax(strength))]
-            location = state.rpartition(".")[0] or state
-        else:
-            location = sites[0].instance or (sites[0].ends[0].split(".")[0] if sites[0].ends else sites[0].label)
+        strength = np.sqrt(np.mean(effect[:, :, group[0]] ** 2, axis=0))
+        changed = states if strength[: len(states)].max(initial=0.0) > 0 else list(self.machine.columns.values())
+        name = changed[int(np.argmax(strength[: len(states)] if changed is states else strength[len(states) :]))]
+        location = name.rpartition(".")[0] or name
         order = sorted(group, key=lambda k: (not _touches(self.sites[k], location), _ORDER[self.sites[k].kind]))
         chosen = order[0]
         return Place(location, tuple(self.sites[k] for k in order), chosen, self._unit(chosen))

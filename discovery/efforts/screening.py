@@ -29,6 +29,7 @@ ZOOMS, FINE = 3, 9  # times that a shape is refined, and values each time; each 
 FIRST = 12  # terms that a second one is looked for beside, and a constant: zero of a temperature is anywhere
 CHECKED = 400  # pairs that are looked through for those
 PAIRS = 6  # kinds of pairs whose shapes are refined
+SAME = 1e-3  # share of what a law explains, by which another one must differ to be tried beside it
 DEPENDENT = 1e-6  # share of a column that is left beside the others, below which it is none of its own
 
 
@@ -74,6 +75,11 @@ class Regression:
 
     def coefficients(self, chosen: tuple[int, ...]) -> np.ndarray:
         return self._best_metric(chosen).coefficients(chosen)
+
+    def explained(self, chosen: tuple[int, ...]) -> np.ndarray:
+        """(rows,) what the groups explain, where a law may leave most."""
+        metric = self.metrics[0]
+        return np.column_stack([metric.columns[g] for g in chosen]) @ metric.coefficients(chosen)
 
     def _best_metric(self, chosen: tuple[int, ...]) -> _Metric:
         return min(self.metrics, key=lambda m: m.deviances(chosen[:-1], chosen[-1:])[0])
@@ -178,7 +184,22 @@ def proposals(locator: Locator, site: Site, guided: Guided, most: int) -> list[P
     every = regression.add(groups(found, ranges, interval, duration))
     single = _refined(regression, every)
     double = _doubled(regression, single, every)
-    return [_proposal(regression, chosen) for chosen in (*single[:most], *double[:most])]
+    chosen = (*_distinct(regression, single, most), *_distinct(regression, double, most))
+    return [_proposal(regression, groups) for groups in chosen]
+
+
+def _distinct(regression: Regression, found: list[tuple[int, ...]], most: int) -> list[tuple[int, ...]]:
+    """The first `most` that explain different things: |x| beside x, where x has one sign, is the same law again."""
+    kept: list[tuple[int, ...]] = []
+    courses: list[np.ndarray] = []
+    for chosen in found:
+        course = regression.explained(chosen)
+        if all(np.sum((course - c) ** 2) > SAME * np.sum(c**2) for c in courses):
+            kept.append(chosen)
+            courses.append(course)
+        if len(kept) == most:
+            break
+    return kept
 
 
 def _answering(locator: Locator, along: Along, column: int) -> frozenset[str]:
