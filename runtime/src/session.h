@@ -82,8 +82,9 @@ enum {
   RT_PENDING_STATE = 1,
   RT_PENDING_TIME = 2,
   RT_PENDING_SAMPLE = 4,
-  RT_PENDING_JUMP = 8,  /* of a held input */
-  RT_PENDING_KINK = 16, /* of a linear input, where the method restarts at kinks */
+  RT_PENDING_JUMP = 8,    /* of a held input */
+  RT_PENDING_KINK = 16,   /* of a linear input, where the method restarts at kinks */
+  RT_PENDING_BRANCH = 32, /* algebraic unknowns have jumped: the branch that they followed has ended */
   RT_PENDING_INPUT = RT_PENDING_JUMP | RT_PENDING_KINK
 };
 

@@ -70,6 +70,7 @@ static rt_status move_on(rt_session *s) {
     return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "more than %ld steps up to time %.9g s", s->options.max_steps,
                    s->t);
   s->dense.valid = false;
+  if (s->recorder.needs_rhs) memcpy(s->recorder.v, s->data.v, (size_t)s->d->n_v * sizeof *s->data.v);
   if (s->sensitivities) s->sensitivities->dense.valid = false;
   rt_status status = s->method->step(s, s->memory, rt_clock_limit(s));
   s->t_end = s->t;
@@ -128,8 +129,9 @@ rt_result *rt_session_run(rt_session *s, double start, double stop) {
   s->result = rt_result_new(s->recorder.n, s->sensitivities ? s->sensitivities->n : 0, s->d->n_p, expected_rows(s));
   if (!s->result) return NULL;
   rt_status status = begin(s);
-  while (!status && s->t < s->stop && !s->data.terminated)
+  while (!status && s->t + s->clock.tolerance < s->stop && !s->data.terminated)
     status = advance(s);
+  if (!status && !s->data.terminated) s->t = s->stop; /* from an event that is one instant with the end */
   finish(s, status);
   return s->result;
 }
