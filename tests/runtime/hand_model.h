@@ -184,7 +184,7 @@ public:
   explicit Session(const Options &o = {}) {
     char message[300] = "";
     model_ = {rt_model_wrap(Generated<M>::descriptor(), message, sizeof message), rt_model_close};
-    rt_options options = {o.solver.c_str(), o.rtol, o.atol, o.step, 0, o.locate, o.events, 0, 0};
+    rt_options options = {o.solver.c_str(), o.rtol, o.atol, o.step, 0, o.locate, o.events, 0, 0, 0};
     session_ = {rt_session_new(model_.get(), &options, message, sizeof message), rt_session_free};
     EXPECT_NE(session_, nullptr) << message;
     std::vector<int> columns;
