@@ -148,8 +148,8 @@ struct rt_session {
   rt_sensitivities *sensitivities; /* NULL: none are asked for */
   int (*interrupted)(double time); /* asked now and then; NULL: never */
   long looks;
-  double looked_at;               /* monotonic clock (s) */
-  double patient_from, patient_t; /* processor time of this thread (s) and time of the run from which patience counts */
+  double looked_at, patient_from,
+      patient_t; /* monotonic clock, and from where patience counts: processor time, t (s) */
   rt_failure failure;
   rt_result *result;
 };

@@ -21,8 +21,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline mdl_variable variable(const char *name, mdl_storage storage, int index, double start = 0) {
   const int is_parameter = storage == MDL_PARAMETER;
-  return {name, "",    "",        "hand.mo", 10 + index, MDL_REAL, storage,     index, 1, is_parameter,
-          0,    start, -infinity, infinity,  0,          "",       is_parameter};
+  return {name,         "", "",    "hand.mo", 10 + index, MDL_REAL, storage, index,       1,
+          is_parameter, 0,  start, -infinity, infinity,   0,        "",      is_parameter};
 }
 
 struct HandModel {
