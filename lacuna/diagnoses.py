@@ -212,9 +212,7 @@ class Case:
         return self._told(found, folder, path)
 
     @names_missing_packages
-    def judge(
-        self, model: str | Path, *, out: str | Path | None = None, progress: Progress | None = None
-    ) -> Judged:
+    def judge(self, model: str | Path, *, out: str | Path | None = None, progress: Progress | None = None) -> Judged:
         """How well does a model file, as written, simulate the recordings that nothing was fitted to?"""
         from lacuna.discovery import places
         from lacuna.discovery.amend import Amendment
