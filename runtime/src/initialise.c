@@ -34,7 +34,7 @@ static void clear(rt_session *s) {
   memset(s->g_travel, 0, (size_t)d->n_rel * sizeof *s->g_travel);
   s->t = s->t_previous = s->t_end = s->last_event = s->start;
   s->t_before = NAN;
-  s->resume = false;
+  s->resume = s->in_pieces = false;
   s->dense.valid = false;
   s->steps_taken = 0;
   s->futile_events = s->tiny_steps = s->pending = 0;

@@ -39,6 +39,7 @@ static bool allocate_numbers(rt_session *s) {
   double **sizes[] = {&s->nominal}, **division[] = {&s->division};
   double **guards[] = {&s->g,      &s->g_previous, &s->g_low,         &s->g_trial,       &s->g_before,
                        &s->g_span, &s->g_travel,   &s->changed_at[0], &s->changed_at[1], &s->due_back};
+  double **turns[] = {&s->phase, &s->phase_start};
   const group groups[] = {{parameters, COUNT(parameters), d->n_p},
                           {inputs, COUNT(inputs), d->n_u},
                           {discrete, COUNT(discrete), d->n_d},
@@ -49,7 +50,8 @@ static bool allocate_numbers(rt_session *s) {
                           {states, COUNT(states), d->n_x},
                           {sizes, COUNT(sizes), d->n_x + d->n_z + d->n_rel},
                           {division, COUNT(division), 2 * d->n_divisions},
-                          {guards, COUNT(guards), d->n_rel}};
+                          {guards, COUNT(guards), d->n_rel},
+                          {turns, COUNT(turns), d->n_phases}};
   size_t total = 1;
   for (size_t i = 0; i < COUNT(groups); i++)
     total += groups[i].count * (size_t)groups[i].n;

@@ -120,7 +120,10 @@ struct rt_session {
   double *x_end, *xdot_end, *v_end; /* the point there */
   long steps_taken;                 /* in this run */
   int tiny_steps;                   /* consecutive steps that hardly differ from none */
-  bool resume; /* go on to the end of the last step: the event at t changed nothing that is integrated */
+  bool resume;                      /* go on in the last step: nothing that is integrated has changed at t */
+  double look, look_curved;         /* longest piece of the last step to be looked at at once, of any step (s) */
+  bool in_pieces;                   /* the last step is longer */
+  double *phase, *phase_start;      /* [n_phases] rad */
   rt_clock clock;
   rt_dense dense;
   double *g, *g_previous;     /* [n_rel] guards at t and t_previous */
@@ -144,9 +147,9 @@ struct rt_session {
   signed char *division_sign; /* [n_divisions] of their products when they were last looked at; 0 not known */
   rt_recorder recorder;
   rt_sensitivities *sensitivities; /* NULL: none are asked for */
-  int (*interrupted)(void);        /* asked now and then; NULL: never */
+  int (*interrupted)(double time); /* asked now and then; NULL: never */
   long looks;
-  double looked_at; /* monotonic clock (s) */
+  double looked_at, patient_from, patient_t; /* monotonic clock; processor time and t where patience began */
   rt_failure failure;
   rt_result *result;
 };
@@ -254,8 +257,6 @@ int rt_guards_at(rt_session *s, double t, double *g);
 bool rt_may_dip(const rt_session *s);
 int rt_find_dip(rt_session *s, double *inside);
 int rt_follow_switches(rt_session *s, double since);
-
-void rt_resume_step(rt_session *s);
 
 /* events.c */
 rt_status rt_event(rt_session *s);

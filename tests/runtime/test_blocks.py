@@ -99,3 +99,42 @@ def test_no_solution_is_an_error(tmp_path: Path, equation: str) -> None:
     result = simulated(tmp_path, NONE.format(equation), stop=1.0)
     assert result.failure is not None
     assert result.failure.status == "initialisation" or "did not converge" in str(result.failure)
+
+
+ORIFICES = """model Orifices
+  parameter Real a = 1, b = 3;
+  Real p(start=8, fixed=true), middle, q, r;
+equation
+  der(p) = -4*p;
+  p - middle = a*q*noEvent(abs(q));
+  middle = b*r*noEvent(abs(r));
+  q = r + 0*middle^2;
+end Orifices;
+"""
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_singular_jacobian_at_the_start(tmp_path: Path, solver: str) -> None:
+    """Two orifices in series, started at no flow, where dp = a q |q| has no slope: q = sqrt(p/(a + b))."""
+    result = simulated(tmp_path, ORIFICES, solver=solver, stop=1.0, interval=0.01)
+    assert result.complete, result.failure
+    assert result["q"] == pytest.approx(np.sqrt(result["p"] / 4), rel=1e-6)
+
+
+ROOTS = """model Roots
+  Real p(start=8, fixed=true), middle(start=8, nominal=1), q, r;
+equation
+  der(p) = -4*p;
+  q = noEvent(if p > middle then sqrt(p - middle) else -sqrt(middle - p));
+  r = noEvent(if middle > 0 then sqrt(middle/3) else -sqrt(-middle/3));
+  q = r;
+end Roots;
+"""
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_an_infinite_slope_at_the_start(tmp_path: Path, solver: str) -> None:
+    """The same, the flows written as roots: middle = 3/4 p."""
+    result = simulated(tmp_path, ROOTS, solver=solver, stop=1.0, interval=0.01)
+    assert result.complete, result.failure
+    assert result["middle"] == pytest.approx(0.75 * result["p"], rel=1e-6)
