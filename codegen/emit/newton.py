@@ -149,7 +149,7 @@ static int mdl_newton_look(mdl_newton *s, double *r) {
 
 /* Newton's step from x: minus `step`; `singular`: as mdl_solve says. */
 static void mdl_newton_step(mdl_newton *s, const double *step, int singular) {
-  int small = !singular, finite = !singular;
+  int finite = !singular;
   for (int i = 0; finite && i < s->n; ++i) finite = isfinite(step[i]);
   if (s->phase == MDL_BRACKET) {
     mdl_newton_narrow(s, finite ? step[0] : INFINITY);
@@ -161,7 +161,7 @@ static void mdl_newton_step(mdl_newton *s, const double *step, int singular) {
     else s->singular = singular, mdl_newton_begin(s, s->n == 1 ? MDL_SEARCH : MDL_FOLLOW);
     return;
   }
-  small = mdl_newton_is_small(s, step);
+  const int small = mdl_newton_is_small(s, step);
   for (int i = 0; i < s->n; ++i) {
     s->work[s->n + i] = step[i];
     s->x[i] -= step[i];

@@ -164,7 +164,7 @@ typedef struct {
   int n;
   double *x, *work;
   const double *nominal; /* sizes of the unknowns */
-  int phase, iterations, halvings, looks, singular;
+  int phase, iterations, halvings, looks, moved, singular;
   double norm;
   double low, high, low_r, high_r, length; /* one unknown: what has been searched, or the bracket; residuals there */
   double path, reached, stride;            /* several: s, the last s that was reached, the step */
@@ -181,13 +181,24 @@ static int mdl_newton_is_small(const mdl_newton *s, const double *step) {
   return 1;
 }
 
-/* The second way begins at the start values. */
-static void mdl_newton_begin_again(mdl_newton *s) {
+/* Begin at the start values, one way or the other. */
+static void mdl_newton_begin(mdl_newton *s, int phase) {
   mdl_newton_place(s, s->work);
-  s->phase = s->n == 1 ? MDL_SEARCH : MDL_FOLLOW;
-  s->iterations = 0;
+  s->phase = phase;
+  s->iterations = s->halvings = 0;
   s->path = s->reached = 0.0;
   s->stride = 0.25;
+}
+
+/* Several unknowns: other start values, where there are any left. */
+static void mdl_newton_move(mdl_newton *s) {
+  if (s->moved == 2) {
+    s->phase = MDL_FAILED;
+    return;
+  }
+  for (int i = 0; i < s->n; ++i) s->work[i] += s->moved ? -2.0 * s->nominal[i] : s->nominal[i];
+  ++s->moved;
+  mdl_newton_begin(s, MDL_DAMPED);
 }
 
 /* Look for a change of sign at start +- size 2^k, in turn. */
@@ -235,7 +246,10 @@ static void mdl_newton_follow(mdl_newton *s, int arrived) {
   } else {
     mdl_newton_place(s, last);
     s->stride *= 0.25;
-    if (s->stride < 1e-6) s->phase = MDL_FAILED;
+    if (s->stride < 1e-6) {
+      mdl_newton_move(s);
+      return;
+    }
   }
   s->path = s->reached + s->stride < 1.0 ? s->reached + s->stride : 1.0;
 }
@@ -277,7 +291,7 @@ static int mdl_newton_look(mdl_newton *s, double *r) {
 
 /* Newton's step from x: minus `step`; `singular`: as mdl_solve says. */
 static void mdl_newton_step(mdl_newton *s, const double *step, int singular) {
-  int small = !singular, finite = !singular;
+  int finite = !singular;
   for (int i = 0; finite && i < s->n; ++i) finite = isfinite(step[i]);
   if (s->phase == MDL_BRACKET) {
     mdl_newton_narrow(s, finite ? step[0] : INFINITY);
@@ -286,10 +300,10 @@ static void mdl_newton_step(mdl_newton *s, const double *step, int singular) {
   const int most = s->phase == MDL_DAMPED ? MDL_ITERATIONS : MDL_CORRECTIONS;
   if (!finite || ++s->iterations > most) {
     if (s->phase == MDL_FOLLOW) mdl_newton_follow(s, 0);
-    else s->singular = singular, mdl_newton_begin_again(s);
+    else s->singular = singular, mdl_newton_begin(s, s->n == 1 ? MDL_SEARCH : MDL_FOLLOW);
     return;
   }
-  small = mdl_newton_is_small(s, step);
+  const int small = mdl_newton_is_small(s, step);
   for (int i = 0; i < s->n; ++i) {
     s->work[s->n + i] = step[i];
     s->x[i] -= step[i];
