@@ -19,6 +19,7 @@ from lacuna.codegen.flatten.lower import modifier_value
 from lacuna.codegen.flatten.modifiers import Modifier, for_each, from_tree, merge, narrow
 from lacuna.codegen.flatten.prefixes import check_block, check_outer, check_prefixes
 from lacuna.codegen.flatten.redeclared import check_modifier, check_redeclared
+from lacuna.codegen.flatten.restrictions import check_flow_record
 from lacuna.codegen.flatten.scope import Scope, own_or_inherited
 from lacuna.codegen.flatten.subtypes import mismatch, require_subtype
 from lacuna.codegen.flatten.types import Type, resolve_type
@@ -70,6 +71,8 @@ class Instance:
         inherited = parent.variability if parent else ""
         self.variability = (declaration.variability if declaration else "") or inherited
         self._inherit_prefixes(declaration)
+        if self.flow:
+            check_flow_record(cls, self.span, context)
         self._modifier = modifier
         self._record: Record | None = None
         self._children: dict[str, Node] = {}

@@ -19,7 +19,18 @@ from lacuna.codegen.flatten.lower import lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.random_numbers import GENERATORS
 from lacuna.codegen.flatten.references import apply_subscripts
 from lacuna.codegen.flatten.scope import Scope
-from lacuna.codegen.flatten.values import Array, Record, Value, elementwise, integers, scalars, shape_of, shape_text
+from lacuna.codegen.flatten.values import (
+    Array,
+    Record,
+    Value,
+    elementwise,
+    holds_records,
+    integers,
+    items_of,
+    scalars,
+    shape_of,
+    shape_text,
+)
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr
@@ -48,14 +59,10 @@ def interpret(signature: Signature, arguments: dict[str, Value], context: Contex
         if default is not None:
             value = fit(local, lower(default, scope), scope, default.span)
             run.locals[local.name] = _named_constant(local, signature.cls, value, context) if run.symbolic else value
-        elif local.type.primitive is None:
-            run.locals[local.name] = _blank_record(local, context)
         else:
             if local.is_flexible:
                 run.flexible.add(local.name)
-            shape = tuple(0 if local.is_flexible else n for n in declared_sizes(local, scope, local.nothing))
-            blank = unset(local.type.primitive)
-            run.locals[local.name] = Array(shape, (blank,) * prod(shape)) if shape else blank
+            run.locals[local.name] = _blank(local, scope)
     run.block(signature.body)
     results = [run.locals[local.name] for local in signature.outputs]
     for local, value in zip(signature.outputs, results, strict=True):
@@ -82,11 +89,24 @@ def _named_constant(local: Local, cls: ast.Class, value: Value, context: Context
     return package_of(context, cls).child(local.name).value()
 
 
-def _blank_record(local: Local, context: Context) -> Record:
+def _blank(local: Local, scope: Scope) -> Value:
+    """What a variable holds before anything is assigned, in the sizes that it is declared with."""
+    shape = tuple(0 if local.is_flexible else n for n in declared_sizes(local, scope, local.nothing))
+    blank = unset(local.type.primitive) if local.type.primitive else _blank_record(local, scope)
+    return Array(shape, (blank,) * prod(shape)) if shape else blank
+
+
+def _blank_record(local: Local, scope: Scope) -> Record:
+    """A record whose fields hold what its declaration, or that of its class, gives them."""
+    given = {a.name: a.modification.value for a in local.declaration.modification.arguments}
     fields: dict[str, Value] = {}
-    for part in signature_of(local.type.cls, context).locals:
-        fields[part.name] = unset(part.type.primitive) if part.type.primitive else _blank_record(part, context)
-    return Record(local.name, fields)
+    for part in signature_of(local.type.cls, scope.context).locals:
+        inner = replace(part.scope, locals=dict(fields))
+        value, where = given.get(part.name), scope
+        if value is None:
+            value, where = part.declaration.modification.value, inner
+        fields[part.name] = _blank(part, inner) if value is None else fit(part, lower(value, where), inner, value.span)
+    return Record(local.name, fields, local.type.cls)
 
 
 class _Run:
@@ -238,13 +258,10 @@ class _Run:
 
     def _updated(self, old: Value, target: ast.Ref, at: int, value: Value, span: Span) -> Value:
         """`old` with the part that `target` names, from name number `at` on, replaced by `value`."""
-        if at + 1 < len(target.names):
-            if not isinstance(old, Record) or target.names[at + 1] not in old.fields:
-                raise Diagnostic("R003", f"{target} has no such element", target.span, "only records have elements")
-            name = target.names[at + 1]
-            return Record(old.name, old.fields | {name: self._updated(old.fields[name], target, at + 1, value, span)})
-        subscripts = target.subscripts[at]
+        subscripts, last = target.subscripts[at], at + 1 == len(target.names)
         if subscripts is None:
+            if not last:
+                return self._field_updated(old, target, at + 1, value, span)
             if target.names[at] in self.flexible and len(shape_of(old)) == len(shape_of(value)):
                 self.scope.context.spend(len(scalars(value)), span)
                 return value
@@ -253,13 +270,25 @@ class _Run:
         picked = apply_subscripts(numbers, subscripts, self.scope, target)
         if any(p.op != "const" for p in scalars(picked)):
             raise AtRunTime("an index", span)
+        if not last and not isinstance(picked, Expr):
+            raise Diagnostic("R042", f"{target}: elements of several records", span, "assign them one by one")
+        if not last:
+            new = self._field_updated(old.items[picked.value], target, at + 1, value, span)
+            return Array(old.shape, (*old.items[: picked.value], new, *old.items[picked.value + 1 :]))
         if shape_of(picked) != shape_of(value):
             message = f"{shape_text(shape_of(picked))} := {shape_text(shape_of(value))}"
             raise Diagnostic("R042", f"the sides differ in size: {message}", span, "both need the same size")
         items = list(old.items)
-        for position, new in zip(scalars(picked), scalars(value), strict=True):
+        for position, new in zip(items_of(picked), items_of(value), strict=True):
             items[position.value] = conform(old.items[position.value], new, span, str(target))
         return Array(old.shape, tuple(items))
+
+    def _field_updated(self, old: Value, target: ast.Ref, at: int, value: Value, span: Span) -> Record:
+        name = target.names[at]
+        if not isinstance(old, Record) or name not in old.fields:
+            raise Diagnostic("R003", f"{target} has no such element", target.span, "only records have elements")
+        changed = self._updated(old.fields[name], target, at, value, span)
+        return Record(old.name, old.fields | {name: changed}, old.cls)
 
 
 def unknown_target(target: ast.Ref, names: dict[str, Value]) -> Diagnostic:
@@ -269,10 +298,10 @@ def unknown_target(target: ast.Ref, names: dict[str, Value]) -> Diagnostic:
 
 def conform(old: Value, value: Value, span: Span, name: str) -> Value:
     """`value` for a variable that held `old`: the same size, and a type that fits."""
-    if shape_of(old) != shape_of(value) or isinstance(old, Record) != isinstance(value, Record):
+    if shape_of(old) != shape_of(value) or holds_records(old) != holds_records(value):
         message = f"{name} has size {shape_text(shape_of(old))}, given {shape_text(shape_of(value))}"
         raise Diagnostic("R042", message, span, "both need the same size")
-    if isinstance(old, Record):
+    if holds_records(old):
         return value
     kinds = [o.type if isinstance(o, Expr) else "String" for o in scalars(old)]
     items = [typed(v, k, name, span) for v, k in zip(scalars(value), kinds, strict=True)]
@@ -282,7 +311,10 @@ def conform(old: Value, value: Value, span: Span, name: str) -> Value:
 def _choose(condition: Expr, then: Value, otherwise: Value, span: Span) -> Value:
     if isinstance(then, Record) and isinstance(otherwise, Record):
         fields = {n: _choose(condition, v, otherwise.fields[n], span) for n, v in then.fields.items()}
-        return Record(then.name, fields)
+        return Record(then.name, fields, then.cls)
+    if isinstance(then, Array) and holds_records(then) and shape_of(then) == shape_of(otherwise):
+        pairs = zip(then.items, items_of(otherwise), strict=True)
+        return Array(then.shape, tuple(_choose(condition, a, b, span) for a, b in pairs))
     if isinstance(then, str) or isinstance(otherwise, str):
         raise AtRunTime("a String", span)
     return elementwise(lambda a, b: ex.if_else(condition, a, b), [then, otherwise], span, "alternatives")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lacuna.codegen.flatten import arrays, calls, iterators, lower
+from lacuna.codegen.flatten import arrays, calls, iterators, lower, overloads
 from lacuna.codegen.flatten.context import Lowering
 from lacuna.codegen.flatten.functions import run
 from lacuna.codegen.flatten.references import read
@@ -15,5 +15,8 @@ LOWERING = Lowering(
     nodes={**lower.OPERATORS, ast.Ref: read, ast.Call: calls.lower_call, **iterators.RANGES},
     functions={**_OF_CONNECTIONS, **arrays.FUNCTIONS, **calls.SCALAR_FUNCTIONS, **calls.OPERATORS},
     results=calls.call_of_model,
+    overloaded=overloads.overloaded,
+    construct=overloads.construct,
+    text=overloads.text_by_operator,
     run=run,
 )
