@@ -64,7 +64,7 @@ def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
     if cls is not None:
         raise Diagnostic("R004", f"{name} is a {cls.kind} and cannot be called", e.function.span, "call a function")
     if name in _OUTSIDE or name.startswith("Connections."):
-        hint = _OUTSIDE.get(name, "write the equations out")
+        hint = _OUTSIDE.get(name, "it stands alone in an equation section, under conditions known at translation only")
         raise Diagnostic("R091", f"{name} is outside the subset", e.function.span, hint)
     if name in ("reinit", "assert", "terminate"):
         raise Diagnostic("R004", f"{name} has no value", e.function.span, "it stands alone, ended by ';'")

@@ -27,6 +27,7 @@ class Collected:
     algorithms: list[flat.Algorithm] = field(default_factory=list)
     asserts: list[flat.Assert] = field(default_factory=list)
     connections: list[tuple[ast.Connect, Scope]] = field(default_factory=list)
+    branches: list[ast.Procedure] = field(default_factory=list)  # Connections.branch(...) and the like
 
 
 def unroll(item: ast.For, scope: Scope) -> list[Scope]:

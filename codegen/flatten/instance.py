@@ -226,8 +226,8 @@ class Instance:
         return Instance(self.context, cls, "", None, None).elements
 
     def _outer(self, declaration: ast.Component, scope: Scope) -> Node:
-        """The inner component that an outer one means. Raises R013 where there is none, R076 where it does not fit."""
-        found = self._inner(declaration)
+        """The inner component that an outer one means. Raises R013 where none can be, R076 where it does not fit."""
+        found = self._inner(declaration) or self._implicit(declaration, scope)
         if isinstance(found, Absent):
             return found
         wanted, first = resolve_type(declaration.type, scope), found
@@ -246,15 +246,30 @@ class Instance:
             raise error
         return found
 
-    def _inner(self, declaration: ast.Component) -> Node:
+    def _inner(self, declaration: ast.Component) -> Node | None:
         above = self.parent
         while above is not None:
             element = above.elements.get(declaration.name)
             if element is not None and element.declaration.inner:
                 return above.child(declaration.name)
             above = above.parent
-        hint = f"declare in a model around it: inner {declaration.type} {declaration.name};"
-        raise Diagnostic("R013", f"no 'inner' matches the 'outer' {declaration.name}", declaration.span, hint)
+        return None
+
+    def _implicit(self, declaration: ast.Component, scope: Scope) -> Node:
+        """The inner component that the model itself gets where none is declared (5.4), by its defaults."""
+        top, name = self, declaration.name
+        while top.parent is not None:
+            top = top.parent
+        hint = f"declare in a model around it: inner {declaration.type} {name};"
+        found = resolve_type(declaration.type, scope)
+        if name in top.elements or found.primitive is not None or found.cls.partial:
+            raise Diagnostic("R013", f"no 'inner' matches the 'outer' {name}", declaration.span, hint)
+        plain = ast.Modification(declaration.span)
+        made = replace(declaration, outer=False, inner=True, condition=None, protected=False, modification=plain)
+        top.elements[name] = Element(made, scope.cls, None)
+        message = f"no 'inner' matches the 'outer' {name}: the model has one with its default values"
+        self.context.warnings.append(Diagnostic("W008", message, declaration.span, hint, severity="warning"))
+        return top.child(name)
 
     @staticmethod
     def _check_component(declaration: ast.Component, found: Type) -> None:
