@@ -18,13 +18,12 @@ from lacuna.codegen.flatten.leaf import Leaf
 from lacuna.codegen.flatten.lower import modifier_value
 from lacuna.codegen.flatten.modifiers import Modifier, for_each, from_tree, merge, narrow
 from lacuna.codegen.flatten.prefixes import check_block, check_outer, check_prefixes
-from lacuna.codegen.flatten.redeclared import check_modifier, check_redeclared
+from lacuna.codegen.flatten.redeclared import check_modifier, check_redeclared, seen
 from lacuna.codegen.flatten.restrictions import check_flow_record
-from lacuna.codegen.flatten.scope import Scope, own_or_inherited
+from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.subtypes import mismatch, require_subtype
 from lacuna.codegen.flatten.types import Type, resolve_type
 from lacuna.codegen.flatten.values import Array, Record, Value, indices
-from lacuna.codegen.flatten.views import modified, view
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.syntax import ast
 
@@ -64,7 +63,7 @@ class Instance:
         modifier: Modifier | None,
         declaration: ast.Component | None = None,
     ) -> None:
-        cls = _seen(cls, modifier, context)
+        cls = seen(cls, modifier, context)
         self.context, self.cls, self.name, self.parent = context, cls, name, parent
         self.declaration = declaration
         self.span = declaration.span if declaration else cls.span
@@ -282,21 +281,6 @@ class Instance:
             if declaration.replaceable:
                 hint = f"redeclare it: {declaration.name}(redeclare CLASS {declaration.name})"
             raise Diagnostic("R015", f"{cls.name} is partial and cannot be a component", declaration.span, hint)
-
-
-def _seen(cls: ast.Class, modifier: Modifier | None, context: Context) -> ast.Class:
-    """`cls` with the classes that `modifier` redeclares or modifies in it."""
-    library = context.library
-    redeclared: dict[str, ast.Class] = {}
-    for name, child in modifier.children.items() if modifier is not None else ():
-        if isinstance(child.redeclare, ast.Class):
-            scope = child.redeclared_in
-            redeclared[name] = view(library, child.redeclare, scope.cls, written=scope)
-        elif child.redeclare is None and child.children and child.tree is not None:
-            plain = own_or_inherited(library, cls, name)
-            if plain is not None:
-                redeclared[name] = modified(library, plain, child.tree, child.scope, child.scope.cls)
-    return view(library, cls, cls.parent, redeclared, cls.whole) if redeclared else cls
 
 
 Node = Instance | Leaf | ArrayNode | Absent

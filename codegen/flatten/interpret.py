@@ -9,10 +9,11 @@ from math import prod
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.asserts import lower_assert
+from lacuna.codegen.flatten.blanks import blank
 from lacuna.codegen.flatten.constants import AtRunTime
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.effects import effect
-from lacuna.codegen.flatten.function_locals import Local, Signature, declared_sizes, fit, signature_of, typed
+from lacuna.codegen.flatten.function_locals import Local, Signature, fit, typed
 from lacuna.codegen.flatten.instance import package_of
 from lacuna.codegen.flatten.iterators import iterate
 from lacuna.codegen.flatten.lower import lower, lower_results, lower_scalar
@@ -40,11 +41,6 @@ MAX_STEPS = 50_000
 MAX_SYMBOLIC_STEPS = 400
 
 
-def unset(kind: str) -> Expr:
-    """Stands for a variable that nothing was assigned to."""
-    return ex.node("unset", (), None, kind)
-
-
 def interpret(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
     """Results of the function on `arguments`. Raises AtRunTime where its course depends on unknown values."""
     if signature.cls.external is not None:
@@ -62,7 +58,7 @@ def interpret(signature: Signature, arguments: dict[str, Value], context: Contex
         else:
             if local.is_flexible:
                 run.flexible.add(local.name)
-            run.locals[local.name] = _blank(local, scope)
+            run.locals[local.name] = blank(local, scope)
     run.block(signature.body)
     results = [run.locals[local.name] for local in signature.outputs]
     for local, value in zip(signature.outputs, results, strict=True):
@@ -87,26 +83,6 @@ def _named_constant(local: Local, cls: ast.Class, value: Value, context: Context
     if local.declaration.variability != "constant" or not local.unit or isinstance(value, Record):
         return value
     return package_of(context, cls).child(local.name).value()
-
-
-def _blank(local: Local, scope: Scope) -> Value:
-    """What a variable holds before anything is assigned, in the sizes that it is declared with."""
-    shape = tuple(0 if local.is_flexible else n for n in declared_sizes(local, scope, local.nothing))
-    blank = unset(local.type.primitive) if local.type.primitive else _blank_record(local, scope)
-    return Array(shape, (blank,) * prod(shape)) if shape else blank
-
-
-def _blank_record(local: Local, scope: Scope) -> Record:
-    """A record whose fields hold what its declaration, or that of its class, gives them."""
-    given = {a.name: a.modification.value for a in local.declaration.modification.arguments}
-    fields: dict[str, Value] = {}
-    for part in signature_of(local.type.cls, scope.context).locals:
-        inner = replace(part.scope, locals=dict(fields))
-        value, where = given.get(part.name), scope
-        if value is None:
-            value, where = part.declaration.modification.value, inner
-        fields[part.name] = _blank(part, inner) if value is None else fit(part, lower(value, where), inner, value.span)
-    return Record(local.name, fields, local.type.cls)
 
 
 class _Run:

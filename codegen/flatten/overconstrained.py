@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.connection_sets import UnionFind
 from lacuna.codegen.flatten.connectors import Connector, connectors
 from lacuna.codegen.flatten.constants import evaluate
 from lacuna.codegen.flatten.context import Context
@@ -22,6 +21,7 @@ from lacuna.codegen.flatten.values import Array, Record, Value, items_of, stack
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import INTEGER, Expr
 from lacuna.codegen.syntax import ast
+from lacuna.codegen.union_find import UnionFind
 
 CONSTRAINT = "equalityConstraint"
 STATEMENTS = ("Connections.branch", "Connections.root", "Connections.potentialRoot")
