@@ -99,6 +99,7 @@ struct rt_session {
 
   double *numbers;               /* the block that all arrays of doubles here and in data are slices of */
   unsigned char *flags;          /* and that of all arrays of flags */
+  size_t n_numbers, n_flags;     /* their lengths */
   double *p_run;                 /* [n_p] parameters of the next run, before dependent ones are computed */
   int n_initial, *initial_index; /* states set by the caller */
   double *initial_value;
@@ -233,6 +234,7 @@ double rt_input_slope(const rt_session *s, int i);
 
 /* clock.c */
 rt_status rt_clock_begin(rt_session *s);
+double rt_clock_next(const rt_session *s);
 double rt_clock_limit(rt_session *s);
 int rt_clock_due(rt_session *s);
 void rt_clock_tick(rt_session *s);
@@ -246,6 +248,7 @@ void rt_dense_column(const rt_dense *dense, int n, int i, size_t points, const d
 
 /* roots.c */
 rt_status rt_find_state_event(rt_session *s);
+double rt_margin(const rt_session *s, int r, double g);
 int rt_guards_at(rt_session *s, double t, double *g);
 
 /* dips.c */
@@ -254,6 +257,12 @@ int rt_find_dip(rt_session *s, double *inside);
 int rt_mark_rebounds(rt_session *s, double since);
 
 void rt_resume_step(rt_session *s);
+
+/* simulate.c: the hybrid loop, a piece at a time */
+rt_status rt_begin(rt_session *s);
+rt_status rt_advance(rt_session *s);
+rt_status rt_happen(rt_session *s);
+rt_status rt_check_asserts(rt_session *s);
 
 /* events.c */
 rt_status rt_event(rt_session *s);

@@ -9,7 +9,7 @@ enum { MAX_TINY_STEPS = 100, STEPS_BETWEEN_LOOKS = 1024 };
 static const double most_steps = 1e10; /* of a fixed size: weeks */
 static const double look_every = 0.1;  /* s of wall time: has the caller lost interest? */
 
-static rt_status check_asserts(rt_session *s) {
+rt_status rt_check_asserts(rt_session *s) {
   mdl_data *m = &s->data;
   if (!s->d->n_asserts || s->d->check(m, s->t, m->x, m->xdot, m->v) >= 0) return RT_OK;
   return rt_fail_model(s, s->t, "checking");
@@ -42,7 +42,8 @@ void rt_session_watch(rt_session *s, int (*interrupted)(void)) {
   s->interrupted = interrupted;
 }
 
-static rt_status begin(rt_session *s) {
+/* From nothing to the first point after the events at the start. */
+rt_status rt_begin(rt_session *s) {
   if (!(s->stop > s->start) || !isfinite(s->start) || !isfinite(s->stop))
     return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "stop time %.9g s is not later than start time %.9g s", s->stop,
                    s->start);
@@ -51,7 +52,7 @@ static rt_status begin(rt_session *s) {
   if (status) return status;
   rt_scale_start(s);
   if (!status && s->sensitivities) status = rt_tangent_begin(s);
-  status = check_asserts(s);
+  status = rt_check_asserts(s);
   if (!status) status = rt_check_point(s, true);
   if (!status) status = s->method->begin(s, s->memory);
   rt_record_begin(s);
@@ -83,18 +84,23 @@ static rt_status move_on(rt_session *s) {
   return status;
 }
 
-static rt_status advance(rt_session *s) {
+/* A step, up to the next event: what happens there is in s->pending. */
+rt_status rt_advance(rt_session *s) {
   rt_status status = look_up(s);
   if (!status) status = move_on(s);
   if (!status) status = rt_find_state_event(s);
   if (!status) status = rt_tangent_follow(s);
-  if (!status) status = check_asserts(s);
+  if (!status) status = rt_check_asserts(s);
   if (!status) status = rt_check_point(s, false);
   if (status) return status;
   s->pending |= rt_clock_due(s);
-  if ((status = rt_record_step(s))) return status;
+  return rt_record_step(s);
+}
+
+/* What is pending happens. */
+rt_status rt_happen(rt_session *s) {
   if (!s->pending) return RT_OK;
-  status = rt_event(s);
+  rt_status status = rt_event(s);
   s->pending = 0;
   return status ? status : rt_check_point(s, true);
 }
@@ -127,9 +133,9 @@ rt_result *rt_session_run(rt_session *s, double start, double stop) {
   s->failure = (rt_failure){.status = RT_OK, .variable = -1};
   s->result = rt_result_new(s->recorder.n, s->sensitivities ? s->sensitivities->n : 0, s->d->n_p, expected_rows(s));
   if (!s->result) return NULL;
-  rt_status status = begin(s);
+  rt_status status = rt_begin(s);
   while (!status && s->t < s->stop && !s->data.terminated)
-    status = advance(s);
+    if (!(status = rt_advance(s))) status = rt_happen(s);
   finish(s, status);
   return s->result;
 }
