@@ -16,6 +16,7 @@ from lacuna.codegen.dae import events, hybrid
 from lacuna.codegen.dae.discrete_starts import discrete_starts
 from lacuna.codegen.dae.divisions import divisions
 from lacuna.codegen.dae.free_parameters import free_parameters
+from lacuna.codegen.dae.guards import guard_shapes
 from lacuna.codegen.dae.initial import initial_system
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.storage import Storage
@@ -94,10 +95,11 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     explicit, system = report.run("matching, BLT, tearing", precompute_inverses, explicit, system)
     sizes = report.run("nominal values", infer, system, [(r.left, r.right, _line(r)) for r in relations])
     quotients = report.run("divisions", divisions, explicit, system.model)
+    shapes = report.run("guards", guard_shapes, explicit, relations, system.model)
     report.warnings += [*declared.warnings, *initial.warnings]
     return Prepared(
         declared, aliases.representative, system, Storage(system), relations, frozen.samples, steps, explicit,
-        residual, matrix, initial, sizes, quotients,
+        residual, matrix, initial, sizes, quotients, shapes,
     )  # fmt: skip
 
 

@@ -23,6 +23,7 @@ from lacuna.codegen.symbolic.leaves import leaves
 NOMINALS = "static int mdl_nominals(mdl_data *m, double *nominal)"
 _POINT = "mdl_data *m, double t, const double *x, const double *xdot, const double *v"
 DIVISIONS = f"static int mdl_divisions({_POINT}, double *value)"
+PHASES = f"static int mdl_phases({_POINT}, double *phase)"
 SMALL = 50  # rows up to which each is a line of its own
 MAX_SHOWN = 8  # variables whose values a message shows
 
@@ -86,6 +87,11 @@ class Checks:
             rows.append((f"value[{2 * k}]", q.numerator, comment(q.source)))
             rows.append((f"value[{2 * k + 1}]", q.divisor, ""))
         return self._write(DIVISIONS, rows, self.prepared.storage.point)
+
+    def phases(self) -> str:
+        """Nothing where there are none."""
+        rows = [(f"phase[{k}]", e, "") for k, e in enumerate(self.prepared.guards.phases)]
+        return self._write(PHASES, rows, self.prepared.storage.point) if rows else ""
 
     def _write(self, signature: str, rows: list[tuple[str, Expr, str]], access: Access) -> str:
         """A callback that stores the value of each row (place, value, comment)."""

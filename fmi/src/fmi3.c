@@ -26,8 +26,7 @@ fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on, size_t n, 
 }
 
 static fmi3Instance instantiate(const char *name, const char *token, bool logging, void *environment,
-                                fmi3LogMessageCallback log, bool co_simulation, bool event_mode,
-                                bool early_return) {
+                                fmi3LogMessageCallback log, bool co_simulation, bool event_mode, bool early_return) {
   fmu *f = calloc(1, sizeof *f);
   if (!f) return NULL;
   f->environment = environment;

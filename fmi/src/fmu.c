@@ -6,9 +6,6 @@
 
 #include "fmu.h"
 
-/* No grid point but the start: an instance records nothing. */
-static const double never = 1e300;
-
 bool fmu_refuse(fmu *f, const char *format, ...) {
   char message[700];
   va_list arguments;
@@ -30,7 +27,6 @@ static bool new_session(fmu *f) {
   if (!s) return fmu_refuse(f, "%s", message);
   s->result = rt_result_new(0, 0, s->d->n_p, 4);
   if (!s->result) return fmu_refuse(f, "out of memory");
-  s->recorder.interval = never;
   s->start = fmu_configuration.start_time;
   s->stop = fmu_configuration.stop_time;
   s->t = s->start;
@@ -82,10 +78,9 @@ static bool allocate(fmu *f) {
   struct {
     mdl_lanes **place;
     int n;
-  } parts[] = {{&f->tangent.t, 1},          {&f->tangent.p, d->n_p}, {&f->tangent.u, d->n_u},
-               {&f->tangent.x, d->n_x},     {&f->tangent.v, d->n_v}, {&f->tangent.xdot, d->n_x},
-               {&f->tangent.d, d->n_d},     {&f->tangent.pre_d, d->n_d},
-               {&f->tangent.x_after, d->n_x}};
+  } parts[] = {{&f->tangent.t, 1},      {&f->tangent.p, d->n_p},     {&f->tangent.u, d->n_u},
+               {&f->tangent.x, d->n_x}, {&f->tangent.v, d->n_v},     {&f->tangent.xdot, d->n_x},
+               {&f->tangent.d, d->n_d}, {&f->tangent.pre_d, d->n_d}, {&f->tangent.x_after, d->n_x}};
   for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
     *parts[i].place = (mdl_lanes *)take(&next, parts[i].n);
   for (int r = 0; r < d->n_rel; r++)

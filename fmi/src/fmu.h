@@ -32,12 +32,12 @@ typedef struct fmu {
   int n_indicators, *indicator; /* [n_indicators] relations that are switched by roots */
   fmu_mode mode;
   bool co_simulation;
-  bool event_mode; /* co-simulation: the importer wants to be present at events */
+  bool event_mode;   /* co-simulation: the importer wants to be present at events */
   bool early_return; /* and a step may end there */
-  bool begun;      /* the initial equations are solved for what is set now */
-  bool fresh;      /* xdot and v belong to t, x and u */
-  bool retuned;    /* parameters were set since the last event */
-  bool driven;     /* inputs were set since the last event */
+  bool begun;        /* the initial equations are solved for what is set now */
+  bool fresh;        /* xdot and v belong to t, x and u */
+  bool retuned;      /* parameters were set since the last event */
+  bool driven;       /* inputs were set since the last event */
   bool logging;
   void *environment;
   void (*say)(struct fmu *f, const char *message);

@@ -33,7 +33,8 @@ static void pass_guards(stream *w, double **guards, double *block) {
 static void pass_session(stream *w, rt_session *s) {
   PASS(s->start), PASS(s->stop), PASS(s->t_previous), PASS(s->t), PASS(s->t_uncrossed), PASS(s->t_end);
   PASS(s->steps_taken), PASS(s->tiny_steps), PASS(s->futile_events), PASS(s->pending), PASS(s->last_event);
-  PASS(s->t_before), PASS(s->resume), PASS(s->reinitialised), PASS(s->n_initial), PASS(s->recorder.next);
+  PASS(s->t_before), PASS(s->resume), PASS(s->reinitialised), PASS(s->n_initial), PASS(s->recorder.next),
+      PASS(s->look_curved);
   PASS(s->clock.next_relation), PASS(s->clock.tolerance), PASS(s->clock.step);
   PASS(s->data.initial), PASS(s->data.terminal), PASS(s->data.reinitialised), PASS(s->data.terminated);
   PASS(s->data.start_time), PASS(s->options.rtol), PASS(s->options.atol);

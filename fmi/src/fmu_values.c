@@ -4,6 +4,10 @@
 
 #include "fmu.h"
 
+/* Results that a curved guard is looked at for (runtime/src/looks.c), as many as a run without an interval has; none is
+ * recorded: there is no grid point but the start. */
+static const double looks = 500, never = 1e300;
+
 static bool is_before_start(const fmu *f) {
   return f->mode == FMU_SETUP || f->mode == FMU_INITIALISATION;
 }
@@ -14,7 +18,9 @@ bool fmu_refresh(fmu *f) {
   if (is_before_start(f)) {
     if (f->begun) return true;
     s->result->rows = 0;
+    s->recorder.interval = (s->stop - s->start) / looks;
     f->begun = f->fresh = fmu_done(f, rt_begin(s));
+    s->recorder.interval = never;
     return f->begun;
   }
   if (f->fresh) return true;
@@ -119,8 +125,7 @@ bool fmu_set(fmu *f, unsigned reference, double value) {
   if (!v) return fmu_refuse(f, "there is no variable with the value reference %u that may be set", reference);
   if (!isfinite(value)) return fmu_refuse(f, "%s: %g is not a finite number", v->name, value);
   if (v->storage == MDL_PARAMETER) {
-    if (f->mode == FMU_CONTINUOUS)
-      return fmu_refuse(f, "parameter %s is set in event mode only", v->name);
+    if (f->mode == FMU_CONTINUOUS) return fmu_refuse(f, "parameter %s is set in event mode only", v->name);
     return set_parameter(f, v, value);
   }
   if (v->storage == MDL_STATE && is_before_start(f)) return set_initial(f, v, value);
@@ -135,9 +140,8 @@ bool fmu_set(fmu *f, unsigned reference, double value) {
 
 static bool seed(fmu *f, unsigned reference, double value) {
   const mdl_variable *v = row_of(f, reference);
-  mdl_lanes *const arrays[] = {[MDL_STATE] = f->tangent.x,     [MDL_ALGEBRAIC] = NULL,
-                               [MDL_DISCRETE] = NULL,          [MDL_PARAMETER] = f->tangent.p,
-                               [MDL_INPUT] = f->tangent.u,     [MDL_DERIVATIVE] = NULL};
+  mdl_lanes *const arrays[] = {[MDL_STATE] = f->tangent.x,     [MDL_ALGEBRAIC] = NULL,     [MDL_DISCRETE] = NULL,
+                               [MDL_PARAMETER] = f->tangent.p, [MDL_INPUT] = f->tangent.u, [MDL_DERIVATIVE] = NULL};
   if (!v || !arrays[v->storage] || (v->storage == MDL_PARAMETER && !v->settable))
     return fmu_refuse(f, "no derivative with respect to %s: it is no state, input or parameter that may be set",
                       v ? v->name : "this variable");

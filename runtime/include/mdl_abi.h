@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 7
+#define MDL_ABI_VERSION 8
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
@@ -192,6 +192,12 @@ typedef struct mdl_descriptor {
   int n_divisions;
   const int *division_equation; /* [n_divisions] */
   int (*divisions)(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *value);
+
+  /* How closely the guards of state relations have to be looked at inside a step. phase[n_phases] (rad): arguments of
+   * sin and cos that guards follow, at a complete point. curved_guards: some guard follows the states in another way
+   * that is not affine. */
+  int n_phases, curved_guards;
+  int (*phases)(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *phase);
 } mdl_descriptor;
 
 typedef const mdl_descriptor *(*mdl_descriptor_fn)(void);

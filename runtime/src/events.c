@@ -131,7 +131,6 @@ static rt_status check_chattering(rt_session *s, double since) {
     flipped = r;
     if (s->g_travel[r] > 100 * rt_hysteresis(s, r) && since > s->clock.tolerance) futile = false;
     s->g_travel[r] = 0;
-    s->rebound[r] = 0;
   }
   s->futile_events = futile ? s->futile_events + 1 : 0;
   if (s->futile_events <= MAX_FUTILE_EVENTS) return RT_OK;
@@ -199,8 +198,7 @@ rt_status rt_event(rt_session *s) {
   rt_jump_begin(s);
   if ((status = rt_iterate_event(s)) || (status = rt_jump_end(s)) || (status = check_chattering(s, since)))
     return status;
-  if (s->reinitialised && s->pending & RT_PENDING_STATE && rt_mark_rebounds(s, since))
-    return rt_fail_model(s, s->t, "looking ahead from an event");
+  if (rt_follow_switches(s, since)) return rt_fail_model(s, s->t, "looking ahead from an event");
   memset(s->flip, 0, (size_t)s->d->n_rel);
   if (record && (status = rt_record_event_row(s))) return status;
   if (s->data.terminated) rt_result_log(s->result, s->t, RT_EVENT_TERMINATE, s->data.terminated - 1, 1);

@@ -26,12 +26,15 @@ static void clear(rt_session *s) {
   m->failure = (mdl_failure){.equation = -1, .variable = -1};
   memset(s->flip, 0, (size_t)d->n_rel);
   memset(s->division_sign, 0, (size_t)d->n_divisions);
-  memset(s->rebound, 0, (size_t)d->n_rel);
+  for (int r = 0; r < d->n_rel; r++) {
+    s->changed_at[0][r] = s->changed_at[1][r] = s->start;
+    s->due_back[r] = -INFINITY;
+  }
   memset(s->g_span, 0, (size_t)d->n_rel * sizeof *s->g_span);
   memset(s->g_travel, 0, (size_t)d->n_rel * sizeof *s->g_travel);
   s->t = s->t_previous = s->t_end = s->last_event = s->start;
   s->t_before = NAN;
-  s->resume = false;
+  s->resume = s->in_pieces = false;
   s->dense.valid = false;
   s->steps_taken = 0;
   s->futile_events = s->tiny_steps = s->pending = 0;

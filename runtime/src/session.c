@@ -41,7 +41,9 @@ static bool allocate_numbers(rt_session *s) {
   double **states[] = {&m->x,           &m->xdot,  &s->initial_value, &s->x_trial, &s->xdot_trial, &s->x_before,
                        &s->xdot_before, &s->x_end, &s->xdot_end,      &r->x,       &r->xdot,       &s->x_swept};
   double **sizes[] = {&s->nominal}, **division[] = {&s->division};
-  double **guards[] = {&s->g, &s->g_previous, &s->g_low, &s->g_trial, &s->g_before, &s->g_span, &s->g_travel};
+  double **guards[] = {&s->g,      &s->g_previous, &s->g_low,         &s->g_trial,       &s->g_before,
+                       &s->g_span, &s->g_travel,   &s->changed_at[0], &s->changed_at[1], &s->due_back};
+  double **turns[] = {&s->phase, &s->phase_start};
   const group groups[] = {{parameters, COUNT(parameters), d->n_p},
                           {inputs, COUNT(inputs), d->n_u},
                           {discrete, COUNT(discrete), d->n_d},
@@ -52,8 +54,14 @@ static bool allocate_numbers(rt_session *s) {
                           {states, COUNT(states), d->n_x},
                           {sizes, COUNT(sizes), d->n_x + d->n_z + d->n_rel},
                           {division, COUNT(division), 2 * d->n_divisions},
+<<<<<<< HEAD
                           {guards, COUNT(guards), d->n_rel}};
   s->n_numbers = 1;
+=======
+                          {guards, COUNT(guards), d->n_rel},
+                          {turns, COUNT(turns), d->n_phases}};
+  size_t total = 1;
+>>>>>>> main
   for (size_t i = 0; i < COUNT(groups); i++)
     s->n_numbers += groups[i].count * (size_t)groups[i].n;
   double *next = s->numbers = calloc(s->n_numbers, sizeof *next);
@@ -67,9 +75,15 @@ static bool allocate_numbers(rt_session *s) {
 static bool allocate_flags(rt_session *s) {
   const mdl_descriptor *d = s->d;
   mdl_data *m = &s->data;
+<<<<<<< HEAD
   unsigned char **relations[] = {&m->rel, &s->flip, &s->rel_before, &s->rel_trial, &s->rebound, &s->rel_swept};
   s->n_flags = COUNT(relations) * (size_t)d->n_rel + (size_t)(d->n_sample + 2 * d->n_when + d->n_divisions) + 1;
   unsigned char *next = s->flags = calloc(s->n_flags, 1);
+=======
+  unsigned char **relations[] = {&m->rel, &s->flip, &s->rel_before, &s->rel_trial, &s->rel_swept};
+  unsigned char *next = s->flags =
+      calloc(COUNT(relations) * (size_t)d->n_rel + (size_t)(d->n_sample + 2 * d->n_when + d->n_divisions) + 1, 1);
+>>>>>>> main
   if (!next) return false;
   for (size_t i = 0; i < COUNT(relations); i++, next += d->n_rel)
     *relations[i] = next;

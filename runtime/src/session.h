@@ -120,19 +120,23 @@ struct rt_session {
   double *x_end, *xdot_end, *v_end; /* the point there */
   long steps_taken;                 /* in this run */
   int tiny_steps;                   /* consecutive steps that hardly differ from none */
-  bool resume; /* go on to the end of the last step: the event at t changed nothing that is integrated */
+  bool resume;                      /* go on in the last step: nothing that is integrated has changed at t */
+  double look, look_curved;         /* longest piece of the last step to be looked at at once, of any step (s) */
+  bool in_pieces;                   /* the last step is longer */
+  double *phase, *phase_start;      /* [n_phases] rad */
   rt_clock clock;
   rt_dense dense;
   double *g, *g_previous;     /* [n_rel] guards at t and t_previous */
   double *g_low, *g_trial;    /* [n_rel] while locating a crossing */
   double *g_before, t_before; /* [n_rel] guards one step earlier, at t_before; NAN after a restart */
   double *g_span, *g_travel;  /* [n_rel] largest |g| of the run, and since the relation last switched */
+  double *changed_at[2];      /* [n_rel] when the relation last became false, true (s) */
+  double *due_back;           /* [n_rel] until when it must switch back, having been thrown back; else -INFINITY */
   double *x_trial, *xdot_trial, *v_trial;
   double *x_before, *xdot_before, *v_before;
   double *d_before, *d_after;             /* discrete variables before an event; and aside while it is differentiated */
   double *x_swept, *d_swept;              /* states after a sweep of an event, discrete variables before it */
   unsigned char *rel_swept, *when_before; /* relations before a sweep, when conditions before its pass */
-  unsigned char *rebound;                 /* [n_rel] the event at which it last switched reinitialised states */
   bool reinitialised;                     /* the last event did */
   unsigned char *flip;                    /* [n_rel] relations that switch at t */
   unsigned char *rel_before, *rel_trial;  /* [n_rel] */
@@ -254,9 +258,7 @@ int rt_guards_at(rt_session *s, double t, double *g);
 /* dips.c */
 bool rt_may_dip(const rt_session *s);
 int rt_find_dip(rt_session *s, double *inside);
-int rt_mark_rebounds(rt_session *s, double since);
-
-void rt_resume_step(rt_session *s);
+int rt_follow_switches(rt_session *s, double since);
 
 /* simulate.c: the hybrid loop, a piece at a time */
 rt_status rt_begin(rt_session *s);

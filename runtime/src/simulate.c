@@ -3,6 +3,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "looks.h"
 #include "sensitivity.h"
 
 enum { MAX_TINY_STEPS = 100, STEPS_BETWEEN_LOOKS = 1024 };
@@ -51,6 +52,7 @@ rt_status rt_begin(rt_session *s) {
   if (!status) status = rt_initialise(s);
   if (status) return status;
   rt_scale_start(s);
+  rt_looks_begin(s);
   if (!status && s->sensitivities) status = rt_tangent_begin(s);
   status = rt_check_asserts(s);
   if (!status) status = rt_check_point(s, true);
@@ -59,19 +61,13 @@ rt_status rt_begin(rt_session *s) {
   return status ? status : rt_record_step(s);
 }
 
-/* Take a step, or look at what is left of the last one. */
-static rt_status move_on(rt_session *s) {
-  s->t_previous = s->t;
-  s->pending = 0;
-  if (s->resume) {
-    rt_resume_step(s);
-    return RT_OK;
-  }
+static rt_status step(rt_session *s) {
   if (s->steps_taken++ >= s->options.max_steps && s->options.max_steps > 0)
     return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "more than %ld steps up to time %.9g s", s->options.max_steps,
                    s->t);
   s->dense.valid = false;
   if (s->sensitivities) s->sensitivities->dense.valid = false;
+  rt_looks_start(s);
   rt_status status = s->method->step(s, s->memory, rt_clock_limit(s));
   s->t_end = s->t;
   for (int i = 0; i < s->d->n_x; i++)
@@ -81,10 +77,23 @@ static rt_status move_on(rt_session *s) {
     }
   s->tiny_steps = s->t - s->t_previous < rt_smallest_step(s) ? s->tiny_steps + 1 : 0;
   if (s->tiny_steps > MAX_TINY_STEPS) return rt_fail_collapse(s, s->t - s->t_previous, "its steps vanish");
+  if (!status) rt_looks_divide(s);
   return status;
 }
 
-/* A step, up to the next event: what happens there is in s->pending. */
+/* To the end of a step or of the first piece of one that is looked at in pieces, or of the next piece of the last. */
+static rt_status move_on(rt_session *s) {
+  s->t_previous = s->t;
+  s->pending = 0;
+  if (!s->resume) {
+    rt_status status = step(s);
+    if (status || !s->in_pieces) return status;
+  }
+  s->resume = false;
+  return rt_look_on(s);
+}
+
+/* A step or a piece of one, up to the next event: what happens there is in s->pending. */
 rt_status rt_advance(rt_session *s) {
   rt_status status = look_up(s);
   if (!status) status = move_on(s);
@@ -94,6 +103,7 @@ rt_status rt_advance(rt_session *s) {
   if (!status) status = rt_check_point(s, false);
   if (status) return status;
   s->pending |= rt_clock_due(s);
+  if (!s->pending) s->resume = s->t < s->t_end;
   return rt_record_step(s);
 }
 

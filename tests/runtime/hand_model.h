@@ -148,6 +148,9 @@ template <class M> struct Generated {
                                      nullptr,
                                      0,
                                      nullptr,
+                                     nullptr,
+                                     0,
+                                     0,
                                      nullptr};
     return &d;
   }
