@@ -54,14 +54,9 @@ static bool allocate_numbers(rt_session *s) {
                           {states, COUNT(states), d->n_x},
                           {sizes, COUNT(sizes), d->n_x + d->n_z + d->n_rel},
                           {division, COUNT(division), 2 * d->n_divisions},
-<<<<<<< HEAD
-                          {guards, COUNT(guards), d->n_rel}};
-  s->n_numbers = 1;
-=======
                           {guards, COUNT(guards), d->n_rel},
                           {turns, COUNT(turns), d->n_phases}};
-  size_t total = 1;
->>>>>>> main
+  s->n_numbers = 1;
   for (size_t i = 0; i < COUNT(groups); i++)
     s->n_numbers += groups[i].count * (size_t)groups[i].n;
   double *next = s->numbers = calloc(s->n_numbers, sizeof *next);
@@ -75,15 +70,9 @@ static bool allocate_numbers(rt_session *s) {
 static bool allocate_flags(rt_session *s) {
   const mdl_descriptor *d = s->d;
   mdl_data *m = &s->data;
-<<<<<<< HEAD
-  unsigned char **relations[] = {&m->rel, &s->flip, &s->rel_before, &s->rel_trial, &s->rebound, &s->rel_swept};
+  unsigned char **relations[] = {&m->rel, &s->flip, &s->rel_before, &s->rel_trial, &s->rel_swept};
   s->n_flags = COUNT(relations) * (size_t)d->n_rel + (size_t)(d->n_sample + 2 * d->n_when + d->n_divisions) + 1;
   unsigned char *next = s->flags = calloc(s->n_flags, 1);
-=======
-  unsigned char **relations[] = {&m->rel, &s->flip, &s->rel_before, &s->rel_trial, &s->rel_swept};
-  unsigned char *next = s->flags =
-      calloc(COUNT(relations) * (size_t)d->n_rel + (size_t)(d->n_sample + 2 * d->n_when + d->n_divisions) + 1, 1);
->>>>>>> main
   if (!next) return false;
   for (size_t i = 0; i < COUNT(relations); i++, next += d->n_rel)
     *relations[i] = next;
