@@ -20,7 +20,9 @@ def compare(
     model: Annotated[str | None, typer.Argument(metavar="[MODEL]", help=MODEL_HELP, autocompletion=models)] = None,
     class_name: ClassName = "",
     library: Libraries = None,
-    against: Annotated[Path | None, typer.Option(help="A CSV (header: time and full names) or an .fmu of another tool")] = None,
+    against: Annotated[
+        Path | None, typer.Option(help="A CSV (header: time and full names) or an .fmu of another tool")
+    ] = None,
     tolerance: Annotated[float, typer.Option(help="Largest deviation from the file, of a signal's magnitude")] = 1e-3,
     only: Annotated[list[str] | None, typer.Option(help="Only this scenario; repeat for more")] = None,
     scenarios: Annotated[Path | None, typer.Option(help="Scenarios of your own, a TOML file")] = None,

@@ -14,7 +14,8 @@ from lacuna.cli.options import ClassName, Libraries, Model, Parameters, paramete
 
 Version = Annotated[Literal["3.0", "2.0"], typer.Option("--fmi", help="Version of the standard")]
 Type = Annotated[
-    Literal["me", "cs", "both"], typer.Option("--type", help="Model exchange, co-simulation (its solver inside), or both")
+    Literal["me", "cs", "both"],
+    typer.Option("--type", help="Model exchange, co-simulation (its solver inside), or both"),
 ]
 Solver = Annotated[Literal["rodas4", "dopri5"], typer.Option(help="Of co-simulation; rodas4 is for stiff models, too")]
 

@@ -42,7 +42,11 @@ def describe(header: Header, variables: FmiVariables, version: str) -> bytes:
     _units(root, variables.all)
     categories = ET.SubElement(root, "LogCategories")
     ET.SubElement(categories, "Category", name="logStatusError", description="why a call failed")
-    experiment = {"startTime": _text(header.start), "stopTime": _text(header.stop), "tolerance": _text(header.tolerance)}
+    experiment = {
+        "startTime": _text(header.start),
+        "stopTime": _text(header.stop),
+        "tolerance": _text(header.tolerance),
+    }
     if header.interval > 0:
         experiment["stepSize"] = _text(header.interval)
     ET.SubElement(root, "DefaultExperiment", experiment)

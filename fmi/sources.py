@@ -2,20 +2,31 @@
 
 from __future__ import annotations
 
+import contextlib
+import hashlib
 from pathlib import Path
 import re
 import subprocess
+import tempfile
 
-from lacuna.codegen.cache import CompilerError
+from lacuna.codegen.cache import Cache, CompilerError, compiler
 from lacuna.fmi.errors import FmuError
 
 _HERE = Path(__file__).resolve().parent
 _RUNTIME = _HERE.parent / "runtime"
-_OTHERS = {"ida.c", "ida_tangent.c", "ida.h", "vector.c", "vector.h", "sundials_compat.h"}  # of the runtime: what needs SUNDIALS
+_OTHERS = {
+    "ida.c",
+    "ida_tangent.c",
+    "ida.h",
+    "vector.c",
+    "vector.h",
+    "sundials_compat.h",
+}  # of the runtime: what needs SUNDIALS
 OPTIONS = (
     "-std=c11", "-O2", "-fPIC", "-ffp-contract=off", "-fvisibility=hidden", "-D_POSIX_C_SOURCE=200809L",
     "-DRT_OWN_METHODS",
 )  # fmt: skip
+OWN = ("generated.c", "fmu_config.c")  # what differs from FMU to FMU
 _WARNINGS = ("-Wall", "-Wextra", "-Werror")
 
 
@@ -48,12 +59,37 @@ def configuration(token: str, solver: str, rtol: float, start: float, stop: floa
     )
 
 
-def compile_sources(folder: Path, files: tuple[str, ...], output: Path, extra: tuple[str, ...] = ()) -> None:
-    """One shared library of C `files` in `folder`. Raises CompilerError."""
+def compile_sources(folder: Path, files: tuple[str, ...], output: Path) -> None:
+    """One shared library of C `files` in `folder`. Raises CompilerError.
+
+    What is the same in every FMU is compiled once and kept beside the compiled models."""
     output.parent.mkdir(parents=True, exist_ok=True)
-    command = ["cc", *OPTIONS, *_WARNINGS, *extra, "-shared", "-I.", "-o", str(output.resolve()), *files, "-lm"]
+    own = [name for name in files if name in OWN]
+    common = _common(folder, [name for name in files if name not in OWN])
+    _run("cc", *OPTIONS, *_WARNINGS, "-shared", "-I.", "-o", output.resolve(), *own, *common, "-lm", folder=folder)
+
+
+def _common(folder: Path, files: list[str]) -> list[Path]:
+    """Objects of `files`, from the cache where nothing in `folder` but the model has changed."""
+    digest = hashlib.sha256(" ".join((*OPTIONS, compiler())).encode())
+    for path in sorted(folder.glob("*.[ch]")):
+        if path.name not in OWN:
+            digest.update(path.name.encode() + b"\0" + path.read_bytes())
+    kept = Cache().private() / f"fmi-{digest.hexdigest()[:32]}"
+    if not kept.is_dir():
+        with tempfile.TemporaryDirectory(dir=kept.parent) as scratch:
+            objects = Path(scratch) / "objects"
+            objects.mkdir()
+            for name in files:
+                _run("cc", *OPTIONS, *_WARNINGS, "-c", "-I.", "-o", objects / f"{name}.o", name, folder=folder)
+            with contextlib.suppress(OSError):  # another process was first
+                objects.rename(kept)
+    return [kept / f"{name}.o" for name in files]
+
+
+def _run(*command: str | Path, folder: Path) -> None:
     try:
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+        done = subprocess.run([str(part) for part in command], cwd=folder, capture_output=True, text=True, check=False)
     except FileNotFoundError:
         raise CompilerError("no C compiler: install one that is called as `cc` (Debian: apt install gcc)") from None
     if done.returncode:

@@ -128,15 +128,17 @@ class FmiVariables:
         first = 1 + len(self.model.variables)
         return [
             FmiVariable(
-                f"der({v.name})", first + k, "local", "continuous", initial="calculated", unit=_per_second(v.shown_unit),
-                description=f"derivative of {v.name} by time", derivative_of=1 + v.row,
+                f"der({v.name})", first + k, "local", "continuous", initial="calculated",
+                unit=_per_second(v.shown_unit), description=f"derivative of {v.name} by time", derivative_of=1 + v.row,
             )
             for k, v in enumerate(self._states)
         ]  # fmt: skip
 
     def _indicators(self) -> list[FmiVariable]:
         first = 1 + len(self.model.variables) + len(self._states)
-        switched = [r for r, is_time in zip(self.model.relations, self.model.time_relations, strict=True) if not is_time]
+        switched = [
+            r for r, is_time in zip(self.model.relations, self.model.time_relations, strict=True) if not is_time
+        ]
         return [
             FmiVariable(f"eventIndicator[{k + 1}]", first + k, "local", "continuous", initial="calculated",
                         description=f"{r.text} ({r.origin})" if r.origin else r.text)

@@ -46,7 +46,8 @@ def simulate_fmu(
             str(path), start_time=start, stop_time=stop, output_interval=interval, relative_tolerance=rtol,
             fmi_type="ModelExchange" if description.modelExchange is not None else "CoSimulation", solver="CVode",
             start_values={**parameters, **{n: v for n, v in inputs.items() if isinstance(v, float)}},
-            input=_signals({n: v for n, v in inputs.items() if not isinstance(v, float)}, start), output=outputs, record_events=False,
+            input=_signals({n: v for n, v in inputs.items() if not isinstance(v, float)}, start),
+            output=outputs, record_events=False,
         )  # fmt: skip
     except Exception as error:
         raise AnalysisError(f"{path} cannot be simulated: {error}") from None
