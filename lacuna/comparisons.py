@@ -152,6 +152,7 @@ def compare_with_file(
     inputs: Mapping[str, Input] | None = None,
     tolerance: float = 1e-3,
     stop: float | None = None,
+    progress: Progress | None = None,
 ) -> Agreement:
     """Simulate a model on the instants of a file produced elsewhere and compare.
 
@@ -168,7 +169,7 @@ def compare_with_file(
         time, columns = _simulated(loaded, Path(file), stop, parameters or {}, inputs or {})
     else:
         time, columns = read_columns(Path(file))
-    result = loaded.run_at(time, list(columns), inputs or {})
+    result = loaded.run_at(time, list(columns), inputs or {}, progress)
     found = compared(result, time, columns)
     rows = tuple((d.name, d.maximum, d.rms, d.relative, d.at_time) for d in found)
     return Agreement(loaded.name, Path(file), tolerance, rows)

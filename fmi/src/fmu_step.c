@@ -7,6 +7,7 @@
 static bool step_to(fmu *f, double stop, bool may_stop, bool *event) {
   rt_session *s = f->session;
   s->stop = stop;
+  rt_start_patience(s); /* what the importer has computed meanwhile does not count */
   while (s->t < stop - s->clock.tolerance && !s->data.terminated) {
     if (!fmu_done(f, rt_advance(s))) return false;
     *event = may_stop && s->pending;

@@ -8,6 +8,7 @@
 #include <stddef.h>
 
 #include "lacuna_runtime.h"
+#include "result.h"
 
 struct rt_model {
   void *library;
@@ -147,9 +148,10 @@ struct rt_session {
   signed char *division_sign; /* [n_divisions] of their products when they were last looked at; 0 not known */
   rt_recorder recorder;
   rt_sensitivities *sensitivities; /* NULL: none are asked for */
-  int (*interrupted)(void);        /* asked now and then; NULL: never */
+  int (*interrupted)(double time); /* asked now and then; NULL: never */
   long looks;
-  double looked_at; /* monotonic clock (s) */
+  double looked_at, patient_from,
+      patient_t; /* monotonic clock, and from where patience counts: processor time, t (s) */
   rt_failure failure;
   rt_result *result;
 };
@@ -265,6 +267,7 @@ rt_status rt_begin(rt_session *s);
 rt_status rt_advance(rt_session *s);
 rt_status rt_happen(rt_session *s);
 rt_status rt_check_asserts(rt_session *s);
+void rt_start_patience(rt_session *s);
 
 /* events.c */
 rt_status rt_event(rt_session *s);
@@ -278,29 +281,6 @@ void rt_record_begin(rt_session *s);
 rt_status rt_record_grid(rt_session *s, bool closed);
 rt_status rt_record_step(rt_session *s);
 rt_status rt_record_event_row(rt_session *s);
-
-/* result.c */
-struct rt_result {
-  rt_failure failure;
-  rt_counters counters;
-  const char *terminated;
-  size_t rows, capacity;
-  int n;
-  double *time;
-  double **columns;
-  unsigned char *event;
-  double *parameters; /* [n_p] */
-  size_t n_events, events_capacity;
-  rt_event_entry *events;
-  int n_sensitivities; /* of each output; their columns follow those of the outputs */
-  double *margins;     /* [n_sensitivities] */
-  size_t n_flags, flags_capacity;
-  rt_flag *flags;
-};
-rt_result *rt_result_new(int columns, int sensitivities, int parameters, size_t capacity);
-bool rt_result_reserve(rt_result *r, size_t rows);
-bool rt_result_log(rt_result *r, double time, int kind, int index, int direction);
-bool rt_result_flag(rt_result *r, double time, rt_flag_kind kind, int relation, int other);
 
 /* linear.c: dense n x n systems by LU with partial pivoting, column-major */
 int rt_lu_factor(int n, double *a, int *pivot);
