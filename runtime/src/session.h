@@ -150,8 +150,7 @@ struct rt_session {
   rt_sensitivities *sensitivities; /* NULL: none are asked for */
   int (*interrupted)(double time); /* asked now and then; NULL: never */
   long looks;
-  double looked_at, patient_from,
-      patient_t; /* monotonic clock, and from where patience counts: processor time, t (s) */
+  double looked_at, patient_from, patient_t; /* monotonic clock; processor time and t where patience began */
   rt_failure failure;
   rt_result *result;
 };
