@@ -32,6 +32,7 @@ class Attachment:
     values: tuple[tuple[str, float], ...] = ()
     definition: str = ""  # source of the effect's class where it is in no library
     expression: Callable[[dict[str, float]], str] | None = None  # of an empirical law, in variables of the model
+    form: Callable[[dict[str, float]], str] | None = None  # its name, where it has the form of a known one
 
     @property
     def label(self) -> str:

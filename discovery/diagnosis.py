@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
+from lacuna.discovery.confidence import alternatives, confidence, explained, odds, tie
 from lacuna.discovery.evidence import whiteness
 from lacuna.discovery.explanation import Explanation
 from lacuna.discovery.fit import Fit
 from lacuna.discovery.least_squares import Free
 from lacuna.discovery.search import Finding
 
-CERTAIN = 0.999  # the most that is ever claimed
 PARTIAL = 0.9  # share of the misfit, below which an explanation is called partial
 
 
@@ -35,7 +35,7 @@ def build(result: Explanation, amended: Path | None) -> dict[str, Any]:
         diagnosis["parameters"] = _parameters(result, errors)
     if result.findings:
         diagnosis["explained"] = explained(result)
-        diagnosis["ties"] = [_tie(f) for f in result.findings if f.naming.rivals(f.ranked)]
+        diagnosis["ties"] = [tie(f) for f in result.findings if f.naming.rivals(f.ranked)]
     if places := _places(result):
         diagnosis["places"] = places
     if amended is not None:
@@ -61,7 +61,7 @@ def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
 
 def _finding(result: Explanation, finding: Finding, errors: dict[str, float]) -> dict[str, Any]:
     attachment = finding.ranked.attachment
-    point = result.final.point
+    point, share = result.final.point, explained(result)
     parameters = {}
     for parameter in attachment.effect.parameters:
         full = attachment.full_name(parameter.name)
@@ -72,15 +72,17 @@ def _finding(result: Explanation, finding: Finding, errors: dict[str, float]) ->
     if attachment.effect.polar:
         _positive_phase(parameters, attachment.effect.polar[1])
     law = {"law": law_text(result, finding)} if attachment.expression else {}
+    if form := _form(result, finding):
+        law["form"] = form
     return {
         "effect": attachment.effect.identifier,
         "location": attachment.location,
         **law,
-        "confidence": _confidence(finding),
-        "odds": _odds(finding),
+        "confidence": confidence(finding, share),
+        "odds": odds(finding, share),
         "where": _where(result, finding),
         "parameters": parameters,
-        "alternatives": _alternatives(finding),
+        "alternatives": alternatives(finding, share),
         "nrmse": _nrmse(finding.before, finding.after),
     }
 
@@ -95,10 +97,18 @@ def _unit(result: Explanation, finding: Finding, name: str) -> str:
 
 def law_text(result: Explanation, finding: Finding) -> str:
     """An empirical law with its numbers, in variables of the model."""
-    attachment = finding.ranked.attachment
-    prefix = f"{attachment.component}."
-    values = {n.removeprefix(prefix): v for n, v in result.final.point.items() if n.startswith(prefix)}
-    return attachment.expression(values)
+    return finding.ranked.attachment.expression(_own_values(result, finding))
+
+
+def _form(result: Explanation, finding: Finding) -> str:
+    """The name of a law that has the form of a known one; "" where it has none."""
+    form = finding.ranked.attachment.form
+    return form(_own_values(result, finding)) if form else ""
+
+
+def _own_values(result: Explanation, finding: Finding) -> dict[str, float]:
+    prefix = f"{finding.ranked.attachment.component}."
+    return {n.removeprefix(prefix): v for n, v in result.final.point.items() if n.startswith(prefix)}
 
 
 def _positive_phase(parameters: dict[str, dict], name: str) -> None:
@@ -107,65 +117,12 @@ def _positive_phase(parameters: dict[str, dict], name: str) -> None:
         parameters[name]["value"] = math.remainder(parameters[name]["value"], 2 * math.pi)
 
 
-def _by_identity(finding: Finding) -> dict[tuple[str, str], float]:
-    total: dict[tuple[str, str], float] = {}
-    for r in finding.naming.ranked:
-        total[r.identity] = total.get(r.identity, 0.0) + r.confidence
-    return total
-
-
-def _confidence(finding: Finding) -> float:
-    return min(_by_identity(finding)[finding.ranked.identity], CERTAIN)
-
-
-def _odds(finding: Finding) -> str:
-    """The confidence in words, against what comes nearest among all that was tried."""
-    own = _confidence(finding)
-    rivals = [(p, i) for i, p in _by_identity(finding).items() if i != finding.ranked.identity]
-    if not rivals:
-        return "nothing else was tried that explains as much"
-    most, (effect, location) = max(rivals)
-    if own >= CERTAIN:
-        return f"more than {CERTAIN / (1 - CERTAIN):.0f} to 1 against the next best, {effect} at {location}"
-    return f"{own / max(most, 1 - CERTAIN):.2g} to 1 against the next best, {effect} at {location}"
-
-
-def explained(result: Explanation) -> float:
-    """Share of the misfit above noise, on the recordings fitted, that the findings take away."""
-    before, after = _excess(result.base), _excess(result.final)
-    return float(np.clip(1.0 - after / before, 0.0, 1.0)) if before > 0 else 1.0
-
-
-def _excess(fit: Fit) -> float:
-    """Square sum of the residuals in units of noise, less that of noise."""
-    total = 0.0
-    for name, residuals in fit.residuals.items():
-        for column, noise in fit.noise.items():
-            weight = fit.weights[name][column]
-            total += float(np.sum((np.nan_to_num(residuals[column]) * weight / noise.std) ** 2) - np.sum(weight**2))
-    return total
-
-
-def _tie(finding: Finding) -> list[dict[str, str]]:
-    """A finding and what the data does not tell from it."""
-    identities = [finding.ranked.identity, *dict.fromkeys(r.identity for r in finding.naming.rivals(finding.ranked))]
-    return [{"effect": effect, "location": location} for effect, location in identities]
-
-
 def _places(result: Explanation) -> list[dict[str, Any]]:
     """What was open to a finding: places of the equations and sensors, the most telling first."""
     if result.opened is not None and result.opened.sites:
         return [{"location": s.location, "kind": s.kind, "explains": s.explains} for s in result.opened.sites]
     located = result.located.places if result.located else []
     return [{"location": p.location, "kind": p.kind, "explains": p.explained} for p in located]
-
-
-def _alternatives(finding: Finding) -> list[dict[str, Any]]:
-    ordered = sorted(_by_identity(finding).items(), key=lambda item: -item[1])
-    return [
-        {"effect": effect, "location": location, "confidence": confidence}
-        for (effect, location), confidence in ordered if (effect, location) != finding.ranked.identity
-    ][:5]  # fmt: skip
 
 
 def _where(result: Explanation, finding: Finding) -> dict[str, Any]:
@@ -275,7 +232,9 @@ def _named(result: Explanation, finding: Finding) -> str:
     others = dict.fromkeys(r.attachment.label for r in finding.elsewhere) if finding.tied else {}
     or_else = f" (or {', '.join(others)}: the data does not tell)" if others else ""
     if a.expression is not None:
-        return f"a term {law_text(result, finding)} at {a.location}{or_else}"
+        form = _form(result, finding)
+        named = f" (the form of {form})" if form else ""
+        return f"a term {law_text(result, finding)} at {a.location}{named}{or_else}"
     return f"{a.effect.title[0].lower()}{a.effect.title[1:]} at {a.location}{or_else}"
 
 

@@ -8,6 +8,7 @@ import re
 from lacuna.discovery.amend import Attachment
 from lacuna.discovery.catalogue import Effect, EffectParameter
 from lacuna.discovery.efforts import sites
+from lacuna.discovery.efforts.forms import form_of
 from lacuna.discovery.efforts.insertion import Lag, component
 from lacuna.discovery.law_terms import Group, Shape, Variable
 from lacuna.discovery.places import Device, Line, Shaft
@@ -66,6 +67,11 @@ class Law:
             whole = _renamed(whole, v.local, v.name)
         return whole
 
+    def form(self, values: dict[str, float]) -> str:
+        """The name of a known form that the law has; "" where it has none."""
+        terms = [(text, shapes) for _, text, shapes in self.numbered()]
+        return form_of(terms, self.site.variables, self.site.unit, values)
+
 
 def component_of(law: Law) -> str:
     return f"law_{law.site.location.replace('.', '_').replace(':', '_')}"
@@ -90,6 +96,7 @@ def attach(law: Law) -> Attachment:
         device=place if isinstance(place, Device) else None,
         site=place if isinstance(place, sites.Site) else None,
         signals=signals, definition=_source(law, signals), expression=law.expression,
+        form=law.form,
     )  # fmt: skip
 
 

@@ -1,28 +1,20 @@
-"""Laws as regressions on the located effort: what each term would explain of the outputs along the guided run.
-
-An effort that is a term's course answers linearly in the outputs; with the parameters in their beliefs that is one
-weighted least-squares problem, solved for all terms at once. It is the regression of the effort with its full
-covariance, since the outputs are all that is known of it.
-"""
+"""Which laws are worth a fit: terms at a place ranked by the regression on its effort, alone and in pairs."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from lacuna.discovery.efforts.linear import Along
-from lacuna.discovery.efforts.located import Guided, Locator, Site, thinned_all
-from lacuna.discovery.efforts.smoother import Latent, Piece, Whitener
+from lacuna.discovery.efforts.located import Guided, Locator, Site
+from lacuna.discovery.efforts.regression import Regression
 from lacuna.discovery.efforts.terms import groups, variables
 from lacuna.discovery.law import Law
 from lacuna.discovery.law import Site as LawSite
 from lacuna.discovery.law_screen import Proposal
 from lacuna.discovery.law_terms import Group
 
-DISCREPANCIES = (0.3, 0.03)  # of the located effort's size, that a law may leave
-NEAR = 5.0  # believed sigmas, within which parameters are looked for
 KINDS = 40  # kinds of terms that are kept
 FAMILIES = 12  # kinds of terms whose shapes are refined
 ZOOMS, FINE = 3, 9  # times that a shape is refined, and values each time; each is a quarter of the last one's spacing
@@ -30,143 +22,6 @@ FIRST = 12  # terms that a second one is looked for beside, and a constant: zero
 CHECKED = 400  # pairs that are looked through for those
 PAIRS = 6  # kinds of pairs whose shapes are refined
 SAME = 1e-3  # share of what a law explains, by which another one must differ to be tried beside it
-DEPENDENT = 1e-6  # share of a column that is left beside the others, below which it is none of its own
-
-
-class Regression:
-    """Answers of the outputs to terms at a place, along the guided run, in the metric of the located effort.
-
-    What a law leaves is an effort at the same place of one of a few sizes (the discrepancy), so that a term counts by
-    what it explains of the effort where the data tells it. Parameters in their beliefs are projected out.
-    """
-
-    def __init__(self, guided: Guided, place: LawSite, column: int) -> None:
-        self.guided, self.place, self.column = guided, place, column
-        self.thin = thinned_all(guided.pieces)
-        self.every = -(-len(guided.pieces[0].along.time) // len(self.thin[0].along.time))
-        self.groups: list[Group] = []
-        self.metrics = [_Metric(self.thin, guided.latent, share) for share in DISCREPANCIES]
-        self.rows = len(self.metrics[0].target)
-
-    def add(self, groups: list[Group]) -> range:
-        """Take groups in; their numbers."""
-        answers = []
-        for piece in self.guided.pieces:
-            path = {v.local: piece.along.values[v.name] for v in self.place.variables} | {"time": piece.along.time}
-            with np.errstate(all="ignore"):
-                courses = np.column_stack([c for group in groups for c in group.values(path, self.place.sizes)])
-            courses = np.nan_to_num(courses, nan=0.0, posinf=0.0, neginf=0.0)
-            columns = np.full(courses.shape[1], self.column)
-            answers.append(piece.along.response(columns, courses, every=self.every))
-        for metric in self.metrics:
-            metric.add(answers, [len(group.texts) for group in groups])
-        begin = len(self.groups)
-        self.groups += groups
-        return range(begin, len(self.groups))
-
-    def scores(self, chosen: tuple[int, ...], others: Sequence[int]) -> list[float]:
-        """Deviance of the chosen groups with each of `others`, and ln(rows) for each number in them."""
-        base = sum(map(self._numbers, chosen))
-        best = np.min([metric.deviances(chosen, others) for metric in self.metrics], axis=0)
-        return [float(d) + (base + self._numbers(g)) * np.log(self.rows) for d, g in zip(best, others, strict=True)]
-
-    def _numbers(self, group: int) -> int:
-        return len(self.groups[group].texts) + len(self.groups[group].shapes)
-
-    def coefficients(self, chosen: tuple[int, ...]) -> np.ndarray:
-        return self._best_metric(chosen).coefficients(chosen)
-
-    def explained(self, chosen: tuple[int, ...]) -> np.ndarray:
-        """(rows,) what the groups explain, where a law may leave most."""
-        metric = self.metrics[0]
-        return np.column_stack([metric.columns[g] for g in chosen]) @ metric.coefficients(chosen)
-
-    def _best_metric(self, chosen: tuple[int, ...]) -> _Metric:
-        return min(self.metrics, key=lambda m: m.deviances(chosen[:-1], chosen[-1:])[0])
-
-    def plausible(self, chosen: tuple[int, ...]) -> bool:
-        """Whether the parameters stay near what is believed of them. To first order anything can be had by parameters
-        that no machine has: a term of the balance taken away whole, its inertia with it."""
-        metric = self._best_metric(chosen)
-        return bool(np.all(np.abs(metric.parameters(chosen)) < NEAR))
-
-
-class _Metric:
-    """The regression with what a law leaves as an effort of `share` of the size of the one that was located."""
-
-    def __init__(self, pieces: list[Piece], located: Latent, share: float) -> None:
-        latent = replace(located, size=share * located.size)
-        self.whiteners = [Whitener(p, latent) for p in pieces]
-        self.logdet = sum(w.logdet for w in self.whiteners)
-        rows = np.concatenate([w(p.data) for w, p in zip(self.whiteners, pieces, strict=True)])
-        count = rows.shape[1] - 1
-        self.basis, self.triangle = np.linalg.qr(np.vstack([-rows[:, 1:], np.eye(count)]))
-        target, share = self._beside(rows[:, :1])
-        self.target, self.target_share = target[:, 0], share[:, 0]
-        self.columns: list[np.ndarray] = []  # (rows, terms) of each group
-        self.shares: list[np.ndarray] = []  # (parameters, terms): what the parameters' basis has of each
-
-    def _beside(self, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """(what is left beside the parameters, what their basis takes)."""
-        count = self.basis.shape[1]
-        share = self.basis[: len(rows)].T @ rows
-        full = np.vstack([rows, np.zeros((count, rows.shape[1]))])
-        full -= self.basis @ share
-        return full, share
-
-    def coefficients(self, chosen: tuple[int, ...]) -> np.ndarray:
-        columns = np.column_stack([self.columns[g] for g in chosen])
-        size = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
-        return np.linalg.lstsq(columns / size, self.target, rcond=1e-9)[0] / size
-
-    def parameters(self, chosen: tuple[int, ...]) -> np.ndarray:
-        """Where the parameters go with these groups, in believed sigmas from what is believed."""
-        taken = np.column_stack([self.shares[g] for g in chosen]) @ self.coefficients(chosen)
-        return np.linalg.solve(self.triangle, self.target_share - taken)
-
-    def add(self, answers: list[np.ndarray], terms: list[int]) -> None:
-        columns, shares = self._beside(np.concatenate([w(a) for w, a in zip(self.whiteners, answers, strict=True)]))
-        at = 0
-        for count in terms:
-            self.columns.append(columns[:, at : at + count])
-            self.shares.append(shares[:, at : at + count])
-            at += count
-
-    def deviances(self, chosen: tuple[int, ...], others: Sequence[int]) -> np.ndarray:
-        """(len(others),) of the chosen groups with each of the others."""
-        target, basis = self.target, None
-        if chosen:
-            basis, _ = np.linalg.qr(np.column_stack([self.columns[g] for g in chosen]))
-            target = target - basis @ (basis.T @ target)
-        taken = np.zeros(len(others))
-        plain = [k for k, g in enumerate(others) if self.columns[g].shape[1] == 1]
-        if plain:
-            taken[plain] = _taken_singly(target, basis, np.column_stack([self.columns[others[k]] for k in plain]))
-        for k, g in enumerate(others):
-            if self.columns[g].shape[1] > 1:
-                taken[k] = _taken(target, basis, self.columns[g])
-        return float(target @ target) + self.logdet - taken
-
-
-def _taken_singly(target: np.ndarray, basis: np.ndarray | None, columns: np.ndarray) -> np.ndarray:
-    """Square sums (j,) that each of the columns (rows, j) takes away alone beside `basis`."""
-    norms = np.einsum("ij,ij->j", columns, columns)
-    left = norms - (np.sum((basis.T @ columns) ** 2, axis=0) if basis is not None else 0.0)
-    return np.where(left > DEPENDENT * norms, (columns.T @ target) ** 2 / np.maximum(left, 1e-300), 0.0)
-
-
-def _taken(target: np.ndarray, basis: np.ndarray | None, block: np.ndarray) -> float:
-    """Square sum of `target` that the columns of `block` take away beside `basis`."""
-    gram, right = block.T @ block, block.T @ target
-    if basis is not None:
-        crossed = basis.T @ block
-        rest = gram - crossed.T @ crossed
-        if np.trace(rest) < DEPENDENT * np.trace(gram):
-            return 0.0
-        gram = rest
-    size = np.sqrt(np.maximum(np.diag(gram), 1e-300))
-    solved = np.linalg.lstsq(gram / np.outer(size, size), right / size, rcond=1e-9)[0]
-    return float(right @ (solved / size))
 
 
 def proposals(locator: Locator, site: Site, guided: Guided, most: int) -> list[Proposal]:

@@ -17,7 +17,8 @@ from lacuna.discovery.law_terms import DRY, Group, Shape, Variable
 from lacuna.units import parse_unit
 
 MOST = 12  # variables at a place, the nearest first: their pairs are what a search costs
-SAME = 1e-3  # of their largest value, within which two variables are one, but for a factor
+SAME = 1e-3  # of their largest value, within which a variable is a polynomial of another one
+DEGREE = 3  # of that polynomial
 MOVES = 1e-6  # share of its largest value that a variable must move by
 LEAST = 1.5  # cycles over the range: less of a wave is a bend, which powers say with fewer numbers
 CYCLES = 30  # of a wave along a variable, over the range that it has
@@ -30,7 +31,7 @@ _WHOLE = (1 / 3, 2 / 3, 1.0, 7 / 4, *EXPONENTS, 5.0)
 def variables(
     along: Sequence[Along], location: str, units: dict[str, str], states: list[str], answering: frozenset[str]
 ) -> list[Variable]:
-    """The variables of a law at `location`, the nearest first; those that are others times a factor are left out.
+    """The variables of a law at `location`, the nearest first; those that follow from another one are left out.
 
     `answering` are those that the effort changes at once: they are in the balance that says what the effort is, and a
     sum of them is that balance again. Of them only rates of states serve, where something else multiplies them.
@@ -56,7 +57,7 @@ def variables(
         if not np.isfinite(size) or np.ptp(course) <= MOVES * largest[units.get(name, name)]:
             continue
         scaled = course / size
-        if any(min(np.abs(scaled - c).max(), np.abs(scaled + c).max()) < SAME for c in courses):
+        if any(_says_nothing_new(scaled, c) for c in courses):
             continue
         unit = units.get(name) or _rate(units.get(name.removeprefix("der(").removesuffix(")"), ""))
         kind = "state" if name in order else "rate" if name in answering else "other"
@@ -65,6 +66,12 @@ def variables(
         if len(kept) == MOST:
             break
     return kept
+
+
+def _says_nothing_new(course: np.ndarray, known: np.ndarray) -> bool:
+    """Whether a quantity is another one on another scale, or a power of it (an energy beside a speed)."""
+    basis = np.vander(known, DEGREE + 1)
+    return bool(np.abs(course - basis @ np.linalg.lstsq(basis, course, rcond=None)[0]).max() < SAME)
 
 
 def _rate(unit: str) -> str:

@@ -6,10 +6,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tests.proof.machines import electrical, hydraulic, mechanical, thermal
+from tests.proof.machines import electrical, hydraulic, mechanical, rotating, thermal
 from tests.proof.machines.machine import Machine
 
-MACHINES: tuple[Machine, ...] = (*thermal.MACHINES, *hydraulic.MACHINES, *mechanical.MACHINES, *electrical.MACHINES)
+MACHINES: tuple[Machine, ...] = (
+    *thermal.MACHINES,
+    *hydraulic.MACHINES,
+    mechanical.SLIDE,
+    rotating.GEARED,
+    mechanical.PENDULUM,
+    rotating.TWO_MASS,
+    *electrical.MACHINES,
+)
 PAIRS = (("House", (0, 2)), ("Cylinder", (0, 2)), ("GearedMotor", (0, 2)), ("TwoMass", (0, 3)), ("Filter", (0, 3)))
 WEAK = (("Pendulum", 0), ("ThreeTanks", 0), ("Loudspeaker", 0))
 HALF = (

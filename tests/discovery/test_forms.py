@@ -1,0 +1,66 @@
+"""Terms of laws: quantities that lag, on a closed form; laws that have a name."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from lacuna.discovery.efforts.sites import Site as Place
+from lacuna.discovery.law import Law, Site, attach
+from lacuna.discovery.law_terms import Group, Shape, Variable, lagged
+
+POWER = (Shape("p", "1", 2.0, 0.1, 8.0),)
+RELAXING = Group(("((x1/x1_ref) - lag((x1/x1_ref), {t}))",), (Shape("t", "s", 0.5, 0.1, 5.0),))
+
+
+def law(gives: str, of: str, *groups: Group) -> Law:
+    variable = Variable("x1", "body.x", of, "state", 2.0)
+    return Law(Site(Place("equation", "a = b"), "body", gives, (variable,)), groups)
+
+
+def test_a_ramp_behind_a_lag_is_that_ramp_late() -> None:
+    time = np.sort(np.random.default_rng(3).uniform(0, 4, 200))
+    tau = 0.3
+    since = time - time[0]
+    exact = since - tau * (1 - np.exp(-since / tau))
+    np.testing.assert_allclose(lagged(time, since, tau), exact, atol=1e-12)
+
+
+def test_a_lag_of_any_signal_does_not_depend_on_how_finely_it_is_sampled() -> None:
+    coarse = np.linspace(0, 2, 41)
+    fine = np.linspace(0, 2, 401)
+    signal = np.random.default_rng(4).normal(size=41)
+    whole = lagged(fine, np.interp(fine, coarse, signal), 0.2)
+    np.testing.assert_allclose(lagged(coarse, signal, 0.2), whole[::10], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("gives", "of", "group", "exponent", "form"),
+    [
+        ("W", "K", Group(("abs(x1/x1_ref)^4",)), 0, "radiation"),
+        ("W", "K", Group(("abs(x1/x1_ref)^{p}",), POWER), 4.2, "radiation"),
+        ("W", "K", Group(("abs(x1/x1_ref)^{p}",), POWER), 1.3, "convection.natural"),
+        ("W", "K", Group(("abs(x1/x1_ref)^{p}",), POWER), 2.0, ""),
+        ("N", "m/s", Group(("sign(x1)*abs(x1/x1_ref)^{p}",), POWER), 2.0, "drag.quadratic"),
+        ("N.m", "K", Group(("sign(x1)*abs(x1/x1_ref)^{p}",), POWER), 2.0, ""),
+        ("m3/s", "Pa", Group(("sign(x1)*abs(x1/x1_ref)^{p}",), POWER), 0.5, "leakage.turbulent"),
+        ("A", "V", Group(("exp({q}*(x1/x1_ref))",), (Shape("q", "1", 2.0, 0.1, 8.0),)), 0, "diode"),
+        ("W", "K", RELAXING, 0, "relaxation"),
+    ],
+)  # fmt: skip
+def test_a_law_of_known_form_bears_its_name_in_its_domain_alone(
+    gives: str, of: str, group: Group, exponent: float, form: str
+) -> None:
+    alone, beside = law(gives, of, group), law(gives, of, Group(("1",)), group)
+    shapes = {"q": 1.0, "t": 0.5} | ({"p": exponent} if exponent else {})
+    assert alone.form({f"{n}_1": v for n, v in shapes.items()}) == form
+    assert beside.form({f"{n}_2": v for n, v in shapes.items()}) == form
+
+
+def test_what_lags_becomes_a_state_of_the_law_once() -> None:
+    twice = Group(("((x1/x1_ref) - lag((x1/x1_ref), {t}))", "lag((x1/x1_ref), {t})"), RELAXING.shapes)
+    source = attach(law("W", "K", twice)).definition
+    assert source.count("Real z_1") == 1
+    assert "z_2" not in source
+    assert "t_1*der(z_1) = (x1/x1_ref) - z_1;" in source
+    assert "z_1 = (x1/x1_ref);" in source.partition("initial equation")[2].partition("\nequation")[0]
