@@ -16,6 +16,7 @@ from lacuna.cli import (
     examples,
     explain,
     fleet,
+    fmu,
     forecast,
     list,
     maps,
@@ -69,6 +70,7 @@ app.command("check", rich_help_panel=MODELS)(check.check)
 app.command("compile", rich_help_panel=MODELS)(compile.compile)
 app.command("simulate", rich_help_panel=MODELS)(simulate.simulate)
 app.command("compare", rich_help_panel=MODELS)(compare.compare)
+app.command("fmu", rich_help_panel=MODELS)(fmu.fmu)
 app.add_typer(list.app, name="list", rich_help_panel=MODELS)
 app.command("examples", rich_help_panel=MODELS)(examples.examples)
 app.command("maps", rich_help_panel=FAULTS)(maps.maps)
