@@ -33,10 +33,10 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
     help="""Equations in, health maps out; and when a recording disagrees, the missing physics.
 
-MODEL is a qualified name such as [bold]Actuators.EccentricBldc[/bold], found in the package [bold]model/[/bold], in a
-[bold]--library[/bold] or in MODELICAPATH; a [bold].mo[/bold] file of yours, or the folder of a package, with
-[bold]--model[/bold] for a class in it. Commands write under [bold]out/[/bold] unless --out says otherwise, print what
-they wrote, and end with status 0 only when all went well.
+MODEL is a qualified name such as [bold]Actuators.EccentricBldc[/bold], found in the package Lacuna that is
+installed with it, in a [bold]--library[/bold] or in MODELICAPATH; a [bold].mo[/bold] file of yours, or the folder of a
+package, with [bold]--model[/bold] for a class in it. Commands write under [bold]out/[/bold] unless --out says
+otherwise, print what they wrote, and end with status 0 only when all went well.
 
 [bold]Start here[/bold]
 

@@ -83,8 +83,9 @@ enum {
   RT_PENDING_STATE = 1,
   RT_PENDING_TIME = 2,
   RT_PENDING_SAMPLE = 4,
-  RT_PENDING_JUMP = 8,  /* of a held input */
-  RT_PENDING_KINK = 16, /* of a linear input, where the method restarts at kinks */
+  RT_PENDING_JUMP = 8,    /* of a held input */
+  RT_PENDING_KINK = 16,   /* of a linear input, where the method restarts at kinks */
+  RT_PENDING_BRANCH = 32, /* algebraic unknowns have jumped: the branch that they followed has ended */
   RT_PENDING_INPUT = RT_PENDING_JUMP | RT_PENDING_KINK
 };
 
@@ -138,9 +139,9 @@ struct rt_session {
   double *d_before, *d_after;             /* discrete variables before an event; and aside while it is differentiated */
   double *x_swept, *d_swept;              /* states after a sweep of an event, discrete variables before it */
   unsigned char *rel_swept, *when_before; /* relations before a sweep, when conditions before its pass */
+  unsigned char *rel_before, *rel_trial;  /* [n_rel] */
   bool reinitialised;                     /* the last event did */
   unsigned char *flip;                    /* [n_rel] relations that switch at t */
-  unsigned char *rel_before, *rel_trial;  /* [n_rel] */
   int pending;
   double last_event;          /* time of the last event (s) */
   int futile_events;          /* consecutive events that got nowhere, see check_chattering */
@@ -251,12 +252,11 @@ void rt_dense_point(rt_session *s, double t, bool alone, double *x);
 void rt_dense_eval(const rt_dense *dense, int n, double t, double *x);
 void rt_dense_column(const rt_dense *dense, int n, int i, size_t points, const double *t, double *x);
 
-/* roots.c */
+/* roots.c and dips.c */
 rt_status rt_find_state_event(rt_session *s);
 double rt_margin(const rt_session *s, int r, double g);
 int rt_guards_at(rt_session *s, double t, double *g);
-
-/* dips.c */
+void rt_resume_step(rt_session *s);
 bool rt_may_dip(const rt_session *s);
 int rt_find_dip(rt_session *s, double *inside);
 int rt_follow_switches(rt_session *s, double since);

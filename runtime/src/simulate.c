@@ -92,6 +92,7 @@ static rt_status step(rt_session *s) {
     return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "more than %ld steps up to time %.9g s", s->options.max_steps,
                    s->t);
   s->dense.valid = false;
+  if (s->recorder.needs_rhs) memcpy(s->recorder.v, s->data.v, (size_t)s->d->n_v * sizeof *s->data.v);
   if (s->sensitivities) s->sensitivities->dense.valid = false;
   rt_looks_start(s);
   rt_status status = s->method->step(s, s->memory, rt_clock_limit(s));
@@ -172,8 +173,9 @@ rt_result *rt_session_run(rt_session *s, double start, double stop) {
   rt_status status = rt_begin(s);
   s->looked_at = clock_of(CLOCK_MONOTONIC);
   rt_start_patience(s);
-  while (!status && s->t < s->stop && !s->data.terminated)
+  while (!status && s->t + s->clock.tolerance < s->stop && !s->data.terminated)
     if (!(status = rt_advance(s))) status = rt_happen(s);
+  if (!status && !s->data.terminated) s->t = s->stop; /* from an event that is one instant with the end */
   finish(s, status);
   return s->result;
 }
