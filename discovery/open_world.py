@@ -26,7 +26,8 @@ def explain_open(search: Search, unbegun: Search, library: Library, progress: Pr
 
     None where that is so, or where fits need shafts held near their motion: those are left to the catalogue.
     """
-    if not unbegun.lead.direct or unbegun.amendment.trackers or like_noise(unbegun.fit):
+    quiet = nearly_noise(unbegun.fit) and like_noise(unbegun.fit)  # colour alone may also be a misfit of fast motion
+    if not unbegun.lead.direct or unbegun.amendment.trackers or quiet:
         return None
     explained = search.settled() or nearly_noise(search.fit)
     if explained and any(not f.ranked.attachment.variable for f in search.findings):
