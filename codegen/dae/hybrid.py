@@ -8,7 +8,8 @@
     edge change         and / <> with pre
 
 Left as they are (no root): what stands in noEvent or smooth, relations between discrete variables and
-parameters only, bodies of when clauses and functions. New leaves: op "rel" and "tick" with value k.
+parameters only, bodies of when clauses and functions, and what stands under a root (ends.py). New leaves: op "rel"
+and "tick" with value k.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from lacuna.codegen import flat
+from lacuna.codegen.dae.ends import ends, is_call, keep_promises, under_roots
 from lacuna.codegen.errors import Span
 from lacuna.codegen.symbolic.affine import affine
 from lacuna.codegen.symbolic.expr import (  # fmt: skip
@@ -39,6 +41,7 @@ from lacuna.codegen.symbolic.expr import (  # fmt: skip
     neg,
     node,
     pre,
+    rebuild,
     relation,
     special,
     sub,
@@ -71,7 +74,8 @@ class Hybrid:
 def analyse(model: flat.FlatModel) -> Hybrid:
     """Freeze relations and lower the event-generating operators of `model`."""
     freezer = _Freezer(model.variables, model.span)
-    equations = [freezer.equation(e) for e in model.equations]
+    freezer.look_under_roots(model.equations)
+    equations = [freezer.equation(e) for e in keep_promises(model.equations)]
     whens = [freezer.when(w) for w in model.whens]
     algorithms = [freezer.algorithm(a) for a in model.algorithms]
     freezer.generating = False
@@ -111,7 +115,11 @@ class _Freezer:
         self._numbers: dict[tuple[Expr, Expr], int] = {}
         self._ticks: dict[Expr, int] = {}
         self._floors: dict[Expr, Expr] = {}
+        self._rooted: set[Expr] = set()  # x of every sqrt(abs(x))
         self.bodies = Rewriter(self._body_rule)
+
+    def look_under_roots(self, equations: list[flat.Equation]) -> None:
+        self._rooted = under_roots(equations)
 
     # -- where expressions stand ------------------------------------------------------------------------------
 
@@ -184,6 +192,10 @@ class _Freezer:
         if n.op in RELATIONS and n.op not in ("==", "<>") and self._continuous(n):
             left, right, positive = _canonical(n)
             return self._relation(self.freeze(left), self.freeze(right), positive)
+        if ends(n):
+            return rebuild(n, tuple(transform(a, self._under_root, {}) for a in n.args))
+        if is_call(n, "sign") and n.args[0] in self._rooted:
+            return call("sign", self.freeze(n.args[0]))
         if n.op in ("min", "max") and self._continuous(n):
             a, b = map(self.freeze, n.args)
             first = self._relation(b, a, False) if n.op == "max" else self._relation(a, b, False)
@@ -191,6 +203,11 @@ class _Freezer:
         if n.op == "call" and n.value in _LOWER and self._continuous(n):
             return _LOWER[str(n.value)](self, *map(self.freeze, n.args))
         return None
+
+    def _under_root(self, n: Expr) -> Expr | None:
+        if n.op in ("min", "max") or is_call(n, "abs"):
+            return None
+        return self._rule(n)
 
     def _relation(self, left: Expr, right: Expr, positive: bool) -> Expr:
         if left.op == right.op == "const":
