@@ -40,12 +40,12 @@ def compare(
     if against:
         if model is None:
             raise lacuna.UserError("--against needs a MODEL to compare the file with")
-        return _with_file(
-            lacuna.compare_with_file(
+        with progress() as tell:
+            found = lacuna.compare_with_file(
                 model, against, class_name=class_name, libraries=library or [], parameters=values, inputs=driven,
-                tolerance=tolerance,
-            )
-        )  # fmt: skip
+                tolerance=tolerance, progress=tell,
+            )  # fmt: skip
+        return _with_file(found)
     with progress() as tell:
         done = lacuna.compare(
             model, class_name=class_name, libraries=library or [], parameters=values, inputs=driven, only=only,

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 import typer
 
 import lacuna
-from lacuna.cli.answer import Answer, answered
+from lacuna.cli.answer import Answer, answered, progress
 
 
 @answered
@@ -42,10 +42,11 @@ def forecast(
     say" is an answer; a history that contradicts itself is refused with the row.
     """
     folder = out or Path("out/forecast") / _name(history)
-    found = lacuna.forecast(
-        history, map, folder, laws=laws or (), risk=risk, horizon=horizon, unit=unit, columns=current,
-        unfiltered=unfiltered,
-    )  # fmt: skip
+    with progress() as tell:
+        found = lacuna.forecast(
+            history, map, folder, laws=laws or (), risk=risk, horizon=horizon, unit=unit, columns=current,
+            unfiltered=unfiltered, progress=tell,
+        )  # fmt: skip
     sentences = found.sentences
     more = [f"... and {len(sentences) - SHOWN} more actuators"] if len(sentences) > SHOWN else []
     parts: list = [*sentences[:SHOWN], *more]

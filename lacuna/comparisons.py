@@ -149,6 +149,7 @@ def compare_with_file(
     parameters: Mapping[str, float] | None = None,
     inputs: Mapping[str, Input] | None = None,
     tolerance: float = 1e-3,
+    progress: Progress | None = None,
 ) -> Agreement:
     """Simulate a model on the instants of a CSV produced elsewhere (header: time and full names) and compare.
 
@@ -160,7 +161,7 @@ def compare_with_file(
 
     time, columns = read_columns(Path(file))
     loaded = load(model, class_name=class_name, libraries=libraries, parameters=parameters)
-    result = loaded.run_at(time, list(columns), inputs or {})
+    result = loaded.run_at(time, list(columns), inputs or {}, progress)
     found = compared(result, time, columns)
     rows = tuple((d.name, d.maximum, d.rms, d.relative, d.at_time) for d in found)
     return Agreement(loaded.name, Path(file), tolerance, rows)

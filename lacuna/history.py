@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lacuna.extras import names_missing_packages
+from lacuna.progress import Progress, counted, spoken
 
 if TYPE_CHECKING:
     from lacuna.analysis.history.store import Entry
@@ -28,6 +29,7 @@ def remember(
     replaced: bool = False,
     columns: Sequence[str] | None = None,
     unfiltered: bool = False,
+    progress: Progress | None = None,
 ) -> int:
     """Assess a recording by the map in folder `map` and append what it shows to the history store; how many rows are
     new.
@@ -39,6 +41,7 @@ def remember(
     from lacuna.analysis.history.store import Entry, Store, file_hash
 
     path = Path(recording).resolve()
+    spoken(progress)(f"assessing {path.name}")
     readings, covariance, features = _readings(path, Path(map), columns, unfiltered)
     entries = [
         Entry(
@@ -53,7 +56,12 @@ def remember(
 
 @names_missing_packages
 def refresh(
-    store: str | Path, map: str | Path, *, columns: Sequence[str] | None = None, unfiltered: bool = False
+    store: str | Path,
+    map: str | Path,
+    *,
+    columns: Sequence[str] | None = None,
+    unfiltered: bool = False,
+    progress: Progress | None = None,
 ) -> int:
     """Read again, by the map in folder `map`, what another map has read and whose file is still there; rows that are
     new."""
@@ -61,7 +69,10 @@ def refresh(
 
     new = 0
     done = set()
-    for entry in Store(store).outdated(map_hash(Path(map))):
+    count = counted("assessing again", progress)
+    outdated = list(Store(store).outdated(map_hash(Path(map))))
+    for number, entry in enumerate(outdated):
+        count(number, len(outdated))
         if entry.recording not in done:
             done.add(entry.recording)
             new += _again(entry, map, store, columns, unfiltered)

@@ -18,6 +18,7 @@ from dataclasses import dataclass, field, replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.dae.ends import ends, is_call, keep_promises, under_roots
+from lacuna.codegen.dae.relations import Relation, canonical, complement, within
 from lacuna.codegen.errors import Span
 from lacuna.codegen.symbolic.affine import affine
 from lacuna.codegen.symbolic.expr import (  # fmt: skip
@@ -53,16 +54,6 @@ from lacuna.codegen.symbolic.rewrite import Rewriter
 
 
 @dataclass
-class Relation:
-    """left > right; `slope` is d(left - right)/dt of a time relation, None of a root."""
-
-    left: Expr
-    right: Expr
-    source: flat.Equation
-    slope: Expr | None = None
-
-
-@dataclass
 class Hybrid:
     """A flat model whose expressions hold frozen relations, and what they stand for."""
 
@@ -73,8 +64,7 @@ class Hybrid:
 
 def analyse(model: flat.FlatModel) -> Hybrid:
     """Freeze relations and lower the event-generating operators of `model`."""
-    freezer = _Freezer(model.variables, model.span)
-    freezer.look_under_roots(model.equations)
+    freezer = _Freezer(model.variables, model.span, under_roots(model.equations))
     equations = [freezer.equation(e) for e in keep_promises(model.equations)]
     whens = [freezer.when(w) for w in model.whens]
     algorithms = [freezer.algorithm(a) for a in model.algorithms]
@@ -104,7 +94,7 @@ def strip(e: Expr) -> Expr:
 
 
 class _Freezer:
-    def __init__(self, variables: dict[str, flat.Variable], span: Span):
+    def __init__(self, variables: dict[str, flat.Variable], span: Span, rooted: set[Expr]):
         self.variables = dict(variables)
         self.relations: list[Relation] = []
         self.samples: list[tuple[Expr, Expr]] = []
@@ -115,11 +105,9 @@ class _Freezer:
         self._numbers: dict[tuple[Expr, Expr], int] = {}
         self._ticks: dict[Expr, int] = {}
         self._floors: dict[Expr, Expr] = {}
-        self._rooted: set[Expr] = set()  # x of every sqrt(abs(x))
+        self._rooted = rooted  # x of every sqrt(abs(x))
+        self._written = ZERO  # the call that is being lowered
         self.bodies = Rewriter(self._body_rule)
-
-    def look_under_roots(self, equations: list[flat.Equation]) -> None:
-        self._rooted = under_roots(equations)
 
     # -- where expressions stand ------------------------------------------------------------------------------
 
@@ -153,7 +141,7 @@ class _Freezer:
 
     def _body_rule(self, n: Expr) -> Expr | None:
         if n.op in RELATIONS and self._continuous(n):
-            left, right, positive = _canonical(n)
+            left, right, positive = canonical(n)
             number = self._numbers.get((self.freeze(left), self.freeze(right)))
             if number is not None:
                 return self._frozen(number, positive)
@@ -190,26 +178,27 @@ class _Freezer:
         if n.op == "pre":  # of a continuous variable: its value on arrival at the event
             return n.args[0] if self._is_continuous(n.args[0]) else None
         if n.op in RELATIONS and n.op not in ("==", "<>") and self._continuous(n):
-            left, right, positive = _canonical(n)
-            return self._relation(self.freeze(left), self.freeze(right), positive)
+            left, right, positive = canonical(n)
+            left, right = self.freeze(left), self.freeze(right)
+            return self._relation(left, right, positive, str(n) if positive else str(complement(n)))
         if ends(n):
             return rebuild(n, tuple(transform(a, self._under_root, {}) for a in n.args))
         if is_call(n, "sign") and n.args[0] in self._rooted:
             return call("sign", self.freeze(n.args[0]))
         if n.op in ("min", "max") and self._continuous(n):
             a, b = map(self.freeze, n.args)
-            first = self._relation(b, a, False) if n.op == "max" else self._relation(a, b, False)
-            return if_else(first, a, b)
+            left, right = (b, a) if n.op == "max" else (a, b)
+            return if_else(self._relation(left, right, False, within(n, left, right)), a, b)
         if n.op == "call" and n.value in _LOWER and self._continuous(n):
-            return _LOWER[str(n.value)](self, *map(self.freeze, n.args))
+            arguments = list(map(self.freeze, n.args))
+            self._written = n
+            return _LOWER[str(n.value)](self, *arguments)
         return None
 
     def _under_root(self, n: Expr) -> Expr | None:
-        if n.op in ("min", "max") or is_call(n, "abs"):
-            return None
-        return self._rule(n)
+        return None if n.op in ("min", "max") or is_call(n, "abs") else self._rule(n)
 
-    def _relation(self, left: Expr, right: Expr, positive: bool) -> Expr:
+    def _relation(self, left: Expr, right: Expr, positive: bool, text: str = "") -> Expr:
         if left.op == right.op == "const":
             return const((left.value > right.value) == positive)
         number = self._numbers.get((left, right))
@@ -218,7 +207,8 @@ class _Freezer:
                 holds = relation(">", left, right)
                 return holds if positive else logical_not(holds)
             number = self._numbers[left, right] = len(self.relations)
-            self.relations.append(Relation(left, right, self._source, self._slope(left, right)))
+            text = text or within(self._written, left, right)
+            self.relations.append(Relation(left, right, self._source, self._slope(left, right), text))
         return self._frozen(number, positive)
 
     def _frozen(self, number: int, positive: bool) -> Expr:
@@ -250,8 +240,8 @@ class _Freezer:
         self.variables[name] = flat.Variable(
             name, self._source.span, INTEGER, flat.DISCRETE, description="whole part kept between events"
         )
-        above = self._relation(add(pre(n), const(1)), x, False)
-        below = self._relation(pre(n), x, True)
+        above = self._relation(add(pre(n), const(1)), x, False, f"{self._written} has not risen")
+        below = self._relation(pre(n), x, True, f"{self._written} has fallen")
         whole = call("integer", x)
         value = if_else(below, minimum(sub(pre(n), const(1)), whole), pre(n))
         value = if_else(above, maximum(add(pre(n), const(1)), whole), value)
@@ -285,13 +275,3 @@ _LOWER = {
     "floor": _Freezer.floor, "integer": _Freezer.floor, "ceil": _Freezer.ceil, "mod": _Freezer.mod,
     "rem": _Freezer.remainder, "div": _Freezer.quotient, "abs": _Freezer.abs, "sign": _Freezer.sign,
 }  # fmt: skip
-
-
-def _canonical(n: Expr) -> tuple[Expr, Expr, bool]:
-    """(a, b, positive): the relation is a > b, or its negation where not positive."""
-    a, b = n.args
-    if n.op == ">":
-        return a, b, True
-    if n.op == "<":
-        return b, a, True
-    return (a, b, False) if n.op == "<=" else (b, a, False)

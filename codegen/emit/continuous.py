@@ -14,7 +14,7 @@ from lacuna.codegen.emit.steps import StepWriter, comment, place
 from lacuna.codegen.structure.causal import Step, unknowns_of
 from lacuna.codegen.structure.residual_form import CJ, needed
 from lacuna.codegen.structure.tearing import Assignment
-from lacuna.codegen.symbolic.expr import ONE, Expr, relation, sub, var
+from lacuna.codegen.symbolic.expr import ONE, Expr, sub, var
 from lacuna.codegen.symbolic.leaves import leaves
 
 RHS = "static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double *v)"
@@ -145,7 +145,7 @@ class Continuous:
         body.plan(sub(r.left, r.right) for r in self._p.relations if r.slope is None)
         for k, r in enumerate(self._p.relations):
             value = body.value(sub(r.left, r.right)) if r.slope is None else "0.0"
-            body.line(f"g[{k}] = {value};  {comment(r.source, str(relation('>', r.left, r.right)))}")
+            body.line(f"g[{k}] = {value};  {comment(r.source, r.text)}")
         return function(ROOTS, body)
 
     def check(self) -> str:

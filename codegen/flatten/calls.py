@@ -10,7 +10,7 @@ from lacuna.codegen.flatten.constants import is_parameter, known, variability
 from lacuna.codegen.flatten.derivative import time_derivative
 from lacuna.codegen.flatten.enumerations import as_integer
 from lacuna.codegen.flatten.function_code import is_done
-from lacuna.codegen.flatten.functions import call_function, construct_record
+from lacuna.codegen.flatten.functions import call_function
 from lacuna.codegen.flatten.lower import Handler, lower, lower_scalar
 from lacuna.codegen.flatten.scope import Scope, enumeration, find_class, own_or_inherited
 from lacuna.codegen.flatten.texts import text_of
@@ -60,11 +60,11 @@ def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
     if cls is not None and is_external(cls):
         return call_function(own_or_inherited(scope.context.library, cls, "constructor"), e, scope)
     if cls is not None and cls.kind == "record":
-        return [construct_record(cls, e, scope)]
+        return [scope.context.lowering.construct(cls, e, scope)]
     if cls is not None:
         raise Diagnostic("R004", f"{name} is a {cls.kind} and cannot be called", e.function.span, "call a function")
     if name in _OUTSIDE or name.startswith("Connections."):
-        hint = _OUTSIDE.get(name, "write the equations out")
+        hint = _OUTSIDE.get(name, "it stands alone in an equation section, under conditions known at translation only")
         raise Diagnostic("R091", f"{name} is outside the subset", e.function.span, hint)
     if name in ("reinit", "assert", "terminate"):
         raise Diagnostic("R004", f"{name} has no value", e.function.span, "it stands alone, ended by ';'")

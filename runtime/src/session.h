@@ -146,9 +146,9 @@ struct rt_session {
   signed char *division_sign; /* [n_divisions] of their products when they were last looked at; 0 not known */
   rt_recorder recorder;
   rt_sensitivities *sensitivities; /* NULL: none are asked for */
-  int (*interrupted)(void);        /* asked now and then; NULL: never */
+  int (*interrupted)(double time); /* asked now and then; NULL: never */
   long looks;
-  double looked_at; /* monotonic clock (s) */
+  double looked_at, patient_from, patient_t; /* monotonic clock; processor time and t where patience began */
   rt_failure failure;
   rt_result *result;
 };

@@ -6,9 +6,11 @@
 #include "looks.h"
 #include "sensitivity.h"
 
-enum { MAX_TINY_STEPS = 100, STEPS_BETWEEN_LOOKS = 1024 };
+enum { MAX_TINY_STEPS = 100, STEPS_BETWEEN_LOOKS = 64 };
 static const double most_steps = 1e10; /* of a fixed size: weeks */
 static const double look_every = 0.1;  /* s of wall time: has the caller lost interest? */
+static const double patience = 60;     /* s of computing that may bring less than */
+static const double headway = 1e-6;    /* of the run: at this pace it takes two years */
 
 static rt_status check_asserts(rt_session *s) {
   mdl_data *m = &s->data;
@@ -28,18 +30,42 @@ static rt_status check_settings(rt_session *s) {
   return RT_OK;
 }
 
-/* Ask the caller now and then whether to go on. */
-static rt_status look_up(rt_session *s) {
+static double clock_of(clockid_t clock) {
   struct timespec now;
-  if (!s->interrupted || s->looks++ % STEPS_BETWEEN_LOOKS) return RT_OK;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  double seconds = (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-  if (seconds - s->looked_at < look_every) return RT_OK;
-  s->looked_at = seconds;
-  return s->interrupted() ? rt_fail(s, RT_INTERRUPTED, s->t, -1, NULL, "interrupted at time %.9g s", s->t) : RT_OK;
+  clock_gettime(clock, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-void rt_session_watch(rt_session *s, int (*interrupted)(void)) {
+static void start_patience(rt_session *s) {
+  s->patient_from = clock_of(CLOCK_THREAD_CPUTIME_ID);
+  s->patient_t = s->t;
+}
+
+/* Processor time, so that a run that was stopped for a while is not blamed for it. */
+static rt_status check_patience(rt_session *s) {
+  double span = s->stop - s->start, done = s->t - s->patient_t, limit = s->options.patience;
+  if (done >= headway * span) {
+    start_patience(s);
+    return RT_OK;
+  }
+  if (clock_of(CLOCK_THREAD_CPUTIME_ID) - s->patient_from <= (limit > 0 ? limit : patience)) return RT_OK;
+  return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL,
+                 "no progress at time %.9g s: %.3g s of computing brought %.3g s of %.9g s (step %.3g s)", s->t,
+                 limit > 0 ? limit : patience, done, span, s->t - s->t_previous);
+}
+
+/* Now and then: is there progress, and does the caller want to go on? */
+static rt_status look_up(rt_session *s) {
+  if (s->looks++ % STEPS_BETWEEN_LOOKS) return RT_OK;
+  double now = clock_of(CLOCK_MONOTONIC);
+  if (now - s->looked_at < look_every) return RT_OK;
+  s->looked_at = now;
+  rt_status status = check_patience(s);
+  if (status || !s->interrupted || !s->interrupted(s->t)) return status;
+  return rt_fail(s, RT_INTERRUPTED, s->t, -1, NULL, "interrupted at time %.9g s", s->t);
+}
+
+void rt_session_watch(rt_session *s, int (*interrupted)(double time)) {
   s->interrupted = interrupted;
 }
 
@@ -140,6 +166,8 @@ rt_result *rt_session_run(rt_session *s, double start, double stop) {
   s->result = rt_result_new(s->recorder.n, s->sensitivities ? s->sensitivities->n : 0, s->d->n_p, expected_rows(s));
   if (!s->result) return NULL;
   rt_status status = begin(s);
+  s->looked_at = clock_of(CLOCK_MONOTONIC);
+  start_patience(s);
   while (!status && s->t < s->stop && !s->data.terminated)
     status = advance(s);
   finish(s, status);

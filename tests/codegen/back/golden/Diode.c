@@ -21,7 +21,7 @@ static const mdl_variable mdl_variables[] = {
 };
 
 static const mdl_relation mdl_relations[] = {
-  {{"T > time", "Diode.mo", 13, ""}, 1}
+  {{"time < T", "Diode.mo", 13, ""}, 1}
 };
 
 static const int mdl_z_index[] = {
@@ -310,7 +310,7 @@ static int mdl_roots(mdl_data *m, double t, const double *x, const double *xdot,
   (void)x;
   (void)xdot;
   (void)v;
-  g[0] = 0.0;  /* Diode.mo:13  T > time */
+  g[0] = 0.0;  /* Diode.mo:13  time < T */
   return 0;
 }
 
