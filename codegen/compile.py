@@ -12,7 +12,7 @@ import time
 from typing import TypeVar
 
 from lacuna.codegen import cache, flat
-from lacuna.codegen.dae import events, hybrid
+from lacuna.codegen.dae import events, homotopy, hybrid
 from lacuna.codegen.dae.discrete_starts import discrete_starts
 from lacuna.codegen.dae.divisions import divisions
 from lacuna.codegen.dae.free_parameters import free_parameters
@@ -81,7 +81,8 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     sys.setrecursionlimit(max(sys.getrecursionlimit(), 20000))
     declared = report.run("initial system", free_parameters, declared)
     aliases = report.run("aliases", eliminate_aliases, declared)
-    frozen = report.run("hybrid", hybrid.analyse, aliases.model)
+    split = report.run("initial system", homotopy.split, aliases.model)
+    frozen = report.run("hybrid", hybrid.analyse, split)
     model = report.run("initial system", discrete_starts, frozen.model)
     continuous, discrete = report.run("hybrid", events.split, model)
     system = report.run("index reduction", reduce_index, model, continuous)

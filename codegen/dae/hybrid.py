@@ -113,7 +113,8 @@ class _Freezer:
 
     def equation(self, e: flat.Equation) -> flat.Equation:
         self._source = e
-        return replace(e, lhs=self.freeze(e.lhs), rhs=self.freeze(e.rhs))
+        start = (self.freeze(e.start[0]), self.freeze(e.start[1])) if e.start else None
+        return replace(e, lhs=self.freeze(e.lhs), rhs=self.freeze(e.rhs), start=start)
 
     def _condition(self, e: Expr, span: flat.Span, origin: str) -> Expr:
         self._source = flat.Equation(ZERO, ZERO, span, origin, f"when {e}")
