@@ -54,14 +54,19 @@ def _expressions(steps: Iterable[Step]) -> Iterator[tuple[Expr, flat.Equation]]:
                     yield row.rhs, row.source
 
 
-def _quotients(e: Expr, condition: Expr, seen: set[tuple[Expr, Expr]]) -> Iterator[tuple[Expr, Expr, Expr]]:
-    """(numerator, divisor, condition under which it is computed) of every division in `e`."""
+def _quotients(
+    e: Expr, condition: Expr, seen: set[tuple[Expr, Expr]], quiet: bool = False
+) -> Iterator[tuple[Expr, Expr, Expr]]:
+    """(numerator, divisor, condition under which it is computed) of every division in `e`. Branches without events
+    (`quiet`) are left out: the zero of `noEvent(if abs(i) > eps then a/i else a/eps)` lies in the other branch."""
     if e.op in LEAF_OPS or not e.args or (e, condition) in seen:
         return
     seen.add((e, condition))
     if e.op == "if":
         test, then, otherwise = e.args
         yield from _quotients(test, condition, seen)
+        if quiet:
+            return
         yield from _quotients(then, logical_and(condition, test), seen)
         yield from _quotients(otherwise, logical_and(condition, logical_not(test)), seen)
         return
@@ -70,7 +75,7 @@ def _quotients(e: Expr, condition: Expr, seen: set[tuple[Expr, Expr]]) -> Iterat
     elif e.op == "^" and is_const(e.args[1]) and e.args[1].value < 0:
         yield ONE, e.args[0], condition
     for a in e.args:
-        yield from _quotients(a, condition, seen)
+        yield from _quotients(a, condition, seen, quiet or e.op == "noEvent")
 
 
 def _changes(e: Expr, model: flat.FlatModel) -> bool:
