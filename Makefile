@@ -12,7 +12,7 @@ PYTEST := LACUNA_CACHE=$(abspath $(BUILD))/cache $(PYTHON) -m pytest -q -n 2 --d
 # Silent but for ctest's closing lines; where a test fails, everything it printed.
 run_ctest = ctest --test-dir $(1) --output-on-failure -j 2 > $(1)/ctest.log && tail -n 3 $(1)/ctest.log \
   || { cat $(1)/ctest.log; exit 1; }
-C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*')
+C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*' ':!:fmi/standard/*')
 
 .PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined prognosis tolerance-study \
         figures wheel examples belts hybrid msl compliance format lint sanitize ctest pytest lock clean

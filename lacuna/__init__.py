@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from lacuna.examples import copy_examples
     from lacuna.faults import Assessment, CombinedMap, OperatingMap, assess, combined_maps, default_settings, maps
     from lacuna.fleets import fleet
+    from lacuna.fmus import ExportedFmu, export_fmu
     from lacuna.history import export_history, refresh, remember
     from lacuna.inputs import Input, recorded
     from lacuna.listings import Entry, list_effects, list_models, list_solvers
@@ -40,6 +41,7 @@ _HOMES = {
     "examples": ("copy_examples",),
     "faults": ("Assessment", "CombinedMap", "OperatingMap", "assess", "combined_maps", "default_settings", "maps"),
     "fleets": ("fleet",),
+    "fmus": ("ExportedFmu", "export_fmu"),
     "history": ("export_history", "refresh", "remember"),
     "inputs": ("Input", "recorded"),
     "listings": ("Entry", "list_effects", "list_models", "list_solvers"),
@@ -61,6 +63,7 @@ __all__ = [
     "Drafted",
     "Entry",
     "Explanation",
+    "ExportedFmu",
     "Finding",
     "IncompleteRun",
     "Input",
@@ -83,6 +86,7 @@ __all__ = [
     "degradation_laws",
     "dump",
     "explain",
+    "export_fmu",
     "export_history",
     "fleet",
     "forecast",

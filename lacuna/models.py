@@ -184,6 +184,11 @@ class Model:
         return Path(self._compiled.path)
 
     @property
+    def request(self) -> tuple[Source, dict[str, float], dict[str, float]]:
+        """What was loaded: its source, parameters that are part of the structure, and those set for every run."""
+        return self._source, dict(self._fixed), dict(self._values)
+
+    @property
     def translated(self) -> runtime.Model:
         """The model as the runtime has it, for sessions that run it again and again."""
         return self._model

@@ -16,8 +16,8 @@ from lacuna.codegen.emit.rolled import Rolled, assignment, in_parts
 from lacuna.codegen.emit.steps import comment
 from lacuna.codegen.structure.causal import Assignment, Division, Step
 from lacuna.codegen.structure.constants import dependency_order
-from lacuna.codegen.structure.nominal import Size, difference
-from lacuna.codegen.symbolic.expr import ZERO, Expr, const, if_else, is_const, relation, var
+from lacuna.codegen.structure.nominal import difference, told
+from lacuna.codegen.symbolic.expr import ZERO, Expr, var
 from lacuna.codegen.symbolic.leaves import leaves
 
 NOMINALS = "static int mdl_nominals(mdl_data *m, double *nominal)"
@@ -78,7 +78,7 @@ class Checks:
         unknowns = [*map(var, self.prepared.storage.states), *self.prepared.residual.tears]
         found = [sizes.get(u) for u in unknowns]
         found += [difference(r.left, r.right, sizes, model) for r in self.prepared.relations]
-        rows = [(f"nominal[{k}]", _told(size) if size else ZERO, "") for k, size in enumerate(found)]
+        rows = [(f"nominal[{k}]", told(size) if size else ZERO, "") for k, size in enumerate(found)]
         return self._write(NOMINALS, rows, self.prepared.storage.frozen)
 
     def divisions(self) -> str:
@@ -111,13 +111,6 @@ class Checks:
 
     def division_equations(self) -> list[str]:
         return [str(self.equations.index(q.source)) for q in self.prepared.divisions]
-
-
-def _told(size: Size) -> Expr:
-    """For the parameters of a run; a parameter that is set to zero says nothing, and then the declared ones count."""
-    if is_const(size.expression):
-        return size.expression
-    return if_else(relation(">", size.expression, ZERO), size.expression, const(size.value))
 
 
 def _sources(step: Step) -> Iterator[tuple[Expr, flat.Equation]]:

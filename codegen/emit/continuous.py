@@ -12,6 +12,7 @@ from lacuna.codegen.emit.equations import EquationTable
 from lacuna.codegen.emit.names import Names
 from lacuna.codegen.emit.steps import StepWriter, comment, place
 from lacuna.codegen.structure.causal import Step, unknowns_of
+from lacuna.codegen.structure.nominal import told
 from lacuna.codegen.structure.residual_form import CJ, needed
 from lacuna.codegen.structure.tearing import Assignment
 from lacuna.codegen.symbolic.expr import ONE, Expr, sub, var
@@ -37,7 +38,7 @@ def c_function(signature: str, text: str) -> str:
     """As `function`, of a body that is text."""
     arguments = signature[signature.index("(") + 1 : -1].replace("*", " ").split(",")
     names = [a.split()[-1] for a in arguments]
-    words = set(re.findall(r"(?<!->)\b[A-Za-z_]\w*", re.sub(r"/\*.*?\*/", "", text)))
+    words = set(re.findall(r"(?<!->)(?<!\.)\b[A-Za-z_]\w*", re.sub(r"/\*.*?\*/", "", text)))
     unused = [f"  (void){n};" for n in names if n not in words]
     parts = [f"{signature} {{", *unused]
     result = "0"
@@ -63,7 +64,7 @@ class Continuous:
 
     def nominal(self, unknown: Expr) -> Expr:
         size = self._p.nominals.get(unknown)
-        return size.expression if size else ONE
+        return told(size) if size else ONE
 
     def rhs(self) -> str:
         body = Body(self._names, self._storage.explicit)

@@ -168,7 +168,8 @@ static bool differs(const rt_session *s, const double *x, const double *xdot, co
  * here and with the new relations at the end of the step that the event cut short. Then that step stands. */
 static bool is_inconsequential(rt_session *s) {
   if (s->sensitivities) return false; /* they may have jumped where the run itself has not */
-  if (s->pending & RT_PENDING_KINK || differs(s, s->x_before, s->xdot_before, s->v_before)) return false;
+  if (s->pending & (RT_PENDING_KINK | RT_PENDING_BRANCH) || differs(s, s->x_before, s->xdot_before, s->v_before))
+    return false;
   bool cut = s->t < s->t_end, switched = memcmp(s->data.rel, s->rel_before, (size_t)s->d->n_rel) != 0;
   if (!cut) return !switched;
   if (rt_clock_limit(s) < s->t_end) return false; /* the event has set a time event within that step */

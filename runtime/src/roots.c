@@ -10,8 +10,8 @@
 
 #include "looks.h"
 
-/* Positive while relation r keeps its value. */
-static double margin(const rt_session *s, int r, double g) {
+/* Positive while relation r keeps its value, whose guard g_previous has just been the start of a step. */
+double rt_margin(const rt_session *s, int r, double g) {
   bool holds = s->data.rel[r];
   double at_start = holds ? s->g_previous[r] : -s->g_previous[r];
   return (holds ? g : -g) + (at_start > 0 ? 0 : rt_hysteresis(s, r));
@@ -27,7 +27,7 @@ static bool any_changed(const rt_session *s) {
 
 static bool any_negative(const rt_session *s, const double *g) {
   for (int r = 0; r < s->d->n_rel; r++)
-    if (rt_is_state_relation(s, r) && margin(s, r, g[r]) < 0) return true;
+    if (rt_is_state_relation(s, r) && rt_margin(s, r, g[r]) < 0) return true;
   return false;
 }
 
@@ -43,7 +43,7 @@ int rt_guards_at(rt_session *s, double t, double *g) {
 static double first_secant(const rt_session *s, const double *ga, double wa, const double *gb, double wb) {
   double fraction = 1;
   for (int r = 0; r < s->d->n_rel; r++) {
-    double ma = wa * margin(s, r, ga[r]), mb = wb * margin(s, r, gb[r]);
+    double ma = wa * rt_margin(s, r, ga[r]), mb = wb * rt_margin(s, r, gb[r]);
     if (rt_is_state_relation(s, r) && mb < 0) fraction = rt_min(fraction, rt_max(0, ma) / (rt_max(0, ma) - mb));
   }
   return fraction;
@@ -153,7 +153,7 @@ rt_status rt_find_state_event(rt_session *s) {
   if (search(s, &crossing)) return rt_fail_model(s, s->t, "locating an event");
   if (s->pending) {
     for (int r = 0; r < d->n_rel; r++)
-      s->flip[r] = rt_is_state_relation(s, r) && margin(s, r, s->g[r]) < 0;
+      s->flip[r] = rt_is_state_relation(s, r) && rt_margin(s, r, s->g[r]) < 0;
     if (crossing < s->t && move_back(s, crossing)) return s->failure.status;
   }
   s->t_before = s->t_previous;

@@ -6,8 +6,12 @@
 
 #include "sensitivity.h"
 
-static const rt_method *const methods[] = {&rt_method_ida, &rt_method_dopri5, &rt_method_rodas4, &rt_method_rk4,
-                                           &rt_method_euler};
+/* With RT_OWN_METHODS the runtime is ours alone, without SUNDIALS: what an FMU carries as source. */
+static const rt_method *const methods[] = {
+#ifndef RT_OWN_METHODS
+    &rt_method_ida,
+#endif
+    &rt_method_dopri5, &rt_method_rodas4, &rt_method_rk4, &rt_method_euler};
 enum { N_METHODS = sizeof methods / sizeof *methods };
 
 static const rt_method *find_method(const char *name) {
@@ -52,10 +56,10 @@ static bool allocate_numbers(rt_session *s) {
                           {division, COUNT(division), 2 * d->n_divisions},
                           {guards, COUNT(guards), d->n_rel},
                           {turns, COUNT(turns), d->n_phases}};
-  size_t total = 1;
+  s->n_numbers = 1;
   for (size_t i = 0; i < COUNT(groups); i++)
-    total += groups[i].count * (size_t)groups[i].n;
-  double *next = s->numbers = calloc(total, sizeof *next);
+    s->n_numbers += groups[i].count * (size_t)groups[i].n;
+  double *next = s->numbers = calloc(s->n_numbers, sizeof *next);
   for (size_t i = 0; next && i < COUNT(groups); i++)
     for (size_t j = 0; j < groups[i].count; j++, next += groups[i].n)
       *groups[i].places[j] = next;
@@ -67,8 +71,8 @@ static bool allocate_flags(rt_session *s) {
   const mdl_descriptor *d = s->d;
   mdl_data *m = &s->data;
   unsigned char **relations[] = {&m->rel, &s->flip, &s->rel_before, &s->rel_trial, &s->rel_swept};
-  unsigned char *next = s->flags =
-      calloc(COUNT(relations) * (size_t)d->n_rel + (size_t)(d->n_sample + 2 * d->n_when + d->n_divisions) + 1, 1);
+  s->n_flags = COUNT(relations) * (size_t)d->n_rel + (size_t)(d->n_sample + 2 * d->n_when + d->n_divisions) + 1;
+  unsigned char *next = s->flags = calloc(s->n_flags, 1);
   if (!next) return false;
   for (size_t i = 0; i < COUNT(relations); i++, next += d->n_rel)
     *relations[i] = next;
@@ -107,7 +111,7 @@ rt_session *rt_session_new(const rt_model *model, const rt_options *options, cha
   s->d = model->descriptor;
   s->options = *options;
   /* a model without states has nothing to integrate: any method with step size control only walks along its events */
-  s->method = s->d->n_x == 0 && method == &rt_method_ida ? &rt_method_dopri5 : method;
+  s->method = s->d->n_x == 0 && method->multistep ? &rt_method_dopri5 : method;
   s->options.solver = s->method->name;
   bool done = allocate_session(s);
   if (done) {

@@ -8,6 +8,7 @@
 #include <stddef.h>
 
 #include "lacuna_runtime.h"
+#include "result.h"
 
 struct rt_model {
   void *library;
@@ -82,8 +83,9 @@ enum {
   RT_PENDING_STATE = 1,
   RT_PENDING_TIME = 2,
   RT_PENDING_SAMPLE = 4,
-  RT_PENDING_JUMP = 8,  /* of a held input */
-  RT_PENDING_KINK = 16, /* of a linear input, where the method restarts at kinks */
+  RT_PENDING_JUMP = 8,    /* of a held input */
+  RT_PENDING_KINK = 16,   /* of a linear input, where the method restarts at kinks */
+  RT_PENDING_BRANCH = 32, /* algebraic unknowns have jumped: the branch that they followed has ended */
   RT_PENDING_INPUT = RT_PENDING_JUMP | RT_PENDING_KINK
 };
 
@@ -99,6 +101,7 @@ struct rt_session {
 
   double *numbers;               /* the block that all arrays of doubles here and in data are slices of */
   unsigned char *flags;          /* and that of all arrays of flags */
+  size_t n_numbers, n_flags;     /* their lengths */
   double *p_run;                 /* [n_p] parameters of the next run, before dependent ones are computed */
   int n_initial, *initial_index; /* states set by the caller */
   double *initial_value;
@@ -136,9 +139,9 @@ struct rt_session {
   double *d_before, *d_after;             /* discrete variables before an event; and aside while it is differentiated */
   double *x_swept, *d_swept;              /* states after a sweep of an event, discrete variables before it */
   unsigned char *rel_swept, *when_before; /* relations before a sweep, when conditions before its pass */
+  unsigned char *rel_before, *rel_trial;  /* [n_rel] */
   bool reinitialised;                     /* the last event did */
   unsigned char *flip;                    /* [n_rel] relations that switch at t */
-  unsigned char *rel_before, *rel_trial;  /* [n_rel] */
   int pending;
   double last_event;          /* time of the last event (s) */
   int futile_events;          /* consecutive events that got nowhere, see check_chattering */
@@ -237,6 +240,7 @@ double rt_input_slope(const rt_session *s, int i);
 
 /* clock.c */
 rt_status rt_clock_begin(rt_session *s);
+double rt_clock_next(const rt_session *s);
 double rt_clock_limit(rt_session *s);
 int rt_clock_due(rt_session *s);
 void rt_clock_tick(rt_session *s);
@@ -248,14 +252,21 @@ void rt_dense_point(rt_session *s, double t, bool alone, double *x);
 void rt_dense_eval(const rt_dense *dense, int n, double t, double *x);
 void rt_dense_column(const rt_dense *dense, int n, int i, size_t points, const double *t, double *x);
 
-/* roots.c */
+/* roots.c and dips.c */
 rt_status rt_find_state_event(rt_session *s);
+double rt_margin(const rt_session *s, int r, double g);
 int rt_guards_at(rt_session *s, double t, double *g);
-
-/* dips.c */
+void rt_resume_step(rt_session *s);
 bool rt_may_dip(const rt_session *s);
 int rt_find_dip(rt_session *s, double *inside);
 int rt_follow_switches(rt_session *s, double since);
+
+/* simulate.c: the hybrid loop, a piece at a time */
+rt_status rt_begin(rt_session *s);
+rt_status rt_advance(rt_session *s);
+rt_status rt_happen(rt_session *s);
+rt_status rt_check_asserts(rt_session *s);
+void rt_start_patience(rt_session *s);
 
 /* events.c */
 rt_status rt_event(rt_session *s);
@@ -269,29 +280,6 @@ void rt_record_begin(rt_session *s);
 rt_status rt_record_grid(rt_session *s, bool closed);
 rt_status rt_record_step(rt_session *s);
 rt_status rt_record_event_row(rt_session *s);
-
-/* result.c */
-struct rt_result {
-  rt_failure failure;
-  rt_counters counters;
-  const char *terminated;
-  size_t rows, capacity;
-  int n;
-  double *time;
-  double **columns;
-  unsigned char *event;
-  double *parameters; /* [n_p] */
-  size_t n_events, events_capacity;
-  rt_event_entry *events;
-  int n_sensitivities; /* of each output; their columns follow those of the outputs */
-  double *margins;     /* [n_sensitivities] */
-  size_t n_flags, flags_capacity;
-  rt_flag *flags;
-};
-rt_result *rt_result_new(int columns, int sensitivities, int parameters, size_t capacity);
-bool rt_result_reserve(rt_result *r, size_t rows);
-bool rt_result_log(rt_result *r, double time, int kind, int index, int direction);
-bool rt_result_flag(rt_result *r, double time, rt_flag_kind kind, int relation, int other);
 
 /* linear.c: dense n x n systems by LU with partial pivoting, column-major */
 int rt_lu_factor(int n, double *a, int *pivot);

@@ -12,7 +12,7 @@ static const double look_every = 0.1;  /* s of wall time: has the caller lost in
 static const double patience = 60;     /* s of computing that may bring less than */
 static const double headway = 1e-6;    /* of the run: at this pace it takes two years */
 
-static rt_status check_asserts(rt_session *s) {
+rt_status rt_check_asserts(rt_session *s) {
   mdl_data *m = &s->data;
   if (!s->d->n_asserts || s->d->check(m, s->t, m->x, m->xdot, m->v) >= 0) return RT_OK;
   return rt_fail_model(s, s->t, "checking");
@@ -36,7 +36,7 @@ static double clock_of(clockid_t clock) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static void start_patience(rt_session *s) {
+void rt_start_patience(rt_session *s) {
   s->patient_from = clock_of(CLOCK_THREAD_CPUTIME_ID);
   s->patient_t = s->t;
 }
@@ -45,7 +45,7 @@ static void start_patience(rt_session *s) {
 static rt_status check_patience(rt_session *s) {
   double span = s->stop - s->start, done = s->t - s->patient_t, limit = s->options.patience;
   if (done >= headway * span) {
-    start_patience(s);
+    rt_start_patience(s);
     return RT_OK;
   }
   if (clock_of(CLOCK_THREAD_CPUTIME_ID) - s->patient_from <= (limit > 0 ? limit : patience)) return RT_OK;
@@ -69,7 +69,8 @@ void rt_session_watch(rt_session *s, int (*interrupted)(double time)) {
   s->interrupted = interrupted;
 }
 
-static rt_status begin(rt_session *s) {
+/* From nothing to the first point after the events at the start. */
+rt_status rt_begin(rt_session *s) {
   if (!(s->stop > s->start) || !isfinite(s->start) || !isfinite(s->stop))
     return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "stop time %.9g s is not later than start time %.9g s", s->stop,
                    s->start);
@@ -79,7 +80,7 @@ static rt_status begin(rt_session *s) {
   rt_scale_start(s);
   rt_looks_begin(s);
   if (!status && s->sensitivities) status = rt_tangent_begin(s);
-  status = check_asserts(s);
+  status = rt_check_asserts(s);
   if (!status) status = rt_check_point(s, true);
   if (!status) status = s->method->begin(s, s->memory);
   rt_record_begin(s);
@@ -91,6 +92,7 @@ static rt_status step(rt_session *s) {
     return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "more than %ld steps up to time %.9g s", s->options.max_steps,
                    s->t);
   s->dense.valid = false;
+  if (s->recorder.needs_rhs) memcpy(s->recorder.v, s->data.v, (size_t)s->d->n_v * sizeof *s->data.v);
   if (s->sensitivities) s->sensitivities->dense.valid = false;
   rt_looks_start(s);
   rt_status status = s->method->step(s, s->memory, rt_clock_limit(s));
@@ -118,21 +120,24 @@ static rt_status move_on(rt_session *s) {
   return rt_look_on(s);
 }
 
-static rt_status advance(rt_session *s) {
+/* A step or a piece of one, up to the next event: what happens there is in s->pending. */
+rt_status rt_advance(rt_session *s) {
   rt_status status = look_up(s);
   if (!status) status = move_on(s);
   if (!status) status = rt_find_state_event(s);
   if (!status) status = rt_tangent_follow(s);
-  if (!status) status = check_asserts(s);
+  if (!status) status = rt_check_asserts(s);
   if (!status) status = rt_check_point(s, false);
   if (status) return status;
   s->pending |= rt_clock_due(s);
-  if ((status = rt_record_step(s))) return status;
-  if (!s->pending) {
-    s->resume = s->t < s->t_end;
-    return RT_OK;
-  }
-  status = rt_event(s);
+  if (!s->pending) s->resume = s->t < s->t_end;
+  return rt_record_step(s);
+}
+
+/* What is pending happens. */
+rt_status rt_happen(rt_session *s) {
+  if (!s->pending) return RT_OK;
+  rt_status status = rt_event(s);
   s->pending = 0;
   return status ? status : rt_check_point(s, true);
 }
@@ -165,11 +170,12 @@ rt_result *rt_session_run(rt_session *s, double start, double stop) {
   s->failure = (rt_failure){.status = RT_OK, .variable = -1};
   s->result = rt_result_new(s->recorder.n, s->sensitivities ? s->sensitivities->n : 0, s->d->n_p, expected_rows(s));
   if (!s->result) return NULL;
-  rt_status status = begin(s);
+  rt_status status = rt_begin(s);
   s->looked_at = clock_of(CLOCK_MONOTONIC);
-  start_patience(s);
-  while (!status && s->t < s->stop && !s->data.terminated)
-    status = advance(s);
+  rt_start_patience(s);
+  while (!status && s->t + s->clock.tolerance < s->stop && !s->data.terminated)
+    if (!(status = rt_advance(s))) status = rt_happen(s);
+  if (!status && !s->data.terminated) s->t = s->stop; /* from an event that is one instant with the end */
   finish(s, status);
   return s->result;
 }
