@@ -122,7 +122,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         chosen.out, timeout=chosen.timeout, workers=chosen.workers, keep=chosen.keep,
     )  # fmt: skip
     if chosen.page:
-        msl_page.write(ROOT / "docs" / "msl.md", names, results)
+        goal, further = ({p: names[p] for p in part} for part in (PACKAGES, FURTHER))
+        msl_page.write(ROOT / "docs" / "msl.md", goal, further, results)
     if chosen.names:
         for name, outcome in results.items():
             print(name, *(f"  {k}: {v}" for k, v in outcome.items() if k != "generator"), sep="\n")
