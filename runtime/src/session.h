@@ -214,6 +214,7 @@ int rt_rhs(rt_session *s, double t, const double *x, double *xdot, double *v);
 int rt_check_finite(rt_session *s, const double *x);
 int rt_evaluate(rt_session *s);
 void rt_residual_point(rt_session *s);
+int rt_jacobian(rt_session *s, double t, double *y, double *yp, double cj, double *values);
 rt_status rt_check_forms(rt_session *s);
 int rt_find_row(const rt_session *s, mdl_storage storage, int index);
 int rt_state_variable(const rt_session *s, int state);
