@@ -40,7 +40,7 @@ def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
 def _page(parts: list[str], title: str, folder: Path, verdict: str = "", action: str = "") -> Path:
     path = folder / "report.html"
     partial = path.with_suffix(".tmp")
-    written = [folder / name for name in ("diagnosis.json", "amended.mo")]
+    written = [folder / "diagnosis.json", *sorted(folder.glob("*.mo"))]
     partial.write_text(
         page(title, Markup("\n".join(parts)), verdict=verdict, action=action, inputs=written), encoding="utf-8"
     )
