@@ -84,7 +84,7 @@ def curves(f: Forecast, bank: Bank):
     """(smoothed, levels) for `figure.draw`: what the tests say of the past, and when each severity is reached."""
     limit, healthy = f.limits.span, f.limits.healthy
     series = series_of([f.history], limit, bank.settings.floor, healthy)
-    steps = list(run(bank, series))
+    steps = list(run(bank, series, keep=True))
     mean, deviation = tracked(bank, steps)
     part = f.history.lives[-1]
     smoothed = (f.history.use[part], healthy + mean[:, 0] * limit, deviation[:, 0] * limit)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from lacuna.analysis.prognosis.history import TWO_SIDED_95, History
 
@@ -69,11 +70,12 @@ def _contradiction(part: _Part, unit: str) -> str:
     n = len(part.use)
     if n >= 2 * FEWEST and part.outlier.sum() > INCOHERENT * n:
         return f"{part.outlier.sum()} of {n} tests do not fit the others: are some another actuator's?"
-    for k in range(FEWEST, n - FEWEST + 1):
-        before, after = slice(k - FEWEST, k), slice(k, k + FEWEST)
-        fall = np.median(part.severity[before]) - np.median(part.severity[after])
-        if fall > FALL * np.hypot(part.sd[before].mean(), part.sd[after].mean()):
-            place = f"severity falls at {unit} {part.use[k]:g}"
+    if n >= 2 * FEWEST:
+        middle = np.median(sliding_window_view(part.severity, FEWEST), axis=-1)
+        error = sliding_window_view(part.sd, FEWEST).mean(axis=-1)
+        falls = middle[:-FEWEST] - middle[FEWEST:] > FALL * np.hypot(error[:-FEWEST], error[FEWEST:])
+        if falls.any():
+            place = f"severity falls at {unit} {part.use[FEWEST + int(np.argmax(falls))]:g}"
             return f"{place}: a replacement that is not recorded, or another actuator's tests?"
     if n >= 2 * FEWEST and part.outlier[-FEWEST:].all():
         return f"the last {FEWEST} tests do not fit those before: another actuator's, or a sudden fault?"
