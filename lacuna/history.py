@@ -8,6 +8,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lacuna.analysis.errors import AnalysisError
 from lacuna.extras import names_missing_packages
 
 if TYPE_CHECKING:
@@ -56,15 +57,22 @@ def refresh(
     store: str | Path, map: str | Path, *, columns: Sequence[str] | None = None, unfiltered: bool = False
 ) -> int:
     """Read again, by the map in folder `map`, what another map has read and whose file is still there; rows that are
-    new."""
+    new.
+
+    What this map refuses keeps its reading: an AnalysisError names it, after all the others have been read.
+    """
     from lacuna.analysis.history.store import Store
 
-    new = 0
-    done = set()
-    for entry in Store(store).outdated(map_hash(Path(map))):
-        if entry.recording not in done:
-            done.add(entry.recording)
+    again = {entry.recording: entry for entry in Store(store).outdated(map_hash(Path(map)))}
+    new, refused = 0, []
+    for entry in again.values():
+        try:
             new += _again(entry, map, store, columns, unfiltered)
+        except AnalysisError as refusal:
+            refused.append(f"{entry.path}: {refusal}")
+    if refused:
+        kept = f"{len(refused)} of {len(again)} recordings keep their older reading"
+        raise AnalysisError(f"{kept}: {'; '.join(refused)}")
     return new
 
 

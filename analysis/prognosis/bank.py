@@ -16,7 +16,7 @@ from lacuna.analysis.prognosis.settings import DEFAULT, FilterSettings
 
 LOST = 1e-3  # of the greatest weight
 EM_STEPS = 20  # after which a fleet's shares have settled to a few per cent of themselves
-GONE = 1e-10  # weight below which a hypothesis can be left out for good
+GONE = 1e-8  # weight below which a hypothesis can be left out for good
 
 
 class Bank:

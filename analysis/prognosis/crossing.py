@@ -46,11 +46,11 @@ class Remaining:
         shape = ln.shape
         ln = ln.reshape(len(self.mean), -1)
         result = np.empty(ln.shape)
-        gone = np.isneginf(self.mean)
-        mean = np.where(gone, 0.0, self.mean)
-        for k in range(ln.shape[1]):
-            p = np.where(gone, 1.0, ndtr((ln[:, k, None] - mean) / self.sd))
-            result[:, k] = (self.weight * p).sum(axis=1)
+        for b, (mean, sd, weight) in enumerate(zip(self.mean, self.sd, self.weight, strict=True)):
+            gone = np.isneginf(mean)
+            some = (weight > 0) & ~gone
+            p = ndtr((ln[b, :, None] - mean[some]) / sd[some])
+            result[b] = (weight[some] * p).sum(axis=1) + weight[gone].sum()
         return result.reshape(shape)
 
     def quantiles(self, probabilities, never: np.ndarray) -> np.ndarray:

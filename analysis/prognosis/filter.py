@@ -54,13 +54,15 @@ class Step:
 
 
 def run(bank: Bank, series: Series, *, keep: bool = False) -> Iterator[Step]:
-    """One Step for each column of `series`. With `keep` all that a smoother needs, of all hypotheses; else what has
-    lost a history (a weight below GONE) is left out of it for good, with weight 0."""
+    """One Step for each column of `series`. With `keep` all that a smoother needs, of all hypotheses, in arrays of its
+    own; else `filtered` lasts until the next one, and what has lost a history (a weight below GONE) is left out of
+    it for good, with weight 0."""
     beliefs = bank.start(series.interval)
     hypotheses = _hypotheses(bank, beliefs.x.shape, 0.0 if keep else GONE)
     before = np.zeros(len(series.use))
     for k in range(series.use.shape[1]):
-        beliefs = Beliefs(*(value.copy() for value in vars(beliefs).values()))
+        if keep:
+            beliefs = Beliefs(*(value.copy() for value in vars(beliefs).values()))
         yield _step(hypotheses, beliefs, series, k, before, keep)
         before = series.use[:, k]
 

@@ -79,8 +79,8 @@ struct Merged {
       : total(density), xx(density * b.xx), xl(density * b.xl), ll(density * b.ll) {}
 
   void add(double share, double miss, double pxx, double pxl, double pll, double variance) {
-    const double s = pxx + variance, gain = pxx / s, turned = pxl / s;
-    const double p = share / root_2pi * std::exp(-0.5 * miss * miss / s) / std::sqrt(s);
+    const double sharpness = 1 / (pxx + variance), gain = pxx * sharpness, turned = pxl * sharpness;
+    const double p = share / root_2pi * std::exp(-0.5 * miss * miss * sharpness) * std::sqrt(sharpness);
     const double ex = gain * miss, el = turned * miss;
     total += p;
     dx += p * ex;
@@ -91,12 +91,12 @@ struct Merged {
   }
 
   void apply(Gaussian &b) const {
-    const double ex = dx / total, el = dl / total;
+    const double each = 1 / total, ex = dx * each, el = dl * each;
     b.x += ex;
     b.l += el;
-    b.xx = xx / total - ex * ex;
-    b.xl = xl / total - ex * el;
-    b.ll = ll / total - el * el;
+    b.xx = xx * each - ex * ex;
+    b.xl = xl * each - ex * el;
+    b.ll = ll * each - el * el;
   }
 };
 
