@@ -20,7 +20,9 @@ def compare(
     model: Annotated[str | None, typer.Argument(metavar="[MODEL]", help=MODEL_HELP, autocompletion=models)] = None,
     class_name: ClassName = "",
     library: Libraries = None,
-    against: Annotated[Path | None, typer.Option(help="A CSV produced elsewhere; header: time and full names")] = None,
+    against: Annotated[
+        Path | None, typer.Option(help="A CSV (header: time and full names) or an .fmu of another tool")
+    ] = None,
     tolerance: Annotated[float, typer.Option(help="Largest deviation from the file, of a signal's magnitude")] = 1e-3,
     only: Annotated[list[str] | None, typer.Option(help="Only this scenario; repeat for more")] = None,
     scenarios: Annotated[Path | None, typer.Option(help="Scenarios of your own, a TOML file")] = None,
@@ -31,7 +33,7 @@ def compare(
     hold: Hold = False,
     out: Annotated[Path | None, typer.Option(help="Folder for tables, figures and report.html")] = None,
 ) -> Answer:
-    """Compare solvers on the scenarios of the project, on MODEL, or MODEL with a file (--against).
+    """Compare solvers on the scenarios of the project, on MODEL, or MODEL with a file or an FMU (--against).
 
     Deviation of every signal, of event times, observed order of convergence, work and time; as a table, CSV, figures
     and one report. With --against the exit status is 1 where a signal deviates by more than --tolerance.
@@ -40,12 +42,12 @@ def compare(
     if against:
         if model is None:
             raise lacuna.UserError("--against needs a MODEL to compare the file with")
-        return _with_file(
-            lacuna.compare_with_file(
+        with progress() as tell:
+            found = lacuna.compare_with_file(
                 model, against, class_name=class_name, libraries=library or [], parameters=values, inputs=driven,
-                tolerance=tolerance,
-            )
-        )  # fmt: skip
+                tolerance=tolerance, stop=stop, progress=tell,
+            )  # fmt: skip
+        return _with_file(found)
     with progress() as tell:
         done = lacuna.compare(
             model, class_name=class_name, libraries=library or [], parameters=values, inputs=driven, only=only,

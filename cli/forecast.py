@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 import typer
 
 import lacuna
-from lacuna.cli.answer import Answer, answered
+from lacuna.cli.answer import Answer, answered, progress
 from lacuna.cli.options import assignments, number
 
 
@@ -48,10 +48,11 @@ def forecast(
     """
     limits = {name: number(name, text) for name, text in assignments(limit, "--limit").items()}
     folder = out or Path("out/forecast") / _name(history)
-    found = lacuna.forecast(
-        history, map, folder, laws=laws or (), risk=risk, horizon=horizon, unit=unit, columns=current,
-        unfiltered=unfiltered, limits=limits,
-    )  # fmt: skip
+    with progress() as tell:
+        found = lacuna.forecast(
+            history, map, folder, laws=laws or (), risk=risk, horizon=horizon, unit=unit, columns=current,
+            unfiltered=unfiltered, limits=limits, progress=tell,
+        )  # fmt: skip
     sentences = found.sentences
     more = [f"... and {len(sentences) - SHOWN} more actuators"] if len(sentences) > SHOWN else []
     parts: list = [*sentences[:SHOWN], *more]

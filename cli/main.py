@@ -13,9 +13,11 @@ from lacuna.cli import (
     check,
     compare,
     compile,
+    editor,
     examples,
     explain,
     fleet,
+    fmu,
     forecast,
     list,
     maps,
@@ -31,10 +33,10 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
     help="""Equations in, health maps out; and when a recording disagrees, the missing physics.
 
-MODEL is a qualified name such as [bold]Actuators.EccentricBldc[/bold], found in the package [bold]model/[/bold], in a
-[bold]--library[/bold] or in MODELICAPATH; a [bold].mo[/bold] file of yours, or the folder of a package, with
-[bold]--model[/bold] for a class in it. Commands write under [bold]out/[/bold] unless --out says otherwise, print what
-they wrote, and end with status 0 only when all went well.
+MODEL is a qualified name such as [bold]Actuators.EccentricBldc[/bold], found in the package Lacuna that is
+installed with it, in a [bold]--library[/bold] or in MODELICAPATH; a [bold].mo[/bold] file of yours, or the folder of a
+package, with [bold]--model[/bold] for a class in it. Commands write under [bold]out/[/bold] unless --out says
+otherwise, print what they wrote, and end with status 0 only when all went well.
 
 [bold]Start here[/bold]
 
@@ -69,6 +71,9 @@ app.command("check", rich_help_panel=MODELS)(check.check)
 app.command("compile", rich_help_panel=MODELS)(compile.compile)
 app.command("simulate", rich_help_panel=MODELS)(simulate.simulate)
 app.command("compare", rich_help_panel=MODELS)(compare.compare)
+app.command("fmu", rich_help_panel=MODELS)(fmu.fmu)
+app.command("format", rich_help_panel=MODELS)(editor.format)
+app.command("lsp", rich_help_panel=MODELS)(editor.lsp)
 app.add_typer(list.app, name="list", rich_help_panel=MODELS)
 app.command("examples", rich_help_panel=MODELS)(examples.examples)
 app.command("maps", rich_help_panel=FAULTS)(maps.maps)

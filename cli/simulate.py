@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from rich.table import Table
 import typer
 
 import lacuna
-from lacuna.cli.answer import Answer, answered
+from lacuna.cli.answer import Answer, answered, progress
 from lacuna.cli.options import (
     ClassName,
     Hold,
@@ -65,20 +65,25 @@ def simulate(
     loaded = lacuna.load(
         model, class_name=class_name, libraries=library or [], parameters=parameters(parameter), units=units
     )
-    failure = ""
-    try:
-        result = loaded.simulate(
-            solver=solver, inputs=inputs(input, hold), start=start, stop=stop, rtol=rtol, atol=atol, step=step,
-            locate_events=locate_events, interval=interval, outputs=signal, event_rows=event_rows,
-        )  # fmt: skip
-    except lacuna.IncompleteRun as ended:
-        result, failure = ended.result, str(ended)
-        if not len(result):  # refused before its first row
-            raise
+    result, failure = _run(
+        loaded, solver=solver, inputs=inputs(input, hold), start=start, stop=stop, rtol=rtol, atol=atol, step=step,
+        locate_events=locate_events, interval=interval, outputs=signal, event_rows=event_rows,
+    )  # fmt: skip
     folder = out or default_folder("simulate", class_name or model)
     written = result.save(folder / f"{result.model.rsplit('.', 1)[-1]}.{format}")
     written += result.save_plot(written[0].with_suffix(".svg"), *(signal or [])) if plot else []
     return Answer(_data(result), [_table(result, solver)], written, loaded.warnings, failure)
+
+
+def _run(model: lacuna.Model, **settings: Any) -> tuple[lacuna.Result, str]:
+    """The result and, of a run that ended early, why."""
+    try:
+        with progress() as tell:
+            return model.simulate(**settings, progress=tell), ""
+    except lacuna.IncompleteRun as ended:
+        if not len(ended.result):  # refused before its first row
+            raise
+        return ended.result, str(ended)
 
 
 def _data(result: lacuna.Result) -> dict[str, object]:

@@ -202,11 +202,16 @@ class Cache:
         }  # fmt: skip
         _write(index, json.dumps(entry))
 
+    def private(self) -> Path:
+        """The directory, made where it is missing. Raises CompilerError where others can write to it."""
+        self.directory.mkdir(mode=0o700, parents=True, exist_ok=True)
+        _refuse_shared(self.directory)
+        return self.directory
+
     def build(self, digest: str, source: str) -> str:
         """Compile C `source` to a library named by its digest and the compiler, and keep both; returns its path."""
         digest = _digest(digest, compiler())
-        self.directory.mkdir(mode=0o700, parents=True, exist_ok=True)
-        _refuse_shared(self.directory)
+        self.private()
         library, c_file = self.directory / f"{digest[:32]}.so", self.directory / f"{digest[:32]}.c"
         if _is_whole(library):
             return str(library)

@@ -12,10 +12,11 @@ import time
 from typing import TypeVar
 
 from lacuna.codegen import cache, flat
-from lacuna.codegen.dae import events, hybrid
+from lacuna.codegen.dae import events, homotopy, hybrid
 from lacuna.codegen.dae.discrete_starts import discrete_starts
 from lacuna.codegen.dae.divisions import divisions
 from lacuna.codegen.dae.free_parameters import free_parameters
+from lacuna.codegen.dae.guards import guard_shapes
 from lacuna.codegen.dae.initial import initial_system
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.storage import Storage
@@ -79,7 +80,8 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     sys.setrecursionlimit(max(sys.getrecursionlimit(), 20000))
     declared = report.run("initial system", free_parameters, declared)
     aliases = report.run("aliases", eliminate_aliases, declared)
-    frozen = report.run("hybrid", hybrid.analyse, aliases.model)
+    split = report.run("initial system", homotopy.split, aliases.model)
+    frozen = report.run("hybrid", hybrid.analyse, split)
     model = report.run("initial system", discrete_starts, frozen.model)
     continuous, discrete = report.run("hybrid", events.split, model)
     system = report.run("index reduction", reduce_index, model, continuous)
@@ -94,10 +96,11 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     explicit, system = report.run("matching, BLT, tearing", precompute_inverses, explicit, system)
     sizes = report.run("nominal values", infer, system, [(r.left, r.right, _line(r)) for r in relations])
     quotients = report.run("divisions", divisions, explicit, system.model)
+    shapes = report.run("guards", guard_shapes, explicit, relations, system.model)
     report.warnings += [*declared.warnings, *initial.warnings]
     return Prepared(
         declared, aliases.representative, system, Storage(system), relations, frozen.samples, steps, explicit,
-        residual, matrix, initial, sizes, quotients,
+        residual, matrix, initial, sizes, quotients, shapes,
     )  # fmt: skip
 
 

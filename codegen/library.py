@@ -98,9 +98,7 @@ class Library:
         if found is None and (cls is self.root or id(cls) in self._folders):
             key = id(cls), name
             if key not in self._members:
-                top = cls is self.root
-                found = self._top_level(name) if top else self._from_folder(cls, self._folders[id(cls)], name)
-                self._members[key] = found
+                self._members[key] = self._top_level(name) if cls is self.root else self._in_folder(cls, name)
             found = self._members[key]
         return found
 
@@ -121,6 +119,23 @@ class Library:
         if found is None:
             return []
         return self.parse_file(found) if found.is_file() else [self._package(found)]
+
+    def _in_folder(self, cls: ast.Class, name: str) -> ast.Class | None:
+        """The class `name` of a package that is a folder: one that a file elsewhere puts there, else the folder's."""
+        return self._put_into(cls, name) or self._from_folder(cls, self._folders[id(cls)], name)
+
+    def _put_into(self, cls: ast.Class, name: str) -> ast.Class | None:
+        """A class of a single file, or of a file in a folder that is no package, whose `within` names the package
+        `cls`: it takes the place of the package's own, as where a tool loads that file after the package."""
+        for place in self._places:
+            file = place if place.is_file() else place / f"{name}.mo"
+            if not file.is_file() or (place / PACKAGE_FILE).is_file():
+                continue
+            for found in self.parse_file(file):
+                if (found.within, found.name) == (cls.path, name):
+                    found.parent = cls
+                    return found
+        return None
 
     def _from_folder(self, cls: ast.Class, folder: Path, name: str) -> ast.Class | None:
         file = folder / f"{name}.mo"
@@ -207,6 +222,8 @@ class Library:
                 cls.parent = self._owner(cls)
             self.root.classes[cls.name] = cls
         self._look_in(folder)
+        if any(cls.within for cls in classes):
+            self._look_in(resolved, first=True)
         return next((cls for cls in classes if cls.name == path.stem), classes[-1])
 
     def _owner(self, cls: ast.Class) -> ast.Class:
@@ -231,7 +248,7 @@ class Library:
     def _look_in(self, place: Path, first: bool = False) -> None:
         if place not in self._places:
             self._places.insert(0 if first else len(self._places), place)
-        self._members = {key: found for key, found in self._members.items() if key[0] != id(self.root)}
+        self._members.clear()
 
     def forget_views(self) -> None:
         """Start a translation anew: equal input gives equal names."""

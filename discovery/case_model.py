@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.library import Library
 from lacuna.codegen.search_path import outermost, search_path
 
@@ -37,6 +38,11 @@ def case_model(folder: Path, model: str, libraries: Sequence[str | Path]) -> Cas
         return CaseModel(Library(paths).find(model).path, tuple(paths))
     file = (folder / file_name).resolve()
     top = outermost(file.parent)
-    found = Library(paths).find(f"{file}{colon}{inner}").path
+    cls = Library(paths).find(f"{file}{colon}{inner}")
     beside = [str(top)] if top else [str(file), str(file.parent)]
-    return CaseModel(found, (*beside, *paths), file)
+    found = CaseModel(cls.path, (*beside, *paths), file)
+    other = found.library().find(cls.path)
+    if other.span.file != cls.span.file:  # what is built upon it would be built upon another one
+        message = f"the class {cls.path} is also in {other.span.file}, which comes first"
+        raise Diagnostic("F004", message, cls.span, "give one of the two another name")
+    return found

@@ -19,10 +19,12 @@ if TYPE_CHECKING:
     from lacuna.degradation import degradation_laws
     from lacuna.diagnoses import Case, Explanation, Verdict, explain, open_case
     from lacuna.drafts import Drafted, convert, new_case
+    from lacuna.editor import format_model, serve_editor
     from lacuna.errors import UserError, is_user_error, message_of, nearest
     from lacuna.examples import copy_examples
     from lacuna.faults import Assessment, CombinedMap, OperatingMap, assess, combined_maps, default_settings, maps
     from lacuna.fleets import fleet
+    from lacuna.fmus import ExportedFmu, export_fmu
     from lacuna.history import export_history, refresh, remember
     from lacuna.inputs import Input, recorded
     from lacuna.listings import Entry, list_effects, list_models, list_solvers
@@ -36,10 +38,12 @@ _HOMES = {
     "comparisons": ("Agreement", "Comparison", "compare", "compare_with_file"),
     "diagnoses": ("Case", "Explanation", "Verdict", "explain", "open_case"),
     "drafts": ("Drafted", "convert", "new_case"),
+    "editor": ("format_model", "serve_editor"),
     "errors": ("UserError", "is_user_error", "message_of", "nearest"),
     "examples": ("copy_examples",),
     "faults": ("Assessment", "CombinedMap", "OperatingMap", "assess", "combined_maps", "default_settings", "maps"),
     "fleets": ("fleet",),
+    "fmus": ("ExportedFmu", "export_fmu"),
     "history": ("export_history", "refresh", "remember"),
     "inputs": ("Input", "recorded"),
     "listings": ("Entry", "list_effects", "list_models", "list_solvers"),
@@ -61,6 +65,7 @@ __all__ = [
     "Drafted",
     "Entry",
     "Explanation",
+    "ExportedFmu",
     "Finding",
     "IncompleteRun",
     "Input",
@@ -83,9 +88,11 @@ __all__ = [
     "degradation_laws",
     "dump",
     "explain",
+    "export_fmu",
     "export_history",
     "fleet",
     "forecast",
+    "format_model",
     "is_user_error",
     "list_effects",
     "list_models",
@@ -99,6 +106,7 @@ __all__ = [
     "recorded",
     "refresh",
     "remember",
+    "serve_editor",
     "sweep",
 ]
 

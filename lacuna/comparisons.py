@@ -7,10 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
+import numpy as np
+
 from lacuna.errors import UserError, nearest
 from lacuna.extras import names_missing_packages
 from lacuna.inputs import Input, as_inputs
-from lacuna.models import Model, load
+from lacuna.models import POINTS, Model, load
 from lacuna.notebook import page, paragraph, table
 from lacuna.progress import Progress, silent
 
@@ -149,18 +151,39 @@ def compare_with_file(
     parameters: Mapping[str, float] | None = None,
     inputs: Mapping[str, Input] | None = None,
     tolerance: float = 1e-3,
+    stop: float | None = None,
+    progress: Progress | None = None,
 ) -> Agreement:
-    """Simulate a model on the instants of a CSV produced elsewhere (header: time and full names) and compare.
+    """Simulate a model on the instants of a file produced elsewhere and compare.
 
-    `tolerance`: the largest deviation that agrees, of a signal's magnitude. Raises AnalysisError where the file is no
-    such table or the run ends early.
+    `file` is a CSV (header: time and full names), or an .fmu, which is simulated up to `stop` (s; default: the model's)
+    beside the model, with the same parameters and inputs where it has them, and compared in all variables whose names
+    are the model's (extra `fmi`). `tolerance`: the largest deviation that agrees, of a signal's magnitude. Raises
+    AnalysisError where the file is no such table or FMU or the run ends early.
     """
     from lacuna.analysis.comparison.compare import compare_with_file as compared
     from lacuna.analysis.comparison.compare import read_columns
 
-    time, columns = read_columns(Path(file))
     loaded = load(model, class_name=class_name, libraries=libraries, parameters=parameters)
-    result = loaded.run_at(time, list(columns), inputs or {})
+    if Path(file).suffix == ".fmu":
+        time, columns = _simulated(loaded, Path(file), stop, parameters or {}, inputs or {})
+    else:
+        time, columns = read_columns(Path(file))
+    result = loaded.run_at(time, list(columns), inputs or {}, progress)
     found = compared(result, time, columns)
     rows = tuple((d.name, d.maximum, d.rms, d.relative, d.at_time) for d in found)
     return Agreement(loaded.name, Path(file), tolerance, rows)
+
+
+def _simulated(
+    model: Model, file: Path, stop: float | None, parameters: Mapping[str, float], inputs: Mapping[str, Input]
+) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """Time (s) and columns of a foreign FMU, driven as the model is."""
+    from lacuna.analysis.comparison.foreign import simulate_fmu
+
+    end = model.stop_time if stop is None else stop
+    names = {name for name, v in model.variables.items() if v.type == "Real" and not v.is_parameter}
+    return simulate_fmu(
+        file, names, model.start_time, end, model.interval or (end - model.start_time) / POINTS,
+        min(model.tolerance or 1e-6, 1e-6), dict(parameters), as_inputs(inputs),
+    )  # fmt: skip

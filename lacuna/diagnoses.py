@@ -212,7 +212,7 @@ class Case:
         return self._told(found, folder, path)
 
     @names_missing_packages
-    def judge(self, model: str | Path, *, out: str | Path | None = None) -> Judged:
+    def judge(self, model: str | Path, *, out: str | Path | None = None, progress: Progress | None = None) -> Judged:
         """How well does a model file, as written, simulate the recordings that nothing was fitted to?"""
         from lacuna.discovery import places
         from lacuna.discovery.amend import Amendment
@@ -221,6 +221,7 @@ class Case:
 
         path = Path(model)
         path.open().close()  # an unreadable file is said before anything is simulated
+        spoken(progress)(f"simulating the recordings by {path.name}")
         found: Judgement = judge_file(
             self._case, Amendment(places.read(self._case.library(), self._case.base)), path, {}
         )

@@ -9,6 +9,7 @@ from pathlib import Path
 from lacuna.errors import UserError
 from lacuna.extras import names_missing_packages
 from lacuna.notebook import page, paragraph, table
+from lacuna.progress import Progress, spoken
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,12 @@ class Drafted:
 
 @names_missing_packages
 def new_case(
-    model: str | Path, recordings: Iterable[str | Path], out: str | Path, *, libraries: Iterable[str | Path] = ()
+    model: str | Path,
+    recordings: Iterable[str | Path],
+    out: str | Path,
+    *,
+    libraries: Iterable[str | Path] = (),
+    progress: Progress | None = None,
 ) -> Drafted:
     """Write a case for `explain` from a model and recordings as loggers wrote them.
 
@@ -39,6 +45,7 @@ def new_case(
     """
     from lacuna.discovery.draft.case import new_case as draft
 
+    spoken(progress)("matching columns to variables")
     made = draft(str(model), [Path(path) for path in recordings], Path(out), [Path(path) for path in libraries])
     columns = tuple(
         (m.head.text, m.target.name, m.head.unit or m.target.unit, "input" if m.target.is_input else "output")
@@ -50,7 +57,7 @@ def new_case(
 
 
 @names_missing_packages
-def convert(recording: str | Path, out: str | Path) -> tuple[str, ...]:
+def convert(recording: str | Path, out: str | Path, *, progress: Progress | None = None) -> tuple[str, ...]:
     """Write a recording in the format of `out`'s suffix, units kept; returns what was assumed in reading it.
 
     Raises UserError where `out` is there already or its format is only read.
@@ -60,6 +67,9 @@ def convert(recording: str | Path, out: str | Path) -> tuple[str, ...]:
     out = Path(out)
     if out.exists():
         raise UserError(f"{out} is there already")
+    tell = spoken(progress)
+    tell(f"reading {recording}")
     found = read_recorded(recording)
+    tell(f"writing {out}")
     write_recorded(found, out)
     return found.notes

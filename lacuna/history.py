@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from lacuna.analysis.errors import AnalysisError
 from lacuna.extras import names_missing_packages
+from lacuna.progress import Progress, counted, spoken
 
 if TYPE_CHECKING:
     from lacuna.analysis.history.store import Entry
@@ -29,6 +30,7 @@ def remember(
     replaced: bool = False,
     columns: Sequence[str] | None = None,
     unfiltered: bool = False,
+    progress: Progress | None = None,
 ) -> int:
     """Assess a recording by the map in folder `map` and append what it shows to the history store; how many rows are
     new.
@@ -40,6 +42,7 @@ def remember(
     from lacuna.analysis.history.store import Entry, Store, file_hash
 
     path = Path(recording).resolve()
+    spoken(progress)(f"assessing {path.name}")
     readings, covariance, features = _readings(path, Path(map), columns, unfiltered)
     entries = [
         Entry(
@@ -54,7 +57,12 @@ def remember(
 
 @names_missing_packages
 def refresh(
-    store: str | Path, map: str | Path, *, columns: Sequence[str] | None = None, unfiltered: bool = False
+    store: str | Path,
+    map: str | Path,
+    *,
+    columns: Sequence[str] | None = None,
+    unfiltered: bool = False,
+    progress: Progress | None = None,
 ) -> int:
     """Read again, by the map in folder `map`, what another map has read and whose file is still there; rows that are
     new.
@@ -65,7 +73,9 @@ def refresh(
 
     again = {entry.recording: entry for entry in Store(store).outdated(map_hash(Path(map)))}
     new, refused = 0, []
-    for entry in again.values():
+    count = counted("assessing again", progress)
+    for number, entry in enumerate(again.values()):
+        count(number, len(again))
         try:
             new += _again(entry, map, store, columns, unfiltered)
         except AnalysisError as refusal:

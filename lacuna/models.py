@@ -21,6 +21,7 @@ from lacuna.codegen.search_path import search_path
 from lacuna.errors import UserError
 from lacuna.inputs import Input, as_inputs
 from lacuna.notebook import page, table
+from lacuna.progress import Progress, silent, watching
 from lacuna.results import IncompleteRun, Result
 import lacuna.runtime as runtime
 
@@ -183,6 +184,11 @@ class Model:
         return Path(self._compiled.path)
 
     @property
+    def request(self) -> tuple[Source, dict[str, float], dict[str, float]]:
+        """What was loaded: its source, parameters that are part of the structure, and those set for every run."""
+        return self._source, dict(self._fixed), dict(self._values)
+
+    @property
     def translated(self) -> runtime.Model:
         """The model as the runtime has it, for sessions that run it again and again."""
         return self._model
@@ -192,12 +198,15 @@ class Model:
         """The same with its derivatives, which runs with `sensitivities` need; translated when first asked for."""
         return runtime.Model(self._source.compiled(self._fixed, sensitivities=True).path)
 
-    def run_at(self, times: np.ndarray, outputs: Sequence[str], inputs: Mapping[str, Input]) -> runtime.Result:
+    def run_at(
+        self, times: np.ndarray, outputs: Sequence[str], inputs: Mapping[str, Input], progress: Progress | None = None
+    ) -> runtime.Result:
         """A run with rows at `times` (s, [rows]) and nothing else."""
         self._refuse_parameters(inputs)
+        begin, end = float(times[0]), float(times[-1])
         return runtime.simulate(
-            self._model, parameters=self._values, inputs=as_inputs(inputs), start=float(times[0]),
-            stop=float(times[-1]), output_times=times, outputs=outputs, events=False,
+            self._model, parameters=self._values, inputs=as_inputs(inputs), start=begin, stop=end, output_times=times,
+            outputs=outputs, events=False, watch=watching(f"simulating {self.name}", begin, end, progress),
         )  # fmt: skip
 
     def with_parameters(self, parameters: Mapping[str, float]) -> Model:
@@ -233,6 +242,7 @@ class Model:
         event_rows: bool = False,
         locate_events: bool = True,
         sensitivities: Sequence[str] = (),
+        progress: Progress | None = None,
     ) -> Result:
         """Simulate from `start` to `stop` (s; default: the model's experiment).
 
@@ -242,7 +252,8 @@ class Model:
         restricts what is recorded. `rtol`: relative tolerance (default: the model's, else 1e-6); `atol`: absolute, for
         each unit of a variable's nominal value (default 0.01 rtol). `step` (s) is that of the fixed-step solvers;
         without `locate_events` they take events at its end. `sensitivities` names parameters, and states for their
-        initial values, by which all outputs are differentiated (ida and dopri5): see `Result.sensitivity`.
+        initial values, by which all outputs are differentiated (ida and dopri5): see `Result.sensitivity`. `progress`
+        is told the share of the time that is simulated, about ten times a second; what it raises ends the run.
 
         Raises UserError or SimulationError for what cannot be used, IncompleteRun (with what there is) where the run
         ends early.
@@ -257,11 +268,12 @@ class Model:
             inputs=as_inputs(inputs or {}), initial=initial, start=begin, stop=end, solver=solver, rtol=rtol,
             atol=atol, step=step, locate_events=locate_events, outputs=outputs, events=event_rows,
             interval=interval if interval is not None else model.interval or (end - begin) / POINTS,
-            sensitivities=sensitivities,
+            sensitivities=sensitivities, watch=watching(f"simulating {self.name}", begin, end, progress),
         )  # fmt: skip
         result = Result(run, None if outputs is None else list(outputs), time.perf_counter() - clock)
         if not result.complete:
             raise IncompleteRun(result)
+        (progress or silent)(f"simulating {self.name}", 1.0)
         return result
 
     def _refuse_parameters(self, inputs: Iterable[str]) -> None:

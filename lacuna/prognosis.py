@@ -17,6 +17,7 @@ from lacuna.analysis.prognosis.telling import counted_verdicts, forecast_json, s
 from lacuna.analysis.settings import PAPER, Settings, load_settings
 from lacuna.degradation import degradation_laws
 from lacuna.extras import names_missing_packages
+from lacuna.progress import Progress, counted, spoken
 
 OPTIONS = Options()
 SHOWN = 20  # sentences that a notebook shows
@@ -70,6 +71,7 @@ def forecast(
     columns: Sequence[str] | None = None,
     unfiltered: bool = False,
     limits: Mapping[str, float] | None = None,
+    progress: Progress | None = None,
 ) -> Prognosis:
     """When each actuator of `history` reaches the bands of `map`, how sure that is, and its last advisable test.
 
@@ -85,6 +87,7 @@ def forecast(
     """
     settings = map_settings(map)
     options = Options(risk, horizon)
+    spoken(progress)("reading the history")
     if isinstance(history, Path | str):
         if "://" in str(history) or Path(history).suffix in (".db", ".sqlite"):
             from lacuna.analysis.history.store import Store
@@ -97,7 +100,7 @@ def forecast(
     if limits and not faults <= set(limits):
         raise AnalysisError("a history is of severities or of diagnoses, not of both; `limits` are for diagnoses")
     own = {fault: diagnoses.SHARES if limits else limits_of(settings, fault) for fault in faults}
-    said = forecasts(history, bank, lambda h: own[h.fault], options)
+    said = forecasts(history, bank, lambda h: own[h.fault], options, progress=counted("forecasting", progress))
     if out is not None:
         from lacuna.analysis.prognosis.publish import publish
 

@@ -18,6 +18,11 @@ def counted(text: str, progress: Progress | None) -> Callable[[int, int], None]:
     return lambda done, total: tell(text, done / total if total else None)
 
 
+def watching(text: str, start: float, stop: float, progress: Progress | None) -> Callable[[float], None] | None:
+    """For runs: a function of the time (s) that is reached. None where nobody wants to know."""
+    return None if progress is None else lambda time: progress(text, (time - start) / (stop - start))
+
+
 def spoken(progress: Progress | None) -> Callable[[str], None]:
     """For stages that say what they do."""
     tell = progress or silent

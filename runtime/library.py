@@ -87,11 +87,12 @@ class COptions(Structure):
     _fields_ = [
         ("solver", c_char_p), ("rtol", c_double), ("atol", c_double), ("step", c_double), ("max_step", c_double),
         ("locate_events", c_int), ("record_events", c_int), ("max_steps", c_long), ("unchecked", c_int),
+        ("patience", c_double),
     ]  # fmt: skip
 
 
 _INTS, _DOUBLES = POINTER(c_int), POINTER(c_double)
-INTERRUPTED = ctypes.CFUNCTYPE(c_int)
+INTERRUPTED = ctypes.CFUNCTYPE(c_int, c_double)
 
 _SIGNATURES = {
     "rt_model_open": (c_void_p, c_char_p, c_char_p, c_size_t),

@@ -142,6 +142,11 @@ class Model:
         return [_equation(self._descriptor.relations[i].source) for i in range(self._descriptor.n_rel)]
 
     @cached_property
+    def time_relations(self) -> list[bool]:
+        """For each relation, whether it depends on time, parameters and discretes alone: no root switches it."""
+        return [bool(self._descriptor.relations[i].is_time) for i in range(self._descriptor.n_rel)]
+
+    @cached_property
     def messages(self) -> list[str]:
         """Messages of the model's terminate() calls, as indexed by the event log."""
         return [_text(self._descriptor.messages[i]) for i in range(self._descriptor.n_messages)]

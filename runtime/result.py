@@ -35,7 +35,13 @@ class EventEntry:
     kind: str  # state | time | sample | terminate
     index: int  # relation, relation, sample or message number
     direction: int  # of a relation: +1 it became true, -1 false
-    text: str  # the relation as written, or the message
+    text: str  # the relation as the model has it, in full names (or the call that jumped, or the message)
+    file: str = ""  # of a relation: where it is written
+    line: int = 0
+
+    def __str__(self) -> str:
+        became = {1: " becomes true", -1: " becomes false"}.get(self.direction, "")
+        return f"{self.time:.9g} s: {self.text}{became}" + (f"  ({self.file}:{self.line})" if self.line else "")
 
 
 @dataclass(frozen=True, slots=True)
@@ -226,9 +232,8 @@ class Result:
     def _entry(self, e) -> EventEntry:
         kind = EVENT_KINDS[e.kind]
         if kind == "sample":
-            text = f"sample {e.index + 1}"
-        elif kind == "terminate":
-            text = self.model.messages[e.index]
-        else:
-            text = self.model.relations[e.index].text
-        return EventEntry(e.time, kind, e.index, e.direction, text)
+            return EventEntry(e.time, kind, e.index, e.direction, f"sample {e.index + 1}")
+        if kind == "terminate":
+            return EventEntry(e.time, kind, e.index, e.direction, self.model.messages[e.index])
+        relation = self.model.relations[e.index]
+        return EventEntry(e.time, kind, e.index, e.direction, relation.text, relation.file, relation.line)

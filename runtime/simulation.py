@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 import ctypes
 from dataclasses import dataclass
@@ -49,7 +49,8 @@ class Session:
     `output_times`, or every `interval` seconds, or (interval 0) at the end of every step; by default the model's own
     interval. With `events`, a row before and one after each event is added. `locate_events=False` takes state and
     time events at the end of the step in which they fall, which is what fixed-step simulations usually do.
-    A run that takes more than `max_steps` ends with a failure. `atol` is per unit of a variable's nominal value.
+    A run that takes more than `max_steps`, or does not get through a millionth of its time in `patience` seconds of
+    computing (default 60), ends with a failure. `atol` is per unit of a variable's nominal value.
     `checks=False` leaves out the look at each accepted point for numbers that are not finite and divisors at zero.
     `sensitivities` names parameters, and states for their initial values, by which every output is differentiated
     (`Result.sensitivity`); the model must have been compiled with them, and the solver be dopri5 or ida.
@@ -66,6 +67,7 @@ class Session:
         step: float | None = None,
         max_step: float | None = None,
         max_steps: int | None = None,
+        patience: float | None = None,
         checks: bool = True,
         locate_events: bool = True,
         outputs: Sequence[str] | None = None,
@@ -76,13 +78,14 @@ class Session:
         sensitivities: Sequence[str] = (),
     ):
         self._lib, self.model = library(), model
-        for name, value in {"rtol": rtol, "atol": atol, "step": step, "max_step": max_step}.items():
+        given = {"rtol": rtol, "atol": atol, "step": step, "max_step": max_step, "patience": patience}
+        for name, value in given.items():
             if value is not None and not 0 < value < float("inf"):
                 raise SimulationError(f"{name} must be greater than zero, not {value}")
         self.settings = {"solver": solver, "rtol": rtol, "atol": atol, "step": step, "max_step": max_step,
                          "locate_events": locate_events}  # fmt: skip
         limits = (rtol or 0, atol or 0, step or 0, max_step or 0)
-        options = COptions(solver.encode(), *limits, locate_events, events, max_steps or 0, not checks)
+        options = COptions(solver.encode(), *limits, locate_events, events, max_steps or 0, not checks, patience or 0)
         message = ctypes.create_string_buffer(MESSAGE_SIZE)
         self._handle = self._lib.rt_session_new(model.handle, ctypes.byref(options), message, MESSAGE_SIZE)
         if not self._handle:
@@ -148,10 +151,12 @@ class Session:
         initial: Mapping[str, float] | None = None,
         start: float | None = None,
         stop: float | None = None,
+        watch: Callable[[float], object] | None = None,
     ) -> Result:
         """Simulate from `start` to `stop` (s; default the model's experiment).
 
         `parameters` replace declared values, `initial` replaces the values of states that the initial equations give.
+        `watch` is called some ten times a second with the time (s) reached; what it raises ends the run.
         A run that fails gives an incomplete Result with `failure`; unknown names and values outside bounds raise
         SimulationError.
         """
@@ -162,13 +167,13 @@ class Session:
             self.set_inputs(inputs)
         handle = None
         try:
-            with _interruptible(lib, self._handle):
+            with _watched(lib, self._handle, watch):
                 handle = lib.rt_session_run(
                     self._handle,
                     model.start_time if start is None else start,
                     model.stop_time if stop is None else stop,
                 )
-        except KeyboardInterrupt:
+        except BaseException:
             lib.rt_result_free(handle)
             raise
         if not handle:
@@ -179,25 +184,50 @@ class Session:
 
 
 @contextmanager
-def _interruptible(lib: ctypes.CDLL, session: int) -> Iterator[None]:
-    """Ctrl-C ends the run inside: the runtime comes back to Python now and then, where the signal is delivered, to the
-    main thread alone. Who has a handler of his own keeps it."""
-    if threading.current_thread() is not threading.main_thread() or (
-        signal.getsignal(signal.SIGINT) is not signal.default_int_handler
-    ):
+def _watched(lib: ctypes.CDLL, session: int, watch: Callable[[float], object] | None) -> Iterator[None]:
+    """The runtime comes back to Python now and then: to tell `watch` the time, and for Ctrl-C, which is delivered to
+    the main thread alone. Who has a handler of his own keeps it. What ended the run is raised after it."""
+    if watch is None and not _hears_ctrl_c():
         yield
         return
-    pressed: list[int] = []
-    watch = INTERRUPTED(lambda: len(pressed))
-    before = signal.signal(signal.SIGINT, lambda number, _: pressed.append(number))
-    lib.rt_session_watch(session, watch)
+    raised: list[BaseException] = []
+
+    def look(time: float) -> int:
+        try:
+            if watch is not None and not raised:
+                watch(time)
+        except BaseException as error:
+            raised.append(error)
+        return len(raised)
+
+    callback = INTERRUPTED(look)
+    lib.rt_session_watch(session, callback)
+    try:
+        with _ctrl_c(raised):
+            yield
+    finally:
+        lib.rt_session_watch(session, INTERRUPTED())
+    if raised:
+        raise raised[0]
+
+
+def _hears_ctrl_c() -> bool:
+    """This is the thread that signals come to, and nobody else has asked for this one."""
+    main = threading.current_thread() is threading.main_thread()
+    return main and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+@contextmanager
+def _ctrl_c(raised: list[BaseException]) -> Iterator[None]:
+    """Ctrl-C is added to `raised`, where it is Python's own handler that would raise it."""
+    if not _hears_ctrl_c():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, lambda *_: raised.append(KeyboardInterrupt()))
     try:
         yield
     finally:
-        lib.rt_session_watch(session, INTERRUPTED())
         signal.signal(signal.SIGINT, before)
-    if pressed:
-        raise KeyboardInterrupt
 
 
 def simulate(
@@ -208,7 +238,8 @@ def simulate(
     initial: Mapping[str, float] | None = None,
     start: float | None = None,
     stop: float | None = None,
+    watch: Callable[[float], object] | None = None,
     **session,
 ) -> Result:
     """One run: Session(model, **session).run(...). Keep a Session where the same model is run many times."""
-    return Session(model, **session).run(parameters, inputs, initial, start, stop)
+    return Session(model, **session).run(parameters, inputs, initial, start, stop, watch)

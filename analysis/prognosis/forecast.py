@@ -102,6 +102,7 @@ def forecasts(
     options: Options = Options(),
     *,
     learn: bool = True,
+    progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> list[Forecast]:
     """One for each history, in their order; with `learn`, FLEET or more of them tell the prior first
     (`fleet_prior`)."""
@@ -123,6 +124,7 @@ def forecasts(
             last = step
         said = _forecasts(batch, bank, scale, options, last, series, np.array(outliers).T)
         result |= dict(zip(rows, said, strict=True))
+        progress(len(result), len(histories))
     return [result[k] for k in range(len(histories))]
 
 

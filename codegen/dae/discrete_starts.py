@@ -14,12 +14,14 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.constants import is_parametric
 from lacuna.codegen.symbolic.expr import TRUE, Expr, special
 from lacuna.codegen.symbolic.rewrite import assigned
+from lacuna.codegen.union_find import UnionFind
 
 Assigns = dict[str, flat.Assign]
 
 
 def discrete_starts(model: flat.FlatModel) -> flat.FlatModel:
     """The model without initial equations of discrete variables."""
+    model = _with_equal_starts(model)
     variables, equations, computed = dict(model.variables), [], {}
     at_events = {n for w in model.whens for n in assigned([w])}.union(*(a.targets for a in model.algorithms))
     by_equation = _defined_by_equations(model, at_events)
@@ -40,6 +42,44 @@ def discrete_starts(model: flat.FlatModel) -> flat.FlatModel:
             computed[name] = flat.Assign(name, value, eq.span)
     model = replace(model, variables=variables, initial_equations=equations)
     return _with_assignments(model, computed) if computed else model
+
+
+def _with_equal_starts(model: flat.FlatModel) -> flat.FlatModel:
+    """Start values that follow from equalities alone.
+
+    m = pre(n) at all times and m = true at the start give n the start value true; so does pre(n) = pre(k) where k
+    follows from others. Sets of m, pre(n) that equal each other take the value that an initial equation gives one of
+    them, where that one is defined at all times and could not be given a value otherwise.
+    """
+    variables, equal = dict(model.variables), UnionFind()
+    at_events = {n for w in model.whens for n in assigned([w])}.union(*(a.targets for a in model.algorithms))
+    lasting = _defined_by_equations(model, at_events)
+    for eq in (*model.equations, *model.initial_equations):
+        if _is_discrete(eq.lhs, variables) and _is_discrete(eq.rhs, variables):
+            equal.join(eq.lhs, eq.rhs)
+    given = {}
+    for eq in model.initial_equations:
+        for side, value in ((eq.lhs, eq.rhs), (eq.rhs, eq.lhs)):
+            if side.op == "var" and side.value in lasting and is_parametric(value, variables):
+                given.setdefault(equal.find(side), value)
+    held = {equal.find(n) for n in equal.parent if n.op == "pre"}
+    given = {root: value for root, value in given.items() if root in held}
+    for n in equal.parent if given else ():
+        value = given.get(equal.find(n))
+        if n.op == "pre" and value is not None:
+            variables[str(n.args[0].value)] = replace(variables[str(n.args[0].value)], start=value)
+
+    def explained(eq: flat.Equation) -> bool:
+        left, right = (given.get(equal.find(s)) if s in equal.parent else s for s in (eq.lhs, eq.rhs))
+        return left is not None and left is right
+
+    left = [eq for eq in model.initial_equations if not given or not explained(eq)]
+    return replace(model, variables=variables, initial_equations=left)
+
+
+def _is_discrete(e: Expr, variables: dict[str, flat.Variable]) -> bool:
+    v = variables.get(_discrete_name(e))
+    return v is not None and v.variability == flat.DISCRETE and v.causality != "input"
 
 
 def _defined(

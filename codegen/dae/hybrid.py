@@ -51,12 +51,14 @@ from lacuna.codegen.symbolic.rewrite import Rewriter
 
 @dataclass
 class Relation:
-    """left > right; `slope` is d(left - right)/dt of a time relation, None of a root."""
+    """left > right; `slope` is d(left - right)/dt of a time relation, None of a root. `text` says the same as the model
+    does: its operands and their order, or the call that it comes from."""
 
     left: Expr
     right: Expr
     source: flat.Equation
     slope: Expr | None = None
+    text: str = ""
 
 
 @dataclass
@@ -111,13 +113,15 @@ class _Freezer:
         self._numbers: dict[tuple[Expr, Expr], int] = {}
         self._ticks: dict[Expr, int] = {}
         self._floors: dict[Expr, Expr] = {}
+        self._written = ZERO  # the call that is being lowered
         self.bodies = Rewriter(self._body_rule)
 
     # -- where expressions stand ------------------------------------------------------------------------------
 
     def equation(self, e: flat.Equation) -> flat.Equation:
         self._source = e
-        return replace(e, lhs=self.freeze(e.lhs), rhs=self.freeze(e.rhs))
+        start = (self.freeze(e.start[0]), self.freeze(e.start[1])) if e.start else None
+        return replace(e, lhs=self.freeze(e.lhs), rhs=self.freeze(e.rhs), start=start)
 
     def _condition(self, e: Expr, span: flat.Span, origin: str) -> Expr:
         self._source = flat.Equation(ZERO, ZERO, span, origin, f"when {e}")
@@ -183,16 +187,19 @@ class _Freezer:
             return n.args[0] if self._is_continuous(n.args[0]) else None
         if n.op in RELATIONS and n.op not in ("==", "<>") and self._continuous(n):
             left, right, positive = _canonical(n)
-            return self._relation(self.freeze(left), self.freeze(right), positive)
+            left, right = self.freeze(left), self.freeze(right)
+            return self._relation(left, right, positive, str(n) if positive else str(_complement(n)))
         if n.op in ("min", "max") and self._continuous(n):
             a, b = map(self.freeze, n.args)
-            first = self._relation(b, a, False) if n.op == "max" else self._relation(a, b, False)
-            return if_else(first, a, b)
+            left, right = (b, a) if n.op == "max" else (a, b)
+            return if_else(self._relation(left, right, False, _within(n, left, right)), a, b)
         if n.op == "call" and n.value in _LOWER and self._continuous(n):
-            return _LOWER[str(n.value)](self, *map(self.freeze, n.args))
+            arguments = list(map(self.freeze, n.args))
+            self._written = n
+            return _LOWER[str(n.value)](self, *arguments)
         return None
 
-    def _relation(self, left: Expr, right: Expr, positive: bool) -> Expr:
+    def _relation(self, left: Expr, right: Expr, positive: bool, text: str = "") -> Expr:
         if left.op == right.op == "const":
             return const((left.value > right.value) == positive)
         number = self._numbers.get((left, right))
@@ -201,7 +208,8 @@ class _Freezer:
                 holds = relation(">", left, right)
                 return holds if positive else logical_not(holds)
             number = self._numbers[left, right] = len(self.relations)
-            self.relations.append(Relation(left, right, self._source, self._slope(left, right)))
+            text = text or _within(self._written, left, right)
+            self.relations.append(Relation(left, right, self._source, self._slope(left, right), text))
         return self._frozen(number, positive)
 
     def _frozen(self, number: int, positive: bool) -> Expr:
@@ -233,8 +241,8 @@ class _Freezer:
         self.variables[name] = flat.Variable(
             name, self._source.span, INTEGER, flat.DISCRETE, description="whole part kept between events"
         )
-        above = self._relation(add(pre(n), const(1)), x, False)
-        below = self._relation(pre(n), x, True)
+        above = self._relation(add(pre(n), const(1)), x, False, f"{self._written} has not risen")
+        below = self._relation(pre(n), x, True, f"{self._written} has fallen")
         whole = call("integer", x)
         value = if_else(below, minimum(sub(pre(n), const(1)), whole), pre(n))
         value = if_else(above, maximum(add(pre(n), const(1)), whole), value)
@@ -278,3 +286,13 @@ def _canonical(n: Expr) -> tuple[Expr, Expr, bool]:
     if n.op == "<":
         return b, a, True
     return (a, b, False) if n.op == "<=" else (b, a, False)
+
+
+def _complement(n: Expr) -> Expr:
+    """`n`, one of <= and >=, the other way round: true where it is false, with its operands where they were."""
+    return node(">" if n.op == "<=" else "<", n.args, None, BOOLEAN)
+
+
+def _within(written: Expr, left: Expr, right: Expr) -> str:
+    """left > right inside the call `written`."""
+    return f"{relation('>', left, right)} in {written}"

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from lacuna.codegen import flat
 from lacuna.codegen.dae.divisions import Quotient
 from lacuna.codegen.dae.events import EventStep
+from lacuna.codegen.dae.guards import GuardShapes
 from lacuna.codegen.dae.hybrid import Relation
 from lacuna.codegen.dae.initial import InitialSystem
 from lacuna.codegen.dae.storage import Storage
@@ -32,6 +33,7 @@ class Prepared:
     initial: InitialSystem
     nominals: dict[Expr, Size]  # sizes of variables and derivatives
     divisions: list[Quotient]
+    guards: GuardShapes
     hash: str = ""
 
     @property

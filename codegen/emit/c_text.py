@@ -11,14 +11,18 @@ from lacuna.codegen.search_path import outermost
 _SHORT = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\r": "\\r", "\t": "\\t", "\a": "\\a", "\b": "\\b", "\f": "\\f",
           "\v": "\\v"}  # fmt: skip
 
+LONGEST = 1000  # characters of a literal, at most 4 bytes each: C promises no more than 4095 bytes (C99, 5.2.4.1)
+
 _PLAIN = re.compile(r"[ !#-&(->@-\[\]-~']*")  # printable ASCII without quotes, backslashes and question marks
 
 
 def c_string(text: str) -> str:
     """A C string literal of `text` in UTF-8; what does not print is written in octal, byte by byte.
 
-    Of two question marks the second is escaped, so that no trigraph can arise.
+    Of two question marks the second is escaped, so that no trigraph can arise. A longer text is cut, and ends in "...".
     """
+    if len(text) > LONGEST:
+        text = text[: LONGEST - 4] + " ..."
     if _PLAIN.fullmatch(text):
         return f'"{text}"'
     parts = (_SHORT.get(c) or (c if c.isprintable() else _octal(c)) for c in text)

@@ -16,13 +16,14 @@ from lacuna.codegen.emit.rolled import Rolled, assignment, in_parts
 from lacuna.codegen.emit.steps import comment
 from lacuna.codegen.structure.causal import Assignment, Division, Step
 from lacuna.codegen.structure.constants import dependency_order
-from lacuna.codegen.structure.nominal import Size, difference
-from lacuna.codegen.symbolic.expr import ZERO, Expr, const, if_else, is_const, relation, var
+from lacuna.codegen.structure.nominal import difference, told
+from lacuna.codegen.symbolic.expr import ZERO, Expr, var
 from lacuna.codegen.symbolic.leaves import leaves
 
 NOMINALS = "static int mdl_nominals(mdl_data *m, double *nominal)"
 _POINT = "mdl_data *m, double t, const double *x, const double *xdot, const double *v"
 DIVISIONS = f"static int mdl_divisions({_POINT}, double *value)"
+PHASES = f"static int mdl_phases({_POINT}, double *phase)"
 SMALL = 50  # rows up to which each is a line of its own
 MAX_SHOWN = 8  # variables whose values a message shows
 
@@ -77,7 +78,7 @@ class Checks:
         unknowns = [*map(var, self.prepared.storage.states), *self.prepared.residual.tears]
         found = [sizes.get(u) for u in unknowns]
         found += [difference(r.left, r.right, sizes, model) for r in self.prepared.relations]
-        rows = [(f"nominal[{k}]", _told(size) if size else ZERO, "") for k, size in enumerate(found)]
+        rows = [(f"nominal[{k}]", told(size) if size else ZERO, "") for k, size in enumerate(found)]
         return self._write(NOMINALS, rows, self.prepared.storage.frozen)
 
     def divisions(self) -> str:
@@ -86,6 +87,11 @@ class Checks:
             rows.append((f"value[{2 * k}]", q.numerator, comment(q.source)))
             rows.append((f"value[{2 * k + 1}]", q.divisor, ""))
         return self._write(DIVISIONS, rows, self.prepared.storage.point)
+
+    def phases(self) -> str:
+        """Nothing where there are none."""
+        rows = [(f"phase[{k}]", e, "") for k, e in enumerate(self.prepared.guards.phases)]
+        return self._write(PHASES, rows, self.prepared.storage.point) if rows else ""
 
     def _write(self, signature: str, rows: list[tuple[str, Expr, str]], access: Access) -> str:
         """A callback that stores the value of each row (place, value, comment)."""
@@ -105,13 +111,6 @@ class Checks:
 
     def division_equations(self) -> list[str]:
         return [str(self.equations.index(q.source)) for q in self.prepared.divisions]
-
-
-def _told(size: Size) -> Expr:
-    """For the parameters of a run; a parameter that is set to zero says nothing, and then the declared ones count."""
-    if is_const(size.expression):
-        return size.expression
-    return if_else(relation(">", size.expression, ZERO), size.expression, const(size.value))
 
 
 def _sources(step: Step) -> Iterator[tuple[Expr, flat.Equation]]:

@@ -12,9 +12,10 @@ from lacuna.codegen.emit.equations import EquationTable
 from lacuna.codegen.emit.names import Names
 from lacuna.codegen.emit.steps import StepWriter, comment, place
 from lacuna.codegen.structure.causal import Step, unknowns_of
+from lacuna.codegen.structure.nominal import told
 from lacuna.codegen.structure.residual_form import CJ, needed
 from lacuna.codegen.structure.tearing import Assignment
-from lacuna.codegen.symbolic.expr import ONE, Expr, relation, sub, var
+from lacuna.codegen.symbolic.expr import ONE, Expr, sub, var
 from lacuna.codegen.symbolic.leaves import leaves
 
 RHS = "static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double *v)"
@@ -37,7 +38,7 @@ def c_function(signature: str, text: str) -> str:
     """As `function`, of a body that is text."""
     arguments = signature[signature.index("(") + 1 : -1].replace("*", " ").split(",")
     names = [a.split()[-1] for a in arguments]
-    words = set(re.findall(r"(?<!->)\b[A-Za-z_]\w*", re.sub(r"/\*.*?\*/", "", text)))
+    words = set(re.findall(r"(?<!->)(?<!\.)\b[A-Za-z_]\w*", re.sub(r"/\*.*?\*/", "", text)))
     unused = [f"  (void){n};" for n in names if n not in words]
     parts = [f"{signature} {{", *unused]
     result = "0"
@@ -63,7 +64,7 @@ class Continuous:
 
     def nominal(self, unknown: Expr) -> Expr:
         size = self._p.nominals.get(unknown)
-        return size.expression if size else ONE
+        return told(size) if size else ONE
 
     def rhs(self) -> str:
         body = Body(self._names, self._storage.explicit)
@@ -145,7 +146,7 @@ class Continuous:
         body.plan(sub(r.left, r.right) for r in self._p.relations if r.slope is None)
         for k, r in enumerate(self._p.relations):
             value = body.value(sub(r.left, r.right)) if r.slope is None else "0.0"
-            body.line(f"g[{k}] = {value};  {comment(r.source, str(relation('>', r.left, r.right)))}")
+            body.line(f"g[{k}] = {value};  {comment(r.source, r.text)}")
         return function(ROOTS, body)
 
     def check(self) -> str:

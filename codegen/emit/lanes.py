@@ -195,12 +195,15 @@ class Lanes:
         for row in step.residuals:
             self.note(row)
         right = [f"-({self.sum(self._gradients(row.residual), held)})" for row in step.residuals]
-        self._solve(step, matrix, right)
+        self._solve(step, matrix, right, needed)
         for a in step.assignments:
             if a.unknown in needed:
                 self.define(a.unknown, self._gradients(a.value), a.row)
 
-    def _solve(self, step: LinearBlock | NonlinearBlock, matrix: list[list[Expr]], right: list[str]) -> None:
+    def _solve(
+        self, step: LinearBlock | NonlinearBlock, matrix: list[list[Expr]], right: list[str], needed: set[Expr]
+    ) -> None:
+        """Tangents of all tears at once; those that nothing needs get no name."""
         body, size = self._body, len(step.tears)
         names = [self._identifier(u) for u in step.tears]
         self._names.update(zip(step.tears, names, strict=True))
@@ -216,7 +219,11 @@ class Lanes:
         self._lines.append(f"const mdl_lanes {block}_b[{size}] = {{{', '.join(right)}}};")
         self._lines.append(f"mdl_lanes {block}_x[{size}];")
         self._lines.append(f"mdl_substitute({size}, {block}_a, {block}_order, {block}_b, {block}_x);")
-        self._lines += [f"const mdl_lanes {name} = {block}_x[{k}];" for k, name in enumerate(names)]
+        self._lines += [
+            f"const mdl_lanes {name} = {block}_x[{k}];"
+            for k, (tear, name) in enumerate(zip(step.tears, names, strict=True))
+            if tear in needed
+        ]
 
 
 def needed_tangents(steps: Sequence[Step], wanted: set[Expr], gradients: Gradients) -> dict[Step, set[Expr]]:

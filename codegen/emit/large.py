@@ -151,7 +151,7 @@ class Large:
         rolled.plan(sub(r.left, r.right) for r in relations if r.slope is None)
         for k, r in enumerate(relations):
             value = sub(r.left, r.right) if r.slope is None else ZERO
-            rolled.add(assignment(f"g[{k}]", value, comment=comment(r.source, str(relation(">", r.left, r.right)))))
+            rolled.add(assignment(f"g[{k}]", value, comment=comment(r.source, r.text)))
         return self._written(ROOTS, rolled)
 
     def check(self) -> str | None:

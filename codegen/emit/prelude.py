@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from lacuna.codegen.emit.expression import HELPERS
+from lacuna.codegen.emit.newton import NEWTON
 from lacuna.codegen.emit.random_numbers import NATIVE, WORDS
 
 _FAIL = """\
@@ -118,27 +119,6 @@ MDL_WIDE static void mdl_substitute(int n, const double *a, const int *order, co
   }
 }"""
 
-_NEWTON = """\
-typedef struct {
-  int iterations, halvings, converged;
-  double norm;
-} mdl_newton;
-
-/* Whether a Newton step made the residual larger (or not finite), so that it should be halved. A residual of zero
- * ends the iteration, even where the Jacobian is singular. */
-static int mdl_newton_grows(mdl_newton *s, int n, const double *r) {
-  double norm = 0.0;
-  for (int i = 0; i < n; ++i) norm += r[i] * r[i];
-  s->converged = norm == 0.0;
-  if (s->iterations > 0 && !(norm <= s->norm) && s->halvings < 12) {
-    ++s->halvings;
-    return 1;
-  }
-  s->halvings = 0;
-  s->norm = norm;
-  return 0;
-}"""
-
 _TIME = """\
 /* Value of a time relation just after t: g is left minus right at t, slope its derivative. */
 static int mdl_time_relation(double g, double slope, double t) {
@@ -162,7 +142,7 @@ _HELPERS = {
     "mdl_solve": _SOLVE,
     "mdl_factor": _FACTOR,
     "mdl_substitute": _SUBSTITUTE,
-    "mdl_newton": _NEWTON,
+    "mdl_newton": NEWTON,
     "mdl_time_relation": _TIME,
     "mdl_next_switch": _NEXT,
 }

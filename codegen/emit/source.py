@@ -45,6 +45,7 @@ def generate(prepared: Prepared, sensitivities: bool = False) -> str:
         large.residual() or continuous.residual(), large.jacobian() or continuous.jacobian(),
         large.roots() or continuous.roots(), discrete.time_relations(), discrete.next_time_event(), discrete.event(),
         large.check() or continuous.check(), checks.nominals(), checks.divisions(),
+        *filter(None, [checks.phases()]),
     ]  # fmt: skip
     everything = expressions_of_model(prepared)
     tangents = Tangents(prepared, names, equations, tables.rows()) if sensitivities else None
@@ -77,7 +78,7 @@ def expressions_of_model(prepared: Prepared) -> list[Expr]:
     for step in prepared.events:
         roots += [step.value] if isinstance(step, DiscreteEquation) else expressions(
             [step] if isinstance(step, flat.When) else step.statements)  # fmt: skip
-    roots += [a.condition for a in model.asserts]
+    roots += [*prepared.guards.phases, *(a.condition for a in model.asserts)]
     roots += [e for v in model.variables.values() for e in (v.binding, v.start, v.min, v.max) if e is not None]
     return roots
 
@@ -154,6 +155,7 @@ def _descriptor(prepared: Prepared, counts: dict[str, int], tangents: bool) -> s
         "equation_variables": _pointer("mdl_equation_variables", shown),
         "division_equation": _pointer("mdl_division_equation", counts["n_divisions"]),
         **{name: f"mdl_{name}" for name in _CALLBACKS},
+        **_guards(prepared),
         **({"tangents": "&mdl_model_tangents"} if tangents else {}),
     }
     rows = "\n".join(f"  .{key} = {value}," for key, value in fields.items())
@@ -162,6 +164,13 @@ def _descriptor(prepared: Prepared, counts: dict[str, int], tangents: bool) -> s
         "const mdl_descriptor *mdl_descriptor_get(void);\n\n"
         "const mdl_descriptor *mdl_descriptor_get(void) { return &mdl_model; }"
     )
+
+
+def _guards(prepared: Prepared) -> dict[str, str]:
+    """How closely the guards are to be looked at, where the states alone do not tell."""
+    shapes = prepared.guards
+    phases = {"n_phases": str(len(shapes.phases)), "phases": "mdl_phases"} if shapes.phases else {}
+    return phases | ({"curved_guards": "1"} if shapes.curved else {})
 
 
 def _pointer(name: str, count: int) -> str:

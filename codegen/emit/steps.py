@@ -14,8 +14,6 @@ from lacuna.codegen.structure.system import Row
 from lacuna.codegen.structure.tearing import Assignment
 from lacuna.codegen.symbolic.expr import Expr
 
-NEWTON_ITERATIONS = 50
-
 
 def comment(source: flat.Equation, text: str | None = None) -> str:
     """`/* file:line  equation */`"""
@@ -72,10 +70,14 @@ class StepWriter:
 
     def _solve(self, matrix: str, right: str, rows: Sequence[Row]) -> None:
         """A singular matrix is told at the equation that comes with the unknown that it does not determine."""
-        equations = ", ".join(str(self._equation_index(row.source)) for row in rows)
         self._body.line(f"const int {matrix}_singular = mdl_solve({len(rows)}, {matrix}, {right});")
-        self._body.line(f"if ({matrix}_singular) return mdl_fail(m, MDL_FAILURE_SINGULAR, "
-                        f"(const int[]){{{equations}}}[{matrix}_singular - 1], 0.0);")  # fmt: skip
+        equation = self._equation_of(rows, f"{matrix}_singular")
+        self._body.line(f"if ({matrix}_singular) return mdl_fail(m, MDL_FAILURE_SINGULAR, {equation}, 0.0);")
+
+    def _equation_of(self, rows: Sequence[Row], singular: str) -> str:
+        """The equation of the unknown that mdl_solve names, of the first one where it names none."""
+        equations = ", ".join(str(self._equation_index(row.source)) for row in (rows[0], *rows))
+        return f"(const int[]){{{equations}}}[{singular}]"
 
     def _division(self, step: Division) -> None:
         body = self._body
@@ -114,45 +116,42 @@ class StepWriter:
             self._assignment(a)
 
     def _nonlinear(self, step: NonlinearBlock) -> None:
-        """Newton's method, the step halved while it does not reduce the residual."""
+        """A loop that evaluates the block wherever its solver (emit/newton.py) looks."""
         body, size = self._body, len(step.tears)
-        block = f"{body.names.leaf(step.tears[0])}_block"
+        names = [body.names.leaf(u) for u in step.tears]
+        block = f"{names[0]}_block"
         body.line(f"/* nonlinear block of {size + len(step.assignments)}, torn to {size} */")
         for u in step.tears:
             body.declare(u, self._start(u))
         for a in step.assignments:
             body.declare(a.unknown, "0.0")
-        residuals = [r.residual for r in step.residuals]
-        body.line(f"mdl_newton {block} = {{0}};")
-        body.line(f"double {block}_step[{size}] = {{0}};")
+        body.line(f"double {block}_x[{size}] = {{{', '.join(names)}}};")
+        body.line(f"double {block}_work[{4 * size}] = {{{', '.join(names)}}};")
+        nominal = ", ".join(body.value(self._nominal(u)) for u in step.tears)
+        body.line(f"const double {block}_nominal[{size}] = {{{nominal}}};")
+        fields = f".n = {size}, .x = {block}_x, .work = {block}_work, .nominal = {block}_nominal"
+        body.line(f"mdl_newton {block} = {{{fields}}};")
         with body.scope("for (;;)", expressions_of(step)):
+            for k, name in enumerate(names):
+                body.line(f"{name} = {block}_x[{k}];")
             for a in step.assignments:
                 self._assignment(a, declare=False)
-            body.line(f"if ({block}.converged) break;")
-            for row in step.residuals:
-                self.note(row)
-            body.line(f"double {block}_r[{size}] = {{{', '.join(body.value(r) for r in residuals)}}};")
-            names = [body.names.leaf(u) for u in step.tears]
-            self._damping(block, size, names)
-            body.line(f"if ({block}.converged) break;")
-            matrix = ", ".join(body.value(j) for line in step.jacobian for j in line)
-            body.line(f"double {block}_a[{size * size}] = {{{matrix}}};")
-            self._solve(f"{block}_a", f"{block}_r", step.residuals)
-            body.line(f"if (++{block}.iterations > {NEWTON_ITERATIONS}) {self._fail('NEWTON', step.residuals[0])}")
-            body.line(f"{block}.converged = 1;")
-            for k, u in enumerate(step.tears):
-                body.line(f"{block}_step[{k}] = {block}_r[{k}];")
-                small = f"1e-9 * fabs({names[k]}) + 1e-12 * {body.value(self._nominal(u), 8)}"
-                body.line(f"{block}.converged &= fabs({block}_r[{k}]) <= {small};")
-                body.line(f"{names[k]} -= {block}_r[{k}];")
+            body.line(f"if ({block}.phase == MDL_SOLVED) break;")
+            self._look(step, block)
         for a in (*step.tears, *(a.unknown for a in step.assignments)):
             body.define(a)
 
-    def _damping(self, block: str, size: int, names: list[str]) -> None:
-        body = self._body
-        body.line(f"if (mdl_newton_grows(&{block}, {size}, {block}_r)) {{")
-        for k, name in enumerate(names):
-            body.line(f"  {block}_step[{k}] *= 0.5;")
-            body.line(f"  {name} += {block}_step[{k}];")
-        body.line("  continue;")
-        body.line("}")
+    def _look(self, step: NonlinearBlock, block: str) -> None:
+        body, size = self._body, len(step.tears)
+        for row in step.residuals:
+            self.note(row)
+        residuals = ", ".join(body.value(r.residual) for r in step.residuals)
+        body.line(f"double {block}_r[{size}] = {{{residuals}}};")
+        body.line(f"const int {block}_looked = mdl_newton_look(&{block}, {block}_r);")
+        body.line(f"if ({block}.phase == MDL_FAILED) return mdl_fail(m, {block}.singular ? MDL_FAILURE_SINGULAR "
+                  f": MDL_FAILURE_NEWTON, {self._equation_of(step.residuals, f'{block}.singular')}, 0.0);")  # fmt: skip
+        body.line(f"if ({block}_looked) continue;")
+        matrix = ", ".join(body.value(j) for line in step.jacobian for j in line)
+        body.line(f"double {block}_a[{size * size}] = {{{matrix}}};")
+        body.line(f"const int {block}_singular = mdl_solve({size}, {block}_a, {block}_r);")
+        body.line(f"mdl_newton_step(&{block}, {block}_r, {block}_singular);")

@@ -14,7 +14,7 @@ from lacuna.codegen.emit.equations import EquationTable
 from lacuna.codegen.emit.expression import number
 from lacuna.codegen.errors import Span
 from lacuna.codegen.structure.system import DeclaredValues
-from lacuna.codegen.symbolic.expr import Expr, relation
+from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.symbolic.leaves import leaves
 
 _STORAGE = {"x": "STATE", "v": "ALGEBRAIC", "d": "DISCRETE", "p": "PARAMETER", "u": "INPUT"}
@@ -103,10 +103,7 @@ class Tables:
         return [[rows[name] for name in names if name in rows] for names in shown_values(self._p)]
 
     def relations(self) -> list[str]:
-        return [
-            f"{{{self._source(r.source, str(relation('>', r.left, r.right)))}, {int(r.slope is not None)}}}"
-            for r in self._p.relations
-        ]
+        return [f"{{{self._source(r.source, r.text)}, {int(r.slope is not None)}}}" for r in self._p.relations]
 
     def residual_equations(self) -> list[str]:
         return [str(self._equations.index(row.source)) for row in self._p.residual.residuals]

@@ -16,6 +16,7 @@ from lacuna.codegen.flatten.values import (  # fmt: skip
     elementwise,
     fold,
     integers,
+    items_of,
     promote,
     scalars,
     shape_of,
@@ -71,8 +72,7 @@ def _ndims(e: ast.Call, scope: Scope) -> Value:
 def _filled(value: Value, sizes: list[Value], e: ast.Call, scope: Scope) -> Array:
     shape = tuple(_number(s, scope, e.span, "a size") for s in sizes)
     scope.context.spend(prod(shape), e.span)
-    items = scalars(value)
-    return Array(shape + shape_of(value), tuple(items) * prod(shape))
+    return Array(shape + shape_of(value), items_of(value) * prod(shape))
 
 
 def _fill(e: ast.Call, scope: Scope) -> Value:

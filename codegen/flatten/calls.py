@@ -10,7 +10,7 @@ from lacuna.codegen.flatten.constants import is_parameter, known, variability
 from lacuna.codegen.flatten.derivative import time_derivative
 from lacuna.codegen.flatten.enumerations import as_integer
 from lacuna.codegen.flatten.function_code import is_done
-from lacuna.codegen.flatten.functions import call_function, construct_record
+from lacuna.codegen.flatten.functions import call_function
 from lacuna.codegen.flatten.lower import Handler, lower, lower_scalar
 from lacuna.codegen.flatten.scope import Scope, enumeration, find_class, own_or_inherited
 from lacuna.codegen.flatten.texts import text_of
@@ -60,11 +60,11 @@ def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
     if cls is not None and is_external(cls):
         return call_function(own_or_inherited(scope.context.library, cls, "constructor"), e, scope)
     if cls is not None and cls.kind == "record":
-        return [construct_record(cls, e, scope)]
+        return [scope.context.lowering.construct(cls, e, scope)]
     if cls is not None:
         raise Diagnostic("R004", f"{name} is a {cls.kind} and cannot be called", e.function.span, "call a function")
     if name in _OUTSIDE or name.startswith("Connections."):
-        hint = _OUTSIDE.get(name, "write the equations out")
+        hint = _OUTSIDE.get(name, "it stands alone in an equation section, under conditions known at translation only")
         raise Diagnostic("R091", f"{name} is outside the subset", e.function.span, hint)
     if name in ("reinit", "assert", "terminate"):
         raise Diagnostic("R004", f"{name} has no value", e.function.span, "it stands alone, ended by ';'")
@@ -150,11 +150,18 @@ def _by_name(e: ast.Call, names: tuple[str, ...]) -> list[ast.Expression]:
 
 
 def _homotopy(e: ast.Call, scope: Scope) -> Value:
-    """The actual expression; the simplified one must fit it (Modelica 3.6, 3.7.4.4)."""
+    """A choice that `dae.homotopy` takes apart; the simplified expression must fit the actual one."""
     actual, simplified = (lower(a, scope) for a in _by_name(e, ("actual", "simplified")))
     if shape_of(actual) != shape_of(simplified):
         raise Diagnostic("R042", "homotopy of two sizes", e.span, "both expressions need the same size")
-    return actual
+    if scope.instance is None:  # in a function
+        return actual
+
+    def build(actual: Expr, simplified: Expr) -> Expr:
+        varies = actual.type == REAL and not is_parameter(actual, scope.context)
+        return ex.if_else(ex.special("homotopy"), actual, simplified) if varies else actual
+
+    return elementwise(build, [actual, simplified], e.span, "homotopy")
 
 
 def _semi_linear(e: ast.Call, scope: Scope) -> Value:

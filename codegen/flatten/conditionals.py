@@ -7,12 +7,14 @@ from dataclasses import replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.constants import is_known, known
+from lacuna.codegen.flatten.constants import is_known, known, variability
+from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.equations import Collected
 from lacuna.codegen.flatten.lower import lower_scalar
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr
+from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.syntax import ast
 
 Descend = Callable[[ast.Item, Scope, Collected], None]
@@ -34,7 +36,7 @@ def flatten_if(item: ast.If, scope: Scope, out: Collected, descend: Descend) -> 
         return
     try:
         parts = [_branch(body, replace(scope, conditional=True), descend) for _, body in item.branches]
-        if fixed and not _same_unknowns([p.equations for p in parts]):
+        if fixed and not _same_structure([p.equations for p in parts], scope.context):
             _decided(item, conditions, scope, out, descend)
             return
         merged = _merge(item, conditions, parts)
@@ -55,6 +57,8 @@ def _structural(item: ast.If) -> bool:
 def _has_structure(body: list[ast.Item]) -> bool:
     for item in body:
         if isinstance(item, ast.Connect | ast.When):
+            return True
+        if isinstance(item, ast.Procedure) and str(item.call.function).startswith("Connections."):
             return True
         if isinstance(item, ast.For) and _has_structure(item.body):
             return True
@@ -80,9 +84,9 @@ def _branch(body: list[ast.Item], scope: Scope, descend: Descend) -> Collected:
 
 def _merge(item: ast.If, conditions: list[Expr], parts: list[Collected]) -> Collected:
     for part, (_, body) in zip(parts, item.branches, strict=True):
-        if part.whens or part.connections:
+        if part.whens or part.connections or part.branches:
             span = body[0].span if body else item.span
-            what = "when" if part.whens else "connect"
+            what = "when" if part.whens else "connect" if part.connections else str(part.branches[0].call.function)
             hint = "its condition must depend on parameters only"
             raise Diagnostic("F031", f"'{what}' under a condition that changes in time", span, hint)
     if conditions[-1] is not TRUE:
@@ -108,6 +112,20 @@ def _same_unknowns(branches: list[list[flat.Equation]]) -> bool:
     """Do all branches have the same left sides, each once?"""
     sides = {e.lhs for e in branches[0]}
     return all(len(b) == len(sides) and {e.lhs for e in b} == sides for b in branches)
+
+
+def _same_structure(branches: list[list[flat.Equation]], context: Context) -> bool:
+    """Have all branches the same left sides, and equations of the same unknowns for each? Where they have not, an
+    equation that gives a variable in one branch may have lost it in another."""
+    if not _same_unknowns(branches):
+        return False
+    unknowns = [{e.lhs: _unknowns(e, context) for e in b} for b in branches]
+    return all(found == unknowns[0] for found in unknowns)
+
+
+def _unknowns(e: flat.Equation, context: Context) -> set[Expr]:
+    return {n for n in leaves(e.lhs) | leaves(e.rhs)
+            if n.op == "der" or (n.op == "var" and variability(n, context) == "continuous")}  # fmt: skip
 
 
 def _merge_equations(conditions: list[Expr], branches: list[list[flat.Equation]]) -> list[flat.Equation]:

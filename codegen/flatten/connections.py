@@ -8,6 +8,7 @@ from lacuna.codegen.flatten.connection_sets import ConnectionSets
 from lacuna.codegen.flatten.connectors import End, Part, connectors, is_outside, parts
 from lacuna.codegen.flatten.constants import evaluate
 from lacuna.codegen.flatten.context import Context
+from lacuna.codegen.flatten.overconstrained import constraint_values
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.streams import stream_equations
 from lacuna.codegen.symbolic import expr as ex
@@ -21,12 +22,12 @@ Connections = list[tuple[ast.Connect, Scope]]
 def connection_equations(connections: Connections, context: Context) -> list[flat.Equation]:
     """Equations of all connections, and zero for each flow that nothing is connected to."""
     sets = ConnectionSets()
+    equations: list[flat.Equation] = []
     for item, scope in connections:
         with context.attempt():
-            _connect(item, scope, sets)
+            _connect(item, scope, sets, equations)
     with context.attempt():
         sets.check_sources()
-    equations: list[flat.Equation] = []
     for group in sets.ends.groups():
         root = sets.ends.find(group[0])
         span, origin = sets.span[root], sets.origin[root]
@@ -73,18 +74,18 @@ def _unconnected(sets: ConnectionSets, context: Context) -> list[flat.Equation]:
     return equations
 
 
-def _connect(item: ast.Connect, scope: Scope, sets: ConnectionSets) -> None:
+def _connect(item: ast.Connect, scope: Scope, sets: ConnectionSets, equations: list[flat.Equation]) -> None:
     sides = []
     for ref in (item.left, item.right):
         outside = is_outside(ref, scope)
-        sides.append([parts(node, outside) for node in connectors(ref, scope)])
+        sides.append([(node, parts(node, outside)) for node in connectors(ref, scope)])
     left, right = sides
     if not (left and right):
         return  # a component that a condition removed
     if len(left) != len(right):
         message = f"connect: {len(left)} connectors with {len(right)}"
         raise Diagnostic("R060", message, item.span, "both sides need the same size")
-    for a, b in zip(left, right, strict=True):
+    for (one, a), (other, b) in zip(left, right, strict=True):
         if a.keys() != b.keys():
             kinds = [
                 f"{ref} has {', '.join(k.lstrip('.') or 'one value' for k in e)}"
@@ -92,7 +93,13 @@ def _connect(item: ast.Connect, scope: Scope, sets: ConnectionSets) -> None:
             ]
             hint = "connect connectors of the same kind"
             raise Diagnostic("R060", f"the connectors do not match: {'; '.join(kinds)}", item.span, hint)
+        residues = constraint_values(one, other, item, scope)
+        for path, values in residues.items():
+            text = f"equality of {path.lstrip('.')}: connect({item.left}, {item.right})"
+            equations += [flat.Equation(v, ex.ZERO, item.span, scope.instance.name, text) for v in values]
         for key, part in a.items():
+            if any(key == path or key.startswith((f"{path}.", f"{path}[")) for path in residues):
+                continue
             _require_alike(part, b[key], item, scope)
             if part.kind != "fixed":
                 sets.join(part, b[key], item.span, scope.instance.name)

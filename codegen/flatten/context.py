@@ -27,6 +27,9 @@ class Lowering:
     nodes: Mapping[type, Callable[..., Value]]  # by kind of node
     functions: Mapping[str, Callable[..., Value]]  # built-in functions by name
     results: Callable[..., list[Value]]  # all results of the call of a function of the model
+    overloaded: Callable[..., Value]  # an operator of operator records
+    construct: Callable[..., Value]  # a call of a record
+    text: Callable[..., Value | None]  # String of a record
     run: Callable[[str, list[Expr], Context, Span], Expr]  # a kept function on constants
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from lacuna.codegen import flat
@@ -12,7 +13,7 @@ from lacuna.codegen.flatten.enumerations import require_same
 from lacuna.codegen.flatten.iterators import iterate
 from lacuna.codegen.flatten.lower import lower, lower_results
 from lacuna.codegen.flatten.scope import Scope
-from lacuna.codegen.flatten.values import Record, Value, scalars, shape_of, shape_text
+from lacuna.codegen.flatten.values import Record, Value, holds_records, items_of, shape_of, shape_text
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
 
@@ -26,6 +27,7 @@ class Collected:
     algorithms: list[flat.Algorithm] = field(default_factory=list)
     asserts: list[flat.Assert] = field(default_factory=list)
     connections: list[tuple[ast.Connect, Scope]] = field(default_factory=list)
+    branches: list[ast.Procedure] = field(default_factory=list)  # Connections.branch(...) and the like
 
 
 def unroll(item: ast.For, scope: Scope) -> list[Scope]:
@@ -46,18 +48,28 @@ def equalities(item: ast.Equality, scope: Scope) -> list[flat.Equation]:
 
 def equate(left: Value, right: Value, span: Span, scope: Scope, text: str) -> list[flat.Equation]:
     """The scalar equations of left = right."""
-    if isinstance(left, Record) and isinstance(right, Record):
-        if set(left.fields) != set(right.fields):
-            raise Diagnostic("R042", "records of different kind", span, "both sides need the same fields")
-        right = Record(right.name, {name: right.fields[name] for name in left.fields})
-    if shape_of(left) != shape_of(right) or isinstance(left, Record) != isinstance(right, Record):
+    if shape_of(left) != shape_of(right) or holds_records(left) != holds_records(right):
         message = f"{shape_text(shape_of(left))} = {shape_text(shape_of(right))}"
         raise Diagnostic("R042", f"the sides differ in size: {message}", span, "both sides need the same size")
     result = []
-    for a, b in zip(scalars(left), scalars(right), strict=True):
+    for a, b in _pairs(left, right, span):
         check_types(a, b, span, scope)
         result.append(flat.Equation(a, b, span, origin_of(scope), text))
     return result
+
+
+def _pairs(left: Value, right: Value, span: Span) -> Iterator[tuple[Expr | str, Expr | str]]:
+    """Corresponding scalars; the fields of records by their names."""
+    for a, b in zip(items_of(left), items_of(right), strict=True):
+        if not isinstance(a, Record):
+            yield a, b
+            continue
+        if not isinstance(b, Record) or set(a.fields) != set(b.fields):
+            raise Diagnostic("R042", "records of different kind", span, "both sides need the same fields")
+        for name, part in a.fields.items():
+            if shape_of(part) != shape_of(b.fields[name]):
+                raise Diagnostic("R042", f"the sides differ in size: {name}", span, "both sides need the same size")
+            yield from _pairs(part, b.fields[name], span)
 
 
 def check_types(a: Expr | str, b: Expr | str, span: Span, scope: Scope) -> None:

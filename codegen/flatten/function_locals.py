@@ -12,7 +12,7 @@ from lacuna.codegen.flatten.instance import Instance
 from lacuna.codegen.flatten.modifiers import from_tree, merge
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.types import EXTERNAL, Type, resolve_type
-from lacuna.codegen.flatten.values import Array, ExternalValue, Record, Value, scalars, shape_of, shape_text
+from lacuna.codegen.flatten.values import Array, ExternalValue, Record, Value, items_of, scalars, shape_of, shape_text
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
@@ -149,9 +149,7 @@ def fit(local: Local, value: Value, scope: Scope, span: Span) -> Value:
             raise Diagnostic("R062", f"{local.name} is an external object", span, f"give a {local.declaration.type}")
         return value
     if local.type.primitive is None:
-        if not isinstance(value, Record):
-            raise Diagnostic("R062", f"{local.name} is a record", span, f"give a {local.declaration.type}")
-        return value
+        return _fit_records(local, value, scope, span)
     sizes = declared_sizes(local, scope, value)
     if sizes != shape_of(value) or isinstance(value, Record):
         message = f"{local.name} has size {shape_text(sizes)}, given {shape_text(shape_of(value))}"
@@ -159,6 +157,15 @@ def fit(local: Local, value: Value, scope: Scope, span: Span) -> Value:
         raise Diagnostic("R062", message, span, "both need the same size" if sizes else each)
     items = [typed(item, local.type.primitive, local.name, span) for item in scalars(value)]
     return Array(sizes, tuple(items)) if isinstance(value, Array) else items[0]
+
+
+def _fit_records(local: Local, value: Value, scope: Scope, span: Span) -> Value:
+    """A record, or an array of records, with the fields that are declared; the result is of the declared class."""
+    sizes = declared_sizes(local, scope, value)
+    if sizes != shape_of(value) or not all(isinstance(i, Record) for i in items_of(value)):
+        what = "a record" if not sizes else f"an array {shape_text(sizes)} of records"
+        raise Diagnostic("R062", f"{local.name} is {what}", span, f"give a {local.declaration.type}")
+    return value
 
 
 def declared_sizes(local: Local, scope: Scope, value: Value | None) -> tuple[int, ...]:

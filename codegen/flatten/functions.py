@@ -19,6 +19,7 @@ from lacuna.codegen.flatten.iterators import references
 from lacuna.codegen.flatten.lower import lower
 from lacuna.codegen.flatten.random_numbers import GENERATORS
 from lacuna.codegen.flatten.scope import Scope, find_class
+from lacuna.codegen.flatten.types import EXTERNAL
 from lacuna.codegen.flatten.values import Array, FunctionValue, Record, Value, scalars, shape_of, shape_text, stack
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
@@ -63,7 +64,7 @@ def _extra(signature: Signature, name: str, value: Value) -> int:
     """How many dimensions the argument has more than the input."""
     local = next(i for i in signature.inputs if i.name == name)
     declared = len(local.declaration.dimensions) + len(local.type.dimensions)
-    return len(shape_of(value)) - declared if isinstance(value, Array) and local.type.primitive else 0
+    return len(shape_of(value)) - declared if isinstance(value, Array) and local.type.primitive != EXTERNAL else 0
 
 
 def _row(signature: Signature, name: str, value: Value, number: int) -> Value:
@@ -233,7 +234,9 @@ def _has_events(arguments: list[Expr | str]) -> bool:
 def _without_events(value: Value) -> Value:
     """Relations in functions make no events."""
 
-    def quiet(item: Expr | str) -> Expr | str:
+    def quiet(item: Expr | str | Record) -> Expr | str | Record:
+        if isinstance(item, Record):
+            return _without_events(item)
         if isinstance(item, Expr) and item.op not in ("const", "var") and any(map(_eventful, ex.walk(item))):
             return ex.special("noEvent", item, type=item.type)
         return item
@@ -241,7 +244,8 @@ def _without_events(value: Value) -> Value:
     if isinstance(value, Array):
         return Array(value.shape, tuple(map(quiet, value.items)))
     if isinstance(value, Record):
-        return Record(value.name, {name: _without_events(field) for name, field in value.fields.items()})
+        fields = {name: _without_events(field) for name, field in value.fields.items()}
+        return Record(value.name, fields, value.cls)
     return quiet(value)
 
 
@@ -267,7 +271,8 @@ def construct_record(cls: ast.Class, e: ast.Call, scope: Scope) -> Record:
         for f in declared
         if f.declaration.variability != "constant" or f.declaration.modification.value is None
     ]
-    return Record(cls.path, bind_arguments(cls, fields, written_arguments(cls, fields, e, scope, {}), e, scope))
+    bound = bind_arguments(cls, fields, written_arguments(cls, fields, e, scope, {}), e, scope)
+    return Record(cls.path, bound, cls)
 
 
 def run(name: str, arguments: list[Expr], context: Context, span: Span) -> Expr:

@@ -18,12 +18,12 @@ from lacuna.codegen.flatten.leaf import Leaf
 from lacuna.codegen.flatten.lower import modifier_value
 from lacuna.codegen.flatten.modifiers import Modifier, for_each, from_tree, merge, narrow
 from lacuna.codegen.flatten.prefixes import check_block, check_outer, check_prefixes
-from lacuna.codegen.flatten.redeclared import check_modifier, check_redeclared
-from lacuna.codegen.flatten.scope import Scope, own_or_inherited
+from lacuna.codegen.flatten.redeclared import check_modifier, check_redeclared, seen
+from lacuna.codegen.flatten.restrictions import check_flow_record
+from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.subtypes import mismatch, require_subtype
 from lacuna.codegen.flatten.types import Type, resolve_type
 from lacuna.codegen.flatten.values import Array, Record, Value, indices
-from lacuna.codegen.flatten.views import modified, view
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.syntax import ast
 
@@ -63,13 +63,15 @@ class Instance:
         modifier: Modifier | None,
         declaration: ast.Component | None = None,
     ) -> None:
-        cls = _seen(cls, modifier, context)
+        cls = seen(cls, modifier, context)
         self.context, self.cls, self.name, self.parent = context, cls, name, parent
         self.declaration = declaration
         self.span = declaration.span if declaration else cls.span
         inherited = parent.variability if parent else ""
         self.variability = (declaration.variability if declaration else "") or inherited
         self._inherit_prefixes(declaration)
+        if self.flow:
+            check_flow_record(cls, self.span, context)
         self._modifier = modifier
         self._record: Record | None = None
         self._children: dict[str, Node] = {}
@@ -223,8 +225,8 @@ class Instance:
         return Instance(self.context, cls, "", None, None).elements
 
     def _outer(self, declaration: ast.Component, scope: Scope) -> Node:
-        """The inner component that an outer one means. Raises R013 where there is none, R076 where it does not fit."""
-        found = self._inner(declaration)
+        """The inner component that an outer one means. Raises R013 where none can be, R076 where it does not fit."""
+        found = self._inner(declaration) or self._implicit(declaration, scope)
         if isinstance(found, Absent):
             return found
         wanted, first = resolve_type(declaration.type, scope), found
@@ -243,15 +245,30 @@ class Instance:
             raise error
         return found
 
-    def _inner(self, declaration: ast.Component) -> Node:
+    def _inner(self, declaration: ast.Component) -> Node | None:
         above = self.parent
         while above is not None:
             element = above.elements.get(declaration.name)
             if element is not None and element.declaration.inner:
                 return above.child(declaration.name)
             above = above.parent
-        hint = f"declare in a model around it: inner {declaration.type} {declaration.name};"
-        raise Diagnostic("R013", f"no 'inner' matches the 'outer' {declaration.name}", declaration.span, hint)
+        return None
+
+    def _implicit(self, declaration: ast.Component, scope: Scope) -> Node:
+        """The inner component that the model itself gets where none is declared (5.4), by its defaults."""
+        top, name = self, declaration.name
+        while top.parent is not None:
+            top = top.parent
+        hint = f"declare in a model around it: inner {declaration.type} {name};"
+        found = resolve_type(declaration.type, scope)
+        if name in top.elements or found.primitive is not None or found.cls.partial:
+            raise Diagnostic("R013", f"no 'inner' matches the 'outer' {name}", declaration.span, hint)
+        plain = ast.Modification(declaration.span)
+        made = replace(declaration, outer=False, inner=True, condition=None, protected=False, modification=plain)
+        top.elements[name] = Element(made, scope.cls, None)
+        message = f"no 'inner' matches the 'outer' {name}: the model has one with its default values"
+        self.context.warnings.append(Diagnostic("W008", message, declaration.span, hint, severity="warning"))
+        return top.child(name)
 
     @staticmethod
     def _check_component(declaration: ast.Component, found: Type) -> None:
@@ -264,21 +281,6 @@ class Instance:
             if declaration.replaceable:
                 hint = f"redeclare it: {declaration.name}(redeclare CLASS {declaration.name})"
             raise Diagnostic("R015", f"{cls.name} is partial and cannot be a component", declaration.span, hint)
-
-
-def _seen(cls: ast.Class, modifier: Modifier | None, context: Context) -> ast.Class:
-    """`cls` with the classes that `modifier` redeclares or modifies in it."""
-    library = context.library
-    redeclared: dict[str, ast.Class] = {}
-    for name, child in modifier.children.items() if modifier is not None else ():
-        if isinstance(child.redeclare, ast.Class):
-            scope = child.redeclared_in
-            redeclared[name] = view(library, child.redeclare, scope.cls, written=scope)
-        elif child.redeclare is None and child.children and child.tree is not None:
-            plain = own_or_inherited(library, cls, name)
-            if plain is not None:
-                redeclared[name] = modified(library, plain, child.tree, child.scope, child.scope.cls)
-    return view(library, cls, cls.parent, redeclared, cls.whole) if redeclared else cls
 
 
 Node = Instance | Leaf | ArrayNode | Absent

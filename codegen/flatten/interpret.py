@@ -9,17 +9,29 @@ from math import prod
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.asserts import lower_assert
+from lacuna.codegen.flatten.blanks import blank
 from lacuna.codegen.flatten.constants import AtRunTime
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.effects import effect
-from lacuna.codegen.flatten.function_locals import Local, Signature, declared_sizes, fit, signature_of, typed
+from lacuna.codegen.flatten.function_locals import Local, Signature, fit, typed
 from lacuna.codegen.flatten.instance import package_of
 from lacuna.codegen.flatten.iterators import iterate
 from lacuna.codegen.flatten.lower import lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.random_numbers import GENERATORS
 from lacuna.codegen.flatten.references import apply_subscripts
 from lacuna.codegen.flatten.scope import Scope
-from lacuna.codegen.flatten.values import Array, Record, Value, elementwise, integers, scalars, shape_of, shape_text
+from lacuna.codegen.flatten.values import (
+    Array,
+    Record,
+    Value,
+    elementwise,
+    holds_records,
+    integers,
+    items_of,
+    scalars,
+    shape_of,
+    shape_text,
+)
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr
@@ -27,11 +39,6 @@ from lacuna.codegen.syntax import ast
 
 MAX_STEPS = 50_000
 MAX_SYMBOLIC_STEPS = 400
-
-
-def unset(kind: str) -> Expr:
-    """Stands for a variable that nothing was assigned to."""
-    return ex.node("unset", (), None, kind)
 
 
 def interpret(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
@@ -48,14 +55,10 @@ def interpret(signature: Signature, arguments: dict[str, Value], context: Contex
         if default is not None:
             value = fit(local, lower(default, scope), scope, default.span)
             run.locals[local.name] = _named_constant(local, signature.cls, value, context) if run.symbolic else value
-        elif local.type.primitive is None:
-            run.locals[local.name] = _blank_record(local, context)
         else:
             if local.is_flexible:
                 run.flexible.add(local.name)
-            shape = tuple(0 if local.is_flexible else n for n in declared_sizes(local, scope, local.nothing))
-            blank = unset(local.type.primitive)
-            run.locals[local.name] = Array(shape, (blank,) * prod(shape)) if shape else blank
+            run.locals[local.name] = blank(local, scope)
     run.block(signature.body)
     results = [run.locals[local.name] for local in signature.outputs]
     for local, value in zip(signature.outputs, results, strict=True):
@@ -80,13 +83,6 @@ def _named_constant(local: Local, cls: ast.Class, value: Value, context: Context
     if local.declaration.variability != "constant" or not local.unit or isinstance(value, Record):
         return value
     return package_of(context, cls).child(local.name).value()
-
-
-def _blank_record(local: Local, context: Context) -> Record:
-    fields: dict[str, Value] = {}
-    for part in signature_of(local.type.cls, context).locals:
-        fields[part.name] = unset(part.type.primitive) if part.type.primitive else _blank_record(part, context)
-    return Record(local.name, fields)
 
 
 class _Run:
@@ -238,13 +234,10 @@ class _Run:
 
     def _updated(self, old: Value, target: ast.Ref, at: int, value: Value, span: Span) -> Value:
         """`old` with the part that `target` names, from name number `at` on, replaced by `value`."""
-        if at + 1 < len(target.names):
-            if not isinstance(old, Record) or target.names[at + 1] not in old.fields:
-                raise Diagnostic("R003", f"{target} has no such element", target.span, "only records have elements")
-            name = target.names[at + 1]
-            return Record(old.name, old.fields | {name: self._updated(old.fields[name], target, at + 1, value, span)})
-        subscripts = target.subscripts[at]
+        subscripts, last = target.subscripts[at], at + 1 == len(target.names)
         if subscripts is None:
+            if not last:
+                return self._field_updated(old, target, at + 1, value, span)
             if target.names[at] in self.flexible and len(shape_of(old)) == len(shape_of(value)):
                 self.scope.context.spend(len(scalars(value)), span)
                 return value
@@ -253,13 +246,25 @@ class _Run:
         picked = apply_subscripts(numbers, subscripts, self.scope, target)
         if any(p.op != "const" for p in scalars(picked)):
             raise AtRunTime("an index", span)
+        if not last and not isinstance(picked, Expr):
+            raise Diagnostic("R042", f"{target}: elements of several records", span, "assign them one by one")
+        if not last:
+            new = self._field_updated(old.items[picked.value], target, at + 1, value, span)
+            return Array(old.shape, (*old.items[: picked.value], new, *old.items[picked.value + 1 :]))
         if shape_of(picked) != shape_of(value):
             message = f"{shape_text(shape_of(picked))} := {shape_text(shape_of(value))}"
             raise Diagnostic("R042", f"the sides differ in size: {message}", span, "both need the same size")
         items = list(old.items)
-        for position, new in zip(scalars(picked), scalars(value), strict=True):
+        for position, new in zip(items_of(picked), items_of(value), strict=True):
             items[position.value] = conform(old.items[position.value], new, span, str(target))
         return Array(old.shape, tuple(items))
+
+    def _field_updated(self, old: Value, target: ast.Ref, at: int, value: Value, span: Span) -> Record:
+        name = target.names[at]
+        if not isinstance(old, Record) or name not in old.fields:
+            raise Diagnostic("R003", f"{target} has no such element", target.span, "only records have elements")
+        changed = self._updated(old.fields[name], target, at, value, span)
+        return Record(old.name, old.fields | {name: changed}, old.cls)
 
 
 def unknown_target(target: ast.Ref, names: dict[str, Value]) -> Diagnostic:
@@ -269,10 +274,10 @@ def unknown_target(target: ast.Ref, names: dict[str, Value]) -> Diagnostic:
 
 def conform(old: Value, value: Value, span: Span, name: str) -> Value:
     """`value` for a variable that held `old`: the same size, and a type that fits."""
-    if shape_of(old) != shape_of(value) or isinstance(old, Record) != isinstance(value, Record):
+    if shape_of(old) != shape_of(value) or holds_records(old) != holds_records(value):
         message = f"{name} has size {shape_text(shape_of(old))}, given {shape_text(shape_of(value))}"
         raise Diagnostic("R042", message, span, "both need the same size")
-    if isinstance(old, Record):
+    if holds_records(old):
         return value
     kinds = [o.type if isinstance(o, Expr) else "String" for o in scalars(old)]
     items = [typed(v, k, name, span) for v, k in zip(scalars(value), kinds, strict=True)]
@@ -282,7 +287,10 @@ def conform(old: Value, value: Value, span: Span, name: str) -> Value:
 def _choose(condition: Expr, then: Value, otherwise: Value, span: Span) -> Value:
     if isinstance(then, Record) and isinstance(otherwise, Record):
         fields = {n: _choose(condition, v, otherwise.fields[n], span) for n, v in then.fields.items()}
-        return Record(then.name, fields)
+        return Record(then.name, fields, then.cls)
+    if isinstance(then, Array) and holds_records(then) and shape_of(then) == shape_of(otherwise):
+        pairs = zip(then.items, items_of(otherwise), strict=True)
+        return Array(then.shape, tuple(_choose(condition, a, b, span) for a, b in pairs))
     if isinstance(then, str) or isinstance(otherwise, str):
         raise AtRunTime("a String", span)
     return elementwise(lambda a, b: ex.if_else(condition, a, b), [then, otherwise], span, "alternatives")

@@ -2,18 +2,29 @@
 
 from __future__ import annotations
 
-from lacuna.codegen.flatten import arrays, calls, iterators, lower
+from lacuna.codegen.flatten import arrays, calls, iterators, lower, overloads
 from lacuna.codegen.flatten.context import Lowering
 from lacuna.codegen.flatten.functions import run
+from lacuna.codegen.flatten.overconstrained import is_root, rooted
 from lacuna.codegen.flatten.references import read
 from lacuna.codegen.flatten.streams import actual_stream, in_stream
 from lacuna.codegen.flatten.structure import cardinality
 from lacuna.codegen.syntax import ast
 
-_OF_CONNECTIONS = {"cardinality": cardinality, "inStream": in_stream, "actualStream": actual_stream}
+_OF_CONNECTIONS = {
+    "cardinality": cardinality,
+    "inStream": in_stream,
+    "actualStream": actual_stream,
+    "Connections.isRoot": is_root,
+    "Connections.rooted": rooted,
+    "rooted": rooted,
+}
 LOWERING = Lowering(
     nodes={**lower.OPERATORS, ast.Ref: read, ast.Call: calls.lower_call, **iterators.RANGES},
     functions={**_OF_CONNECTIONS, **arrays.FUNCTIONS, **calls.SCALAR_FUNCTIONS, **calls.OPERATORS},
     results=calls.call_of_model,
+    overloaded=overloads.overloaded,
+    construct=overloads.construct,
+    text=overloads.text_by_operator,
     run=run,
 )

@@ -16,6 +16,7 @@ from lacuna.codegen.flatten.values import (
     Value,
     concatenate,
     elementwise,
+    holds_records,
     multiply,
     promote,
     shape_of,
@@ -95,6 +96,8 @@ def need_numbers(value: Value, span: Span, op: str) -> None:
 
 def _unary(e: ast.Unary, scope: Scope) -> Value:
     value = lower(e.operand, scope)
+    if holds_records(value) and e.op != "+":
+        return scope.context.lowering.overloaded(e.op, [value], e.span, scope)
     if e.op == "not":
         _need(value, (BOOLEAN,), e.span, "not")
         return elementwise(ex.logical_not, [value], e.span, "not")
@@ -104,6 +107,8 @@ def _unary(e: ast.Unary, scope: Scope) -> Value:
 
 def _binary(e: ast.Binary, scope: Scope) -> Value:
     left, right = lower(e.left, scope), lower(e.right, scope)
+    if holds_records(left) or holds_records(right):
+        return scope.context.lowering.overloaded(e.op, [left, right], e.span, scope)
     if e.op in ("and", "or"):
         for value in (left, right):
             _need(value, (BOOLEAN,), e.span, e.op)
@@ -210,8 +215,11 @@ def _choice(condition: Expr, then: Value, otherwise: Value, span: Span, scope: S
     if isinstance(then, str) or isinstance(otherwise, str) or shape_of(then) != shape_of(otherwise):
         decided = known(condition, scope, span, "the condition of alternatives of different size")
         return then if decided.value else otherwise
-    if isinstance(then, Record) or isinstance(otherwise, Record):
-        raise Diagnostic("R041", "an if-expression of records", span, "choose between their fields")
+    if isinstance(then, Record) and isinstance(otherwise, Record) and then.fields.keys() == otherwise.fields.keys():
+        fields = {n: _choice(condition, v, otherwise.fields[n], span, scope) for n, v in then.fields.items()}
+        return Record(then.name, fields, then.cls)
+    if holds_records(then) or holds_records(otherwise):
+        raise Diagnostic("R041", "an if-expression of different records", span, "choose between their fields")
 
     def pick(a: Expr, b: Expr) -> Expr:
         if (a.type == BOOLEAN) != (b.type == BOOLEAN):

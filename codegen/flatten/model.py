@@ -128,7 +128,11 @@ def _instantiate(top: Instance) -> tuple[list[Leaf], list[tuple[ast.Section, ast
         if instance.cls.expandable:
             buses.append(instance)
             return
-        for element in instance.elements:
+        look_at(instance, list(instance.elements))
+        sections.extend((section, cls, instance) for section, cls in instance.sections)
+
+    def look_at(instance: Instance, elements: list[str]) -> None:
+        for element in elements:
             with instance.context.attempt():
                 node = instance.child(element)
                 declaration = instance.elements[element].declaration
@@ -140,9 +144,12 @@ def _instantiate(top: Instance) -> tuple[list[Leaf], list[tuple[ast.Section, ast
                 elif isinstance(node, ArrayNode) and not outer:
                     for item in node.items:
                         visit(item)
-        sections.extend((section, cls, instance) for section, cls in instance.sections)
 
+    declared = set(top.elements)
     visit(top)
+    while implicit := [name for name in top.elements if name not in declared]:  # inner ones that were asked for (5.4)
+        declared.update(implicit)
+        look_at(top, implicit)
     return leaves, sections, buses
 
 

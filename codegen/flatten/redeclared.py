@@ -8,7 +8,7 @@ from lacuna.codegen.flatten.modifiers import Modifier
 from lacuna.codegen.flatten.scope import Scope, base_class, base_classes, base_clauses, own_or_inherited
 from lacuna.codegen.flatten.subtypes import ElementsOf, require_subtype
 from lacuna.codegen.flatten.types import Type, resolve_type, type_of
-from lacuna.codegen.flatten.views import constrain, view
+from lacuna.codegen.flatten.views import constrain, modified, view
 from lacuna.codegen.library import Library
 from lacuna.codegen.syntax import ast
 
@@ -85,3 +85,18 @@ def _in_place(new: ast.Class, old: ast.Class | None, context: Context, elements:
     if old.constraint is not None and old.parent is not None:
         bound = resolve_type(old.constraint.base, Scope(context, old.parent))
     require_subtype(type_of(new, context), bound, context, elements, f"{new.name} for {old.name}", new.span)
+
+
+def seen(cls: ast.Class, modifier: Modifier | None, context: Context) -> ast.Class:
+    """`cls` with the classes that `modifier` redeclares or modifies in it."""
+    library = context.library
+    redeclared: dict[str, ast.Class] = {}
+    for name, child in modifier.children.items() if modifier is not None else ():
+        if isinstance(child.redeclare, ast.Class):
+            scope = child.redeclared_in
+            redeclared[name] = view(library, child.redeclare, scope.cls, written=scope)
+        elif child.redeclare is None and child.children and child.tree is not None:
+            plain = own_or_inherited(library, cls, name)
+            if plain is not None:
+                redeclared[name] = modified(library, plain, child.tree, child.scope, child.scope.cls)
+    return view(library, cls, cls.parent, redeclared, cls.whole) if redeclared else cls

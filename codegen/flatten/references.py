@@ -15,7 +15,7 @@ from lacuna.codegen.flatten.instance import Absent, ArrayNode, Instance, Node
 from lacuna.codegen.flatten.leaf import Leaf
 from lacuna.codegen.flatten.lower import lower
 from lacuna.codegen.flatten.scope import Scope
-from lacuna.codegen.flatten.values import Array, Record, Value, elementwise, scalars, shape_of, stack
+from lacuna.codegen.flatten.values import Array, Record, Value, elementwise, holds_records, scalars, shape_of, stack
 from lacuna.codegen.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, REAL, Expr
@@ -47,13 +47,21 @@ def _read_local(ref: ast.Ref, scope: Scope) -> Value:
     value = scope.locals[ref.names[0]]
     value = apply_subscripts(value, ref.subscripts[0], scope, ref)
     for name, subscripts in zip(ref.names[1:], ref.subscripts[1:], strict=True):
-        if not isinstance(value, Record):
-            raise Diagnostic("R003", f"{ref.names[0]} has no element {name}", ref.span, "only records have elements")
-        if name not in value.fields:
-            hint = did_you_mean(name, value.fields, f"{value.name} has {', '.join(value.fields)}")
-            raise Diagnostic("R003", f"{value.name} has no element {name}", ref.span, hint)
-        value = apply_subscripts(value.fields[name], subscripts, scope, ref)
+        value = apply_subscripts(_element_of(value, name, ref), subscripts, scope, ref)
     return value
+
+
+def _element_of(value: Value, name: str, ref: ast.Ref) -> Value:
+    """One field of a record, or of every record of an array."""
+    if isinstance(value, Array) and value.items and holds_records(value):
+        stacked = stack([_element_of(record, name, ref) for record in value.items], ref.span)
+        return Array(value.shape + stacked.shape[1:], stacked.items)
+    if not isinstance(value, Record):
+        raise Diagnostic("R003", f"{ref.names[0]} has no element {name}", ref.span, "only records have elements")
+    if name not in value.fields:
+        hint = did_you_mean(name, value.fields, f"{value.name} has {', '.join(value.fields)}")
+        raise Diagnostic("R003", f"{value.name} has no element {name}", ref.span, hint)
+    return value.fields[name]
 
 
 def _walk(node: Node, ref: ast.Ref, at: int, scope: Scope) -> Value:
@@ -76,7 +84,7 @@ def _walk(node: Node, ref: ast.Ref, at: int, scope: Scope) -> Value:
     if subscripts is not None:
         raise Diagnostic("R044", f"{node.name} is no array", ref.span, "remove the subscript")
     if last:
-        return Record(node.name, {name: _field(node.child(name), ref, scope) for name in node.elements})
+        return Record(node.name, {name: _field(node.child(name), ref, scope) for name in node.elements}, node.cls)
     if ref.names[at + 1] in node.elements:
         _refuse_conditional(node, ref.names[at + 1], ref)
     return _walk(member(node, ref, at + 1), ref, at + 1, scope)

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.context import Context
-from lacuna.codegen.flatten.scope import PRIMITIVES, base_class, base_clauses
+from lacuna.codegen.flatten.scope import PRIMITIVES, base_class, base_clauses, own_or_inherited
 from lacuna.codegen.syntax import ast
 
 # What each kind of class may extend besides `class` (7.1.3).
@@ -114,6 +114,8 @@ def _check_bases(cls: ast.Class, context: Context) -> None:
     allowed = MAY_EXTEND.get(cls.kind, ())
     for reference, tree in base_clauses(cls):
         base = base_class(context.library, cls, reference, tree)
+        if base is not None:
+            _check_operators(cls, base, reference)
         if base is None or base.kind in (*allowed, "class"):
             continue
         if cls.kind == "function" and base.kind == "class":
@@ -126,6 +128,26 @@ def _check_bases(cls: ast.Class, context: Context) -> None:
             if _is_simple(clause.base, cls, context):
                 hint = "a class that extends a simple or an array type has nothing else"
                 raise Diagnostic("R071", f"{cls.name} extends {clause.base} and more", clause.base.span, hint)
+
+
+def _check_operators(cls: ast.Class, base: ast.Class, reference: ast.Ref) -> None:
+    """Nothing extends an operator record, nor a class around one, but by a short definition (14.2, 4.7)."""
+    held = next((c for c in base.classes.values() if c.operator and c.kind == "record"), None)
+    found = base if base.operator and base.kind == "record" else held
+    if found is not None:
+        hint = "write a short definition: operator record NAME = BASE(...);"
+        what = f"the operator record {base.name}" if found is base else f"{base.name}, which holds an operator record"
+        raise Diagnostic("R071", f"{cls.name} extends {what}", reference.span, hint)
+
+
+def check_flow_record(cls: ast.Class, span: Span, context: Context) -> None:
+    """An operator record that flows has '+', '-' and '0': what connections add up (9.2). Raises R079."""
+    if not (cls.operator and cls.kind == "record"):
+        return
+    for name in ("'+'", "'-'", "'0'"):
+        if own_or_inherited(context.library, cls, name) is None:
+            hint = "declare it in the operator record"
+            raise Diagnostic("R079", f"{cls.name} is a flow and has no operator {name}", span, hint)
 
 
 def _check_replaceable_bases(cls: ast.Class, context: Context) -> None:

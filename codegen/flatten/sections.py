@@ -8,6 +8,7 @@ from lacuna.codegen.flatten.asserts import lower_assert
 from lacuna.codegen.flatten.conditionals import flatten_if
 from lacuna.codegen.flatten.effects import effect
 from lacuna.codegen.flatten.equations import Collected, equalities, unroll
+from lacuna.codegen.flatten.overconstrained import STATEMENTS, graph_of
 from lacuna.codegen.flatten.scope import Scope
 from lacuna.codegen.flatten.when import flatten_when
 from lacuna.codegen.syntax import ast
@@ -33,6 +34,9 @@ def flatten_item(item: ast.Item, scope: Scope, out: Collected) -> None:
                 flatten_item(body_item, inner, out)
     elif isinstance(item, ast.When):
         out.whens.append(flatten_when(item, scope))
+    elif isinstance(item, ast.Procedure) and str(item.call.function) in STATEMENTS:
+        graph_of(scope.context)
+        out.branches.append(item)
     else:
         out.asserts += assertion(item, scope)
 
@@ -46,6 +50,4 @@ def assertion(item: ast.Item, scope: Scope) -> list[flat.Assert]:
     if name in ("reinit", "terminate"):
         hint = f"put it under a condition: when ... then {name}(...); end when;"
         raise Diagnostic("R056", f"{name} outside of when", item.span, hint)
-    if name.startswith("Connections."):
-        raise Diagnostic("R091", f"{name} is outside the subset", item.span, "write the equations out")
     return effect(item, scope)

@@ -9,7 +9,7 @@ from lacuna.codegen.flatten.constants import known
 from lacuna.codegen.flatten.enumerations import enumeration_of
 from lacuna.codegen.flatten.lower import lower, lower_scalar
 from lacuna.codegen.flatten.scope import Scope, literals_of
-from lacuna.codegen.flatten.values import Value
+from lacuna.codegen.flatten.values import Record, Value
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
 
@@ -24,6 +24,10 @@ def text_of(e: ast.Call, scope: Scope) -> Value:
     value = lower(e.args[0], scope)
     if isinstance(value, str):
         return value
+    if isinstance(value, Record):
+        text = scope.context.lowering.text(value, e, scope)
+        if text is not None:
+            return text
     if not isinstance(value, Expr):
         raise Diagnostic("R020", "String of what is no scalar", e.span, "use one element of it")
     if scope.message and value.op != "const":

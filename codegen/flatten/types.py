@@ -33,6 +33,7 @@ class Type:
     modifier: Modifier | None = None
     dimensions: list[int] = field(default_factory=list)
     causality: str = ""
+    named: ast.Class | None = None  # of a primitive type with a name of its own: the class of that name
 
 
 def resolve_type(reference: ast.Ref, scope: Scope, depth: int = 0) -> Type:
@@ -64,6 +65,7 @@ def type_of(cls: ast.Class, context: Context, depth: int = 0) -> Type:
         found.modifier = merge(from_tree(cls.alias.modification, inside), found.modifier)
         found.dimensions = evaluate_dimensions(cls.alias.dimensions, inside, None, cls.name) + found.dimensions
         found.causality = cls.alias.causality or found.causality
+        found.named = cls
         return found
     if is_external(cls):
         return Type(EXTERNAL, cls)
@@ -71,6 +73,7 @@ def type_of(cls: ast.Class, context: Context, depth: int = 0) -> Type:
         if str(clause.base) in PRIMITIVES or _is_primitive(clause.base, inside, depth):
             found = resolve_type(clause.base, inside, depth + 1)
             found.modifier = merge(from_tree(clause.modification, inside), found.modifier)
+            found.named = cls
             return found
     return Type(None, cls)
 

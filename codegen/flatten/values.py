@@ -16,7 +16,7 @@ class Array:
     """Elements in row-major order; `shape` has at least one dimension."""
 
     shape: tuple[int, ...]
-    items: tuple[Expr | str, ...]
+    items: tuple[Expr | str | Record, ...]
 
     def rows(self) -> list[Value]:
         """Along the first dimension."""
@@ -34,10 +34,11 @@ class Array:
 
 @dataclass(frozen=True, slots=True)
 class Record:
-    """Fields by name, in the order of their declaration."""
+    """Fields by name, in the order of their declaration; `cls` (an ast.Class) is what it is a record of."""
 
     name: str
     fields: dict[str, Value]
+    cls: object = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,12 +71,22 @@ def shape_text(shape: tuple[int, ...]) -> str:
 def scalars(value: Value) -> list[Expr | str]:
     """Every scalar inside, in order."""
     if isinstance(value, Array):
-        return list(value.items)
+        plain = not any(isinstance(i, Record) for i in value.items)
+        return list(value.items) if plain else [s for i in value.items for s in scalars(i)]
     if isinstance(value, Record):
         return [s for field in value.fields.values() for s in scalars(field)]
     if isinstance(value, FunctionValue):
         return [s for bound in value.bound.values() for s in scalars(bound)]
     return [] if isinstance(value, ExternalValue) else [value]
+
+
+def items_of(value: Value) -> tuple[Value, ...]:
+    """The elements of an array, records whole; anything else is one element."""
+    return value.items if isinstance(value, Array) else (value,)
+
+
+def holds_records(value: Value) -> bool:
+    return any(isinstance(i, Record) for i in items_of(value))
 
 
 def indices(shape: tuple[int, ...]) -> Iterator[tuple[int, ...]]:
@@ -90,10 +101,10 @@ def stack(rows: list[Value], span: Span) -> Array:
         found = " and ".join(shape_text(s) for s in sorted(shapes))
         hint = "every element of an array has the same size"
         raise Diagnostic("R040", f"the elements differ in size: {found}", span, hint)
-    if any(isinstance(r, Record | FunctionValue | ExternalValue) for r in rows):
-        raise Diagnostic("R041", "an array of records cannot be used as a value", span, "use the fields one by one")
+    if any(isinstance(r, FunctionValue | ExternalValue) for r in rows):
+        raise Diagnostic("R041", "an array of functions or external objects", span, "use them one by one")
     shape = shapes.pop() if shapes else ()
-    return Array((len(rows), *shape), tuple(s for r in rows for s in scalars(r)))
+    return Array((len(rows), *shape), tuple(s for r in rows for s in items_of(r)))
 
 
 def elementwise(function: Callable[..., Expr], values: list[Value], span: Span, what: str) -> Value:
@@ -101,8 +112,8 @@ def elementwise(function: Callable[..., Expr], values: list[Value], span: Span, 
     for v in values:
         if isinstance(v, FunctionValue | ExternalValue):
             raise Diagnostic("R041", f"{what} of a function or an external object", span, "it works on numbers")
-        if isinstance(v, Record | str) or (isinstance(v, Array) and any(isinstance(i, str) for i in v.items)):
-            found = "a record" if isinstance(v, Record) else "a String"
+        if any(isinstance(i, Record | str) for i in items_of(v)):
+            found = "a record" if holds_records(v) else "a String"
             raise Diagnostic("R041", f"{what} of {found}", span, "it works on numbers and Booleans")
     shapes = {v.shape for v in values if isinstance(v, Array)}
     if not shapes:
@@ -158,7 +169,7 @@ def integers(values: list[int]) -> Array:
 def promote(value: Value, dimensions: int) -> Array:
     """`value` with sizes of 1 added on the right up to so many dimensions."""
     shape = shape_of(value)
-    return Array(shape + (1,) * (dimensions - len(shape)), tuple(scalars(value)))
+    return Array(shape + (1,) * (dimensions - len(shape)), items_of(value))
 
 
 def concatenate(along: int, parts: list[Array], span: Span) -> Array:

@@ -130,6 +130,10 @@ def _alias_pairs(
         return v.type == o.type and (continuous or ((v.variability == flat.DISCRETE) <= (o.variability == flat.DISCRETE)
                                      and name not in differentiated))  # fmt: skip
 
+    def solvable(name: str) -> bool:
+        """May `-name` stand in its place? What holds between events is only ever solved for a variable itself."""
+        return model.variables[name].type == "Real" and model.variables[name].variability == flat.CONTINUOUS
+
     speeds: dict[Expr, tuple[str, int]] = {}
     for eq in model.equations:
         pair, speed = alias_pair(eq), _speed(eq)
@@ -141,7 +145,7 @@ def _alias_pairs(
             continue
         (a, sign_a), (b, sign_b) = union.find(pair[0]), union.find(pair[1])
         keep, drop = (a, b) if rank(a) >= rank(b) else (b, a)
-        if a == b or not removable(drop, keep):
+        if a == b or not removable(drop, keep) or (pair[2] * sign_a * sign_b < 0 and not solvable(drop)):
             kept.append(eq)
             continue
         union.parent[drop] = (keep, pair[2] * sign_a * sign_b)

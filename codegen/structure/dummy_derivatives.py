@@ -16,7 +16,7 @@ from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.aliases import STATE_SELECT
 from lacuna.codegen.structure.constants import is_parametric
-from lacuna.codegen.structure.system import DeclaredValues, Row, System
+from lacuna.codegen.structure.system import DeclaredValues, DefinedValues, Row, System
 from lacuna.codegen.symbolic.differentiate import partial
 from lacuna.codegen.symbolic.expr import Expr, add, const, der, mul, relation, var
 from lacuna.codegen.symbolic.rewrite import Rewriter, all_statements
@@ -28,7 +28,10 @@ WATCHED = 0.1  # smallest pivot tolerated during a run, relative to those of the
 def choose_states(model: flat.FlatModel, rows: list[Row], names: list[str]) -> System:
     """Select dummy derivatives among `rows` and return the system in the remaining states."""
     variables = _variables(rows, names)
-    dummies, watches = _choose_dummies(model, rows, variables)
+    try:
+        dummies, watches = _choose_dummies(model, rows, variables, DeclaredValues(model))
+    except Diagnostic:
+        dummies, watches = _choose_dummies(model, rows, variables, DefinedValues(model, rows))
     model = replace(model, asserts=[*model.asserts, *watches])
     replacement, model, extra = _rename(model, variables, dummies)
     rewriter = Rewriter(replacement.get)
@@ -75,14 +78,13 @@ def _variables(rows: list[Row], names: list[str]) -> dict[Expr, int]:
 
 
 def _choose_dummies(
-    model: flat.FlatModel, rows: list[Row], variables: dict[Expr, int]
+    model: flat.FlatModel, rows: list[Row], variables: dict[Expr, int], values: DeclaredValues
 ) -> tuple[set[Expr], list[flat.Assert]]:
     differentiated = {row.integral for row in rows if row.integral}
     constraints = [row for row in rows if row.integral and row not in differentiated]
     candidates = [v for v in variables if variables[v] and der(v) not in variables]
     dummies: set[Expr] = set()
     watches: list[flat.Assert] = []
-    values = DeclaredValues(model)
     reset = _reinitialised(model)
     while constraints:
         pivots = _pivots(model, constraints, candidates, variables, values, reset)

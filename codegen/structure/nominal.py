@@ -26,7 +26,23 @@ import math
 
 from lacuna.codegen import flat
 from lacuna.codegen.structure.system import DeclaredValues, System
-from lacuna.codegen.symbolic.expr import BOOLEAN, ONE, Expr, call, const, der, div, is_const, mul, power, var, walk
+from lacuna.codegen.symbolic.expr import (  # fmt: skip
+    BOOLEAN,
+    ONE,
+    ZERO,
+    Expr,
+    call,
+    const,
+    der,
+    div,
+    if_else,
+    is_const,
+    mul,
+    power,
+    relation,
+    var,
+    walk,
+)
 from lacuna.codegen.symbolic.leaves import leaves
 
 BOUNDED = frozenset(("sin", "cos", "tanh", "sign", "asin", "acos", "atan", "atan2"))
@@ -59,6 +75,13 @@ def infer(system: System, relations: Iterable[tuple[Expr, Expr, str]]) -> dict[E
     while inference.balance() or inference.link(system.states, span):
         pass
     return {e: _angle(size, e, system.model) for e, size in inference.sizes.items()}
+
+
+def told(size: Size) -> Expr:
+    """For the parameters of a run; a parameter that is set to zero says nothing, and then the declared ones count."""
+    if is_const(size.expression):
+        return size.expression
+    return if_else(relation(">", size.expression, ZERO), size.expression, const(size.value))
 
 
 def difference(left: Expr, right: Expr, sizes: dict[Expr, Size], model: flat.FlatModel) -> Size | None:

@@ -104,7 +104,18 @@ def jacobian(form: ResidualForm, system: System) -> Jacobian:
         result.entries.append(_column({var(name): ONE, derivative: CJ}, form, users, result, name))
     for tear in form.tears:
         result.entries.append(_column({tear: ONE}, form, users, result, str(tear.value)))
-    return result
+    return _without_unused(result)
+
+
+def _without_unused(found: Jacobian) -> Jacobian:
+    """A derivative that only ever meets a factor of zero, as that of a table with one row, is not computed."""
+    live = set().union(*(leaves(value) for column in found.entries for _, value in column))
+    kept = []
+    for tangent, value in reversed(found.tangents):
+        if tangent in live:
+            kept.append((tangent, value))
+            live |= leaves(value)
+    return Jacobian(kept[::-1], found.entries)
 
 
 def _column(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -100,3 +101,21 @@ class DeclaredValues:
         if n.op == "pre":
             return self.variable(str(n.args[0].value))
         return 0.0 if n.op in ("der", "time", "start_time") else False
+
+
+class DefinedValues(DeclaredValues):
+    """As declared, but a variable without a start value has what its own equation `v = e` gives it from the others:
+    the elements of a rotation matrix are those at the start angle, not zero."""
+
+    def __init__(self, model: flat.FlatModel, rows: Sequence[Row]):
+        super().__init__(model)
+        self._definitions: dict[str, Expr] = {}
+        for row in rows:
+            if row.integral is None and row.lhs.op == "var" and all(n.op in ("var", "time") for n in row.leaves):
+                self._definitions.setdefault(str(row.lhs.value), row.rhs)
+
+    def variable(self, name: str) -> float | int | bool | None:
+        if name not in self._memo and self._model.variables[name].start is None and name in self._definitions:
+            self._memo[name] = 0.0  # ends a cycle
+            self._memo[name] = self(self._definitions[name])
+        return super().variable(name)

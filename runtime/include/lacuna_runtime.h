@@ -90,6 +90,8 @@ typedef struct {
   int record_events;  /* 1: a row before and a row after each event */
   long max_steps;     /* <= 0: none; a run that needs more ends as RT_STEP_COLLAPSE */
   int unchecked;      /* 1: accepted points are not looked at for numbers that are not finite and divisors at zero */
+  double patience;    /* s of computing in which at least a millionth of the run is to be done, else it ends as
+                         RT_STEP_COLLAPSE; <= 0: 60 */
 } rt_options;
 
 typedef enum { RT_LINEAR, RT_HOLD } rt_interpolation;
@@ -128,9 +130,9 @@ RT_API void rt_session_tolerances(const rt_session *session, double *rtol, doubl
  * values. n = 0: none. Refused, with the variable's name, where nothing depends on one of them smoothly. */
 RT_API rt_status rt_session_sensitivities(rt_session *session, int n, const int *variables);
 
-/* While a run goes on, `interrupted` is called about ten times a second, in the thread of the run; where it gives a
- * number other than 0 the run ends with what it has. NULL: it is not asked. */
-RT_API void rt_session_watch(rt_session *session, int (*interrupted)(void));
+/* While a run goes on, `interrupted` is called about ten times a second with the time (s) that it has reached, in the
+ * thread of the run; where it gives a number other than 0 the run ends with what it has. NULL: it is not asked. */
+RT_API void rt_session_watch(rt_session *session, int (*interrupted)(double time));
 
 /* Run from `start` to `stop`. Always gives a result (NULL only without memory): see rt_result_failure. */
 RT_API rt_result *rt_session_run(rt_session *session, double start, double stop);

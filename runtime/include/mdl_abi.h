@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 7
+#define MDL_ABI_VERSION 9
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
@@ -57,6 +57,7 @@ typedef struct mdl_data {
   int terminated;      /* set by event(): 1 + index into `messages` of the terminate() that fired; else 0 */
   mdl_failure failure;
   double start_time; /* of the run; parameters may depend on it */
+  double homotopy;   /* in initial_system(): 1 what homotopy() actually is, 0 what it is simplified to */
 } mdl_data;
 
 typedef enum {
@@ -192,6 +193,12 @@ typedef struct mdl_descriptor {
   int n_divisions;
   const int *division_equation; /* [n_divisions] */
   int (*divisions)(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *value);
+
+  /* How closely the guards of state relations have to be looked at inside a step. phase[n_phases] (rad): arguments of
+   * sin and cos that guards follow, at a complete point. curved_guards: some guard follows the states in another way
+   * that is not affine. */
+  int n_phases, curved_guards;
+  int (*phases)(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *phase);
 } mdl_descriptor;
 
 typedef const mdl_descriptor *(*mdl_descriptor_fn)(void);

@@ -29,7 +29,8 @@ rt_status rt_clock_begin(rt_session *s) {
   return RT_OK;
 }
 
-static double next_event(const rt_session *s) {
+/* The next tick or time relation. */
+double rt_clock_next(const rt_session *s) {
   double next = s->clock.next_relation;
   for (int i = 0; i < s->d->n_sample; i++)
     next = rt_min(next, tick_time(&s->clock, i));
@@ -46,7 +47,7 @@ double rt_clock_limit(rt_session *s) {
     limit = rt_min(limit, s->start + (double)c->step * s->options.step);
     if (!s->options.locate_events) return limit;
   }
-  limit = rt_min(limit, next_event(s));
+  limit = rt_min(limit, rt_clock_next(s));
   return rt_min(limit, rt_inputs_next_break(s));
 }
 

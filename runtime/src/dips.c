@@ -33,7 +33,7 @@ bool rt_may_dip(const rt_session *s) {
 static int find_return(rt_session *s, double *inside) {
   double h = s->t - s->t_previous, least = rt_smallest_step(s);
   for (int r = 0; r < s->d->n_rel; r++) {
-    if (!s->rebound[r]) continue;
+    if (s->due_back[r] < s->t_previous) continue;
     double sign = s->data.rel[r] ? 1 : -1;
     for (double part = 0.5 * h; part > least; part *= 0.5) {
       int status = rt_guards_at(s, s->t_previous + part, s->g_trial);
@@ -72,21 +72,45 @@ int rt_find_dip(rt_session *s, double *inside) {
   return status;
 }
 
-/* Guards that an event with reinit has thrown back: they rest at zero, or where they left the hysteresis, and move to
- * the other side. Each must switch its
- * relation back before it comes through again. */
-int rt_mark_rebounds(rt_session *s, double since) {
+/* Guards a little after the event, as they set off: in g_trial. */
+static int look_ahead(rt_session *s, double since) {
   const mdl_descriptor *d = s->d;
   double t = s->t + rt_max(1e-3 * since, rt_smallest_step(s));
   for (int i = 0; i < d->n_x; i++)
     s->x_trial[i] = s->data.x[i] + (t - s->t) * s->data.xdot[i];
   memcpy(s->v_trial, s->data.v, (size_t)d->n_v * sizeof *s->v_trial);
   int status = rt_rhs(s, t, s->x_trial, s->xdot_trial, s->v_trial);
-  if (!status) status = d->roots(&s->data, t, s->x_trial, s->xdot_trial, s->v_trial, s->g_trial);
-  for (int r = 0; !status && r < d->n_rel; r++) {
-    double sign = s->data.rel[r] ? 1 : -1;
-    if (!rt_is_state_relation(s, r) || fabs(s->g[r]) > 2 * rt_hysteresis(s, r)) continue;
-    s->rebound[r] = sign * (s->g_trial[r] - s->g[r]) < 0;
+  return status ? status : d->roots(&s->data, t, s->x_trial, s->xdot_trial, s->v_trial, s->g_trial);
+}
+
+/* Relation r has just switched; does its guard set off for the side that it came from? It rests at zero, or where it
+ * left the hysteresis, and moves by more than rounding, which is a millionth of the hysteresis. */
+static bool is_thrown_back(const rt_session *s, int r) {
+  double sign = s->data.rel[r] ? 1 : -1, eps = rt_hysteresis(s, r);
+  return fabs(s->g[r]) <= 2 * eps && sign * (s->g_trial[r] - s->g[r]) < -1e-5 * eps;
+}
+
+/* Relations that the event has switched, and those among them that must switch back.
+ *
+ * Events pile up (Zeno) where a reinit throws the guard that called it back, each time for a shorter while: intervals
+ * that shrink like a geometric series have a finite sum, behind which time does not get, and the way of the guard
+ * shrinks with them until it is lost in the hysteresis. So a guard is watched if its own relation switched here, if a
+ * reinit has turned it round, and for as long as the interval between this switch and the last one the same way: a
+ * guard that stays away for longer does not belong to such a series. A relation that switches at a steady rate, that an
+ * event switches with others, or whose guard is at rest but for rounding, loses nothing when it stays as it is. */
+int rt_follow_switches(rt_session *s, double since) {
+  bool thrown = s->reinitialised && s->pending & RT_PENDING_STATE, looked = false;
+  for (int r = 0; r < s->d->n_rel; r++) {
+    int now = s->data.rel[r];
+    if (now == s->rel_before[r] || !rt_is_state_relation(s, r)) continue;
+    double interval = s->t - s->changed_at[now][r];
+    s->changed_at[now][r] = s->t;
+    s->due_back[r] = -INFINITY;
+    if (!thrown) continue;
+    int status = looked ? 0 : look_ahead(s, since);
+    if (status) return status;
+    looked = true;
+    if (is_thrown_back(s, r)) s->due_back[r] = s->t + interval;
   }
-  return status;
+  return 0;
 }

@@ -131,7 +131,6 @@ static rt_status check_chattering(rt_session *s, double since) {
     flipped = r;
     if (s->g_travel[r] > 100 * rt_hysteresis(s, r) && since > s->clock.tolerance) futile = false;
     s->g_travel[r] = 0;
-    s->rebound[r] = 0;
   }
   s->futile_events = futile ? s->futile_events + 1 : 0;
   if (s->futile_events <= MAX_FUTILE_EVENTS) return RT_OK;
@@ -169,7 +168,8 @@ static bool differs(const rt_session *s, const double *x, const double *xdot, co
  * here and with the new relations at the end of the step that the event cut short. Then that step stands. */
 static bool is_inconsequential(rt_session *s) {
   if (s->sensitivities) return false; /* they may have jumped where the run itself has not */
-  if (s->pending & RT_PENDING_KINK || differs(s, s->x_before, s->xdot_before, s->v_before)) return false;
+  if (s->pending & (RT_PENDING_KINK | RT_PENDING_BRANCH) || differs(s, s->x_before, s->xdot_before, s->v_before))
+    return false;
   bool cut = s->t < s->t_end, switched = memcmp(s->data.rel, s->rel_before, (size_t)s->d->n_rel) != 0;
   if (!cut) return !switched;
   if (rt_clock_limit(s) < s->t_end) return false; /* the event has set a time event within that step */
@@ -199,8 +199,7 @@ rt_status rt_event(rt_session *s) {
   rt_jump_begin(s);
   if ((status = rt_iterate_event(s)) || (status = rt_jump_end(s)) || (status = check_chattering(s, since)))
     return status;
-  if (s->reinitialised && s->pending & RT_PENDING_STATE && rt_mark_rebounds(s, since))
-    return rt_fail_model(s, s->t, "looking ahead from an event");
+  if (rt_follow_switches(s, since)) return rt_fail_model(s, s->t, "looking ahead from an event");
   memset(s->flip, 0, (size_t)s->d->n_rel);
   if (record && (status = rt_record_event_row(s))) return status;
   if (s->data.terminated) rt_result_log(s->result, s->t, RT_EVENT_TERMINATE, s->data.terminated - 1, 1);

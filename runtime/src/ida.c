@@ -210,6 +210,17 @@ static rt_status fail(rt_session *s, rt_ida *m, int flag) {
                                                   : "it gave up");
 }
 
+/* Whether the explicit form, from the algebraic unknowns z of the residual form on, gives others: by more than ten
+ * times their tolerance. The branch that IDA's Newton method followed has ended (a fold), and it has come to rest
+ * behind. */
+static bool has_jumped(const rt_session *s, const double *z) {
+  for (int k = 0; k < s->d->n_z; k++) {
+    double tolerance = s->options.rtol * fabs(z[k]) + s->atol[s->d->n_x + k];
+    if (fabs(s->data.v[s->d->z_index[k]] - z[k]) > 10 * tolerance) return true;
+  }
+  return false;
+}
+
 static rt_status step(rt_session *s, void *p, double limit) {
   rt_ida *m = p;
   sunrealtype t = s->t;
@@ -217,13 +228,14 @@ static rt_status step(rt_session *s, void *p, double limit) {
   IDASetStopTime(m->ida, limit);
   int flag = IDASolve(m->ida, limit, &t, m->y, m->yp, IDA_ONE_STEP);
   if (flag < 0) return fail(s, m, flag);
-  const double *y = N_VGetArrayPointer(m->y);
+  const double *y = N_VGetArrayPointer(m->y), *z = y + s->d->n_x;
   memcpy(s->data.x, y, (size_t)s->d->n_x * sizeof *y);
   for (int k = 0; k < s->d->n_z; k++)
-    s->data.v[s->d->z_index[k]] = y[s->d->n_x + k];
+    s->data.v[s->d->z_index[k]] = z[k];
   s->t = flag == IDA_TSTOP_RETURN ? limit : t;
   if (rt_rhs(s, s->t, s->data.x, s->data.xdot, s->data.v) || rt_check_finite(s, s->data.xdot))
     return rt_fail_model(s, s->t, "evaluating the explicit form");
+  if (has_jumped(s, z)) s->pending |= RT_PENDING_BRANCH;
   return rt_ida_tangent_step(s, m);
 }
 

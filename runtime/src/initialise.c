@@ -22,16 +22,20 @@ static void clear(rt_session *s) {
       m->u[d->variables[i].index] = d->variables[i].sign * d->variables[i].start;
   m->initial = 1;
   m->start_time = s->start;
+  m->homotopy = 1;
   m->terminal = m->reinitialised = m->terminated = 0;
   m->failure = (mdl_failure){.equation = -1, .variable = -1};
   memset(s->flip, 0, (size_t)d->n_rel);
   memset(s->division_sign, 0, (size_t)d->n_divisions);
-  memset(s->rebound, 0, (size_t)d->n_rel);
+  for (int r = 0; r < d->n_rel; r++) {
+    s->changed_at[0][r] = s->changed_at[1][r] = s->start;
+    s->due_back[r] = -INFINITY;
+  }
   memset(s->g_span, 0, (size_t)d->n_rel * sizeof *s->g_span);
   memset(s->g_travel, 0, (size_t)d->n_rel * sizeof *s->g_travel);
   s->t = s->t_previous = s->t_end = s->last_event = s->start;
   s->t_before = NAN;
-  s->resume = false;
+  s->resume = s->in_pieces = false;
   s->dense.valid = false;
   s->steps_taken = 0;
   s->futile_events = s->tiny_steps = s->pending = 0;
@@ -63,13 +67,49 @@ static rt_status fail_initialisation(rt_session *s) {
   return s->failure.status = RT_INITIALISATION;
 }
 
+/* The initial system with this much of the actual expressions in homotopy(); where it fails, start values are as they
+ * were. */
+static int solve_on_path(rt_session *s, double path) {
+  mdl_data *m = &s->data;
+  const mdl_descriptor *d = s->d;
+  memcpy(s->x_before, m->x, (size_t)d->n_x * sizeof *m->x);
+  memcpy(s->xdot_before, m->xdot, (size_t)d->n_x * sizeof *m->xdot);
+  memcpy(s->v_before, m->v, (size_t)d->n_v * sizeof *m->v);
+  m->homotopy = path;
+  int status = d->initial_system(m, s->t);
+  m->homotopy = 1;
+  if (!status) return 0;
+  memcpy(m->x, s->x_before, (size_t)d->n_x * sizeof *m->x);
+  memcpy(m->xdot, s->xdot_before, (size_t)d->n_x * sizeof *m->xdot);
+  memcpy(m->v, s->v_before, (size_t)d->n_v * sizeof *m->v);
+  return status;
+}
+
+/* Where the start values lead nowhere: the solution with the simplified expressions, followed to that with the actual
+ * ones by steps that halve where it is lost and double where it is not. A failure is the first one. */
+static int solve_initial_system(rt_session *s) {
+  const double least = 1e-6;
+  int status = solve_on_path(s, 1);
+  if (!status) return 0;
+  mdl_failure failure = s->data.failure;
+  bool found = !solve_on_path(s, 0);
+  for (double path = 0, stride = 0.5; found && path<1; found = stride> least) {
+    double next = rt_min(1, path + stride);
+    bool arrived = !solve_on_path(s, next);
+    if (arrived) path = next;
+    stride *= arrived ? 2 : 0.5;
+  }
+  if (!found) s->data.failure = failure;
+  return found ? 0 : status;
+}
+
 /* Initial equations, relations and discrete equations with initial() true, until they agree. States given by the caller
  * replace what the initial equations say. */
 static rt_status solve_initial_equations(rt_session *s) {
   mdl_data *m = &s->data;
   for (int i = 0; i < MAX_ITERATIONS; i++) {
     rt_inputs_at(s, s->t);
-    if (s->d->initial_system(m, s->t)) return fail_initialisation(s);
+    if (solve_initial_system(s)) return fail_initialisation(s);
     if (rt_tangent_initial(s, true)) return s->failure.status;
     for (int k = 0; k < s->n_initial; k++)
       m->x[s->initial_index[k]] = s->initial_value[k];

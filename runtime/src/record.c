@@ -83,12 +83,11 @@ static rt_status tangents_inside(rt_session *s, double t, const mdl_tangent **ta
 }
 
 /* A row inside the last step. States come from its polynomial; what else is wanted is computed from them by the
- * explicit form. */
+ * explicit form, from the row before on: of several solutions of a nonlinear block, the one that time leads to. */
 static rt_status write_interpolated(rt_session *s, double t, bool alone) {
   rt_recorder *r = &s->recorder;
   rt_dense_point(s, t, alone, r->x);
   if (r->needs_rhs) {
-    memcpy(r->v, s->data.v, (size_t)s->d->n_v * sizeof *r->v);
     if (rt_rhs(s, t, r->x, r->xdot, r->v)) return rt_fail_model(s, t, "evaluating outputs");
     rt_status status = rt_check_values(s, t, r->x, r->xdot, r->v);
     if (status) return status;

@@ -8,10 +8,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "session.h"
+#include "looks.h"
 
-/* Positive while relation r keeps its value. */
-static double margin(const rt_session *s, int r, double g) {
+/* Positive while relation r keeps its value, whose guard g_previous has just been the start of a step. */
+double rt_margin(const rt_session *s, int r, double g) {
   bool holds = s->data.rel[r];
   double at_start = holds ? s->g_previous[r] : -s->g_previous[r];
   return (holds ? g : -g) + (at_start > 0 ? 0 : rt_hysteresis(s, r));
@@ -27,7 +27,7 @@ static bool any_changed(const rt_session *s) {
 
 static bool any_negative(const rt_session *s, const double *g) {
   for (int r = 0; r < s->d->n_rel; r++)
-    if (rt_is_state_relation(s, r) && margin(s, r, g[r]) < 0) return true;
+    if (rt_is_state_relation(s, r) && rt_margin(s, r, g[r]) < 0) return true;
   return false;
 }
 
@@ -43,7 +43,7 @@ int rt_guards_at(rt_session *s, double t, double *g) {
 static double first_secant(const rt_session *s, const double *ga, double wa, const double *gb, double wb) {
   double fraction = 1;
   for (int r = 0; r < s->d->n_rel; r++) {
-    double ma = wa * margin(s, r, ga[r]), mb = wb * margin(s, r, gb[r]);
+    double ma = wa * rt_margin(s, r, ga[r]), mb = wb * rt_margin(s, r, gb[r]);
     if (rt_is_state_relation(s, r) && mb < 0) fraction = rt_min(fraction, rt_max(0, ma) / (rt_max(0, ma) - mb));
   }
   return fraction;
@@ -97,9 +97,7 @@ static int locate(rt_session *s, double *crossing) {
 /* To the crossing, or to just before it where the branch that is left there has no finite values any more. */
 static rt_status move_back(rt_session *s, double t) {
   const mdl_descriptor *d = s->d;
-  memcpy(s->x_end, s->data.x, (size_t)d->n_x * sizeof(double));
-  memcpy(s->xdot_end, s->data.xdot, (size_t)d->n_x * sizeof(double));
-  memcpy(s->v_end, s->data.v, (size_t)d->n_v * sizeof(double));
+  if (s->t == s->t_end) rt_keep_step_end(s);
   for (int k = 0; k < 2; k++) {
     s->t = k ? s->t_uncrossed : t;
     rt_dense_eval(&s->dense, d->n_x, s->t, s->data.x);
@@ -109,28 +107,18 @@ static rt_status move_back(rt_session *s, double t) {
   return rt_fail_model(s, t, "evaluating the model at an event");
 }
 
-/* Go on to the end of the step that an event without consequences cut short. */
-void rt_resume_step(rt_session *s) {
-  const mdl_descriptor *d = s->d;
-  s->resume = false;
-  s->t = s->t_end;
-  memcpy(s->data.x, s->x_end, (size_t)d->n_x * sizeof(double));
-  memcpy(s->data.xdot, s->xdot_end, (size_t)d->n_x * sizeof(double));
-  memcpy(s->data.v, s->v_end, (size_t)d->n_v * sizeof(double));
-}
-
-/* Extremes of the guards. A guard that was thrown back and comes through again without having switched its relation has
- * lost an event: the events of its relation were piling up (Zeno), and the last hops are smaller than rounding. */
+/* Extremes of the guards. A guard that was thrown back and comes through again in time without having switched its
+ * relation has lost an event: the last hops of its series are smaller than the hysteresis. */
 static rt_status follow(rt_session *s) {
   for (int r = 0; r < s->d->n_rel; r++) {
     double held = s->data.rel[r] ? s->g[r] : -s->g[r];
     rt_extend_guard(s, r, fabs(held));
-    if (!s->rebound[r] || !s->options.locate_events || held <= rt_hysteresis(s, r)) continue;
-    s->rebound[r] = 0;
+    if (s->due_back[r] < s->t_previous || !s->options.locate_events || held <= rt_hysteresis(s, r)) continue;
+    s->due_back[r] = -INFINITY;
     return rt_fail(s, RT_CHATTERING, s->t_previous, -1, &s->d->relations[r].source,
                    "the events of this relation come faster and faster at time %.9g s (Zeno), until rounding swallows "
-                   "one: give the "
-                   "model a mode in which it rests, for instance when the speed after the event is below a threshold",
+                   "one: give the model a mode in which it rests, for instance when the speed after the event is below "
+                   "a threshold",
                    s->t_previous);
   }
   return RT_OK;
@@ -165,7 +153,7 @@ rt_status rt_find_state_event(rt_session *s) {
   if (search(s, &crossing)) return rt_fail_model(s, s->t, "locating an event");
   if (s->pending) {
     for (int r = 0; r < d->n_rel; r++)
-      s->flip[r] = rt_is_state_relation(s, r) && margin(s, r, s->g[r]) < 0;
+      s->flip[r] = rt_is_state_relation(s, r) && rt_margin(s, r, s->g[r]) < 0;
     if (crossing < s->t && move_back(s, crossing)) return s->failure.status;
   }
   s->t_before = s->t_previous;

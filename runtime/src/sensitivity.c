@@ -230,7 +230,7 @@ rt_status rt_tangent_evaluate(rt_session *s) {
 /* The step was cut short by an event at t: its polynomial gives the states' tangents there. */
 rt_status rt_tangent_follow(rt_session *s) {
   rt_sensitivities *f = s->sensitivities;
-  if (!f || f->lost || s->t == s->t_end) return RT_OK;
+  if (!f || f->lost || (s->t == s->t_end && !s->in_pieces)) return RT_OK;
   rt_tangent_inside(s, s->t);
   memcpy(f->at.x, f->inside.x, (size_t)(s->d->n_x * f->columns) * sizeof(double));
   f->complete = false;

@@ -6,8 +6,12 @@
 
 #include "sensitivity.h"
 
-static const rt_method *const methods[] = {&rt_method_ida, &rt_method_dopri5, &rt_method_rodas4, &rt_method_rk4,
-                                           &rt_method_euler};
+/* With RT_OWN_METHODS the runtime is ours alone, without SUNDIALS: what an FMU carries as source. */
+static const rt_method *const methods[] = {
+#ifndef RT_OWN_METHODS
+    &rt_method_ida,
+#endif
+    &rt_method_dopri5, &rt_method_rodas4, &rt_method_rk4, &rt_method_euler};
 enum { N_METHODS = sizeof methods / sizeof *methods };
 
 static const rt_method *find_method(const char *name) {
@@ -37,7 +41,9 @@ static bool allocate_numbers(rt_session *s) {
   double **states[] = {&m->x,           &m->xdot,  &s->initial_value, &s->x_trial, &s->xdot_trial, &s->x_before,
                        &s->xdot_before, &s->x_end, &s->xdot_end,      &r->x,       &r->xdot,       &s->x_swept};
   double **sizes[] = {&s->nominal}, **division[] = {&s->division};
-  double **guards[] = {&s->g, &s->g_previous, &s->g_low, &s->g_trial, &s->g_before, &s->g_span, &s->g_travel};
+  double **guards[] = {&s->g,      &s->g_previous, &s->g_low,         &s->g_trial,       &s->g_before,
+                       &s->g_span, &s->g_travel,   &s->changed_at[0], &s->changed_at[1], &s->due_back};
+  double **turns[] = {&s->phase, &s->phase_start};
   const group groups[] = {{parameters, COUNT(parameters), d->n_p},
                           {inputs, COUNT(inputs), d->n_u},
                           {discrete, COUNT(discrete), d->n_d},
@@ -48,11 +54,12 @@ static bool allocate_numbers(rt_session *s) {
                           {states, COUNT(states), d->n_x},
                           {sizes, COUNT(sizes), d->n_x + d->n_z + d->n_rel},
                           {division, COUNT(division), 2 * d->n_divisions},
-                          {guards, COUNT(guards), d->n_rel}};
-  size_t total = 1;
+                          {guards, COUNT(guards), d->n_rel},
+                          {turns, COUNT(turns), d->n_phases}};
+  s->n_numbers = 1;
   for (size_t i = 0; i < COUNT(groups); i++)
-    total += groups[i].count * (size_t)groups[i].n;
-  double *next = s->numbers = calloc(total, sizeof *next);
+    s->n_numbers += groups[i].count * (size_t)groups[i].n;
+  double *next = s->numbers = calloc(s->n_numbers, sizeof *next);
   for (size_t i = 0; next && i < COUNT(groups); i++)
     for (size_t j = 0; j < groups[i].count; j++, next += groups[i].n)
       *groups[i].places[j] = next;
@@ -63,9 +70,9 @@ static bool allocate_numbers(rt_session *s) {
 static bool allocate_flags(rt_session *s) {
   const mdl_descriptor *d = s->d;
   mdl_data *m = &s->data;
-  unsigned char **relations[] = {&m->rel, &s->flip, &s->rel_before, &s->rel_trial, &s->rebound, &s->rel_swept};
-  unsigned char *next = s->flags =
-      calloc(COUNT(relations) * (size_t)d->n_rel + (size_t)(d->n_sample + 2 * d->n_when + d->n_divisions) + 1, 1);
+  unsigned char **relations[] = {&m->rel, &s->flip, &s->rel_before, &s->rel_trial, &s->rel_swept};
+  s->n_flags = COUNT(relations) * (size_t)d->n_rel + (size_t)(d->n_sample + 2 * d->n_when + d->n_divisions) + 1;
+  unsigned char *next = s->flags = calloc(s->n_flags, 1);
   if (!next) return false;
   for (size_t i = 0; i < COUNT(relations); i++, next += d->n_rel)
     *relations[i] = next;
@@ -104,7 +111,7 @@ rt_session *rt_session_new(const rt_model *model, const rt_options *options, cha
   s->d = model->descriptor;
   s->options = *options;
   /* a model without states has nothing to integrate: any method with step size control only walks along its events */
-  s->method = s->d->n_x == 0 && method == &rt_method_ida ? &rt_method_dopri5 : method;
+  s->method = s->d->n_x == 0 && method->multistep ? &rt_method_dopri5 : method;
   s->options.solver = s->method->name;
   bool done = allocate_session(s);
   if (done) {

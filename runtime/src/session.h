@@ -8,6 +8,7 @@
 #include <stddef.h>
 
 #include "lacuna_runtime.h"
+#include "result.h"
 
 struct rt_model {
   void *library;
@@ -82,8 +83,9 @@ enum {
   RT_PENDING_STATE = 1,
   RT_PENDING_TIME = 2,
   RT_PENDING_SAMPLE = 4,
-  RT_PENDING_JUMP = 8,  /* of a held input */
-  RT_PENDING_KINK = 16, /* of a linear input, where the method restarts at kinks */
+  RT_PENDING_JUMP = 8,    /* of a held input */
+  RT_PENDING_KINK = 16,   /* of a linear input, where the method restarts at kinks */
+  RT_PENDING_BRANCH = 32, /* algebraic unknowns have jumped: the branch that they followed has ended */
   RT_PENDING_INPUT = RT_PENDING_JUMP | RT_PENDING_KINK
 };
 
@@ -99,6 +101,7 @@ struct rt_session {
 
   double *numbers;               /* the block that all arrays of doubles here and in data are slices of */
   unsigned char *flags;          /* and that of all arrays of flags */
+  size_t n_numbers, n_flags;     /* their lengths */
   double *p_run;                 /* [n_p] parameters of the next run, before dependent ones are computed */
   int n_initial, *initial_index; /* states set by the caller */
   double *initial_value;
@@ -119,22 +122,26 @@ struct rt_session {
   double *x_end, *xdot_end, *v_end; /* the point there */
   long steps_taken;                 /* in this run */
   int tiny_steps;                   /* consecutive steps that hardly differ from none */
-  bool resume; /* go on to the end of the last step: the event at t changed nothing that is integrated */
+  bool resume;                      /* go on in the last step: nothing that is integrated has changed at t */
+  double look, look_curved;         /* longest piece of the last step to be looked at at once, of any step (s) */
+  bool in_pieces;                   /* the last step is longer */
+  double *phase, *phase_start;      /* [n_phases] rad */
   rt_clock clock;
   rt_dense dense;
   double *g, *g_previous;     /* [n_rel] guards at t and t_previous */
   double *g_low, *g_trial;    /* [n_rel] while locating a crossing */
   double *g_before, t_before; /* [n_rel] guards one step earlier, at t_before; NAN after a restart */
   double *g_span, *g_travel;  /* [n_rel] largest |g| of the run, and since the relation last switched */
+  double *changed_at[2];      /* [n_rel] when the relation last became false, true (s) */
+  double *due_back;           /* [n_rel] until when it must switch back, having been thrown back; else -INFINITY */
   double *x_trial, *xdot_trial, *v_trial;
   double *x_before, *xdot_before, *v_before;
   double *d_before, *d_after;             /* discrete variables before an event; and aside while it is differentiated */
   double *x_swept, *d_swept;              /* states after a sweep of an event, discrete variables before it */
   unsigned char *rel_swept, *when_before; /* relations before a sweep, when conditions before its pass */
-  unsigned char *rebound;                 /* [n_rel] the event at which it last switched reinitialised states */
+  unsigned char *rel_before, *rel_trial;  /* [n_rel] */
   bool reinitialised;                     /* the last event did */
   unsigned char *flip;                    /* [n_rel] relations that switch at t */
-  unsigned char *rel_before, *rel_trial;  /* [n_rel] */
   int pending;
   double last_event;          /* time of the last event (s) */
   int futile_events;          /* consecutive events that got nowhere, see check_chattering */
@@ -142,9 +149,9 @@ struct rt_session {
   signed char *division_sign; /* [n_divisions] of their products when they were last looked at; 0 not known */
   rt_recorder recorder;
   rt_sensitivities *sensitivities; /* NULL: none are asked for */
-  int (*interrupted)(void);        /* asked now and then; NULL: never */
+  int (*interrupted)(double time); /* asked now and then; NULL: never */
   long looks;
-  double looked_at; /* monotonic clock (s) */
+  double looked_at, patient_from, patient_t; /* monotonic clock; processor time and t where patience began */
   rt_failure failure;
   rt_result *result;
 };
@@ -233,6 +240,7 @@ double rt_input_slope(const rt_session *s, int i);
 
 /* clock.c */
 rt_status rt_clock_begin(rt_session *s);
+double rt_clock_next(const rt_session *s);
 double rt_clock_limit(rt_session *s);
 int rt_clock_due(rt_session *s);
 void rt_clock_tick(rt_session *s);
@@ -244,16 +252,21 @@ void rt_dense_point(rt_session *s, double t, bool alone, double *x);
 void rt_dense_eval(const rt_dense *dense, int n, double t, double *x);
 void rt_dense_column(const rt_dense *dense, int n, int i, size_t points, const double *t, double *x);
 
-/* roots.c */
+/* roots.c and dips.c */
 rt_status rt_find_state_event(rt_session *s);
+double rt_margin(const rt_session *s, int r, double g);
 int rt_guards_at(rt_session *s, double t, double *g);
-
-/* dips.c */
+void rt_resume_step(rt_session *s);
 bool rt_may_dip(const rt_session *s);
 int rt_find_dip(rt_session *s, double *inside);
-int rt_mark_rebounds(rt_session *s, double since);
+int rt_follow_switches(rt_session *s, double since);
 
-void rt_resume_step(rt_session *s);
+/* simulate.c: the hybrid loop, a piece at a time */
+rt_status rt_begin(rt_session *s);
+rt_status rt_advance(rt_session *s);
+rt_status rt_happen(rt_session *s);
+rt_status rt_check_asserts(rt_session *s);
+void rt_start_patience(rt_session *s);
 
 /* events.c */
 rt_status rt_event(rt_session *s);
@@ -267,29 +280,6 @@ void rt_record_begin(rt_session *s);
 rt_status rt_record_grid(rt_session *s, bool closed);
 rt_status rt_record_step(rt_session *s);
 rt_status rt_record_event_row(rt_session *s);
-
-/* result.c */
-struct rt_result {
-  rt_failure failure;
-  rt_counters counters;
-  const char *terminated;
-  size_t rows, capacity;
-  int n;
-  double *time;
-  double **columns;
-  unsigned char *event;
-  double *parameters; /* [n_p] */
-  size_t n_events, events_capacity;
-  rt_event_entry *events;
-  int n_sensitivities; /* of each output; their columns follow those of the outputs */
-  double *margins;     /* [n_sensitivities] */
-  size_t n_flags, flags_capacity;
-  rt_flag *flags;
-};
-rt_result *rt_result_new(int columns, int sensitivities, int parameters, size_t capacity);
-bool rt_result_reserve(rt_result *r, size_t rows);
-bool rt_result_log(rt_result *r, double time, int kind, int index, int direction);
-bool rt_result_flag(rt_result *r, double time, rt_flag_kind kind, int relation, int other);
 
 /* linear.c: dense n x n systems by LU with partial pivoting, column-major */
 int rt_lu_factor(int n, double *a, int *pivot);

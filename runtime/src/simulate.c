@@ -3,13 +3,16 @@
 #include <string.h>
 #include <time.h>
 
+#include "looks.h"
 #include "sensitivity.h"
 
-enum { MAX_TINY_STEPS = 100, STEPS_BETWEEN_LOOKS = 1024 };
+enum { MAX_TINY_STEPS = 100, STEPS_BETWEEN_LOOKS = 64 };
 static const double most_steps = 1e10; /* of a fixed size: weeks */
 static const double look_every = 0.1;  /* s of wall time: has the caller lost interest? */
+static const double patience = 60;     /* s of computing that may bring less than */
+static const double headway = 1e-6;    /* of the run: at this pace it takes two years */
 
-static rt_status check_asserts(rt_session *s) {
+rt_status rt_check_asserts(rt_session *s) {
   mdl_data *m = &s->data;
   if (!s->d->n_asserts || s->d->check(m, s->t, m->x, m->xdot, m->v) >= 0) return RT_OK;
   return rt_fail_model(s, s->t, "checking");
@@ -27,22 +30,47 @@ static rt_status check_settings(rt_session *s) {
   return RT_OK;
 }
 
-/* Ask the caller now and then whether to go on. */
-static rt_status look_up(rt_session *s) {
+static double clock_of(clockid_t clock) {
   struct timespec now;
-  if (!s->interrupted || s->looks++ % STEPS_BETWEEN_LOOKS) return RT_OK;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  double seconds = (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-  if (seconds - s->looked_at < look_every) return RT_OK;
-  s->looked_at = seconds;
-  return s->interrupted() ? rt_fail(s, RT_INTERRUPTED, s->t, -1, NULL, "interrupted at time %.9g s", s->t) : RT_OK;
+  clock_gettime(clock, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-void rt_session_watch(rt_session *s, int (*interrupted)(void)) {
+void rt_start_patience(rt_session *s) {
+  s->patient_from = clock_of(CLOCK_THREAD_CPUTIME_ID);
+  s->patient_t = s->t;
+}
+
+/* Processor time, so that a run that was stopped for a while is not blamed for it. */
+static rt_status check_patience(rt_session *s) {
+  double span = s->stop - s->start, done = s->t - s->patient_t, limit = s->options.patience;
+  if (done >= headway * span) {
+    rt_start_patience(s);
+    return RT_OK;
+  }
+  if (clock_of(CLOCK_THREAD_CPUTIME_ID) - s->patient_from <= (limit > 0 ? limit : patience)) return RT_OK;
+  return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL,
+                 "no progress at time %.9g s: %.3g s of computing brought %.3g s of %.9g s (step %.3g s)", s->t,
+                 limit > 0 ? limit : patience, done, span, s->t - s->t_previous);
+}
+
+/* Now and then: is there progress, and does the caller want to go on? */
+static rt_status look_up(rt_session *s) {
+  if (s->looks++ % STEPS_BETWEEN_LOOKS) return RT_OK;
+  double now = clock_of(CLOCK_MONOTONIC);
+  if (now - s->looked_at < look_every) return RT_OK;
+  s->looked_at = now;
+  rt_status status = check_patience(s);
+  if (status || !s->interrupted || !s->interrupted(s->t)) return status;
+  return rt_fail(s, RT_INTERRUPTED, s->t, -1, NULL, "interrupted at time %.9g s", s->t);
+}
+
+void rt_session_watch(rt_session *s, int (*interrupted)(double time)) {
   s->interrupted = interrupted;
 }
 
-static rt_status begin(rt_session *s) {
+/* From nothing to the first point after the events at the start. */
+rt_status rt_begin(rt_session *s) {
   if (!(s->stop > s->start) || !isfinite(s->start) || !isfinite(s->stop))
     return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "stop time %.9g s is not later than start time %.9g s", s->stop,
                    s->start);
@@ -50,27 +78,23 @@ static rt_status begin(rt_session *s) {
   if (!status) status = rt_initialise(s);
   if (status) return status;
   rt_scale_start(s);
+  rt_looks_begin(s);
   if (!status && s->sensitivities) status = rt_tangent_begin(s);
-  status = check_asserts(s);
+  status = rt_check_asserts(s);
   if (!status) status = rt_check_point(s, true);
   if (!status) status = s->method->begin(s, s->memory);
   rt_record_begin(s);
   return status ? status : rt_record_step(s);
 }
 
-/* Take a step, or look at what is left of the last one. */
-static rt_status move_on(rt_session *s) {
-  s->t_previous = s->t;
-  s->pending = 0;
-  if (s->resume) {
-    rt_resume_step(s);
-    return RT_OK;
-  }
+static rt_status step(rt_session *s) {
   if (s->steps_taken++ >= s->options.max_steps && s->options.max_steps > 0)
     return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "more than %ld steps up to time %.9g s", s->options.max_steps,
                    s->t);
   s->dense.valid = false;
+  if (s->recorder.needs_rhs) memcpy(s->recorder.v, s->data.v, (size_t)s->d->n_v * sizeof *s->data.v);
   if (s->sensitivities) s->sensitivities->dense.valid = false;
+  rt_looks_start(s);
   rt_status status = s->method->step(s, s->memory, rt_clock_limit(s));
   s->t_end = s->t;
   for (int i = 0; i < s->d->n_x; i++)
@@ -80,21 +104,40 @@ static rt_status move_on(rt_session *s) {
     }
   s->tiny_steps = s->t - s->t_previous < rt_smallest_step(s) ? s->tiny_steps + 1 : 0;
   if (s->tiny_steps > MAX_TINY_STEPS) return rt_fail_collapse(s, s->t - s->t_previous, "its steps vanish");
+  if (!status) rt_looks_divide(s);
   return status;
 }
 
-static rt_status advance(rt_session *s) {
+/* To the end of a step or of the first piece of one that is looked at in pieces, or of the next piece of the last. */
+static rt_status move_on(rt_session *s) {
+  s->t_previous = s->t;
+  s->pending = 0;
+  if (!s->resume) {
+    rt_status status = step(s);
+    if (status || !s->in_pieces) return status;
+  }
+  s->resume = false;
+  return rt_look_on(s);
+}
+
+/* A step or a piece of one, up to the next event: what happens there is in s->pending. */
+rt_status rt_advance(rt_session *s) {
   rt_status status = look_up(s);
   if (!status) status = move_on(s);
   if (!status) status = rt_find_state_event(s);
   if (!status) status = rt_tangent_follow(s);
-  if (!status) status = check_asserts(s);
+  if (!status) status = rt_check_asserts(s);
   if (!status) status = rt_check_point(s, false);
   if (status) return status;
   s->pending |= rt_clock_due(s);
-  if ((status = rt_record_step(s))) return status;
+  if (!s->pending) s->resume = s->t < s->t_end;
+  return rt_record_step(s);
+}
+
+/* What is pending happens. */
+rt_status rt_happen(rt_session *s) {
   if (!s->pending) return RT_OK;
-  status = rt_event(s);
+  rt_status status = rt_event(s);
   s->pending = 0;
   return status ? status : rt_check_point(s, true);
 }
@@ -127,9 +170,12 @@ rt_result *rt_session_run(rt_session *s, double start, double stop) {
   s->failure = (rt_failure){.status = RT_OK, .variable = -1};
   s->result = rt_result_new(s->recorder.n, s->sensitivities ? s->sensitivities->n : 0, s->d->n_p, expected_rows(s));
   if (!s->result) return NULL;
-  rt_status status = begin(s);
-  while (!status && s->t < s->stop && !s->data.terminated)
-    status = advance(s);
+  rt_status status = rt_begin(s);
+  s->looked_at = clock_of(CLOCK_MONOTONIC);
+  rt_start_patience(s);
+  while (!status && s->t + s->clock.tolerance < s->stop && !s->data.terminated)
+    if (!(status = rt_advance(s))) status = rt_happen(s);
+  if (!status && !s->data.terminated) s->t = s->stop; /* from an event that is one instant with the end */
   finish(s, status);
   return s->result;
 }

@@ -8,15 +8,15 @@ from pathlib import Path
 import re
 
 ROOT = Path(__file__).parents[2]
-FOLDERS = ("model", "lacuna", "codegen", "runtime", "analysis", "discovery", "tests", "cli", "bench")
+FOLDERS = ("model", "lacuna", "codegen", "runtime", "analysis", "discovery", "fmi", "lsp", "tests", "cli", "bench")
 
 _INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 
 
 def files(folder: str, *suffixes: str) -> list[Path]:
-    """What people wrote below `folder`: no caches, no golden files."""
+    """What we wrote below `folder`: no caches, no golden files, no headers of a standard."""
     found = (ROOT / folder).rglob("*")
-    return sorted(p for p in found if p.suffix in suffixes and not {"__pycache__", "golden"} & set(p.parts))
+    return sorted(p for p in found if p.suffix in suffixes and not {"__pycache__", "golden", "standard"} & set(p.parts))
 
 
 def imports(path: Path) -> Iterator[tuple[int, str]]:

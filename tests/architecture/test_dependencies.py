@@ -1,5 +1,6 @@
-"""Dependencies point one way: cli -> lacuna -> discovery -> (codegen, runtime, analysis); analysis -> runtime;
-runtime -> the ABI; codegen -> nothing. The bench stands on top, too, and nobody stands on it or on the command line."""
+"""Dependencies point one way: cli -> lacuna -> discovery -> (codegen, runtime, analysis); fmi -> (codegen, runtime);
+analysis -> runtime; runtime -> the ABI; codegen -> nothing. The bench stands on top, too, and nobody
+stands on it or on the command line."""
 
 from __future__ import annotations
 
@@ -11,12 +12,14 @@ import pytest
 import lacuna
 from tests.architecture.sources import ROOT, files, imports, includes
 
-STAGES = ("codegen", "runtime", "analysis", "discovery")
+STAGES = ("codegen", "runtime", "analysis", "discovery", "fmi", "lsp")
 PYTHON_MAY_IMPORT = {
     "codegen": set(),
     "runtime": set(),
     "analysis": {"runtime"},
     "discovery": {"codegen", "runtime", "analysis"},
+    "fmi": {"codegen", "runtime"},
+    "lsp": {"codegen"},
     "lacuna": set(STAGES),  # the public face
     "cli": set(),  # `import lacuna`, and nothing else: what the command line can do, a script can
     "bench": set(STAGES),
@@ -30,6 +33,7 @@ FACE = {"lacuna", "lacuna.native", "lacuna.extras", "lacuna.units", "lacuna.reco
 C_MAY_INCLUDE = {
     "runtime": ("runtime", ("idas/", "nvector/", "sunmatrix/", "sunlinsol/", "sundials/")),
     "analysis": ("analysis", ("Eigen/", "unsupported/Eigen/", "fftw3.h")),
+    "fmi": ("fmi", ()),
     "bench": ("bench", ("ida/", "idas/", "nvector/", "sunmatrix/", "sunlinsol/", "sundials/")),
     "tests/proof": ("tests/proof", ()),
 }
@@ -70,6 +74,10 @@ def test_the_command_line_uses_public_names_only() -> None:
     assert used - {*lacuna.__all__, "__version__"} == set()
 
 
+# The FMU's interface is the standard's own headers; inside it is the runtime.
+STANDARD = {path.name for path in (ROOT / "fmi/standard").glob("*.h")}
+
+
 def own_headers(folder: str) -> set[str]:
     return {path.name for path in files(folder, ".h", ".hpp")}
 
@@ -79,13 +87,13 @@ def is_standard(header: str) -> bool:
     return "/" not in header.removeprefix("sys/") and header not in ALL_OWN_HEADERS and header != "fftw3.h"
 
 
-ALL_OWN_HEADERS = {name for folder in ("runtime", "analysis", "bench", "tests") for name in own_headers(folder)}
+ALL_OWN_HEADERS = {name for folder in ("runtime", "analysis", "fmi", "bench", "tests") for name in own_headers(folder)}
 
 
 @pytest.mark.parametrize("folder", C_MAY_INCLUDE)
 def test_c_includes_point_one_way(folder: str) -> None:
     home, libraries = C_MAY_INCLUDE[folder]
-    own = own_headers(home)
+    own = own_headers(home) | (own_headers("runtime") | STANDARD if folder == "fmi" else set())
     found = [
         f"{path.relative_to(ROOT)}: includes {header}"
         for path in files(folder, *C_SUFFIXES)
@@ -106,7 +114,8 @@ def test_abi_header_stands_alone() -> None:
 
 
 def test_top_level_folders_are_those_that_were_decided() -> None:
-    decided = {"model", "lacuna", "codegen", "runtime", "analysis", "discovery", "tests", "docs", "cli", "bench"}
+    product = {"model", "lacuna", "codegen", "runtime", "analysis", "discovery", "fmi", "lsp", "cli"}
+    decided = product | {"tests", "docs", "bench", "editors"}
     made = {"build", "out"}
     present = {p.name for p in ROOT.iterdir() if p.is_dir() and not p.name.startswith((".", "__"))}
     unexpected = {name for name in present - decided - made if not name.endswith(".egg-info")}

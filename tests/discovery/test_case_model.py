@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 from pathlib import Path
+import re
 import shutil
 
 import numpy as np
@@ -141,6 +142,11 @@ def test_a_model_that_extends_one_of_ours(tmp_path: Path, consistent_case: Path)
         ('model = "Tank.mo"', 'model = "Tanks.mo"', "cannot read .*Tanks.mo"),
         ('model = "Tank.mo"', 'model = "Tank.mo"\nlibraries = ["nowhere"]', "no library at .*nowhere"),
         ('model = "Tank.mo"', 'model = "Tank.mo"\nlibraries = ["empty"]', "empty holds no package"),
+        (
+            'model = "Tank.mo"',
+            'model = "Tank.mo"\nlibraries = ["a/X", "b/X"]',
+            "two libraries are called X: .*a/X and .*b/X",
+        ),
         ('model = "Tank.mo"', 'model = "empty.mo"', "empty.mo is a folder"),
         ('model = "Tank.mo"', 'model = "Benches.DcServ"', "no class DcServ"),
     ],
@@ -149,6 +155,9 @@ def test_what_case_toml_may_not_say_is_named(tmp_path: Path, old: str, new: str,
     tank_case(tmp_path)
     (tmp_path / "empty").mkdir()
     (tmp_path / "empty.mo").mkdir()
+    for library in ("a/X", "b/X"):
+        (tmp_path / library).mkdir(parents=True)
+        (tmp_path / library / "package.mo").write_text("package X\nend X;\n", encoding="utf-8")
     file = tmp_path / "case.toml"
     text = file.read_text()
     assert old in text
@@ -194,3 +203,63 @@ def test_cases_on_machines_of_others_end_honestly(name: str, tmp_path: Path) -> 
     assert (written["verdict"] == "consistent") == (name == "q06")
     judged = judge_file(result.case, Amendment(read(result.case.library(), result.case.base)), path, {})
     assert judged.validate[""] <= 1.001 * written["nrmse"]["validate"]["after"]
+
+
+def copied_out(case: Path, folder: Path, style: str) -> Path:
+    """A case on a bench of ours, its model copied beside it as a user would: as it is, or with imports of its own."""
+    shutil.copytree(case, folder)
+    text = (folder / "case.toml").read_text(encoding="utf-8")
+    bench = re.search(r"Benches\.(\w+)", text)[1]
+    source = (ROOT / "model" / "Benches" / f"{bench}.mo").read_text(encoding="utf-8")
+    if style == "import":
+        source = re.sub(r"^within .*\n", "", source)
+        source = re.sub(rf"^(model|end) {bench}\b", r"\1 Mine", source, flags=re.MULTILINE)
+        imports = "  import Lacuna.Types;\n  import Lacuna.Components;\n"
+        source = source.replace("\n", f"\n{imports}", 1)
+    name = "Mine" if style == "import" else bench
+    (folder / f"{name}.mo").write_text(source, encoding="utf-8")
+    (folder / "case.toml").write_text(text.replace(f"Benches.{bench}", f"{name}.mo"), encoding="utf-8")
+    return folder
+
+
+@pytest.mark.parametrize("style", ["within", "import"])
+@pytest.mark.parametrize("name", ["p01", "p06", "p09"])
+def test_a_bench_copied_out_is_the_same_machine(name: str, style: str, shared: Path, tmp_path: Path) -> None:
+    original = shared / "recordings" / "practice" / name
+    theirs, ours = load(copied_out(original, tmp_path / "Prüf stand", style)), load(original)
+    structures = [read(case.library(), case.base) for case in (theirs, ours)]
+    assert (structures[0].shafts, structures[0].lines) == (structures[1].shafts, structures[1].lines)
+    machines = [Machine(case, Amendment(s)) for case, s in zip((theirs, ours), structures, strict=True)]
+    runs = [machine.simulate(ours.parameters, ours.fit[0]) for machine in machines]
+    for signal in ours.outputs:
+        np.testing.assert_array_equal(runs[0][signal.column], runs[1][signal.column])
+
+
+@pytest.mark.parametrize("style", ["within", "import"])
+def test_what_is_edited_in_a_copied_bench_counts(style: str, consistent_case: Path, tmp_path: Path) -> None:
+    folder = copied_out(consistent_case, tmp_path / "case", style)
+    file = next(folder.glob("*.mo"))
+    text = file.read_text(encoding="utf-8")
+    file.write_text(text.replace("shaft(J=J,", "shaft(J=2*J,"), encoding="utf-8")
+    case = load(folder)
+    machine = Machine(case, Amendment(read(case.library(), case.base)))
+    halved = {**case.parameters, "J": case.parameters["J"] / 2}
+    original = load(consistent_case)
+    believed = Machine(original, Amendment(read(original.library(), original.base)))
+    for column, values in believed.simulate(original.parameters, original.fit[0]).items():
+        np.testing.assert_allclose(machine.simulate(halved, case.fit[0])[column], values, rtol=1e-5, atol=1e-6)
+    found = lacuna.open_case(folder).fit(out=tmp_path / "out")
+    assert found.parameters["J"]["value"] == pytest.approx(3.7e-6, rel=0.03)  # half of what moves it
+    file.write_text(text.replace("winding.i", "windng.i"), encoding="utf-8")
+    with pytest.raises(Diagnostic, match=rf"{file.name}:\d+:\d+:.*no variable windng"):
+        lacuna.open_case(folder).fit(out=tmp_path / "out")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("style", ["within", "import"])
+def test_a_bench_copied_out_is_explained(style: str, shared: Path, tmp_path: Path) -> None:
+    case = copied_out(shared / "recordings" / "practice" / "p03", tmp_path / "Prüf stand", style)
+    found = lacuna.explain(case, out=tmp_path / "out")
+    assert [(f["effect"], f["location"]) for f in found.findings] == [("friction.coulomb", "shaft")]
+    compile_model(str(found.amended))
+    assert found.report.is_file()

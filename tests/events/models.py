@@ -8,11 +8,11 @@ from lacuna import runtime
 from lacuna.codegen.compile import compile_model
 
 
-def compiled(folder: Path, text: str) -> runtime.Model:
+def compiled(folder: Path, text: str, **options: bool) -> runtime.Model:
     name = text.split()[1]
     path = folder / f"{name}.mo"
     path.write_text(text)
-    return runtime.Model(compile_model(str(path)).path)
+    return runtime.Model(compile_model(str(path), **options).path)
 
 
 def simulated(folder: Path, text: str, **settings: object) -> runtime.Result:

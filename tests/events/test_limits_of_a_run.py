@@ -65,3 +65,29 @@ def test_ctrl_c_ends_a_run(tmp_path: Path) -> None:
     with pytest.raises(KeyboardInterrupt):
         runtime.simulate(model, solver="rk4", step=1e-6, stop=1e3, interval=1.0)
     assert time.monotonic() - began < 5
+
+
+SLOW = "model Slow\n  Real x(start=1, fixed=true);\nequation\n  der(x) = -x;\nend Slow;\n"
+
+
+def test_a_run_tells_how_far_it_is_and_stops_where_the_listener_raises(tmp_path: Path) -> None:
+    model = compiled(tmp_path, SLOW)
+    told: list[float] = []
+
+    def watch(reached: float) -> None:
+        told.append(reached)
+        if len(told) == 3:
+            raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        runtime.simulate(model, solver="rk4", step=1e-6, stop=1e3, interval=1.0, watch=watch)
+    assert told == sorted(told)
+    assert 0 < told[0] < told[2] < 1e3
+
+
+def test_a_run_without_progress_ends(tmp_path: Path) -> None:
+    settings = {"parameters": {"interval": 1e-7}, "stop": 1e6, "interval": 1e5, "patience": 0.3}
+    failure = runtime.simulate(compiled(tmp_path, CLOCK), **settings).failure
+    assert failure is not None
+    assert failure.status == "step_collapse"
+    assert "0.3 s of computing brought" in str(failure)

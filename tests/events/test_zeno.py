@@ -54,3 +54,57 @@ def test_with_a_resting_mode_it_rests(ball: runtime.Model, solver: str) -> None:
     assert result.complete, result.failure
     assert result["v"][-1] == 0
     assert abs(result["h"][-1]) < 1e-9
+
+
+LEG = """model Leg
+  "A leg of a bridge beside a shuttle that bounces at a steady rate; the leg's voltage rests where its guard is small"
+  parameter Real vOn(unit="V") = 1e-6, creep(unit="V/s") = 1e-15;
+  Real x(unit="m", start=0.5, fixed=true), w(unit="m/s", start=-10, fixed=true);
+  Real drift(unit="V", start=0, fixed=true), v(unit="V", nominal=2e4);
+  Boolean conducts;
+  Integer bounces(start=0, fixed=true);
+equation
+  der(x) = w;
+  der(w) = 0;
+  der(drift) = -creep;
+  v = if time < 0.985 then drift elseif time < 1.985 then 18 else -18;
+  conducts = -vOn > v;
+  when {x < 0, x > 1} then
+    reinit(w, -w);
+    bounces = pre(bounces) + 1;
+  end when;
+end Leg;
+"""
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+def test_a_guard_that_rests_near_zero_beside_steady_bounces_is_no_zeno(
+    solver: str, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    """The leg's guard lies within the hysteresis at every bounce and moves towards its threshold by rounding, but no
+    event of its own has thrown it back: when its voltage rises at last, nothing has been lost."""
+    model = compiled(tmp_path_factory.mktemp("leg"), LEG)
+    result = runtime.simulate(model, solver=solver, stop=3.0, interval=0)
+    assert result.complete, result.failure
+    assert result["bounces"][-1] == 30
+    assert [bool(c) for c in (result["conducts"][0], result["conducts"][-1])] == [False, True]
+
+
+CLOCK = """  discrete Real seen(start=0, fixed=true);
+equation
+  when sample(0, 1e-4) then
+    seen = h;
+  end when;
+"""
+CLOCKED = BALL.replace(" Ball", " Clocked").replace("equation\n", CLOCK)
+
+
+@pytest.mark.parametrize("e", [0.01, 0.1, 0.9])
+def test_other_events_between_the_bounces_do_not_hide_them(tmp_path_factory: pytest.TempPathFactory, e: float) -> None:
+    """A clock that ticks between bounces: intervals are those between events of one relation."""
+    model = compiled(tmp_path_factory.mktemp("clocked"), CLOCKED)
+    rest = math.sqrt(2 / 9.81) * (1 + e) / (1 - e)
+    result = runtime.simulate(model, solver="dopri5", parameters={"e": e}, stop=2 * rest, interval=0)
+    assert result.failure is not None
+    assert result.failure.status == "chattering"
+    assert result.failure.time == pytest.approx(rest, rel=3e-3)

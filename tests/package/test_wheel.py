@@ -91,13 +91,15 @@ def test_wheel_holds_the_package_and_nothing_beside_it(wheel: Path) -> None:
     assert not wheel.name.endswith("-any.whl")
     wanted = ("runtime/include/mdl_abi.h", "model/package.mo", "analysis/settings/paper.toml", "py.typed")
     assert [name for name in wanted if f"lacuna/{name}" not in names] == []
-    assert [name for name in names if re.search(r"tests?/|bench/|\.(c|cpp|hpp)$|CMakeLists", name)] == []
+    assert [name for name in names if re.search(r"tests?/|bench/|\.(cpp|hpp)$|CMakeLists", name)] == []
+    carried = [name for name in names if name.endswith(".c")]  # an FMU holds its source
+    assert {name.rsplit("/", 1)[0] for name in carried} == {"lacuna/runtime/src", "lacuna/fmi/src"}
 
 
 def test_every_data_file_of_the_tree_travels(wheel: Path) -> None:
     names = set(zipfile.ZipFile(wheel).namelist())
     data = ("*.mo", "*.toml", "*.html.in", "*.css", "*.html")
-    for stage in ("model", "codegen", "runtime", "analysis", "discovery", "cli", "lacuna"):
+    for stage in ("model", "codegen", "runtime", "analysis", "discovery", "fmi", "lsp", "cli", "lacuna"):
         folder = "lacuna" if stage == "lacuna" else f"lacuna/{stage}"
         tree = run(
             "git", "ls-files", "--", *(f"{stage}/**/{p}" for p in data), *(f"{stage}/{p}" for p in data), cwd=ROOT

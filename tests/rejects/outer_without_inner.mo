@@ -1,12 +1,9 @@
 // code: R013
-// line: 8
-// hint: inner World world
-model World
-  parameter Real g = 9.81;
-end World;
+// line: 5
+// hint: inner Real g
 model M
-  outer World world;
+  outer parameter Real g;
   Real x;
 equation
-  x = world.g;
+  x = g;
 end M;

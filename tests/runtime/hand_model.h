@@ -21,8 +21,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline mdl_variable variable(const char *name, mdl_storage storage, int index, double start = 0) {
   const int is_parameter = storage == MDL_PARAMETER;
-  return {name, "",    "",        "hand.mo", 10 + index, MDL_REAL, storage,     index, 1, is_parameter,
-          0,    start, -infinity, infinity,  0,          "",       is_parameter};
+  return {name,         "", "",    "hand.mo", 10 + index, MDL_REAL, storage, index,       1,
+          is_parameter, 0,  start, -infinity, infinity,   0,        "",      is_parameter};
 }
 
 struct HandModel {
@@ -148,6 +148,9 @@ template <class M> struct Generated {
                                      nullptr,
                                      0,
                                      nullptr,
+                                     nullptr,
+                                     0,
+                                     0,
                                      nullptr};
     return &d;
   }
@@ -184,7 +187,7 @@ public:
   explicit Session(const Options &o = {}) {
     char message[300] = "";
     model_ = {rt_model_wrap(Generated<M>::descriptor(), message, sizeof message), rt_model_close};
-    rt_options options = {o.solver.c_str(), o.rtol, o.atol, o.step, 0, o.locate, o.events, 0, 0};
+    rt_options options = {o.solver.c_str(), o.rtol, o.atol, o.step, 0, o.locate, o.events, 0, 0, 0};
     session_ = {rt_session_new(model_.get(), &options, message, sizeof message), rt_session_free};
     EXPECT_NE(session_, nullptr) << message;
     std::vector<int> columns;

@@ -244,3 +244,34 @@ def test_missing_library_and_wrong_models_are_named(tmp_path: Path):
     assert failed.returncode and "run `make build`" in failed.stderr
     with pytest.raises(runtime.SimulationError, match="cannot open model"):
         runtime.Model(tmp_path / "nothing.so")
+
+
+EVENTS = """model Ev
+  Real x(start=0, fixed=true);
+  Real y, z;
+  Integer k;
+  Boolean low(start=true, fixed=true);
+  parameter Real limit = 0.5;
+equation
+  der(x) = 1;
+  y = if x <= limit then 0 else 1;
+  z = abs(x - 0.25) + max(x, 2*x - 0.4);
+  k = integer(4*x);
+  low = x < 0.7;
+  annotation(experiment(StopTime=0.8));
+end Ev;
+"""
+
+
+def test_events_tell_the_relation_of_the_source_and_its_line(tmp_path: Path) -> None:
+    log = runtime.simulate(written(tmp_path, EVENTS), stop=0.8).event_log
+    told = {(e.text, e.direction, e.line) for e in log}
+    assert told == {
+        ("x > limit", 1, 9),  # written x <= limit: true where that becomes false
+        ("0.0 > x - 0.25 in abs(x - 0.25)", -1, 10),
+        ("2 * x - 0.4 > x in max(x, 2 * x - 0.4)", 1, 10),
+        ("integer(4 * x) has not risen", -1, 11),
+        ("x < 0.7", -1, 12),
+    }
+    assert {Path(e.file).name for e in log} == {"Ev.mo"}
+    assert str(log[-1]).endswith("Ev.mo:11)")

@@ -155,7 +155,7 @@ TEST(Forms, ThatDisagreeAreRefusedWithTheEquation) {
   wrong.residual = Disagreeing::residual;
   char message[300] = "";
   rt_model *model = rt_model_wrap(&wrong, message, sizeof message);
-  rt_options options = {"ida", 0, 0, 0, 0, 1, 1, 0, 0};
+  rt_options options = {"ida", 0, 0, 0, 0, 1, 1, 0, 0, 0};
   rt_session *session = rt_session_new(model, &options, message, sizeof message);
   ASSERT_NE(session, nullptr) << message;
   rt_result *result = rt_session_run(session, 0, 1);
@@ -169,7 +169,7 @@ TEST(Forms, ThatDisagreeAreRefusedWithTheEquation) {
 TEST(Arguments, AreRefusedWithTheReason) {
   char message[300] = "";
   rt_model *model = rt_model_wrap(Generated<Still>::descriptor(), message, sizeof message);
-  rt_options unknown = {"magic", 0, 0, 0, 0, 1, 1, 0, 0}, stepless = {"rk4", 0, 0, 0, 0, 1, 1, 0, 0};
+  rt_options unknown = {"magic", 0, 0, 0, 0, 1, 1, 0, 0, 0}, stepless = {"rk4", 0, 0, 0, 0, 1, 1, 0, 0, 0};
   EXPECT_EQ(rt_session_new(model, &unknown, message, sizeof message), nullptr);
   EXPECT_NE(std::string(message).find("dopri5"), std::string::npos);
   EXPECT_EQ(rt_session_new(model, &stepless, message, sizeof message), nullptr);

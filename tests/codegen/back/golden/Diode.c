@@ -21,7 +21,7 @@ static const mdl_variable mdl_variables[] = {
 };
 
 static const mdl_relation mdl_relations[] = {
-  {{"T > time", "Diode.mo", 13, ""}, 1}
+  {{"time < T", "Diode.mo", 13, ""}, 1}
 };
 
 static const int mdl_z_index[] = {
@@ -155,24 +155,161 @@ static int mdl_solve(int n, double *a, double *b) {
   return 0;
 }
 
+enum { MDL_DAMPED, MDL_SEARCH, MDL_BRACKET, MDL_FOLLOW, MDL_SOLVED, MDL_FAILED };
+enum { MDL_ITERATIONS = 50, MDL_CORRECTIONS = 10, MDL_HALVINGS = 12, MDL_DOUBLINGS = 100, MDL_LOOKS = 1000 };
+
+/* A nonlinear block of n unknowns x. `work` holds 4 n numbers: the start, the last step, the residual at the start and
+ * the last point of the path that is followed. */
 typedef struct {
-  int iterations, halvings, converged;
+  int n;
+  double *x, *work;
+  const double *nominal; /* sizes of the unknowns */
+  int phase, iterations, halvings, looks, moved, singular;
   double norm;
+  double low, high, low_r, high_r, length; /* one unknown: what has been searched, or the bracket; residuals there */
+  double path, reached, stride;            /* several: s, the last s that was reached, the step */
 } mdl_newton;
 
-/* Whether a Newton step made the residual larger (or not finite), so that it should be halved. A residual of zero
- * ends the iteration, even where the Jacobian is singular. */
-static int mdl_newton_grows(mdl_newton *s, int n, const double *r) {
+static void mdl_newton_place(mdl_newton *s, const double *x) {
+  for (int i = 0; i < s->n; ++i) s->x[i] = x[i];
+}
+
+/* The step that is about to be taken is lost in the rounding of its unknowns. */
+static int mdl_newton_is_small(const mdl_newton *s, const double *step) {
+  for (int i = 0; i < s->n; ++i)
+    if (!(fabs(step[i]) <= 1e-9 * fabs(s->x[i]) + 1e-12 * s->nominal[i])) return 0;
+  return 1;
+}
+
+/* Begin at the start values, one way or the other. */
+static void mdl_newton_begin(mdl_newton *s, int phase) {
+  mdl_newton_place(s, s->work);
+  s->phase = phase;
+  s->iterations = s->halvings = 0;
+  s->path = s->reached = 0.0;
+  s->stride = 0.25;
+}
+
+/* Several unknowns: other start values, where there are any left. */
+static void mdl_newton_move(mdl_newton *s) {
+  if (s->moved == 2) {
+    s->phase = MDL_FAILED;
+    return;
+  }
+  for (int i = 0; i < s->n; ++i) s->work[i] += s->moved ? -2.0 * s->nominal[i] : s->nominal[i];
+  ++s->moved;
+  mdl_newton_begin(s, MDL_DAMPED);
+}
+
+/* Look for a change of sign at start +- size 2^k, in turn. */
+static void mdl_newton_search(mdl_newton *s, double r) {
+  const int k = s->iterations++;
+  const double start = s->work[0], size = 1e-6 * (fabs(start) + s->nominal[0]);
+  if (k == 0) {
+    s->low = s->high = start;
+    s->low_r = s->high_r = r;
+  } else if (r * (k % 2 ? s->high_r : s->low_r) < 0.0) {
+    if (k % 2) s->low = s->high, s->low_r = s->high_r, s->high = s->x[0], s->high_r = r;
+    else s->high = s->low, s->high_r = s->low_r, s->low = s->x[0], s->low_r = r;
+    s->length = INFINITY;
+    s->iterations = 0;
+    s->phase = MDL_BRACKET;
+    return;
+  } else if (isfinite(r)) {
+    *(k % 2 ? &s->high : &s->low) = s->x[0];
+    *(k % 2 ? &s->high_r : &s->low_r) = r;
+  }
+  if (k > 2 * MDL_DOUBLINGS) s->phase = MDL_FAILED;
+  s->x[0] = start + (k % 2 ? -size : size) * ldexp(1.0, k / 2);
+}
+
+/* Halve the bracket where Newton's step leaves it, or three of them have not halved it. */
+static void mdl_newton_narrow(mdl_newton *s, double step) {
+  const double next = s->x[0] - step, length = s->high - s->low;
+  const int creeps = s->iterations % 3 == 0 && length > 0.5 * s->length;
+  if (s->iterations % 3 == 0) s->length = length;
+  if (mdl_newton_is_small(s, &step)) s->phase = MDL_SOLVED;
+  else if (++s->iterations > 4 * MDL_ITERATIONS) s->phase = MDL_FAILED;
+  const int inside = next > s->low && next < s->high;
+  s->x[0] = s->phase == MDL_SOLVED || (inside && !creeps) ? next : s->low + 0.5 * length;
+}
+
+/* The corrector has arrived at the path, or does not: a longer stride or a shorter one. */
+static void mdl_newton_follow(mdl_newton *s, int arrived) {
+  double *const last = s->work + 3 * s->n;
+  s->iterations = 0;
+  if (arrived) {
+    if (s->path == 1.0) s->phase = MDL_SOLVED;
+    for (int i = 0; i < s->n; ++i) last[i] = s->x[i];
+    s->reached = s->path;
+    s->stride *= 2.0;
+  } else {
+    mdl_newton_place(s, last);
+    s->stride *= 0.25;
+    if (s->stride < 1e-6) {
+      mdl_newton_move(s);
+      return;
+    }
+  }
+  s->path = s->reached + s->stride < 1.0 ? s->reached + s->stride : 1.0;
+}
+
+/* The residual r at x. 1: x has been changed, solved or given up, 0: the Jacobian is needed for a step from here. */
+static int mdl_newton_look(mdl_newton *s, double *r) {
   double norm = 0.0;
-  for (int i = 0; i < n; ++i) norm += r[i] * r[i];
-  s->converged = norm == 0.0;
-  if (s->iterations > 0 && !(norm <= s->norm) && s->halvings < 12) {
-    ++s->halvings;
+  for (int i = 0; i < s->n; ++i) norm += r[i] * r[i];
+  /* Zero is a root even where the Jacobian is singular; but far away from the start it may be an underflow. */
+  if (norm == 0.0 && s->phase != MDL_SEARCH) s->phase = MDL_SOLVED;
+  if (++s->looks > MDL_LOOKS) s->phase = MDL_FAILED;
+  switch (s->phase) {
+  case MDL_DAMPED:
+    if (s->iterations > 0 && !(norm <= s->norm) && s->halvings < MDL_HALVINGS) {
+      ++s->halvings;
+      for (int i = 0; i < s->n; ++i) s->x[i] += s->work[s->n + i] *= 0.5;
+      return 1;
+    }
+    s->halvings = 0;
+    s->norm = norm;
+    return 0;
+  case MDL_SEARCH:
+    mdl_newton_search(s, r[0]);
+    return 1;
+  case MDL_BRACKET:
+    *(r[0] * s->low_r > 0.0 ? &s->low : &s->high) = s->x[0];
+    return 0;
+  case MDL_FOLLOW:
+    if (s->path == 0.0) {
+      for (int i = 0; i < s->n; ++i) s->work[2 * s->n + i] = r[i];
+      mdl_newton_follow(s, 1);
+    }
+    for (int i = 0; i < s->n; ++i) r[i] -= (1.0 - s->path) * s->work[2 * s->n + i];
+    return 0;
+  default:
     return 1;
   }
-  s->halvings = 0;
-  s->norm = norm;
-  return 0;
+}
+
+/* Newton's step from x: minus `step`; `singular`: as mdl_solve says. */
+static void mdl_newton_step(mdl_newton *s, const double *step, int singular) {
+  int finite = !singular;
+  for (int i = 0; finite && i < s->n; ++i) finite = isfinite(step[i]);
+  if (s->phase == MDL_BRACKET) {
+    mdl_newton_narrow(s, finite ? step[0] : INFINITY);
+    return;
+  }
+  const int most = s->phase == MDL_DAMPED ? MDL_ITERATIONS : MDL_CORRECTIONS;
+  if (!finite || ++s->iterations > most) {
+    if (s->phase == MDL_FOLLOW) mdl_newton_follow(s, 0);
+    else s->singular = singular, mdl_newton_begin(s, s->n == 1 ? MDL_SEARCH : MDL_FOLLOW);
+    return;
+  }
+  const int small = mdl_newton_is_small(s, step);
+  for (int i = 0; i < s->n; ++i) {
+    s->work[s->n + i] = step[i];
+    s->x[i] -= step[i];
+  }
+  if (small && s->phase == MDL_FOLLOW) mdl_newton_follow(s, 1);
+  else if (small) s->phase = MDL_SOLVED;
 }
 
 /* Value of a time relation just after t: g is left minus right at t, slope its derivative. */
@@ -226,29 +363,24 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
   /* nonlinear block of 2, torn to 1 */
   double v_2 = v[1];
   double i = 0.0;
-  mdl_newton v_2_block = {0};
-  double v_2_block_step[1] = {0};
+  double v_2_block_x[1] = {v_2};
+  double v_2_block_work[4] = {v_2};
+  const double v_2_block_nominal[1] = {fabs(V_t) > 0.0 ? fabs(V_t) : 0.025};
+  mdl_newton v_2_block = {.n = 1, .x = v_2_block_x, .work = v_2_block_work, .nominal = v_2_block_nominal};
   for (;;) {
+    v_2 = v_2_block_x[0];
     /* Diode.mo:15  i = I_s*(exp(v/V_t) - 1) */
     const double tmp1 = exp(v_2 * inverse_of_V_t);
     i = I_s * (tmp1 - 1.0);
-    if (v_2_block.converged) break;
+    if (v_2_block.phase == MDL_SOLVED) break;
     /* Diode.mo:14  u = R*i + v + u_C */
     double v_2_block_r[1] = {u - (R * i + v_2 + u_C)};
-    if (mdl_newton_grows(&v_2_block, 1, v_2_block_r)) {
-      v_2_block_step[0] *= 0.5;
-      v_2 += v_2_block_step[0];
-      continue;
-    }
-    if (v_2_block.converged) break;
+    const int v_2_block_looked = mdl_newton_look(&v_2_block, v_2_block_r);
+    if (v_2_block.phase == MDL_FAILED) return mdl_fail(m, v_2_block.singular ? MDL_FAILURE_SINGULAR : MDL_FAILURE_NEWTON, (const int[]){1, 1}[v_2_block.singular], 0.0);
+    if (v_2_block_looked) continue;
     double v_2_block_a[1] = {-(R * (I_s * (tmp1 * inverse_of_V_t)) + 1.0)};
-    const int v_2_block_a_singular = mdl_solve(1, v_2_block_a, v_2_block_r);
-    if (v_2_block_a_singular) return mdl_fail(m, MDL_FAILURE_SINGULAR, (const int[]){1}[v_2_block_a_singular - 1], 0.0);
-    if (++v_2_block.iterations > 50) return mdl_fail(m, MDL_FAILURE_NEWTON, 1, 0.0);
-    v_2_block.converged = 1;
-    v_2_block_step[0] = v_2_block_r[0];
-    v_2_block.converged &= fabs(v_2_block_r[0]) <= 1e-9 * fabs(v_2) + 1e-12 * fabs(V_t);
-    v_2 -= v_2_block_r[0];
+    const int v_2_block_singular = mdl_solve(1, v_2_block_a, v_2_block_r);
+    mdl_newton_step(&v_2_block, v_2_block_r, v_2_block_singular);
   }
   /* Diode.mo:16  C*der(u_C) = i */
   const double der_u_C = i * inverse_of_C;
@@ -310,7 +442,7 @@ static int mdl_roots(mdl_data *m, double t, const double *x, const double *xdot,
   (void)x;
   (void)xdot;
   (void)v;
-  g[0] = 0.0;  /* Diode.mo:13  T > time */
+  g[0] = 0.0;  /* Diode.mo:13  time < T */
   return 0;
 }
 

@@ -19,7 +19,7 @@ static const mdl_variable mdl_variables[] = {
 
 static const mdl_relation mdl_relations[] = {
   {{"x > 0.7", "Sampler.mo", 11, ""}, 0},
-  {{"0.2 > x", "Sampler.mo", 16, ""}, 0}
+  {{"x < 0.2", "Sampler.mo", 16, ""}, 0}
 };
 
 static const mdl_assert mdl_asserts[] = {
@@ -137,7 +137,7 @@ static int mdl_roots(mdl_data *m, double t, const double *x, const double *xdot,
   (void)v;
   const double x_2 = x[0];
   g[0] = x_2 - 0.7;  /* Sampler.mo:11  x > 0.7 */
-  g[1] = 0.2 - x_2;  /* Sampler.mo:16  0.2 > x */
+  g[1] = 0.2 - x_2;  /* Sampler.mo:16  x < 0.2 */
   return 0;
 }
 

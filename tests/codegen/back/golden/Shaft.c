@@ -23,7 +23,7 @@ static const mdl_variable mdl_variables[] = {
 };
 
 static const mdl_relation mdl_relations[] = {
-  {{"k * (w_ref - w1) > tau_max", "Shaft.mo", 18, ""}, 0}
+  {{"k * (w_ref - w1) > tau_max in min(k * (w_ref - w1), tau_max)", "Shaft.mo", 18, ""}, 0}
 };
 
 static const int mdl_residual_equation[] = {
@@ -261,7 +261,7 @@ static int mdl_roots(mdl_data *m, double t, const double *x, const double *xdot,
   const double tau_max = m->p[4];
   const double w_ref = m->p[5];
   const double w1 = x[1];
-  g[0] = k * (w_ref - w1) - tau_max;  /* Shaft.mo:18  k * (w_ref - w1) > tau_max */
+  g[0] = k * (w_ref - w1) - tau_max;  /* Shaft.mo:18  k * (w_ref - w1) > tau_max in min(k * (w_ref - w1), tau_max) */
   return 0;
 }
 

@@ -1,0 +1,171 @@
+"""The solver that a generated model carries along for its nonlinear blocks, as C.
+
+Newton's method with a damped step. Where it gets nowhere from the start values (the residual has a valley that is no
+root, a limited gain throws each step to the other limit, the Jacobian is singular), a second way is tried:
+
+- one unknown: the interval around the start value is doubled until the residual changes its sign, on the nearer side
+  first, and the root is bracketed by Newton's steps and bisection. A continuous residual that changes its sign has a
+  root; where it jumps over zero there is none, and the block fails.
+- several: the root of F(x) = (1 - s) F(start) is followed from s = 0 to 1 (Newton homotopy; Allgower & Georg,
+  Introduction to Numerical Continuation Methods, 2003), with steps of s that halve where Newton's method does not
+  follow and double where it does. Where that does not leave the start (a Jacobian that is singular or not finite
+  there), both ways are tried from starts moved by the sizes of the unknowns, up and down.
+"""
+
+NEWTON = """\
+enum { MDL_DAMPED, MDL_SEARCH, MDL_BRACKET, MDL_FOLLOW, MDL_SOLVED, MDL_FAILED };
+enum { MDL_ITERATIONS = 50, MDL_CORRECTIONS = 10, MDL_HALVINGS = 12, MDL_DOUBLINGS = 100, MDL_LOOKS = 1000 };
+
+/* A nonlinear block of n unknowns x. `work` holds 4 n numbers: the start, the last step, the residual at the start and
+ * the last point of the path that is followed. */
+typedef struct {
+  int n;
+  double *x, *work;
+  const double *nominal; /* sizes of the unknowns */
+  int phase, iterations, halvings, looks, moved, singular;
+  double norm;
+  double low, high, low_r, high_r, length; /* one unknown: what has been searched, or the bracket; residuals there */
+  double path, reached, stride;            /* several: s, the last s that was reached, the step */
+} mdl_newton;
+
+static void mdl_newton_place(mdl_newton *s, const double *x) {
+  for (int i = 0; i < s->n; ++i) s->x[i] = x[i];
+}
+
+/* The step that is about to be taken is lost in the rounding of its unknowns. */
+static int mdl_newton_is_small(const mdl_newton *s, const double *step) {
+  for (int i = 0; i < s->n; ++i)
+    if (!(fabs(step[i]) <= 1e-9 * fabs(s->x[i]) + 1e-12 * s->nominal[i])) return 0;
+  return 1;
+}
+
+/* Begin at the start values, one way or the other. */
+static void mdl_newton_begin(mdl_newton *s, int phase) {
+  mdl_newton_place(s, s->work);
+  s->phase = phase;
+  s->iterations = s->halvings = 0;
+  s->path = s->reached = 0.0;
+  s->stride = 0.25;
+}
+
+/* Several unknowns: other start values, where there are any left. */
+static void mdl_newton_move(mdl_newton *s) {
+  if (s->moved == 2) {
+    s->phase = MDL_FAILED;
+    return;
+  }
+  for (int i = 0; i < s->n; ++i) s->work[i] += s->moved ? -2.0 * s->nominal[i] : s->nominal[i];
+  ++s->moved;
+  mdl_newton_begin(s, MDL_DAMPED);
+}
+
+/* Look for a change of sign at start +- size 2^k, in turn. */
+static void mdl_newton_search(mdl_newton *s, double r) {
+  const int k = s->iterations++;
+  const double start = s->work[0], size = 1e-6 * (fabs(start) + s->nominal[0]);
+  if (k == 0) {
+    s->low = s->high = start;
+    s->low_r = s->high_r = r;
+  } else if (r * (k % 2 ? s->high_r : s->low_r) < 0.0) {
+    if (k % 2) s->low = s->high, s->low_r = s->high_r, s->high = s->x[0], s->high_r = r;
+    else s->high = s->low, s->high_r = s->low_r, s->low = s->x[0], s->low_r = r;
+    s->length = INFINITY;
+    s->iterations = 0;
+    s->phase = MDL_BRACKET;
+    return;
+  } else if (isfinite(r)) {
+    *(k % 2 ? &s->high : &s->low) = s->x[0];
+    *(k % 2 ? &s->high_r : &s->low_r) = r;
+  }
+  if (k > 2 * MDL_DOUBLINGS) s->phase = MDL_FAILED;
+  s->x[0] = start + (k % 2 ? -size : size) * ldexp(1.0, k / 2);
+}
+
+/* Halve the bracket where Newton's step leaves it, or three of them have not halved it. */
+static void mdl_newton_narrow(mdl_newton *s, double step) {
+  const double next = s->x[0] - step, length = s->high - s->low;
+  const int creeps = s->iterations % 3 == 0 && length > 0.5 * s->length;
+  if (s->iterations % 3 == 0) s->length = length;
+  if (mdl_newton_is_small(s, &step)) s->phase = MDL_SOLVED;
+  else if (++s->iterations > 4 * MDL_ITERATIONS) s->phase = MDL_FAILED;
+  const int inside = next > s->low && next < s->high;
+  s->x[0] = s->phase == MDL_SOLVED || (inside && !creeps) ? next : s->low + 0.5 * length;
+}
+
+/* The corrector has arrived at the path, or does not: a longer stride or a shorter one. */
+static void mdl_newton_follow(mdl_newton *s, int arrived) {
+  double *const last = s->work + 3 * s->n;
+  s->iterations = 0;
+  if (arrived) {
+    if (s->path == 1.0) s->phase = MDL_SOLVED;
+    for (int i = 0; i < s->n; ++i) last[i] = s->x[i];
+    s->reached = s->path;
+    s->stride *= 2.0;
+  } else {
+    mdl_newton_place(s, last);
+    s->stride *= 0.25;
+    if (s->stride < 1e-6) {
+      mdl_newton_move(s);
+      return;
+    }
+  }
+  s->path = s->reached + s->stride < 1.0 ? s->reached + s->stride : 1.0;
+}
+
+/* The residual r at x. 1: x has been changed, solved or given up, 0: the Jacobian is needed for a step from here. */
+static int mdl_newton_look(mdl_newton *s, double *r) {
+  double norm = 0.0;
+  for (int i = 0; i < s->n; ++i) norm += r[i] * r[i];
+  /* Zero is a root even where the Jacobian is singular; but far away from the start it may be an underflow. */
+  if (norm == 0.0 && s->phase != MDL_SEARCH) s->phase = MDL_SOLVED;
+  if (++s->looks > MDL_LOOKS) s->phase = MDL_FAILED;
+  switch (s->phase) {
+  case MDL_DAMPED:
+    if (s->iterations > 0 && !(norm <= s->norm) && s->halvings < MDL_HALVINGS) {
+      ++s->halvings;
+      for (int i = 0; i < s->n; ++i) s->x[i] += s->work[s->n + i] *= 0.5;
+      return 1;
+    }
+    s->halvings = 0;
+    s->norm = norm;
+    return 0;
+  case MDL_SEARCH:
+    mdl_newton_search(s, r[0]);
+    return 1;
+  case MDL_BRACKET:
+    *(r[0] * s->low_r > 0.0 ? &s->low : &s->high) = s->x[0];
+    return 0;
+  case MDL_FOLLOW:
+    if (s->path == 0.0) {
+      for (int i = 0; i < s->n; ++i) s->work[2 * s->n + i] = r[i];
+      mdl_newton_follow(s, 1);
+    }
+    for (int i = 0; i < s->n; ++i) r[i] -= (1.0 - s->path) * s->work[2 * s->n + i];
+    return 0;
+  default:
+    return 1;
+  }
+}
+
+/* Newton's step from x: minus `step`; `singular`: as mdl_solve says. */
+static void mdl_newton_step(mdl_newton *s, const double *step, int singular) {
+  int finite = !singular;
+  for (int i = 0; finite && i < s->n; ++i) finite = isfinite(step[i]);
+  if (s->phase == MDL_BRACKET) {
+    mdl_newton_narrow(s, finite ? step[0] : INFINITY);
+    return;
+  }
+  const int most = s->phase == MDL_DAMPED ? MDL_ITERATIONS : MDL_CORRECTIONS;
+  if (!finite || ++s->iterations > most) {
+    if (s->phase == MDL_FOLLOW) mdl_newton_follow(s, 0);
+    else s->singular = singular, mdl_newton_begin(s, s->n == 1 ? MDL_SEARCH : MDL_FOLLOW);
+    return;
+  }
+  const int small = mdl_newton_is_small(s, step);
+  for (int i = 0; i < s->n; ++i) {
+    s->work[s->n + i] = step[i];
+    s->x[i] -= step[i];
+  }
+  if (small && s->phase == MDL_FOLLOW) mdl_newton_follow(s, 1);
+  else if (small) s->phase = MDL_SOLVED;
+}"""

@@ -1,0 +1,96 @@
+/* An instance of an FMU: a session of the runtime, driven from outside instead of by the runtime's own loop. The two
+ * versions of the interface (fmi2.c, fmi3.c) are thin layers over these functions.
+ *
+ * Value references: 0 time; 1 + row, a row of the variable table; then the derivatives of the states; then the event
+ * indicators. All functions return false after a failure, which has been said through `say`. */
+#ifndef FMU_H
+#define FMU_H
+
+#include "mdl_tangent.h"
+#include "session.h"
+
+/* Written with each FMU (fmu_config.c). */
+typedef struct {
+  const char *token, *solver;
+  double rtol;
+  double start_time, stop_time;
+  int n_parameters; /* values other than declared: indices into p */
+  const int *parameter;
+  const double *value;
+} fmu_config;
+extern const fmu_config fmu_configuration;
+const mdl_descriptor *mdl_descriptor_get(void);
+
+typedef enum { FMU_SETUP, FMU_INITIALISATION, FMU_EVENT, FMU_CONTINUOUS, FMU_STEP, FMU_DONE } fmu_mode;
+
+typedef struct fmu {
+  rt_model model;
+  rt_session *session;
+  double *input;        /* [n_u] as set from outside */
+  double *tangent_rows; /* of `tangent`, one vector of directions */
+  mdl_tangent tangent;
+  int n_indicators, *indicator; /* [n_indicators] relations that are switched by roots */
+  fmu_mode mode;
+  bool co_simulation;
+  bool event_mode;   /* co-simulation: the importer wants to be present at events */
+  bool early_return; /* and a step may end there */
+  bool begun;        /* the initial equations are solved for what is set now */
+  bool fresh;        /* xdot and v belong to t, x and u */
+  bool retuned;      /* parameters were set since the last event */
+  bool driven;       /* inputs were set since the last event */
+  bool logging;
+  void *environment;
+  void (*say)(struct fmu *f, const char *message);
+  union {
+    void (*plain)(void);
+    const void *callbacks;
+  } logger; /* of the importer */
+  char *name;
+} fmu;
+
+/* What an importer is told after an event. */
+typedef struct {
+  bool terminate, states_changed, nominals_changed, next_defined;
+  double next;
+} fmu_news;
+
+/* fmu.c: life */
+bool fmu_create(fmu *f, const char *name, const char *token);
+void fmu_destroy(fmu *f);
+bool fmu_reset(fmu *f);
+bool fmu_refuse(fmu *f, const char *format, ...) __attribute__((format(printf, 2, 3)));
+bool fmu_done(fmu *f, rt_status status);
+bool fmu_enter_initialisation(fmu *f, double start, double stop, double tolerance);
+bool fmu_exit_initialisation(fmu *f);
+bool fmu_terminate(fmu *f);
+
+/* fmu_values.c */
+bool fmu_refresh(fmu *f);
+bool fmu_get(fmu *f, unsigned reference, double *value);
+bool fmu_set(fmu *f, unsigned reference, double value);
+bool fmu_directional(fmu *f, size_t n_unknowns, const unsigned *unknowns, size_t n_knowns, const unsigned *knowns,
+                     const double *seed, double *result);
+
+/* fmu_events.c: model exchange, and the events of both */
+bool fmu_enter_event(fmu *f);
+bool fmu_happen(fmu *f, fmu_news *news);
+bool fmu_set_time(fmu *f, double time);
+bool fmu_set_states(fmu *f, const double *x);
+bool fmu_indicators(fmu *f, double *z);
+bool fmu_completed_step(fmu *f, bool *event, bool *terminate);
+bool fmu_leave_event(fmu *f);
+double fmu_nominal(const fmu *f, int state);
+
+/* fmu_step.c: co-simulation. `event`: stopped before an event that the importer is to let happen. */
+bool fmu_step(fmu *f, double from, double size, bool may_stop, bool *event);
+
+/* fmu_snapshot.c: the whole state of an instance in bytes. */
+typedef struct {
+  size_t size;
+  unsigned char bytes[];
+} fmu_snapshot;
+bool fmu_save(fmu *f, void **snapshot); /* into *snapshot, or a new one where it is NULL */
+bool fmu_load(fmu *f, const void *snapshot);
+bool fmu_unpack(fmu *f, const void *bytes, size_t size, void **snapshot);
+
+#endif

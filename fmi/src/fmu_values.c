@@ -1,0 +1,181 @@
+/* Values of variables by reference, read and set, and derivatives of some by others. */
+#include <math.h>
+#include <string.h>
+
+#include "fmu.h"
+
+/* Results that a curved guard is looked at for (runtime/src/looks.c), as many as a run without an interval has; none is
+ * recorded: there is no grid point but the start. */
+static const double looks = 500, never = 1e300;
+
+static bool is_before_start(const fmu *f) {
+  return f->mode == FMU_SETUP || f->mode == FMU_INITIALISATION;
+}
+
+/* Everything belongs to what is set now: the initial equations solved, xdot and v computed. */
+bool fmu_refresh(fmu *f) {
+  rt_session *s = f->session;
+  if (is_before_start(f)) {
+    if (f->begun) return true;
+    s->result->rows = 0;
+    s->recorder.interval = (s->stop - s->start) / looks;
+    f->begun = f->fresh = fmu_done(f, rt_begin(s));
+    s->recorder.interval = never;
+    return f->begun;
+  }
+  if (f->fresh) return true;
+  s->input_time = NAN;
+  f->fresh = !rt_evaluate(s);
+  return f->fresh || fmu_done(f, rt_fail_model(s, s->t, "evaluating the model"));
+}
+
+/* What is computed belongs to other values than those set now. */
+static void outdate(fmu *f) {
+  f->fresh = false;
+  if (is_before_start(f)) f->begun = false;
+}
+
+static const mdl_variable *row_of(const fmu *f, unsigned reference) {
+  const mdl_descriptor *d = f->model.descriptor;
+  return reference >= 1 && reference <= (unsigned)d->n_variables ? &d->variables[reference - 1] : NULL;
+}
+
+/* Index of the state whose derivative is referred to, or -1. */
+static int derivative_of(const fmu *f, unsigned reference) {
+  const mdl_descriptor *d = f->model.descriptor;
+  unsigned first = 1 + (unsigned)d->n_variables;
+  return reference >= first && reference < first + (unsigned)d->n_x ? (int)(reference - first) : -1;
+}
+
+static bool get_indicator(fmu *f, unsigned reference, double *value) {
+  const mdl_descriptor *d = f->model.descriptor;
+  unsigned first = 1 + (unsigned)d->n_variables + (unsigned)d->n_x;
+  if (reference < first || reference >= first + (unsigned)f->n_indicators)
+    return fmu_refuse(f, "there is no variable with the value reference %u", reference);
+  int r = f->indicator[reference - first];
+  double margin = rt_margin(f->session, r, f->session->g[r]);
+  *value = f->session->data.rel[r] ? margin : -margin;
+  return true;
+}
+
+/* Constants and parameters are there before anything is solved. */
+static bool get_parameter(fmu *f, const mdl_variable *v, double *value) {
+  rt_session *s = f->session;
+  if (v->settable) {
+    *value = v->sign * s->p_run[v->index];
+    return true;
+  }
+  if (!fmu_refresh(f)) return false;
+  *value = v->sign * s->data.p[v->index];
+  return true;
+}
+
+bool fmu_get(fmu *f, unsigned reference, double *value) {
+  const mdl_data *m = &f->session->data;
+  const mdl_variable *v = row_of(f, reference);
+  if (reference == 0) {
+    *value = f->session->t;
+    return true;
+  }
+  if (v && v->storage == MDL_PARAMETER) return get_parameter(f, v, value);
+  if (v && v->storage == MDL_INPUT) {
+    *value = v->sign * f->input[v->index];
+    return true;
+  }
+  if (!fmu_refresh(f)) return false;
+  const double *const arrays[] = {[MDL_STATE] = m->x,     [MDL_ALGEBRAIC] = m->v, [MDL_DISCRETE] = m->d,
+                                  [MDL_PARAMETER] = m->p, [MDL_INPUT] = m->u,     [MDL_DERIVATIVE] = m->xdot};
+  int state = derivative_of(f, reference);
+  if (state >= 0)
+    *value = m->xdot[state];
+  else if (v)
+    *value = v->sign * arrays[v->storage][v->index];
+  else
+    return get_indicator(f, reference, value);
+  return true;
+}
+
+/* A state's initial value replaces what the initial equations say. */
+static bool set_initial(fmu *f, const mdl_variable *v, double value) {
+  rt_session *s = f->session;
+  int k = 0;
+  while (k < s->n_initial && s->initial_index[k] != v->index)
+    k++;
+  s->initial_index[k] = v->index;
+  s->initial_value[k] = v->sign * value;
+  if (k == s->n_initial) s->n_initial++;
+  outdate(f);
+  return true;
+}
+
+static bool set_parameter(fmu *f, const mdl_variable *v, double value) {
+  rt_session *s = f->session;
+  if (!v->settable) return fmu_refuse(f, "%s is not a parameter that may be set", v->name);
+  if (!(value >= v->min && value <= v->max))
+    return fmu_refuse(f, "parameter %s = %.9g is outside its bounds [%.9g, %.9g] %s", v->name, value, v->min, v->max,
+                      v->unit);
+  s->p_run[v->index] = v->sign * value;
+  f->retuned = true;
+  if (is_before_start(f)) outdate(f);
+  return true;
+}
+
+bool fmu_set(fmu *f, unsigned reference, double value) {
+  const mdl_variable *v = row_of(f, reference);
+  if (!v) return fmu_refuse(f, "there is no variable with the value reference %u that may be set", reference);
+  if (!isfinite(value)) return fmu_refuse(f, "%s: %g is not a finite number", v->name, value);
+  if (v->storage == MDL_PARAMETER) {
+    if (f->mode == FMU_CONTINUOUS) return fmu_refuse(f, "parameter %s is set in event mode only", v->name);
+    return set_parameter(f, v, value);
+  }
+  if (v->storage == MDL_STATE && is_before_start(f)) return set_initial(f, v, value);
+  if (v->storage != MDL_INPUT) return fmu_refuse(f, "%s is computed: it cannot be set", v->name);
+  if (f->input[v->index] == v->sign * value) return true;
+  f->input[v->index] = v->sign * value;
+  f->session->input_time = NAN;
+  f->driven = true;
+  outdate(f);
+  return true;
+}
+
+static bool seed(fmu *f, unsigned reference, double value) {
+  const mdl_variable *v = row_of(f, reference);
+  mdl_lanes *const arrays[] = {[MDL_STATE] = f->tangent.x,     [MDL_ALGEBRAIC] = NULL,     [MDL_DISCRETE] = NULL,
+                               [MDL_PARAMETER] = f->tangent.p, [MDL_INPUT] = f->tangent.u, [MDL_DERIVATIVE] = NULL};
+  if (!v || !arrays[v->storage] || (v->storage == MDL_PARAMETER && !v->settable))
+    return fmu_refuse(f, "no derivative with respect to %s: it is no state, input or parameter that may be set",
+                      v ? v->name : "this variable");
+  ((double *)arrays[v->storage])[v->index * MDL_LANES] += v->sign * value;
+  return true;
+}
+
+static bool read_row(fmu *f, unsigned reference, double *result) {
+  const mdl_variable *v = row_of(f, reference);
+  int state = derivative_of(f, reference);
+  const mdl_tangent *b = &f->tangent;
+  const mdl_lanes *const arrays[] = {[MDL_STATE] = b->x,     [MDL_ALGEBRAIC] = b->v, [MDL_DISCRETE] = b->d,
+                                     [MDL_PARAMETER] = b->p, [MDL_INPUT] = b->u,     [MDL_DERIVATIVE] = b->xdot};
+  if (!v && state < 0) return fmu_refuse(f, "no derivative of the variable with the value reference %u", reference);
+  const double *rows = (const double *)(v ? arrays[v->storage] : b->xdot);
+  *result = (v ? v->sign : 1) * rows[(v ? v->index : state) * MDL_LANES];
+  return true;
+}
+
+/* result = (d unknowns / d knowns) seed, at the present point with the relations as they are. */
+bool fmu_directional(fmu *f, size_t n_unknowns, const unsigned *unknowns, size_t n_knowns, const unsigned *knowns,
+                     const double *seed_values, double *result) {
+  const mdl_descriptor *d = f->model.descriptor;
+  rt_session *s = f->session;
+  mdl_data *m = &s->data;
+  size_t rows = 1 + (size_t)d->n_p + (size_t)d->n_u + 3 * (size_t)d->n_x + (size_t)d->n_v + 2 * (size_t)d->n_d;
+  if (!d->tangents) return fmu_refuse(f, "this FMU was made without derivatives");
+  if (!fmu_refresh(f)) return false;
+  memset(f->tangent_rows, 0, rows * MDL_LANES * sizeof(double));
+  for (size_t i = 0; i < n_knowns; i++)
+    if (!seed(f, knowns[i], seed_values[i])) return false;
+  if (d->tangents->parameters(m, &f->tangent) || d->tangents->rhs(m, s->t, m->x, m->xdot, m->v, &f->tangent))
+    return fmu_done(f, rt_fail_model(s, s->t, "differentiating the model"));
+  for (size_t i = 0; i < n_unknowns; i++)
+    if (!read_row(f, unknowns[i], &result[i])) return false;
+  return true;
+}

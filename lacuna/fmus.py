@@ -1,0 +1,66 @@
+"""Models for other tools, and other tools' models beside ours: the FMI standard."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from lacuna.models import Units, load
+from lacuna.notebook import page, table
+
+FmiVersion = Literal["3.0", "2.0"]
+FmuType = Literal["me", "cs", "both"]
+FmuSolver = Literal["rodas4", "dopri5"]
+
+
+@dataclass(frozen=True)
+class ExportedFmu:
+    """An FMU on disk: `path`, and what it offers."""
+
+    path: Path
+    model: str
+    version: str
+    types: tuple[str, ...]  # me: model exchange, cs: co-simulation
+    states: int
+    variables: int
+    event_indicators: int
+
+    def _repr_html_(self) -> str:
+        rows = [
+            ("file", str(self.path)), ("FMI", self.version), ("types", ", ".join(self.types)),
+            ("states", self.states), ("variables", self.variables), ("event indicators", self.event_indicators),
+        ]  # fmt: skip
+        return page(self.model, table(("", ""), rows))
+
+
+def export_fmu(
+    model: str | Path,
+    path: str | Path | None = None,
+    *,
+    class_name: str = "",
+    libraries: Iterable[str | Path] = (),
+    parameters: Mapping[str, float] | None = None,
+    units: Units = "error",
+    version: FmiVersion = "3.0",
+    type: FmuType = "both",
+    solver: FmuSolver = "rodas4",
+) -> ExportedFmu:
+    """Write `model` as an FMU to `path` (default: out/fmu/NAME.fmu), for this machine's platform, with its C sources.
+
+    `parameters` (SI units) become the FMU's start values; one that decides the structure is fixed in it. `type`: me
+    (model exchange, with directional derivatives), cs (co-simulation by `solver`, which the FMU carries) or both.
+    Raises what `load` raises, and a user's error with the reason for what FMI cannot carry.
+    """
+    from lacuna.fmi.export import FmuRequest
+    from lacuna.fmi.export import export_fmu as export
+
+    loaded = load(model, class_name=class_name, libraries=libraries, parameters=parameters, units=units)
+    target = Path(path) if path else Path("out/fmu") / f"{loaded.name.rsplit('.', 1)[-1]}.fmu"
+    source, fixed, values = loaded.request
+    request = FmuRequest(source.name, source.path, source.units, fixed, values, version, type, solver)
+    done = export(request, target)
+    return ExportedFmu(
+        done.path, done.model, done.version, done.kinds, done.states, done.variables, done.event_indicators
+    )

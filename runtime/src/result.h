@@ -1,0 +1,31 @@
+/* What a run has recorded (result.c). */
+#ifndef RT_RESULT_H
+#define RT_RESULT_H
+
+#include <stdbool.h>
+
+#include "lacuna_runtime.h"
+
+struct rt_result {
+  rt_failure failure;
+  rt_counters counters;
+  const char *terminated;
+  size_t rows, capacity;
+  int n;
+  double *time;
+  double **columns;
+  unsigned char *event;
+  double *parameters; /* [n_p] */
+  size_t n_events, events_capacity;
+  rt_event_entry *events;
+  int n_sensitivities; /* of each output; their columns follow those of the outputs */
+  double *margins;     /* [n_sensitivities] */
+  size_t n_flags, flags_capacity;
+  rt_flag *flags;
+};
+rt_result *rt_result_new(int columns, int sensitivities, int parameters, size_t capacity);
+bool rt_result_reserve(rt_result *r, size_t rows);
+bool rt_result_log(rt_result *r, double time, int kind, int index, int direction);
+bool rt_result_flag(rt_result *r, double time, rt_flag_kind kind, int relation, int other);
+
+#endif

@@ -1,0 +1,57 @@
+// section: 14.4
+// value: s.re = -5, s.im = 10
+model OverloadedTimes
+  encapsulated package P
+  operator record C
+    Real re;
+    Real im;
+    encapsulated operator 'constructor'
+      function fromReal
+        import OverloadedTimes.P.C;
+        input Real re;
+        input Real im = 0;
+        output C c(re=re, im=im);
+      algorithm
+      end fromReal;
+    end 'constructor';
+    encapsulated operator function '+'
+      import OverloadedTimes.P.C;
+      input C a;
+      input C b;
+      output C c;
+    algorithm
+      c := C(a.re + b.re, a.im + b.im);
+    end '+';
+    encapsulated operator '*'
+      import OverloadedTimes.P.C;
+      function multiply
+        input C a;
+        input C b;
+        output C c;
+      algorithm
+        c := C(a.re*b.re - a.im*b.im, a.re*b.im + a.im*b.re);
+      end multiply;
+    end '*';
+    encapsulated operator '-'
+      import OverloadedTimes.P.C;
+      function negate
+        input C a;
+        output C c;
+      algorithm
+        c := C(-a.re, -a.im);
+      end negate;
+    end '-';
+    encapsulated operator function '=='
+      import OverloadedTimes.P.C;
+      input C a;
+      input C b;
+      output Boolean same;
+    algorithm
+      same := a.re == b.re and a.im == b.im;
+    end '==';
+  end C;
+  end P;
+  import OverloadedTimes.P.C;
+  C a = C(1, 2), b = C(3, 4);
+  C s = a*b;
+end OverloadedTimes;

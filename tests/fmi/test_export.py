@@ -1,0 +1,118 @@
+"""FMUs as another tool sees them: valid by its check, equal to our trajectories when its solver integrates them, and
+when it only asks for steps."""
+
+from __future__ import annotations
+
+from pathlib import Path
+import zipfile
+
+import fmpy
+from fmpy.validation import validate_fmu
+import numpy as np
+import pytest
+
+import lacuna
+from tests.fmi.fmus import OTHERS, OWN, Fmus
+
+BOUND = 1e-5  # of each signal's largest value
+KINDS = {"me": "ModelExchange", "cs": "CoSimulation"}
+HYBRID = {"T1": 0.4, "T2": 0.03, "FlightControlEma": 0.03, "Clockwork": 2.0, "VanDerPol": 20.0}
+
+
+def run(path: Path, kind: str, stop: float, outputs: list[str], **more) -> np.ndarray:
+    return fmpy.simulate_fmu(
+        str(path), fmi_type=KINDS[kind], stop_time=stop, output_interval=more.pop("interval", stop / 100),
+        relative_tolerance=1e-9, solver="CVode", output=outputs, **more,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "version"), [*((n, "3.0") for n in (*OWN, *OTHERS)), *((n, "2.0") for n in OWN)])
+def test_fmpy_finds_nothing_to_object_to(fmus: Fmus, name: str, version: str) -> None:
+    assert validate_fmu(str(fmus.path(name, version))) == []
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(("name", "version"), [*((n, "3.0") for n in HYBRID), ("T1", "2.0"), ("T2", "2.0")])
+def test_states_are_ours_on_both_sides_of_events(fmus: Fmus, name: str, version: str, kind: str) -> None:
+    stop, model = HYBRID[name], lacuna.load({**OWN, **OTHERS}[name])
+    states = list({(v.index): n for n, v in reversed(model.states.items())}.values())
+    found = run(fmus.path(name, version), kind, stop, states, record_events=True)
+    assert found["time"][-1] == pytest.approx(stop)
+    times, rows = np.unique(found["time"], return_index=True)
+    rows = np.append(rows[1:], len(found["time"])) - 1  # of two rows at one instant the one after the event
+    ours = model.simulate(stop=stop, solver="dopri5", rtol=1e-11, outputs=states, interval=stop / 4000, event_rows=True)
+    for state in states:
+        reference = _after_events(ours, state, times)
+        size = np.max(np.abs(ours[state]))
+        assert np.max(np.abs(found[state][rows] - reference)) <= BOUND * size, state
+
+
+def _after_events(result: lacuna.Result, name: str, times: np.ndarray) -> np.ndarray:
+    """The value at each instant; where the state jumps there, the one after it."""
+    at, values = np.asarray(result.time), np.asarray(result[name])
+    left = np.clip(np.searchsorted(at, times + 1e-9 * at[-1], side="right") - 1, 0, len(at) - 2)
+    slope = np.where(at[left + 1] > at[left], values[left + 1] - values[left], 0)
+    span = np.where(at[left + 1] > at[left], at[left + 1] - at[left], 1)
+    return values[left] + slope * np.clip((times - at[left]) / span, 0, 1)
+
+
+@pytest.mark.parametrize("version", ["3.0", "2.0"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_ball_bounces_as_its_closed_form_says(fmus: Fmus, kind: str, version: str) -> None:
+    found = run(fmus.path("BouncingBall", version), kind, 3.0, ["h", "v"])
+    t, g, e = found["time"], 9.81, 0.7
+    fall = np.sqrt(2 / g)
+    height, start, speed = 1 - g * t**2 / 2, fall, e * g * fall
+    while speed >= 0.1:
+        height = np.where(t > start, speed * (t - start) - g * (t - start) ** 2 / 2, height)
+        start, speed = start + 2 * speed / g, e * speed
+    height = np.where(t > start, 0, height)
+    assert np.max(np.abs(found["h"] - height)) <= BOUND
+    assert found["v"][-1] == 0
+
+
+@pytest.mark.parametrize("version", ["3.0", "2.0"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_decay(fmus: Fmus, kind: str, version: str) -> None:
+    found = run(fmus.path("Dahlquist", version), kind, 10.0, ["x"], start_values={"k": 0.5, "x": 3.0})
+    assert np.max(np.abs(found["x"] - 3 * np.exp(-0.5 * found["time"]))) <= BOUND
+
+
+@pytest.mark.parametrize("version", ["3.0", "2.0"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_stair_without_states_ends_itself(fmus: Fmus, kind: str, version: str) -> None:
+    found = run(fmus.path("Stair", version), kind, 12.0, ["counter"], interval=0.5)
+    assert found["time"][-1] <= 9.0 + 0.5
+    inside = np.abs(found["time"] - np.round(found["time"])) > 0.1
+    assert np.array_equal(found["counter"][inside], 1 + np.floor(found["time"][inside]))
+    assert found["counter"][-1] == (9 if kind == "me" else 10)  # FMPy has no row after an event that ends the run
+
+
+@pytest.mark.parametrize("version", ["3.0", "2.0"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_inputs_of_all_types_pass_through(fmus: Fmus, kind: str, version: str) -> None:
+    table = np.array(
+        [(0, 0.0, 1, False), (1, 2.0, 1, False), (1, 3.0, -2, True), (2, 3.0, -2, True)],
+        dtype=[("time", float), ("u", float), ("n", np.int32), ("b", bool)],
+    )
+    found = run(fmus.path("Feedthrough", version), kind, 2.0, ["y", "doubled", "m", "c"], input=table, interval=0.25)
+    late = found["time"] > 1.3
+    assert set(found["m"][late]) == {-2} and set(found["c"][late]) == {1}
+    assert found["y"][late] == pytest.approx(3.0) and found["doubled"][late] == pytest.approx(6.0)
+    early = found["time"] < 0.9
+    assert set(found["m"][early]) == {1} and set(found["c"][early]) == {0}
+
+
+def test_the_source_is_inside_and_equal_models_give_equal_bytes(fmus: Fmus, tmp_path: Path) -> None:
+    first, again = fmus.path("Dahlquist"), tmp_path / "again.fmu"
+    lacuna.export_fmu(OWN["Dahlquist"], again)
+    assert first.read_bytes() == again.read_bytes()
+    names = set(zipfile.ZipFile(first).namelist())
+    assert {"sources/generated.c", "sources/simulate.c", "sources/fmi3.c", "sources/buildDescription.xml"} <= names
+
+
+def test_a_foreign_fmu_is_compared_and_a_wrong_one_found(fmus: Fmus) -> None:
+    own = OWN["VanDerPol"]
+    assert lacuna.compare_with_file(own, fmus.path("VanDerPol"), tolerance=1e-4).beyond == []
+    other = lacuna.compare_with_file(own, fmus.path("VanDerPol", parameters={"mu": 1.1}), tolerance=1e-4)
+    assert set(other.beyond) == {"x0", "x1"}

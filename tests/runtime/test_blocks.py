@@ -1,0 +1,140 @@
+"""Nonlinear blocks where Newton's method alone gets nowhere, against closed forms."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lacuna import runtime
+from tests.events.models import compiled, simulated
+
+SOLVERS = ["ida", "dopri5", "rodas4"]
+LIMITED = """model Limited
+  parameter Real G = 1e5, limit = 15, guess = 0;
+  Real u(start=-20, fixed=true), y(start=guess);
+equation
+  der(u) = 40;
+  y = noEvent(if G*(u - y) > limit then limit elseif G*(u - y) < -limit then -limit else G*(u - y));
+end Limited;
+"""
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("guess", [-15.0, 0.0, 3.0, 1e6])
+def test_a_limited_gain_in_a_loop(tmp_path: Path, solver: str, guess: float) -> None:
+    """y = G u/(1 + G) inside the limits: the linear range is 3e-4 of what Newton's steps jump over."""
+    result = simulated(tmp_path, LIMITED, solver=solver, stop=1.0, interval=0.01, parameters={"guess": guess})
+    assert result.complete, result.failure
+    expected = np.clip(1e5 * result["u"] / (1 + 1e5), -15, 15)
+    assert result["y"] == pytest.approx(expected, rel=1e-6, abs=1e-5)
+
+
+SCHMITT = """model Schmitt
+  parameter Real G = 1e4, limit = 10, k = 0.2;
+  Real phase(start=0, fixed=true), u, y(start=limit), e;
+equation
+  der(phase) = 1;
+  u = 5*sin(phase);
+  e = k*y - u;
+  y = noEvent(if G*e > limit then limit elseif G*e < -limit then -limit else G*e);
+end Schmitt;
+"""
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_branch_that_ends_jumps_to_the_other_one(tmp_path: Path, solver: str) -> None:
+    """A comparator with feedback keeps its side until u passes k y - limit/G, and not before."""
+    model = compiled(tmp_path, SCHMITT)
+    result = runtime.simulate(model, solver=solver, stop=20.0, interval=0.01)
+    assert result.complete, result.failure
+    threshold = 0.2 * 10 - 10 / 1e4
+    side, expected = 1.0, []
+    for u in 5 * np.sin(result["phase"]):
+        side = -1.0 if u > threshold else 1.0 if u < -threshold else side
+        expected.append(10 * side)
+    assert len(set(expected)) == 2
+    assert result["y"] == pytest.approx(expected)
+
+
+PAIR = """model Pair
+  parameter Real G = 1e3;
+  Real u(start=-3, fixed=true), y[2](start={0.9, -0.9});
+equation
+  der(u) = 6;
+  for i in 1:2 loop
+    0 = tanh(G*(u - 0.3*y[3 - i] - y[i]*(1 + 0.1*y[3 - i]^2))) - y[i];
+  end for;
+end Pair;
+"""
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_two_unknowns_follow_the_path_to_the_solution(tmp_path: Path, solver: str) -> None:
+    result = simulated(tmp_path, PAIR, solver=solver, stop=1.0, interval=0.01)
+    assert result.complete, result.failure
+    u, a, b = result["u"], result["y[1]"], result["y[2]"]
+    for one, other in ((a, b), (b, a)):
+        slack = np.tanh(1e3 * (u - 0.3 * other - one * (1 + 0.1 * other**2))) - one
+        assert np.abs(slack).max() < 1e-3
+    assert np.abs(a - b).max() < 1e-5
+
+
+NONE = """model None_
+  parameter Real c = 1;
+  Real x(start=0, fixed=true), y(start=0.5);
+equation
+  der(x) = 1;
+  {};
+end None_;
+"""
+
+
+@pytest.mark.parametrize(
+    "equation", ["y^2 + c = 0", "(if noEvent(y > 0) then 1 else -1)*(1 + y^2) = 0", "exp(y)*c = 0"]
+)
+def test_no_solution_is_an_error(tmp_path: Path, equation: str) -> None:
+    """A residual of one sign, one that jumps over zero, one that only comes near it."""
+    result = simulated(tmp_path, NONE.format(equation), stop=1.0)
+    assert result.failure is not None
+    assert result.failure.status == "initialisation" or "did not converge" in str(result.failure)
+
+
+ORIFICES = """model Orifices
+  parameter Real a = 1, b = 3;
+  Real p(start=8, fixed=true), middle, q, r;
+equation
+  der(p) = -4*p;
+  p - middle = a*q*noEvent(abs(q));
+  middle = b*r*noEvent(abs(r));
+  q = r + 0*middle^2;
+end Orifices;
+"""
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_singular_jacobian_at_the_start(tmp_path: Path, solver: str) -> None:
+    """Two orifices in series, started at no flow, where dp = a q |q| has no slope: q = sqrt(p/(a + b))."""
+    result = simulated(tmp_path, ORIFICES, solver=solver, stop=1.0, interval=0.01)
+    assert result.complete, result.failure
+    assert result["q"] == pytest.approx(np.sqrt(result["p"] / 4), rel=1e-6)
+
+
+ROOTS = """model Roots
+  Real p(start=8, fixed=true), middle(start=8, nominal=1), q, r;
+equation
+  der(p) = -4*p;
+  q = noEvent(if p > middle then sqrt(p - middle) else -sqrt(middle - p));
+  r = noEvent(if middle > 0 then sqrt(middle/3) else -sqrt(-middle/3));
+  q = r;
+end Roots;
+"""
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_an_infinite_slope_at_the_start(tmp_path: Path, solver: str) -> None:
+    """The same, the flows written as roots: middle = 3/4 p."""
+    result = simulated(tmp_path, ROOTS, solver=solver, stop=1.0, interval=0.01)
+    assert result.complete, result.failure
+    assert result["middle"] == pytest.approx(0.75 * result["p"], rel=1e-6)
