@@ -19,6 +19,7 @@ from lacuna.codegen.dae.free_parameters import free_parameters
 from lacuna.codegen.dae.guards import guard_shapes
 from lacuna.codegen.dae.initial import initial_system
 from lacuna.codegen.dae.prepared import Prepared
+from lacuna.codegen.dae.relations import Relation
 from lacuna.codegen.dae.storage import Storage
 from lacuna.codegen.emit.source import generate
 from lacuna.codegen.errors import Diagnostic
@@ -104,7 +105,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     )  # fmt: skip
 
 
-def _line(relation: hybrid.Relation) -> str:
+def _line(relation: Relation) -> str:
     return f"line {relation.source.span.line}"
 
 

@@ -54,12 +54,19 @@ static rt_status set_parameters_and_starts(rt_session *s) {
 static bool settle_relations(rt_session *s) {
   bool changed = false;
   for (int r = 0; r < s->d->n_rel; r++) {
-    if (s->d->relations[r].is_time) continue;
+    if (s->d->relations[r].is_time || isnan(s->g[r])) continue;
     unsigned char now = s->g[r] > 0;
     changed |= now != s->data.rel[r];
     s->data.rel[r] = now;
   }
   return changed;
+}
+
+/* A branch that will not hold may have no value: then the guards that have one tell which does. */
+static bool settles_without_values(rt_session *s) {
+  mdl_data *m = &s->data;
+  return s->data.failure.kind == MDL_FAILURE_NONFINITE && s->d->n_rel &&
+         !s->d->roots(m, s->t, m->x, m->xdot, m->v, s->g) && settle_relations(s);
 }
 
 static rt_status fail_initialisation(rt_session *s) {
@@ -113,7 +120,12 @@ static rt_status solve_initial_equations(rt_session *s) {
     if (rt_tangent_initial(s, true)) return s->failure.status;
     for (int k = 0; k < s->n_initial; k++)
       m->x[s->initial_index[k]] = s->initial_value[k];
-    if (rt_evaluate(s)) return fail_initialisation(s);
+    if (rt_evaluate(s)) {
+      mdl_failure failure = m->failure;
+      if (settles_without_values(s)) continue;
+      m->failure = failure;
+      return fail_initialisation(s);
+    }
     if (rt_tangent_initial(s, false)) return s->failure.status;
     bool changed = settle_relations(s);
     memcpy(s->when_before, m->when, (size_t)s->d->n_when);
