@@ -6,20 +6,25 @@ from html import escape
 
 import pyarrow as pa
 
+from lacuna.analysis.prognosis.telling import use
+
 SHOWN = 60  # actuators at greatest risk
 WIDTH, ROW = 1000, 18  # of the drawing
 
-_PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Fleet</title><style>
+_PAGE = """<!doctype html><html lang="en"><meta charset="utf-8">
+<meta name=viewport content="width=device-width"><title>Fleet</title><style>
 body{{font:16px/1.4
 system-ui,sans-serif;margin:2rem;color:#222}}h1{{margin:0}}.count{{display:inline-block;margin:1rem 2rem
-1rem 0}}.count b{{display:block;font-size:2.6rem;line-height:1}}svg{{width:100%;height:auto}}small{{color:#666}}
+1rem 0}}.count b{{display:block;font-size:2.6rem;line-height:1}}
+.wide{{overflow-x:auto}}svg{{width:100%;min-width:48rem;height:auto}}small{{color:#666}}
 @media print{{body{{margin:0}}}}</style>
 <h1>{title}</h1><div class=count><b>{total}</b>actuators</div><div class=count
 style="color:#6a3d9a"><b>{now}</b>remove now</div>
 <div class=count style="color:#b3261e"><b>{forecast}</b>with a forecast</div><div class=count><b>{early}</b>too early
 to say</div> <div class=count style="color:#2b7a2b"><b>{steady}</b>steady</div>
 <p>{shown} at greatest risk: use that remains to {limit} (median, 80 % and 95 % intervals), and the last advised test
-(red).</p> {drawing}<p><small>lacuna {version}. The whole table is in fleet.parquet.</small></p></html>
+(red).</p><div class=wide>{drawing}</div>
+<p><small>lacuna {version}. The whole table is in fleet.parquet.</small></p></html>
 """
 
 
@@ -45,14 +50,14 @@ def _drawing(rows: list[dict]) -> str:
     top = max(ends[int(0.9 * (len(ends) - 1))], 1e-12) * 1.1
     left, height = 220, ROW * (len(rows) + 2)
 
-    def at(use: float | None) -> float:
-        return left + (WIDTH - left) * min(1.0, (top if use is None else use) / top)
+    def at(left_over: float | None) -> float:
+        return left + (WIDTH - left) * min(1.0, (top if left_over is None else left_over) / top)
 
     parts = [f'<svg viewBox="0 0 {WIDTH} {height}" font-size="12" font-family="system-ui,sans-serif" role="img">']
     for k in range(5):
         x = left + (WIDTH - left) * k / 5
         parts.append(f'<path d="M{x:.1f} 0V{height - ROW}" stroke="#ddd"/><text x="{x:.1f}" y="{height - 4}">'
-                     f'{top * k / 5:.3g}{" " + escape(rows[0]["unit"]) if not k else ""}</text>')  # fmt: skip
+                     f'{use(top * k / 5)}{" " + escape(rows[0]["unit"]) if not k else ""}</text>')  # fmt: skip
     for k, r in enumerate(rows):
         y = ROW * (k + 0.5) + 4
         name = escape(r["actuator"] + (f" {r['fault']}" if r["fault"] else ""))

@@ -20,15 +20,16 @@ from lacuna.analysis.prognosis.forecast import LEVELS as PROBABILITIES
 from lacuna.analysis.prognosis.forecast import Forecast
 from lacuna.analysis.prognosis.series import last_error, series_of
 from lacuna.analysis.prognosis.smoother import tracked
-from lacuna.analysis.prognosis.telling import counted_verdicts, forecast_json, sentence, urgency
+from lacuna.analysis.prognosis.telling import counted_verdicts, forecast_json, sentence, urgency, use
 from lacuna.analysis.prognosis.verdict import FORECAST
 
 DRAWN = 40  # actuators that get a figure; of more, those at greatest risk
 
-_PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Forecast</title>
+_PAGE = """<!doctype html><html lang="en"><meta charset="utf-8">
+<meta name=viewport content="width=device-width"><title>Forecast</title>
 <style>body{{font:15px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}}
 h2{{font-size:1.05rem;margin:2rem 0
-.3rem}}img{{width:100%}}.warn{{color:#b3261e}}td,th{{text-align:right;padding:.1rem .8rem
+.3rem}}svg{{max-width:100%;height:auto}}.wide{{overflow-x:auto}}.warn{{color:#b3261e}}td,th{{text-align:right;padding:.1rem .8rem
 .1rem 0}}td:first-child,th:first-child{{text-align:left}}small{{color:#666}}</style>
 <h1>Flights that remain</h1><p>{summary}</p>{parts}
 <p><small>lacuna {version}; limits {limits}. Intervals are of remaining use; the fan shows when each severity is
@@ -72,12 +73,16 @@ def _part(f: Forecast, svg: str, risk: float) -> str:
     head = "<tr><th>limit</th><th>97.5 % later than</th><th>90 %</th><th>median</th><th>10 %</th><th>2.5 %</th></tr>"
     laws = ", ".join(f"{escape(n)} {100 * w:.0f} %" for n, w in list(f.weights.items())[:3])
     warnings = "".join(f"<p class=warn>{escape(w)}</p>" for w in f.warnings)
-    body = f"<table>{head}{rows}</table><p><small>Laws: {laws}.</small></p>" if f.verdict == FORECAST else ""
+    body = (
+        f"<div class=wide><table>{head}{rows}</table></div><p><small>Laws: {laws}.</small></p>"
+        if f.verdict == FORECAST
+        else ""
+    )
     return f"<h2>{escape(sentence(f, risk))}</h2>{warnings}{svg}{body}"
 
 
 def _cell(value: float) -> str:
-    return f"{value:.3g}" if np.isfinite(value) else "-"
+    return use(value) if np.isfinite(value) else "-"
 
 
 def curves(f: Forecast, bank: Bank):
