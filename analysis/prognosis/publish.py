@@ -29,7 +29,8 @@ _PAGE = """<!doctype html><html lang="en"><meta charset="utf-8">
 <meta name=viewport content="width=device-width"><title>Forecast</title>
 <style>body{{font:15px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}}
 h2{{font-size:1.05rem;margin:2rem 0
-.3rem}}svg{{max-width:100%;height:auto}}.wide{{overflow-x:auto}}.warn{{color:#b3261e}}td,th{{text-align:right;padding:.1rem .8rem
+.3rem}}svg{{max-width:100%;height:auto}}.wide{{overflow-x:auto}}
+.warn{{color:#b3261e}}td,th{{text-align:right;padding:.1rem .8rem
 .1rem 0}}td:first-child,th:first-child{{text-align:left}}small{{color:#666}}</style>
 <h1>Flights that remain</h1><p>{summary}</p>{parts}
 <p><small>lacuna {version}; limits {limits}. Intervals are of remaining use; the fan shows when each severity is
