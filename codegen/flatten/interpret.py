@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from math import prod
+import threading
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
@@ -39,6 +41,35 @@ from lacuna.codegen.syntax import ast
 
 MAX_STEPS = 50_000
 MAX_SYMBOLIC_STEPS = 400
+MAX_NESTED_STEPS = 100_000  # of a call and all calls inside it
+MAX_CALLS = 100  # inside each other
+
+
+class _Effort(threading.local):
+    """Of the outermost call that is being run in this thread."""
+
+    calls = 0
+    steps = 0
+
+
+_effort = _Effort()
+
+
+@contextmanager
+def _counted(symbolic: bool, span: Span) -> Iterator[None]:
+    """Around a call: it is neither too deep inside others nor the last of too many."""
+    if _effort.calls >= MAX_CALLS:
+        if symbolic:
+            raise AtRunTime("a deep recursion", span)
+        message = f"more than {MAX_CALLS} calls inside each other"
+        raise Diagnostic("F034", message, span, "does the recursion reach its end?")
+    _effort.calls += 1
+    try:
+        yield
+    finally:
+        _effort.calls -= 1
+        if not _effort.calls:
+            _effort.steps = 0
 
 
 def interpret(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
@@ -59,7 +90,8 @@ def interpret(signature: Signature, arguments: dict[str, Value], context: Contex
             if local.is_flexible:
                 run.flexible.add(local.name)
             run.locals[local.name] = blank(local, scope)
-    run.block(signature.body)
+    with _counted(run.symbolic, span):
+        run.block(signature.body)
     results = [run.locals[local.name] for local in signature.outputs]
     for local, value in zip(signature.outputs, results, strict=True):
         if any(isinstance(s, Expr) and any(n.op == "unset" for n in ex.walk(s)) for s in scalars(value)):
@@ -101,10 +133,11 @@ class _Run:
         """Run statements; "break" or "return" where one of these ended the block."""
         for item in items:
             self.steps += 1
-            if self.steps > self.limit:
+            _effort.steps += 1
+            if self.steps > self.limit or _effort.steps > MAX_NESTED_STEPS:
                 if self.symbolic:
                     raise AtRunTime("a long computation", item.span)
-                message = f"no end after {MAX_STEPS} statements"
+                message = f"no end after {MAX_STEPS if self.steps > self.limit else MAX_NESTED_STEPS} statements"
                 raise Diagnostic("F034", message, item.span, "does the loop reach its end?")
             signal = self._item(item)
             if signal:
