@@ -15,7 +15,7 @@ run_ctest = ctest --test-dir $(1) --output-on-failure -j 2 > $(1)/ctest.log && t
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*' ':!:fmi/standard/*')
 
 .PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined prognosis tolerance-study \
-        figures wheel examples belts hybrid msl compliance format lint sanitize ctest pytest lock clean
+        figures wheel vsix examples belts hybrid msl compliance format lint sanitize ctest pytest lock clean
 
 help: ## Print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -86,6 +86,10 @@ msl: setup ## Every example of the Modelica Standard Library, translated, simula
 wheel: setup ## A wheel and an sdist, into out/dist/
 	@$(PYTHON) -m build --no-isolation --outdir $(OUT)/dist . > $(BUILD)/wheel.log || { cat $(BUILD)/wheel.log; exit 1; }
 	@ls $(OUT)/dist
+
+vsix: ## The extension for VS Code, packed by npm into out/lacuna.vsix (downloads npm packages)
+	@mkdir -p $(OUT)
+	@cd editors/vscode && npm install --silent --no-audit --no-fund && npm run --silent vsix -- $(abspath $(OUT))/lacuna.vsix
 
 examples: setup ## Write the recordings of lacuna/examples anew
 	@$(PYTHON) -m bench.examples

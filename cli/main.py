@@ -13,6 +13,7 @@ from lacuna.cli import (
     check,
     compare,
     compile,
+    editor,
     examples,
     explain,
     fleet,
@@ -71,6 +72,8 @@ app.command("compile", rich_help_panel=MODELS)(compile.compile)
 app.command("simulate", rich_help_panel=MODELS)(simulate.simulate)
 app.command("compare", rich_help_panel=MODELS)(compare.compare)
 app.command("fmu", rich_help_panel=MODELS)(fmu.fmu)
+app.command("format", rich_help_panel=MODELS)(editor.format)
+app.command("lsp", rich_help_panel=MODELS)(editor.lsp)
 app.add_typer(list.app, name="list", rich_help_panel=MODELS)
 app.command("examples", rich_help_panel=MODELS)(examples.examples)
 app.command("maps", rich_help_panel=FAULTS)(maps.maps)

@@ -12,13 +12,14 @@ import time
 from typing import TypeVar
 
 from lacuna.codegen import cache, flat
-from lacuna.codegen.dae import events, hybrid
+from lacuna.codegen.dae import events, homotopy, hybrid
 from lacuna.codegen.dae.discrete_starts import discrete_starts
 from lacuna.codegen.dae.divisions import divisions
 from lacuna.codegen.dae.free_parameters import free_parameters
 from lacuna.codegen.dae.guards import guard_shapes
 from lacuna.codegen.dae.initial import initial_system
 from lacuna.codegen.dae.prepared import Prepared
+from lacuna.codegen.dae.relations import Relation
 from lacuna.codegen.dae.storage import Storage
 from lacuna.codegen.emit.source import generate
 from lacuna.codegen.errors import Diagnostic
@@ -80,7 +81,8 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     sys.setrecursionlimit(max(sys.getrecursionlimit(), 20000))
     declared = report.run("initial system", free_parameters, declared)
     aliases = report.run("aliases", eliminate_aliases, declared)
-    frozen = report.run("hybrid", hybrid.analyse, aliases.model)
+    split = report.run("initial system", homotopy.split, aliases.model)
+    frozen = report.run("hybrid", hybrid.analyse, split)
     model = report.run("initial system", discrete_starts, frozen.model)
     continuous, discrete = report.run("hybrid", events.split, model)
     system = report.run("index reduction", reduce_index, model, continuous)
@@ -103,7 +105,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     )  # fmt: skip
 
 
-def _line(relation: hybrid.Relation) -> str:
+def _line(relation: Relation) -> str:
     return f"line {relation.source.span.line}"
 
 

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from lacuna.degradation import degradation_laws
     from lacuna.diagnoses import Case, Explanation, Verdict, explain, open_case
     from lacuna.drafts import Drafted, convert, new_case
+    from lacuna.editor import format_model, serve_editor
     from lacuna.errors import UserError, is_user_error, message_of, nearest
     from lacuna.examples import copy_examples
     from lacuna.faults import Assessment, CombinedMap, OperatingMap, assess, combined_maps, default_settings, maps
@@ -37,6 +38,7 @@ _HOMES = {
     "comparisons": ("Agreement", "Comparison", "compare", "compare_with_file"),
     "diagnoses": ("Case", "Explanation", "Verdict", "explain", "open_case"),
     "drafts": ("Drafted", "convert", "new_case"),
+    "editor": ("format_model", "serve_editor"),
     "errors": ("UserError", "is_user_error", "message_of", "nearest"),
     "examples": ("copy_examples",),
     "faults": ("Assessment", "CombinedMap", "OperatingMap", "assess", "combined_maps", "default_settings", "maps"),
@@ -90,6 +92,7 @@ __all__ = [
     "export_history",
     "fleet",
     "forecast",
+    "format_model",
     "is_user_error",
     "list_effects",
     "list_models",
@@ -103,6 +106,7 @@ __all__ = [
     "recorded",
     "refresh",
     "remember",
+    "serve_editor",
     "sweep",
 ]
 

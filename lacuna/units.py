@@ -93,6 +93,11 @@ _UNPREFIXED = ("1", "%", "kg", "min", "h", "d", "deg", "degC", "rev", "rpm", "pp
 _FACTOR = re.compile(r"([A-Za-z%]+|1)([+-]?[0-9]+)?")
 
 
+def symbols() -> list[str]:
+    """Every unit that has a symbol of its own, without prefixes."""
+    return sorted(set(_SYMBOLS) - {"1"})
+
+
 @lru_cache(maxsize=1024)
 def parse_unit(text: str) -> Unit:
     """The unit that `text` means. Raises ValueError with a sentence for what cannot be read."""

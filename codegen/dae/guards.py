@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from lacuna.codegen import flat
-from lacuna.codegen.dae.hybrid import Relation
+from lacuna.codegen.dae.relations import Relation
 from lacuna.codegen.structure.causal import (  # fmt: skip
     Assignment,
     Division,

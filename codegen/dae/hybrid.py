@@ -8,7 +8,8 @@
     edge change         and / <> with pre
 
 Left as they are (no root): what stands in noEvent or smooth, relations between discrete variables and
-parameters only, bodies of when clauses and functions. New leaves: op "rel" and "tick" with value k.
+parameters only, bodies of when clauses and functions, and what stands under a root (ends.py). New leaves: op "rel"
+and "tick" with value k.
 """
 
 from __future__ import annotations
@@ -16,6 +17,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from lacuna.codegen import flat
+from lacuna.codegen.dae.ends import ends, is_call, keep_promises, under_roots
+from lacuna.codegen.dae.relations import Relation, canonical, complement, within
 from lacuna.codegen.errors import Span
 from lacuna.codegen.symbolic.affine import affine
 from lacuna.codegen.symbolic.expr import (  # fmt: skip
@@ -39,6 +42,7 @@ from lacuna.codegen.symbolic.expr import (  # fmt: skip
     neg,
     node,
     pre,
+    rebuild,
     relation,
     special,
     sub,
@@ -47,18 +51,6 @@ from lacuna.codegen.symbolic.expr import (  # fmt: skip
 )
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import Rewriter
-
-
-@dataclass
-class Relation:
-    """left > right; `slope` is d(left - right)/dt of a time relation, None of a root. `text` says the same as the model
-    does: its operands and their order, or the call that it comes from."""
-
-    left: Expr
-    right: Expr
-    source: flat.Equation
-    slope: Expr | None = None
-    text: str = ""
 
 
 @dataclass
@@ -72,8 +64,8 @@ class Hybrid:
 
 def analyse(model: flat.FlatModel) -> Hybrid:
     """Freeze relations and lower the event-generating operators of `model`."""
-    freezer = _Freezer(model.variables, model.span)
-    equations = [freezer.equation(e) for e in model.equations]
+    freezer = _Freezer(model.variables, model.span, under_roots(model.equations))
+    equations = [freezer.equation(e) for e in keep_promises(model.equations)]
     whens = [freezer.when(w) for w in model.whens]
     algorithms = [freezer.algorithm(a) for a in model.algorithms]
     freezer.generating = False
@@ -102,7 +94,7 @@ def strip(e: Expr) -> Expr:
 
 
 class _Freezer:
-    def __init__(self, variables: dict[str, flat.Variable], span: Span):
+    def __init__(self, variables: dict[str, flat.Variable], span: Span, rooted: set[Expr]):
         self.variables = dict(variables)
         self.relations: list[Relation] = []
         self.samples: list[tuple[Expr, Expr]] = []
@@ -113,6 +105,7 @@ class _Freezer:
         self._numbers: dict[tuple[Expr, Expr], int] = {}
         self._ticks: dict[Expr, int] = {}
         self._floors: dict[Expr, Expr] = {}
+        self._rooted = rooted  # x of every sqrt(abs(x))
         self._written = ZERO  # the call that is being lowered
         self.bodies = Rewriter(self._body_rule)
 
@@ -120,7 +113,8 @@ class _Freezer:
 
     def equation(self, e: flat.Equation) -> flat.Equation:
         self._source = e
-        return replace(e, lhs=self.freeze(e.lhs), rhs=self.freeze(e.rhs))
+        start = (self.freeze(e.start[0]), self.freeze(e.start[1])) if e.start else None
+        return replace(e, lhs=self.freeze(e.lhs), rhs=self.freeze(e.rhs), start=start)
 
     def _condition(self, e: Expr, span: flat.Span, origin: str) -> Expr:
         self._source = flat.Equation(ZERO, ZERO, span, origin, f"when {e}")
@@ -148,7 +142,7 @@ class _Freezer:
 
     def _body_rule(self, n: Expr) -> Expr | None:
         if n.op in RELATIONS and self._continuous(n):
-            left, right, positive = _canonical(n)
+            left, right, positive = canonical(n)
             number = self._numbers.get((self.freeze(left), self.freeze(right)))
             if number is not None:
                 return self._frozen(number, positive)
@@ -185,18 +179,25 @@ class _Freezer:
         if n.op == "pre":  # of a continuous variable: its value on arrival at the event
             return n.args[0] if self._is_continuous(n.args[0]) else None
         if n.op in RELATIONS and n.op not in ("==", "<>") and self._continuous(n):
-            left, right, positive = _canonical(n)
+            left, right, positive = canonical(n)
             left, right = self.freeze(left), self.freeze(right)
-            return self._relation(left, right, positive, str(n) if positive else str(_complement(n)))
+            return self._relation(left, right, positive, str(n) if positive else str(complement(n)))
+        if ends(n):
+            return rebuild(n, tuple(transform(a, self._under_root, {}) for a in n.args))
+        if is_call(n, "sign") and n.args[0] in self._rooted:
+            return call("sign", self.freeze(n.args[0]))
         if n.op in ("min", "max") and self._continuous(n):
             a, b = map(self.freeze, n.args)
             left, right = (b, a) if n.op == "max" else (a, b)
-            return if_else(self._relation(left, right, False, _within(n, left, right)), a, b)
+            return if_else(self._relation(left, right, False, within(n, left, right)), a, b)
         if n.op == "call" and n.value in _LOWER and self._continuous(n):
             arguments = list(map(self.freeze, n.args))
             self._written = n
             return _LOWER[str(n.value)](self, *arguments)
         return None
+
+    def _under_root(self, n: Expr) -> Expr | None:
+        return None if n.op in ("min", "max") or is_call(n, "abs") else self._rule(n)
 
     def _relation(self, left: Expr, right: Expr, positive: bool, text: str = "") -> Expr:
         if left.op == right.op == "const":
@@ -207,7 +208,7 @@ class _Freezer:
                 holds = relation(">", left, right)
                 return holds if positive else logical_not(holds)
             number = self._numbers[left, right] = len(self.relations)
-            text = text or _within(self._written, left, right)
+            text = text or within(self._written, left, right)
             self.relations.append(Relation(left, right, self._source, self._slope(left, right), text))
         return self._frozen(number, positive)
 
@@ -275,23 +276,3 @@ _LOWER = {
     "floor": _Freezer.floor, "integer": _Freezer.floor, "ceil": _Freezer.ceil, "mod": _Freezer.mod,
     "rem": _Freezer.remainder, "div": _Freezer.quotient, "abs": _Freezer.abs, "sign": _Freezer.sign,
 }  # fmt: skip
-
-
-def _canonical(n: Expr) -> tuple[Expr, Expr, bool]:
-    """(a, b, positive): the relation is a > b, or its negation where not positive."""
-    a, b = n.args
-    if n.op == ">":
-        return a, b, True
-    if n.op == "<":
-        return b, a, True
-    return (a, b, False) if n.op == "<=" else (b, a, False)
-
-
-def _complement(n: Expr) -> Expr:
-    """`n`, one of <= and >=, the other way round: true where it is false, with its operands where they were."""
-    return node(">" if n.op == "<=" else "<", n.args, None, BOOLEAN)
-
-
-def _within(written: Expr, left: Expr, right: Expr) -> str:
-    """left > right inside the call `written`."""
-    return f"{relation('>', left, right)} in {written}"

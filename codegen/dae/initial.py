@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from lacuna.codegen import flat
+from lacuna.codegen.dae.homotopy import rows_at_start
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.causal import Assignment, Step, causalise, unknowns_of
 from lacuna.codegen.structure.matching import Matching
@@ -29,7 +30,7 @@ def initial_system(system: System, equations: list[flat.Equation], tearing: Tear
     """Rows for every state, derivative and algebraic variable, in the order in which they are solved."""
     unknowns = [*map(var, system.states), *system.unknowns]
     column = {u: k for k, u in enumerate(unknowns)}
-    rows = [*system.rows, *(Row(e.lhs, e.rhs, e) for e in equations)]
+    rows = [*rows_at_start(system), *(Row(e.lhs, e.rhs, e) for e in equations)]
     matching = Matching([_columns(r, column) for r in rows], len(unknowns))
     unmatched = matching.match_all()
     if unmatched:
@@ -42,7 +43,7 @@ def initial_system(system: System, equations: list[flat.Equation], tearing: Tear
     assumed = _assume_starts(system, rows, unknowns, matching, column)
     steps = causalise(rows, unknowns, tearing)
     own = {*map(var, system.states)}
-    trivial = all(
+    trivial = not any(row.source.start for row in rows) and all(
         isinstance(s, Assignment) and s.row.source.text.startswith("start of") for s in steps
         if own & set(unknowns_of(s))
     )  # fmt: skip

@@ -8,8 +8,8 @@ from lacuna.codegen import flat
 from lacuna.codegen.dae.divisions import Quotient
 from lacuna.codegen.dae.events import EventStep
 from lacuna.codegen.dae.guards import GuardShapes
-from lacuna.codegen.dae.hybrid import Relation
 from lacuna.codegen.dae.initial import InitialSystem
+from lacuna.codegen.dae.relations import Relation
 from lacuna.codegen.dae.storage import Storage
 from lacuna.codegen.structure.causal import Step
 from lacuna.codegen.structure.nominal import Size

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from lacuna.codegen import flat
 from lacuna.codegen.dae.events import DiscreteEquation, targets
-from lacuna.codegen.dae.hybrid import Relation
 from lacuna.codegen.dae.prepared import Prepared
+from lacuna.codegen.dae.relations import Relation
 from lacuna.codegen.emit.asserts import assert_index, of_parameters, write_assert
 from lacuna.codegen.emit.body import Body
 from lacuna.codegen.emit.continuous import function

@@ -68,6 +68,8 @@ def _print(e: Expr, name: Lookup) -> tuple[str, int]:
         return _print_binary(e, name)
     if e.op == "start_time":
         return "m->start_time", _PRIMARY
+    if e.op == "path":
+        return "m->homotopy", _PRIMARY
     if e.op == "neg":
         return "-" + to_c(e.args[0], name, _PRIMARY), _UNARY
     if e.op == "not":

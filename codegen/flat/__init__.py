@@ -49,6 +49,7 @@ class Equation:
     span: Span
     origin: str = ""  # path of the component it belongs to, "" for the model itself
     text: str = ""  # as written, for comments and messages
+    start: tuple[Expr, Expr] | None = None  # both sides at the start, where homotopy makes them others
 
 
 @dataclass

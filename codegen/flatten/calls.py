@@ -150,11 +150,18 @@ def _by_name(e: ast.Call, names: tuple[str, ...]) -> list[ast.Expression]:
 
 
 def _homotopy(e: ast.Call, scope: Scope) -> Value:
-    """The actual expression; the simplified one must fit it (Modelica 3.6, 3.7.4.4)."""
+    """A choice that `dae.homotopy` takes apart; the simplified expression must fit the actual one."""
     actual, simplified = (lower(a, scope) for a in _by_name(e, ("actual", "simplified")))
     if shape_of(actual) != shape_of(simplified):
         raise Diagnostic("R042", "homotopy of two sizes", e.span, "both expressions need the same size")
-    return actual
+    if scope.instance is None:  # in a function
+        return actual
+
+    def build(actual: Expr, simplified: Expr) -> Expr:
+        varies = actual.type == REAL and not is_parameter(actual, scope.context)
+        return ex.if_else(ex.special("homotopy"), actual, simplified) if varies else actual
+
+    return elementwise(build, [actual, simplified], e.span, "homotopy")
 
 
 def _semi_linear(e: ast.Call, scope: Scope) -> Value:

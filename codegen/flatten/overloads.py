@@ -35,6 +35,9 @@ def overloaded(op: str, operands: Sequence[Value], span: Span, scope: Scope) -> 
         return found
     if any(map(shape_of, operands)):
         return _element_by_element(op, operands, span, scope)
+    if not classes:
+        hint = "make it an operator record, or name its fields"
+        raise Diagnostic("R079", f"a record has no operator {op}", span, hint)
     hint = f"declare an operator '{name}' for these operands in {classes[0].name}"
     raise Diagnostic("R079", f"{classes[0].name} has no operator {op} for these operands", span, hint)
 

@@ -84,6 +84,8 @@ class Differentiator:
             return ZERO
         if e.op in LEAF_OPS:
             return self._seed(e) if e.type == REAL else ZERO
+        if not e.args:
+            return ZERO
         if self._active is not None and e.op != "array" and self._active.isdisjoint(leaves(e)):
             return ZERO  # of an array argument, the derivative has its elements
         return getattr(self, "_" + _RULES[e.op])(e)

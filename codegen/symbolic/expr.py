@@ -11,6 +11,7 @@ which fold constants and drop neutral elements; never call `Expr` itself.
     pre       (var,)                    -
     time      ()                        -
     start_time ()                       -         of the run, in parameters
+    path      ()                        -         of homotopy, from 0 to 1, in initial equations
     + * and or min max                  two arguments, left to right
     - /       two arguments;  neg not   one argument;   ^  two arguments
     < <= > >= == <>                     two arguments

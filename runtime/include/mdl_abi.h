@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 8
+#define MDL_ABI_VERSION 9
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
@@ -57,6 +57,7 @@ typedef struct mdl_data {
   int terminated;      /* set by event(): 1 + index into `messages` of the terminate() that fired; else 0 */
   mdl_failure failure;
   double start_time; /* of the run; parameters may depend on it */
+  double homotopy;   /* in initial_system(): 1 what homotopy() actually is, 0 what it is simplified to */
 } mdl_data;
 
 typedef enum {

@@ -63,6 +63,35 @@ void rt_residual_point(rt_session *s) {
   }
 }
 
+/* The column of the Jacobian to unknown j again, as secants over the absolute tolerance of the unknown. */
+static int secants(rt_session *s, double t, double *y, double *yp, double cj, int j, double *values, double *r) {
+  const mdl_descriptor *d = s->d;
+  double y_here = y[j], yp_here = yp[j], *moved = r + d->n_x + d->n_z;
+  int status = d->residual(&s->data, t, y, yp, r);
+  y[j] += s->atol[j];
+  yp[j] += cj * s->atol[j];
+  if (!status) status = d->residual(&s->data, t, y, yp, moved);
+  for (int k = d->jac_colptr[j]; !status && k < d->jac_colptr[j + 1]; k++)
+    values[k] = (moved[d->jac_rowidx[k]] - r[d->jac_rowidx[k]]) / (y[j] - y_here);
+  y[j] = y_here;
+  yp[j] = yp_here;
+  return status;
+}
+
+/* dF/dy + cj dF/dy' with finite entries: a root at its end, sqrt(0), has none but the slope over what is resolved. */
+int rt_jacobian(rt_session *s, double t, double *y, double *yp, double cj, double *values) {
+  const mdl_descriptor *d = s->d;
+  int status = d->jacobian(&s->data, t, y, yp, cj, values), n = d->n_x + d->n_z;
+  if (status || rt_finite(d->jac_nnz, values)) return status;
+  double *r = calloc(2 * (size_t)n, sizeof *r);
+  if (!r) return -1;
+  for (int j = 0; !status && j < n; j++)
+    if (!rt_finite(d->jac_colptr[j + 1] - d->jac_colptr[j], values + d->jac_colptr[j]))
+      status = secants(s, t, y, yp, cj, j, values, r);
+  free(r);
+  return status;
+}
+
 /* |F| against the size of what is added up in each row of F, estimated by sum_j |dF/dy_j y_j| + |dF/dy'_j y'_j|. */
 static rt_status compare(rt_session *s, double *r, double *scale, double *smallest, double *fy, double *fyp) {
   const mdl_descriptor *d = s->d;
@@ -76,6 +105,7 @@ static rt_status compare(rt_session *s, double *r, double *scale, double *smalle
     scale[i] = smallest[i] = 0;
   for (int j = 0; j < n; j++)
     for (int k = d->jac_colptr[j]; k < d->jac_colptr[j + 1]; k++) {
+      if (!isfinite(fy[k]) || !isfinite(fyp[k])) continue; /* the slope of a root at its end */
       scale[d->jac_rowidx[k]] += fabs(fy[k] * s->y[j]) + fabs((fyp[k] - fy[k]) * s->yp[j]);
       smallest[d->jac_rowidx[k]] += (fabs(fy[k]) + fabs(fyp[k] - fy[k]) * rate) * s->nominal[j];
     }

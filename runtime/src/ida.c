@@ -37,7 +37,7 @@ static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Ve
   rt_ida *m = s->memory;
   double *values = m->values;
   rt_inputs_at(s, t);
-  int status = d->jacobian(&s->data, t, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), cj, values);
+  int status = rt_jacobian(s, t, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), cj, values);
   if (status) return status;
   int n = d->n_x + d->n_z;
   if (SUNMatGetID(matrix) == SUNMATRIX_SPARSE) {

@@ -22,6 +22,7 @@ static void clear(rt_session *s) {
       m->u[d->variables[i].index] = d->variables[i].sign * d->variables[i].start;
   m->initial = 1;
   m->start_time = s->start;
+  m->homotopy = 1;
   m->terminal = m->reinitialised = m->terminated = 0;
   m->failure = (mdl_failure){.equation = -1, .variable = -1};
   memset(s->flip, 0, (size_t)d->n_rel);
@@ -53,7 +54,7 @@ static rt_status set_parameters_and_starts(rt_session *s) {
 static bool settle_relations(rt_session *s) {
   bool changed = false;
   for (int r = 0; r < s->d->n_rel; r++) {
-    if (s->d->relations[r].is_time) continue;
+    if (s->d->relations[r].is_time || isnan(s->g[r])) continue;
     unsigned char now = s->g[r] > 0;
     changed |= now != s->data.rel[r];
     s->data.rel[r] = now;
@@ -61,9 +62,52 @@ static bool settle_relations(rt_session *s) {
   return changed;
 }
 
+/* A branch that will not hold may have no value: then the guards that have one tell which does. */
+static bool settles_without_values(rt_session *s) {
+  mdl_data *m = &s->data;
+  return s->data.failure.kind == MDL_FAILURE_NONFINITE && s->d->n_rel &&
+         !s->d->roots(m, s->t, m->x, m->xdot, m->v, s->g) && settle_relations(s);
+}
+
 static rt_status fail_initialisation(rt_session *s) {
   rt_fail_model(s, s->t, "solving the initial equations");
   return s->failure.status = RT_INITIALISATION;
+}
+
+/* The initial system with this much of the actual expressions in homotopy(); where it fails, start values are as they
+ * were. */
+static int solve_on_path(rt_session *s, double path) {
+  mdl_data *m = &s->data;
+  const mdl_descriptor *d = s->d;
+  memcpy(s->x_before, m->x, (size_t)d->n_x * sizeof *m->x);
+  memcpy(s->xdot_before, m->xdot, (size_t)d->n_x * sizeof *m->xdot);
+  memcpy(s->v_before, m->v, (size_t)d->n_v * sizeof *m->v);
+  m->homotopy = path;
+  int status = d->initial_system(m, s->t);
+  m->homotopy = 1;
+  if (!status) return 0;
+  memcpy(m->x, s->x_before, (size_t)d->n_x * sizeof *m->x);
+  memcpy(m->xdot, s->xdot_before, (size_t)d->n_x * sizeof *m->xdot);
+  memcpy(m->v, s->v_before, (size_t)d->n_v * sizeof *m->v);
+  return status;
+}
+
+/* Where the start values lead nowhere: the solution with the simplified expressions, followed to that with the actual
+ * ones by steps that halve where it is lost and double where it is not. A failure is the first one. */
+static int solve_initial_system(rt_session *s) {
+  const double least = 1e-6;
+  int status = solve_on_path(s, 1);
+  if (!status) return 0;
+  mdl_failure failure = s->data.failure;
+  bool found = !solve_on_path(s, 0);
+  for (double path = 0, stride = 0.5; found && path<1; found = stride> least) {
+    double next = rt_min(1, path + stride);
+    bool arrived = !solve_on_path(s, next);
+    if (arrived) path = next;
+    stride *= arrived ? 2 : 0.5;
+  }
+  if (!found) s->data.failure = failure;
+  return found ? 0 : status;
 }
 
 /* Initial equations, relations and discrete equations with initial() true, until they agree. States given by the caller
@@ -72,11 +116,16 @@ static rt_status solve_initial_equations(rt_session *s) {
   mdl_data *m = &s->data;
   for (int i = 0; i < MAX_ITERATIONS; i++) {
     rt_inputs_at(s, s->t);
-    if (s->d->initial_system(m, s->t)) return fail_initialisation(s);
+    if (solve_initial_system(s)) return fail_initialisation(s);
     if (rt_tangent_initial(s, true)) return s->failure.status;
     for (int k = 0; k < s->n_initial; k++)
       m->x[s->initial_index[k]] = s->initial_value[k];
-    if (rt_evaluate(s)) return fail_initialisation(s);
+    if (rt_evaluate(s)) {
+      mdl_failure failure = m->failure;
+      if (settles_without_values(s)) continue;
+      m->failure = failure;
+      return fail_initialisation(s);
+    }
     if (rt_tangent_initial(s, false)) return s->failure.status;
     bool changed = settle_relations(s);
     memcpy(s->when_before, m->when, (size_t)s->d->n_when);

@@ -71,8 +71,7 @@ static int differentiate(rt_session *s, work *w) {
   rt_residual_point(s);
   rt_inputs_at(s, s->t);
   s->result->counters.jacobians++;
-  if ((status = m->jacobian(&s->data, s->t, s->y, s->yp, 0, w->fy)) ||
-      (status = m->jacobian(&s->data, s->t, s->y, s->yp, 1, w->fyp)))
+  if ((status = rt_jacobian(s, s->t, s->y, s->yp, 0, w->fy)) || (status = rt_jacobian(s, s->t, s->y, s->yp, 1, w->fyp)))
     return status;
   for (int k = 0; k < m->jac_nnz; k++)
     w->fyp[k] -= w->fy[k];

@@ -189,11 +189,14 @@ static inline bool rt_is_state_relation(const rt_session *s, int r) {
   return !s->d->relations[r].is_time;
 }
 
-/* In the unit of the guard: far above the rounding of what it compares, far below any play of it. The second part
- * covers guards that run over a larger range than the model told. */
+/* In the unit of the guard: far above the rounding of what it compares, far below any play of it. As a tolerance does,
+ * it follows the guard's largest size so far, from a thousandth of its nominal value (that of what it compares:
+ * rounding is a thousandth of that hysteresis still) up to it. The second part covers guards that run over a larger
+ * range. */
 static inline double rt_hysteresis(const rt_session *s, int r) {
-  double size = s->g_nominal[r] > 0 ? s->g_nominal[r] : s->g_span[r];
-  return 1e-10 * size + 1e-12 * s->g_span[r];
+  double nominal = s->g_nominal[r], span = s->g_span[r];
+  double size = nominal > 0 ? rt_min(nominal, rt_max(span, 1e-3 * nominal)) : span;
+  return 1e-10 * size + 1e-12 * span;
 }
 
 /* The guard of relation r has had this size since the relation switched. */
@@ -214,6 +217,7 @@ int rt_rhs(rt_session *s, double t, const double *x, double *xdot, double *v);
 int rt_check_finite(rt_session *s, const double *x);
 int rt_evaluate(rt_session *s);
 void rt_residual_point(rt_session *s);
+int rt_jacobian(rt_session *s, double t, double *y, double *yp, double cj, double *values);
 rt_status rt_check_forms(rt_session *s);
 int rt_find_row(const rt_session *s, mdl_storage storage, int index);
 int rt_state_variable(const rt_session *s, int state);

@@ -8,7 +8,7 @@ from pathlib import Path
 import re
 
 ROOT = Path(__file__).parents[2]
-FOLDERS = ("model", "lacuna", "codegen", "runtime", "analysis", "discovery", "fmi", "tests", "cli", "bench")
+FOLDERS = ("model", "lacuna", "codegen", "runtime", "analysis", "discovery", "fmi", "lsp", "tests", "cli", "bench")
 
 _INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 

@@ -35,7 +35,7 @@ def import_graph(folder: str) -> dict[str, set[str]]:
     return graph
 
 
-@pytest.mark.parametrize("folder", ["lacuna", "codegen", "runtime", "analysis", "discovery", "fmi", "cli"])
+@pytest.mark.parametrize("folder", ["lacuna", "codegen", "runtime", "analysis", "discovery", "fmi", "lsp", "cli"])
 def test_modules_import_in_no_circle(folder: str) -> None:
     graph = import_graph(folder)
     try:

@@ -12,13 +12,14 @@ import pytest
 import lacuna
 from tests.architecture.sources import ROOT, files, imports, includes
 
-STAGES = ("codegen", "runtime", "analysis", "discovery", "fmi")
+STAGES = ("codegen", "runtime", "analysis", "discovery", "fmi", "lsp")
 PYTHON_MAY_IMPORT = {
     "codegen": set(),
     "runtime": set(),
     "analysis": {"runtime"},
     "discovery": {"codegen", "runtime", "analysis"},
     "fmi": {"codegen", "runtime"},
+    "lsp": {"codegen"},
     "lacuna": set(STAGES),  # the public face
     "cli": set(),  # `import lacuna`, and nothing else: what the command line can do, a script can
     "bench": set(STAGES),
@@ -113,7 +114,8 @@ def test_abi_header_stands_alone() -> None:
 
 
 def test_top_level_folders_are_those_that_were_decided() -> None:
-    decided = {"model", "lacuna", "codegen", "runtime", "analysis", "discovery", "tests", "docs", "cli", "bench", "fmi"}
+    product = {"model", "lacuna", "codegen", "runtime", "analysis", "discovery", "fmi", "lsp", "cli"}
+    decided = product | {"tests", "docs", "bench", "editors"}
     made = {"build", "out"}
     present = {p.name for p in ROOT.iterdir() if p.is_dir() and not p.name.startswith((".", "__"))}
     unexpected = {name for name in present - decided - made if not name.endswith(".egg-info")}

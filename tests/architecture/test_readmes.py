@@ -6,7 +6,7 @@ import pytest
 
 from tests.architecture.sources import ROOT
 
-STAGES = ("model", "lacuna", "codegen", "runtime", "analysis", "discovery", "fmi", "cli", "bench")
+STAGES = ("model", "lacuna", "codegen", "runtime", "analysis", "discovery", "fmi", "lsp", "cli", "bench")
 
 
 @pytest.mark.parametrize("stage", STAGES)

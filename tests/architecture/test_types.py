@@ -9,7 +9,7 @@ import sys
 
 from tests.architecture.sources import ROOT
 
-STAGES = ("codegen", "runtime", "analysis", "discovery", "fmi")
+STAGES = ("codegen", "runtime", "analysis", "discovery", "fmi", "lsp")
 
 
 def test_the_public_face_passes_mypy_strict(tmp_path: Path) -> None:

@@ -75,3 +75,27 @@ def test_belts_in_other_units_take_the_same_steps(solver: str) -> None:
             assert len(other) == len(times)
             assert np.allclose(other, times, rtol=1e-4)
             assert abs(count - steps) <= 0.1 * steps
+
+
+RIPPLE = """model Ripple "A voltage whose nominal value is that of a line, compared with a threshold of a microvolt"
+  parameter Real s = 1;
+  Real t(start=0, fixed=true), v(nominal=2e4*s);
+  Integer n(start=0, fixed=true);
+equation
+  der(t) = 1;
+  v = 1.5e-6*s*sin(t);
+  when v > 1e-6*s then
+    n = pre(n) + 1;
+  end when;
+end Ripple;
+"""
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_guard_far_below_its_nominal_value_still_switches(tmp_path: Path, solver: str) -> None:
+    """Its hysteresis follows the size that it has had, not the one that it might have."""
+    model = compiled(tmp_path, RIPPLE)
+    for size in (1e-6, 1.0, 1e9):
+        result = runtime.simulate(model, solver=solver, parameters={"s": size}, stop=20.0, interval=0)
+        assert result.complete, result.failure
+        assert result["n"][-1] == 4, size

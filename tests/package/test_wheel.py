@@ -99,7 +99,7 @@ def test_wheel_holds_the_package_and_nothing_beside_it(wheel: Path) -> None:
 def test_every_data_file_of_the_tree_travels(wheel: Path) -> None:
     names = set(zipfile.ZipFile(wheel).namelist())
     data = ("*.mo", "*.toml", "*.html.in", "*.css", "*.html")
-    for stage in ("model", "codegen", "runtime", "analysis", "discovery", "fmi", "cli", "lacuna"):
+    for stage in ("model", "codegen", "runtime", "analysis", "discovery", "fmi", "lsp", "cli", "lacuna"):
         folder = "lacuna" if stage == "lacuna" else f"lacuna/{stage}"
         tree = run(
             "git", "ls-files", "--", *(f"{stage}/**/{p}" for p in data), *(f"{stage}/{p}" for p in data), cwd=ROOT

@@ -1,0 +1,41 @@
+"""`lacuna lsp` and `lacuna format`: what editors start."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import lacuna
+from lacuna.cli.answer import Answer, answered
+from lacuna.cli.options import Libraries
+
+
+def lsp(library: Libraries = None) -> None:
+    """Language server for Modelica files, on standard input and output: started by an editor, not by hand."""
+    try:
+        lacuna.serve_editor(library or [])
+    except Exception as error:
+        if not lacuna.is_user_error(error):
+            raise
+        typer.echo(lacuna.message_of(error), err=True)
+        raise typer.Exit(1) from None
+
+
+@answered
+def format(
+    files: Annotated[list[Path], typer.Argument(help="Files of Modelica, or folders of them")],
+    check: Annotated[bool, typer.Option("--check", help="Write nothing; status 1 where a file would change")] = False,
+) -> Answer:
+    """Format Modelica files in place: indentation by nesting and empty lines, nothing that has a meaning."""
+    changed = []
+    for path in (p for f in files for p in (sorted(f.rglob("*.mo")) if f.is_dir() else [f])):
+        text = path.read_text(encoding="utf-8")
+        formatted = lacuna.format_model(text, str(path))
+        if formatted != text:
+            changed.append(path)
+            if not check:
+                path.write_text(formatted, encoding="utf-8")
+    failure = f"not formatted: {', '.join(map(str, changed))}" if check and changed else ""
+    return Answer({"changed": [str(path) for path in changed]}, [], [] if check else changed, failure=failure)

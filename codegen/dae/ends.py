@@ -1,0 +1,77 @@
+"""Functions that end: sqrt, log, asin, acos and powers that are no whole number have no value beyond some argument.
+
+Between events a relation keeps its value, so a method looks a little past the end of the branch that holds, to find
+where it ends. There sqrt(x) of `if x > 0 then sqrt(x) else -sqrt(-x)` has no value; nor has sqrt(abs(x)), were abs such
+a branch. So
+
+* in the branch of a relation what its guard promises is kept inside the function: sqrt(max(x, 0)). A function that
+  has no value where the branch does hold keeps none;
+* abs, min and max in an argument are taken as they are, without events, and so is sign(x) beside sqrt(abs(x)): the
+  flow through an orifice is one law, and where it comes to rest there is no corner to stop at.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from lacuna.codegen import flat
+from lacuna.codegen.symbolic.expr import ZERO, Expr, maximum, minimum, neg, rebuild, sub, transform, walk
+
+_FUNCTIONS = ("sqrt", "log", "log10", "asin", "acos")
+_STRICT = (">", "<", ">=", "<=")
+
+
+def ends(n: Expr) -> bool:
+    """Whether the function `n` has no value beyond some argument."""
+    if n.op == "^":
+        return not (n.args[1].op == "const" and float(n.args[1].value).is_integer())
+    return n.op == "call" and n.value in _FUNCTIONS
+
+
+def is_call(n: Expr, name: str) -> bool:
+    return n.op == "call" and n.value == name
+
+
+def under_roots(equations: list[flat.Equation]) -> set[Expr]:
+    """x of every abs(x) in the argument of a function that ends."""
+    return {
+        inner.args[0]
+        for e in equations
+        for n in (*walk(e.lhs), *walk(e.rhs))
+        if ends(n)
+        for inner in walk(n.args[0])
+        if is_call(inner, "abs")
+    }
+
+
+def keep_promises(equations: list[flat.Equation]) -> list[flat.Equation]:
+    """Each branch with what its relation promises inside the functions that end."""
+    memo: dict[Expr, Expr] = {}
+    kept = []
+    for e in equations:
+        lhs, rhs = transform(e.lhs, lambda n: _kept(n, memo), memo), transform(e.rhs, lambda n: _kept(n, memo), memo)
+        kept.append(e if lhs is e.lhs and rhs is e.rhs else replace(e, lhs=lhs, rhs=rhs))
+    return kept
+
+
+def _kept(n: Expr, memo: dict[Expr, Expr]) -> Expr | None:
+    if n.op != "if" or n.args[0].op not in _STRICT:
+        return None
+    condition, then, otherwise = n.args
+    left, right = condition.args if condition.op in (">", ">=") else reversed(condition.args)
+    then, otherwise = (transform(b, lambda k: _kept(k, memo), memo) for b in (then, otherwise))
+    return rebuild(n, (condition, _promised(then, left, right), _promised(otherwise, right, left)))
+
+
+def _promised(branch: Expr, larger: Expr, smaller: Expr) -> Expr:
+    """`branch` where larger > smaller: their difference, as it stands in a function that ends, is not negative."""
+    up, down = sub(larger, smaller), sub(smaller, larger)
+    promise = {up: maximum(up, ZERO), down: minimum(down, ZERO), neg(up): minimum(neg(up), ZERO)}
+
+    def inside(n: Expr) -> Expr | None:
+        return promise.get(n)
+
+    def rule(n: Expr) -> Expr | None:
+        return rebuild(n, tuple(transform(a, inside, {}) for a in n.args)) if ends(n) else None
+
+    return transform(branch, rule, {})

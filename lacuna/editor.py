@@ -1,0 +1,24 @@
+"""For editors: the language server and the formatter."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from lacuna.codegen.search_path import search_path
+from lacuna.extras import names_missing_packages
+from lacuna.lsp.format import format_text
+
+
+@names_missing_packages
+def serve_editor(libraries: Iterable[str | Path] = ()) -> None:
+    """Speak the language server protocol on standard input and output until the editor ends it. Needs `editor`."""
+    from lacuna.lsp.server import make_server
+
+    make_server(search_path(libraries)).start_io()
+
+
+def format_model(text: str, file: str = "") -> str:
+    """The text of a .mo file, formatted: indentation and empty lines only, so that its meaning stays. Raises
+    Diagnostic where it does not parse."""
+    return format_text(text, file)

@@ -1,0 +1,1 @@
+"""What an editor asks: findings as one types, names under the cursor, formatting (README.md)."""

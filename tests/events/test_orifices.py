@@ -1,0 +1,57 @@
+"""Two tanks joined by an orifice come to rest in finite time, where the root in the law of its flow ends."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lacuna import runtime
+from tests.events.models import compiled
+
+LAWS = {
+    "sign and abs": "q = sign(d)*sqrt(abs(d))",
+    "branches": "q = if d > 0 then sqrt(d) else -sqrt(-d)",
+    "turned round": "q = if 0 >= p[1] - p[2] then -(p[2] - p[1])^0.5 else sqrt(p[1] - p[2])",
+    "power": "q = d*max(abs(d), 1e-9)^(-0.5)",
+}
+TANKS = """model Tanks
+  parameter Real p0 = 2;
+  Real p[2](start={{p0, 1}}, each fixed=true); Real d = p[1] - p[2]; Real q;
+equation
+  der(p) = {{-q, q}};
+  {law};
+end Tanks;"""
+
+
+def tanks(folder: Path, law: str) -> runtime.Model:
+    return compiled(folder, TANKS.format(law=LAWS[law]))
+
+
+@pytest.mark.parametrize("solver", ("ida", "dopri5", "rodas4"))
+@pytest.mark.parametrize("law", LAWS)
+def test_the_fall_to_rest(tmp_path: Path, law: str, solver: str) -> None:
+    """d' = -2 sqrt(d): d = (sqrt(d0) - t)^2, and at rest from t = 1 on."""
+    if law in ("branches", "turned round") and solver == "ida":
+        pytest.skip("IDA's noise at rest switches the branches to and fro, which it refuses as chattering")
+    result = runtime.simulate(tanks(tmp_path, law), solver=solver, stop=3.0, interval=0.1, rtol=1e-8)
+    assert result.complete, result.failure
+    t = result["time"]
+    assert result["d"] == pytest.approx(np.maximum(1 - t, 0) ** 2, abs=2e-6)
+
+
+@pytest.mark.parametrize("solver", ("ida", "dopri5", "rodas4"))
+@pytest.mark.parametrize("law", LAWS)
+def test_rest_from_the_start(tmp_path: Path, law: str, solver: str) -> None:
+    """The slope of the root is infinite there: Newton's method goes on with one that is finite."""
+    result = runtime.simulate(tanks(tmp_path, law), solver=solver, stop=3.0, parameters={"p0": 1.0})
+    assert result.complete, result.failure
+    assert result["p[1]"] == pytest.approx(np.ones_like(result["time"]), abs=1e-9)
+
+
+def test_a_root_that_has_no_value_on_its_own_branch_is_refused(tmp_path: Path) -> None:
+    law = "q = if d > 0 then sqrt(-d) else 0"
+    result = runtime.simulate(compiled(tmp_path, TANKS.format(law=law)), solver="dopri5", stop=3.0)
+    assert not result.complete
+    assert "not a finite number" in result.failure.message

@@ -1,0 +1,103 @@
+"""The formatter keeps the tokens, so the meaning; formatting twice is formatting once; our own library stands still."""
+
+from __future__ import annotations
+
+from pathlib import Path
+import random
+
+import pytest
+
+import lacuna
+from lacuna.codegen.flat.text import dump_flat
+from lacuna.codegen.flatten import flatten
+from lacuna.codegen.library import Library
+from lacuna.codegen.syntax.lexer import tokenize
+
+ROOT = Path(__file__).parents[2]
+OURS = sorted((ROOT / "model").rglob("*.mo"))
+
+
+def words(text: str) -> list[str]:
+    return tokenize(text, "").words
+
+
+def test_our_own_library_is_formatted() -> None:
+    assert [p.name for p in OURS if lacuna.format_model(text := p.read_text(encoding="utf-8")) != text] == []
+
+
+def disordered(text: str, seed: int) -> str:
+    """Every line that begins outside strings and comments moved sideways, empty lines doubled."""
+    choice, inside, lines = random.Random(seed), False, []
+    for line in text.split("\n"):
+        moved = line if inside else " " * choice.randrange(9) + line.lstrip() + " " * choice.randrange(3)
+        quotes = line.replace('\\"', "").count('"')
+        lines += [moved if not (inside ^ bool(quotes % 2)) else moved.rstrip()]
+        inside ^= bool(quotes % 2)
+        if not line.strip() and not inside:
+            lines.append("")
+    return "\n".join(lines)
+
+
+@pytest.mark.parametrize("path", OURS[::6], ids=lambda p: p.stem)
+def test_tokens_stay_and_a_second_time_changes_nothing(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    for seed in range(3):
+        formatted = lacuna.format_model(disordered(text, seed))
+        assert words(formatted) == words(text)
+        assert lacuna.format_model(formatted) == formatted
+
+
+def test_the_flat_model_is_the_same(tmp_path: Path) -> None:
+    text = (ROOT / "tests/models/SquareWaveServo.mo").read_text(encoding="utf-8")
+    flat = []
+    for folder, body in (("a", text), ("b", lacuna.format_model(disordered(text, 1)))):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "SquareWaveServo.mo").write_text(body, encoding="utf-8")
+        flat.append(dump_flat(flatten(Library(), str(tmp_path / folder / "SquareWaveServo.mo"))))
+    assert flat[0] == flat[1]
+
+
+def test_nesting() -> None:
+    text = """\
+package P "Nested"
+model M
+Real x;
+protected
+parameter Real a = if true then 1
+    else 2;
+equation
+if a > 1 then
+x = if time > 1 then 1 else 2;
+elseif a > 0 then
+x = 2;
+else
+for i in 1:2 loop
+x = i;
+end for;
+end if;
+initial equation
+when x > 1 then
+reinit(x, 2);
+elsewhen x > 2 then
+terminate("so");
+end when;
+end M;
+type T = Real(unit="m");
+function f
+input Real u;
+output Real y;
+algorithm
+while u > 1 loop
+y := u;
+end while;
+end f;
+end P;
+"""
+    indents = [len(line) - len(line.lstrip()) for line in lacuna.format_model(text).splitlines()]
+    wanted = "0 2 4 2 4 8 2 4 6 4 6 4 6 8 6 4 2 4 6 4 6 4 2 2 2 4 4 2 4 6 4 2 0"
+    assert indents == [int(n) for n in wanted.split()]
+
+
+def test_what_does_not_parse_is_left_alone() -> None:
+    with pytest.raises(Exception, match="P00"):
+        lacuna.format_model("model M\n  Real x\nend M;\n")
