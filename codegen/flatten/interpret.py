@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import replace
 from math import prod
-import threading
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
@@ -15,6 +13,7 @@ from lacuna.codegen.flatten.blanks import blank
 from lacuna.codegen.flatten.constants import AtRunTime
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.effects import effect
+from lacuna.codegen.flatten.effort import MAX_NESTED_STEPS, nested_call, one_more_step
 from lacuna.codegen.flatten.function_locals import Local, Signature, fit, typed
 from lacuna.codegen.flatten.instance import package_of
 from lacuna.codegen.flatten.iterators import iterate
@@ -41,35 +40,6 @@ from lacuna.codegen.syntax import ast
 
 MAX_STEPS = 50_000
 MAX_SYMBOLIC_STEPS = 400
-MAX_NESTED_STEPS = 100_000  # of a call and all calls inside it
-MAX_CALLS = 100  # inside each other
-
-
-class _Effort(threading.local):
-    """Of the outermost call that is being run in this thread."""
-
-    calls = 0
-    steps = 0
-
-
-_effort = _Effort()
-
-
-@contextmanager
-def _counted(symbolic: bool, span: Span) -> Iterator[None]:
-    """Around a call: it is neither too deep inside others nor the last of too many."""
-    if _effort.calls >= MAX_CALLS:
-        if symbolic:
-            raise AtRunTime("a deep recursion", span)
-        message = f"more than {MAX_CALLS} calls inside each other"
-        raise Diagnostic("F034", message, span, "does the recursion reach its end?")
-    _effort.calls += 1
-    try:
-        yield
-    finally:
-        _effort.calls -= 1
-        if not _effort.calls:
-            _effort.steps = 0
 
 
 def interpret(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
@@ -90,7 +60,7 @@ def interpret(signature: Signature, arguments: dict[str, Value], context: Contex
             if local.is_flexible:
                 run.flexible.add(local.name)
             run.locals[local.name] = blank(local, scope)
-    with _counted(run.symbolic, span):
+    with nested_call(run.symbolic, span):
         run.block(signature.body)
     results = [run.locals[local.name] for local in signature.outputs]
     for local, value in zip(signature.outputs, results, strict=True):
@@ -133,8 +103,7 @@ class _Run:
         """Run statements; "break" or "return" where one of these ended the block."""
         for item in items:
             self.steps += 1
-            _effort.steps += 1
-            if self.steps > self.limit or _effort.steps > MAX_NESTED_STEPS:
+            if self.steps > self.limit or one_more_step() > MAX_NESTED_STEPS:
                 if self.symbolic:
                     raise AtRunTime("a long computation", item.span)
                 message = f"no end after {MAX_STEPS if self.steps > self.limit else MAX_NESTED_STEPS} statements"
