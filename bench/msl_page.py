@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
+import re
 
 HEAD = """# The Modelica Standard Library, as it is
 
@@ -14,12 +16,24 @@ About half of the examples have such a trajectory here; the others can only be s
 | package | examples | translated | simulated | with a reference | right |
 | --- | ---: | ---: | ---: | ---: | ---: |
 """
-_TRANSLATED = ("ran", "right", "wrong", "failed", "timeout")
+FURTHER = """
+## Packages without a goal
+
+Translated only, neither compiled nor run.
+
+| package | examples | translated |
+| --- | ---: | ---: |
+"""
+MOST = 3  # kinds of refusal that are named
+_OWN = re.compile(r"'[^']*'|\S*[._\d\[]\S*")  # what a finding names of one model
+_TRANSLATED = ("translated", "ran", "right", "wrong", "failed", "timeout")
 _RAN = ("ran", "right", "wrong")
 
 
-def write(path: Path, names: dict[str, list[str]], results: dict[str, dict[str, object]]) -> None:
-    """Write the page for the examples of each package."""
+def write(
+    path: Path, names: dict[str, list[str]], further: dict[str, list[str]], results: dict[str, dict[str, object]]
+) -> None:
+    """Write the page for the examples of each package, `further` being those without a goal."""
     lines = [_row(package, [results[n] for n in listed]) for package, listed in names.items()]
     lines.append(_row("all", [results[n] for listed in names.values() for n in listed]))
     text = HEAD + "\n".join(lines) + "\n"
@@ -28,7 +42,22 @@ def write(path: Path, names: dict[str, list[str]], results: dict[str, dict[str, 
         for name in listed:
             short = name.removeprefix(f"Modelica.{package}.Examples.")
             text += f"| {short} | {_outcome(results[name])} |\n"
-    path.write_text(text)
+    path.write_text(text + _further(further, results))
+
+
+def _further(names: dict[str, list[str]], results: dict[str, dict[str, object]]) -> str:
+    text = FURTHER
+    for package, listed in names.items():
+        done = sum(results[n]["status"] in _TRANSLATED for n in listed)
+        text += f"| {package} | {len(listed)} | {done} |\n"
+    refused = [results[n] for listed in names.values() for n in listed if results[n]["status"] == "refused"]
+    text += "\nWhat stands in the way of most:\n\n"
+    kinds = Counter(map(_kind, refused))
+    for kind, count in kinds.most_common(MOST):
+        first = next(o for o in refused if _kind(o) == kind)
+        code = first["code"]
+        text += f"- {count} examples: [{code}] {' '.join(str(first['message']).split())[:200]} ({first['place']})\n"
+    return text
 
 
 def _row(package: str, outcomes: list[dict[str, object]]) -> str:
@@ -52,3 +81,8 @@ def _outcome(o: dict[str, object]) -> str:
             return f"refused [{o['code']}] {o['place']}: {message[:160]}"
         case status:
             return f"{status}: {message[-160:] if status == 'crash' else message[:160]}"
+
+
+def _kind(o: dict[str, object]) -> tuple[str, str]:
+    """Code and message of a refusal, what is of one model left out."""
+    return str(o["code"]), " ".join(_OWN.sub("...", str(o["message"])).split())

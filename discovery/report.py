@@ -6,12 +6,15 @@ from html import escape
 import io
 from pathlib import Path
 
+from markupsafe import Markup
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+from lacuna.analysis.report.page import figure as figure_of
+from lacuna.analysis.report.page import page, table
 from lacuna.discovery.cases import Case
 from lacuna.discovery.diagnosis import build, left_over, sentence
 from lacuna.discovery.explanation import Explanation
@@ -20,50 +23,40 @@ from lacuna.discovery.judge import Judgement
 from lacuna.discovery.locate import Located
 from lacuna.discovery.name import Naming
 
-_STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}
-h1{font-size:1.5rem}h2{font-size:1.15rem;margin-top:2rem;border-bottom:1px solid #ccc}table{border-collapse:collapse}
-td,th{padding:.2rem .8rem;text-align:right;border-bottom:1px solid #eee}td:first-child,th:first-child{text-align:left}
-.verdict{font-size:1.2rem;background:#f3f6fa;padding:1rem;border-left:4px solid #27c}pre{background:#f7f7f7;
-padding:1rem;overflow:auto}svg{max-width:100%;height:auto}.flag{color:#b00}"""
-
 
 def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
     """Write the report of an explanation into `folder`."""
-    parts = [f"<h1>{escape(result.case.title)}</h1>", f'<p class="verdict">{escape(sentence(result))}</p>']
-    parts += _problems(result)
+    parts = _problems(result)
     if result.before is not None:
         parts += _quality(result) + _overlays(result)
         parts += _located(result.located) if result.located and result.located.best else []
         parts += _findings(result) + _rivals(result) + _parameters(result) + _left(result)
     if amended is not None:
         parts += ["<h2>The amended model</h2>", f"<pre>{escape(amended.read_text(encoding='utf-8'))}</pre>"]
-    return _page(parts, f"Lacuna: {result.case.label}", folder)
+    action = f"decide by {result.experiment}" if result.experiment else ""
+    return _page(parts, result.case.title, folder, sentence(result), action)
 
 
-def _page(parts: list[str], title: str, folder: Path) -> Path:
-    head = f'<meta charset="utf-8"><title>{escape(title)}</title><style>{_STYLE}</style>'
+def _page(parts: list[str], title: str, folder: Path, verdict: str = "", action: str = "") -> Path:
     path = folder / "report.html"
     partial = path.with_suffix(".tmp")
-    partial.write_text(f'<!doctype html><html lang="en">{head}' + "\n".join(parts) + "</html>\n", encoding="utf-8")
+    written = [folder / "diagnosis.json", *sorted(folder.glob("*.mo"))]
+    partial.write_text(
+        page(title, Markup("\n".join(parts)), verdict=verdict, action=action, inputs=written), encoding="utf-8"
+    )
     partial.replace(path)
     return path
 
 
 def _table(header: list[str], rows: list[list[object]]) -> str:
-    def cell(value: object) -> str:
-        return f"<td>{value:.4g}</td>" if isinstance(value, float) else f"<td>{escape(str(value))}</td>"
-
-    head = "".join(f"<th>{escape(h)}</th>" for h in header)
-    body = "".join(f"<tr>{''.join(map(cell, row))}</tr>" for row in rows)
-    return f"<table><tr>{head}</tr>{body}</table>"
+    return table(header, ([f"{c:.4g}" if isinstance(c, float) else str(c) for c in row] for row in rows))
 
 
-def _svg(figure: plt.Figure) -> str:
+def _svg(drawn: plt.Figure, title: str) -> str:
     buffer = io.StringIO()
-    figure.savefig(buffer, format="svg", bbox_inches="tight")
-    plt.close(figure)
-    text = buffer.getvalue()
-    return text[text.index("<svg") :]
+    drawn.savefig(buffer, format="svg", bbox_inches="tight")
+    plt.close(drawn)
+    return figure_of(buffer.getvalue(), title)
 
 
 def _problems(result: Explanation) -> list[str]:
@@ -119,15 +112,18 @@ def _overlay(case: Case, curves: list[tuple[str, str, dict[str, np.ndarray]]]) -
     for ax in axes[-1]:
         ax.set_xlabel("time / s")
     figure.tight_layout()
-    return [f"<h2>On a recording that nothing was fitted to ({escape(recording.name)})</h2>", _svg(figure)]
+    return [
+        f"<h2>On a recording that nothing was fitted to ({escape(recording.name)})</h2>",
+        _svg(figure, f"Measured and simulated: {recording.name}"),
+    ]
 
 
 def write_judgement(case: Case, judged: Judgement, folder: Path, model: str) -> Path:
     """The page of one judged model file: its errors and its course on a validation recording."""
     rows = [[column or "all", judged.validate[column], judged.fit[column]] for column in judged.validate]
-    parts = [f"<h1>{escape(case.title)}: {escape(model)}</h1>", _table(["signal", "NRMSE, unseen", "fitted"], rows)]
+    parts = [_table(["signal", "NRMSE, unseen", "fitted"], rows)]
     parts += _overlay(case, [(model, "C0", judged.residuals[case.validate[0].name])])
-    return _page(parts, f"Lacuna: {case.label}", folder)
+    return _page(parts, f"{case.title}: {model}", folder)
 
 
 def _located(located: Located) -> list[str]:
@@ -148,7 +144,7 @@ def _located(located: Located) -> list[str]:
         "<h2>Where effort is missing</h2>",
         _table(["place", "effort", "misfit explained"], rows),
         note,
-        _svg(figure),
+        _svg(figure, f"Missing {best.kind} at {best.location}"),
     ]
 
 
@@ -245,4 +241,4 @@ def _trial(result: Explanation) -> list[str]:
     ax.set_xlabel("time / s")
     ax.set_ylabel(f"{trial.column} / {result.case.signals[trial.column].si_unit}")
     ax.legend(loc="upper right", fontsize="small")
-    return [_svg(figure)]
+    return [_svg(figure, "The recording that would tell the two explanations apart")]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -51,9 +50,7 @@ def fleet(
     table = run_fleet(
         read, work, folder, scheduler=scheduler, progress=lambda done, count: tell("forecasts", done / count)
     )
-    page = overview(
-        table, next(iter(limits.values())).names[-1], version("lacuna"), title=f"Fleet: {Path(histories).name}"
-    )
+    page = overview(table, next(iter(limits.values())).names[-1], title=f"Fleet: {Path(histories).name}")
     partial = folder / "fleet.html.partial"
     partial.write_text(page, encoding="utf-8")
     partial.replace(folder / "fleet.html")

@@ -8,10 +8,13 @@ from html import escape
 from pathlib import Path
 from string import Template
 
+from markupsafe import Markup
 import numpy as np
 
 from lacuna.analysis.comparison.figures import CAPTIONS
 from lacuna.analysis.comparison.study import LaneResult, Study
+from lacuna.analysis.report.page import page
+from lacuna.analysis.report.page import table as _table
 
 _TEMPLATE = Path(__file__).with_name("report.html.in")
 
@@ -19,16 +22,15 @@ _TEMPLATE = Path(__file__).with_name("report.html.in")
 def report_html(studies: Sequence[Study], figures: dict[str, list[str]], folder: Path) -> str:
     """The page; `figures` maps a scenario to the stems that lie in `folder` as SVG and PNG."""
     sections = "\n".join(_section(study, figures[study.scenario.name], folder) for study in studies)
-    return Template(_TEMPLATE.read_text(encoding="utf-8")).substitute(
+    said = findings(studies)
+    body = Template(_TEMPLATE.read_text(encoding="utf-8")).substitute(
         count=len(studies), summary=_summary(studies), sections=sections,
-        findings="\n".join(f"<li>{escape(text)}</li>" for text in findings(studies)),
+        findings="\n".join(f"<li>{escape(text)}</li>" for text in said),
     )  # fmt: skip
-
-
-def _table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    head = "".join(f"<th>{escape(cell)}</th>" for cell in header)
-    body = "\n".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
-    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+    return page(
+        "Variable step against fixed step", Markup(body), verdict=said[0] if said else "",
+        inputs=[folder / "deviations.csv"],
+    )  # fmt: skip
 
 
 def order_text(study: Study, family: str) -> str:

@@ -82,7 +82,7 @@ def drawn_key(store: RowStore) -> str:
     """Of what decides the figures and the report: the rows' own key, the code that draws, and its library."""
     digest = hashlib.sha256(store.key.encode() + version("matplotlib").encode())
     report = Path(__file__).parents[1] / "report"
-    for path in sorted([*report.glob("map*"), *(report / "figures").glob("*.py")]):
+    for path in sorted([*report.glob("map*"), *report.glob("page.*"), *(report / "figures").glob("*.py")]):
         digest.update(path.read_bytes())
     return digest.hexdigest()
 

@@ -4,37 +4,36 @@ from __future__ import annotations
 
 from html import escape
 
+from markupsafe import Markup
 import pyarrow as pa
+
+from lacuna.analysis.report.page import figure, page
 
 SHOWN = 60  # actuators at greatest risk
 WIDTH, ROW = 1000, 18  # of the drawing
 
-_PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Fleet</title><style>
-body{{font:16px/1.4
-system-ui,sans-serif;margin:2rem;color:#222}}h1{{margin:0}}.count{{display:inline-block;margin:1rem 2rem
-1rem 0}}.count b{{display:block;font-size:2.6rem;line-height:1}}svg{{width:100%;height:auto}}small{{color:#666}}
-@media print{{body{{margin:0}}}}</style>
-<h1>{title}</h1><div class=count><b>{total}</b>actuators</div><div class=count
-style="color:#6a3d9a"><b>{now}</b>remove now</div>
-<div class=count style="color:#b3261e"><b>{forecast}</b>with a forecast</div><div class=count><b>{early}</b>too early
-to say</div> <div class=count style="color:#2b7a2b"><b>{steady}</b>steady</div>
+_COUNTS = Markup("""<p class="counts"><span><b>{total}</b> actuators</span> <span><b>{now}</b> remove now</span>
+<span><b>{forecast}</b> with a forecast</span> <span><b>{early}</b> too early to say</span>
+<span><b>{steady}</b> steady</span></p>
 <p>{shown} at greatest risk: use that remains to {limit} (median, 80 % and 95 % intervals), and the last advised test
-(red).</p> {drawing}<p><small>lacuna {version}. The whole table is in fleet.parquet.</small></p></html>
-"""
+(red).</p>""")
 
 
-def overview(table: pa.Table, limit: str, version: str, title: str = "Fleet") -> str:
+def overview(table: pa.Table, limit: str, title: str = "Fleet") -> str:
     """The page, of a table as `run_fleet` gives it."""
     rows = table.slice(0, SHOWN).to_pylist()
     first = [r for r in rows if r["verdict"] == "forecast"]
     verdicts = table["verdict"].to_pylist()
     now = sum(v == "forecast" and a is not None and a <= at for v, a, at in zip(
         verdicts, table["advised_last_test"].to_pylist(), table["at"].to_pylist(), strict=True))  # fmt: skip
-    return _PAGE.format(
-        title=escape(title), total=len(table), now=now, limit=escape(limit), version=escape(version), shown=len(first),
-        forecast=verdicts.count("forecast"), early=verdicts.count("too_early"), steady=verdicts.count("steady"),
-        drawing=_drawing(first),
+    counts = _COUNTS.format(
+        total=len(table), now=now, limit=limit, shown=len(first), forecast=verdicts.count("forecast"),
+        early=verdicts.count("too_early"), steady=verdicts.count("steady"),
     )  # fmt: skip
+    drawn = _drawing(first)
+    picture = figure(drawn, "Use that remains, by actuator") if drawn else Markup("")
+    verdict = f"{now} of {len(table)} actuators are to be removed now."
+    return page(title, counts + picture, verdict=verdict, notes=["The whole table is in fleet.parquet."])
 
 
 def _drawing(rows: list[dict]) -> str:
@@ -48,7 +47,7 @@ def _drawing(rows: list[dict]) -> str:
     def at(use: float | None) -> float:
         return left + (WIDTH - left) * min(1.0, (top if use is None else use) / top)
 
-    parts = [f'<svg viewBox="0 0 {WIDTH} {height}" font-size="12" font-family="system-ui,sans-serif" role="img">']
+    parts = [f'<svg viewBox="0 0 {WIDTH} {height}" font-size="12" font-family="system-ui,sans-serif">']
     for k in range(5):
         x = left + (WIDTH - left) * k / 5
         parts.append(f'<path d="M{x:.1f} 0V{height - ROW}" stroke="#ddd"/><text x="{x:.1f}" y="{height - 4}">'

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from html import escape
 import io
 import json
 from pathlib import Path
 import re
 
+from markupsafe import Markup
 import numpy as np
 
 from lacuna.analysis.files import published_together
@@ -22,18 +22,9 @@ from lacuna.analysis.prognosis.series import last_error, series_of
 from lacuna.analysis.prognosis.smoother import tracked
 from lacuna.analysis.prognosis.telling import counted_verdicts, forecast_json, sentence, urgency
 from lacuna.analysis.prognosis.verdict import FORECAST
+from lacuna.analysis.report.page import figure, heading, page, table
 
 DRAWN = 40  # actuators that get a figure; of more, those at greatest risk
-
-_PAGE = """<!doctype html><html lang="en"><meta charset="utf-8"><title>Forecast</title>
-<style>body{{font:15px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222}}
-h2{{font-size:1.05rem;margin:2rem 0
-.3rem}}img{{width:100%}}.warn{{color:#b3261e}}td,th{{text-align:right;padding:.1rem .8rem
-.1rem 0}}td:first-child,th:first-child{{text-align:left}}small{{color:#666}}</style>
-<h1>Flights that remain</h1><p>{summary}</p>{parts}
-<p><small>lacuna {version}; limits {limits}. Intervals are of remaining use; the fan shows when each severity is
-reached.</small></p></html>
-"""
 
 
 def publish(said: Sequence[Forecast], bank: Bank, out: Path, risk: float, version: str) -> None:
@@ -46,34 +37,34 @@ def publish(said: Sequence[Forecast], bank: Bank, out: Path, risk: float, versio
         text = json.dumps(forecast_json(said, risk, version), indent=2, ensure_ascii=False, allow_nan=False)
         (scratch / "forecast.json").write_text(text + "\n", encoding="utf-8")
         for f in first:
-            figure = new_figure()
-            draw(figure.add_subplot(), f, *curves(f, bank))
+            drawn = new_figure()
+            draw(drawn.add_subplot(), f, *curves(f, bank))
             name = re.sub(r"[^\w.-]", "_", f"{f.history.actuator}_{f.history.fault}".rstrip("_"))
-            figure.axes[0].set_title(f.history.actuator.replace("$", r"\$"))
-            figure.savefig(scratch / f"{name}.png")
-            figure.axes[0].set_title("")  # the page has the name, escaped
+            drawn.axes[0].set_title(f.history.actuator.replace("$", r"\$"))
+            drawn.savefig(scratch / f"{name}.png")
+            drawn.axes[0].set_title("")  # the page has the name, escaped
             picture = io.StringIO()
-            figure.savefig(picture, format="svg", metadata=dict.fromkeys(("Date", "Creator", "Format", "Type")))
+            drawn.savefig(picture, format="svg", metadata=dict.fromkeys(("Date", "Creator", "Format", "Type")))
             parts.append(_part(f, picture.getvalue(), risk))
         shown = f"{len(first)} of {len(said)} shown, those at greatest risk first." if len(said) > DRAWN else ""
         limits = ", ".join(f"{n} from {v:g}" for n, v in zip(said[0].limits.names, said[0].limits.values, strict=True))
-        page = _PAGE.format(
-            summary=f"{counted_verdicts(said)} {shown}", parts="".join(parts), version=version, limits=limits
-        )
-        (scratch / "report.html").write_text(page, encoding="utf-8")
+        notes = ["Intervals are of remaining use; the fan shows when each severity is reached.", f"Limits: {limits}."]
+        whole = page(
+            "Flights that remain", Markup("").join(parts), verdict=f"{counted_verdicts(said)} {shown}".strip(),
+            notes=notes, inputs=[scratch / "forecast.json"],
+        )  # fmt: skip
+        (scratch / "report.html").write_text(whole, encoding="utf-8")
 
 
-def _part(f: Forecast, svg: str, risk: float) -> str:
-    svg = svg[svg.index("<svg") :]
-    rows = "".join(
-        f"<tr><td>{escape(name)}</td>" + "".join(f"<td>{_cell(v)}</td>" for v in row) + "</tr>"
-        for name, row in zip(f.limits.names, f.quantiles, strict=True)
-    )
-    head = "<tr><th>limit</th><th>97.5 % later than</th><th>90 %</th><th>median</th><th>10 %</th><th>2.5 %</th></tr>"
-    laws = ", ".join(f"{escape(n)} {100 * w:.0f} %" for n, w in list(f.weights.items())[:3])
-    warnings = "".join(f"<p class=warn>{escape(w)}</p>" for w in f.warnings)
-    body = f"<table>{head}{rows}</table><p><small>Laws: {laws}.</small></p>" if f.verdict == FORECAST else ""
-    return f"<h2>{escape(sentence(f, risk))}</h2>{warnings}{svg}{body}"
+def _part(f: Forecast, svg: str, risk: float) -> Markup:
+    said = sentence(f, risk)
+    parts = [heading(said), *(Markup("<p class=warn>{}</p>").format(w) for w in f.warnings), figure(svg, said)]
+    if f.verdict == FORECAST:
+        header = ["limit", "97.5 % later than", "90 %", "median", "10 %", "2.5 %"]
+        rows = [[name, *map(_cell, row)] for name, row in zip(f.limits.names, f.quantiles, strict=True)]
+        laws = ", ".join(f"{n} {100 * w:.0f} %" for n, w in list(f.weights.items())[:3])
+        parts += [table(header, rows), Markup("<p><small>Laws: {}.</small></p>").format(laws)]
+    return Markup("").join(parts)
 
 
 def _cell(value: float) -> str:

@@ -8,10 +8,14 @@ from pathlib import Path
 from string import Template
 from typing import Any
 
+from markupsafe import Markup
+
 from lacuna.analysis.map.plant import Plant, SourceEquation
 from lacuna.analysis.map.rows import Row
 from lacuna.analysis.report.figures import FIGURES
 from lacuna.analysis.report.figures.style import BAND_FILL, BAND_INK
+from lacuna.analysis.report.page import page
+from lacuna.analysis.report.page import table as page_table
 from lacuna.analysis.settings import Fault, Settings
 
 _CONSISTENT_SET = """<p class="note"><b>How to read this.</b> The publication gives no motor parameters. The model uses
@@ -24,9 +28,23 @@ _TEMPLATE = Path(__file__).with_name("map.html.in")
 
 
 def report_html(plant: Plant, settings: Settings, rows: list[Row], summary: dict[str, Any], folder: Path) -> str:
-    """The page; `folder` holds the figures, as draw_all wrote them."""
+    """The page; `folder` holds the figures, as draw_all wrote them, and map.csv."""
+    first, last = rows[0], rows[-1]
+    verdict = (
+        f"{settings.fault.name}: the mean RMS of the phase currents goes from {1e3 * first.rms_mean:.1f} mA at "
+        f"{settings.fault.text(first.severity)} to {1e3 * last.rms_mean:.1f} mA at "
+        f"{settings.fault.text(last.severity)}."
+    )
+    action = "read a measured pre-flight test back as a severity: lacuna assess RECORDING --map FOLDER OF THIS MAP"
+    body = Markup(_body(plant, settings, rows, summary, folder))
+    return page(
+        f"Operating map: {settings.title}", body, verdict=verdict, action=action,
+        inputs=[folder / "settings.toml", folder / "map.csv"], notes=[f"Model and solver: {plant.hash}"],
+    )  # fmt: skip
+
+
+def _body(plant: Plant, settings: Settings, rows: list[Row], summary: dict[str, Any], folder: Path) -> str:
     return Template(_TEMPLATE.read_text(encoding="utf-8")).substitute(
-        title=escape(settings.title),
         model=escape(plant.name),
         count=len(rows),
         first=escape(settings.fault.text(rows[0].severity)),
@@ -47,21 +65,12 @@ def report_html(plant: Plant, settings: Settings, rows: list[Row], summary: dict
         counters=_counters(summary["counters"], len(rows)),
         equations=_equations(plant.equations),
         settings=escape(settings.text),
-        hash=escape(plant.hash),
     )
 
 
 def _table(header: list[str], rows: list[list[str]], number_columns: range = range(1, 99)) -> str:
     """Cells are HTML already."""
-
-    def line(tag: str, cells: list[str]) -> str:
-        inner = (
-            f"<{tag}{' class=number' if k in number_columns else ''}>{cell}</{tag}>" for k, cell in enumerate(cells)
-        )
-        return "<tr>" + "".join(inner) + "</tr>"
-
-    body = "\n".join(line("td", row) for row in rows)
-    return f"<table><thead>{line('th', header)}</thead>\n<tbody>{body}</tbody></table>"
+    return page_table([Markup(h) for h in header], ([Markup(c) for c in row] for row in rows), number_columns)
 
 
 _DIGITS = {"mA": ".1f", "Hz": ".3f", "%": ".0f"}

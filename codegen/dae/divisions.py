@@ -13,7 +13,19 @@ import math
 
 from lacuna.codegen import flat
 from lacuna.codegen.structure.causal import Assignment, Division, LinearBlock, NonlinearBlock, Step
-from lacuna.codegen.symbolic.expr import ONE, TRUE, Expr, const, if_else, is_const, logical_and, logical_not, node
+from lacuna.codegen.symbolic.expr import (
+    ONE,
+    RELATIONS,
+    TRUE,
+    Expr,
+    const,
+    if_else,
+    is_const,
+    logical_and,
+    logical_not,
+    node,
+    walk,
+)
 from lacuna.codegen.symbolic.leaves import LEAF_OPS, leaves
 
 NAN = const(math.nan)
@@ -55,13 +67,17 @@ def _expressions(steps: Iterable[Step]) -> Iterator[tuple[Expr, flat.Equation]]:
 
 
 def _quotients(e: Expr, condition: Expr, seen: set[tuple[Expr, Expr]]) -> Iterator[tuple[Expr, Expr, Expr]]:
-    """(numerator, divisor, condition under which it is computed) of every division in `e`."""
+    """(numerator, divisor, condition under which it is computed) of every division in `e`. Branches without events
+    are left out: the zero of `noEvent(if abs(i) > eps then a/i else a/eps)` lies in the other branch. What makes events
+    has a frozen relation in place of the comparison by now."""
     if e.op in LEAF_OPS or not e.args or (e, condition) in seen:
         return
     seen.add((e, condition))
     if e.op == "if":
         test, then, otherwise = e.args
         yield from _quotients(test, condition, seen)
+        if any(n.op in RELATIONS for n in walk(test)):
+            return
         yield from _quotients(then, logical_and(condition, test), seen)
         yield from _quotients(otherwise, logical_and(condition, logical_not(test)), seen)
         return

@@ -176,11 +176,11 @@ def _semi_linear(e: ast.Call, scope: Scope) -> Value:
 
 
 def _instance_name(e: ast.Call, scope: Scope) -> Value:
-    """getInstanceName(): the model, then the path of the component."""
+    """getInstanceName(): the name of the model without its package, then the path of the component (3.7.4)."""
     _take(e, 0)
     if scope.instance is None:
         raise Diagnostic("R054", "getInstanceName in a function", e.span, "hand the name over as an argument")
-    top = scope.context.model
+    top = scope.context.model.rpartition(".")[2]
     return f"{top}.{scope.instance.name}" if scope.instance.name else top
 
 

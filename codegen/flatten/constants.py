@@ -37,6 +37,11 @@ def evaluate(e: Expr, context: Context, span: Span, what: str = "this") -> Expr:
 def _constant(n: Expr, context: Context, span: Span, what: str) -> Expr | None:
     if n.op == "var":
         return _value_of(str(n.value), context, span, what)
+    if n.op in ("noEvent", "smooth"):
+        return evaluate(n.args[-1], context, span, what)
+    if n.op == "if":  # the branch that does not hold need not have a value
+        condition = evaluate(n.args[0], context, span, what)
+        return evaluate(n.args[1] if condition.value else n.args[2], context, span, what)
     if n.op == "call" and n.value in context.functions:
         arguments = [evaluate_argument(a, context, span, what) for a in n.args]
         return context.lowering.run(str(n.value), arguments, context, span)

@@ -122,6 +122,7 @@ def signature_of(cls: ast.Class, context: Context) -> Signature:
             declared.append(Local(name, declaration, resolve_type(declaration.type, scope), scope))
         if cls.kind == "function":
             _check_function(cls, instance)
+            _check_components(cls, declared)
         body = tuple(item for section, _ in instance.sections for item in section.items)
         found = signatures[id(cls)] = Signature(cls, tuple(declared), body)
     return found
@@ -140,6 +141,15 @@ def _check_function(cls: ast.Class, instance: Instance) -> None:
         if not (d.causality or d.protected or d.variability):
             hint = "declare it input or output, or under 'protected'"
             raise Diagnostic("R066", f"{name} of the function {cls.name} is public", d.span, hint)
+
+
+def _check_components(cls: ast.Class, declared: list[Local]) -> None:
+    """A function holds types, records and functions only (12.2)."""
+    for local in declared:
+        kind = local.type.cls.kind if local.type.primitive is None and local.type.cls is not None else "type"
+        if kind in ("model", "block", "connector", "package"):
+            message = f"{local.name} of the function {cls.name} is a {kind}"
+            raise Diagnostic("R066", message, local.declaration.span, "a function holds types and records only")
 
 
 def fit(local: Local, value: Value, scope: Scope, span: Span) -> Value:

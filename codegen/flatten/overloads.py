@@ -8,7 +8,7 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.function_locals import Local, signature_of
 from lacuna.codegen.flatten.functions import call_function, construct_record
 from lacuna.codegen.flatten.lower import lower
-from lacuna.codegen.flatten.scope import Scope, own_or_inherited
+from lacuna.codegen.flatten.scope import Scope, base_classes, own_or_inherited
 from lacuna.codegen.flatten.values import Array, Record, Value, items_of, shape_of, stack
 from lacuna.codegen.symbolic.expr import INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
@@ -103,7 +103,7 @@ def _call_one(
     """The result of the one function of operator `name` that fits; None where there is none. Raises R079 for two."""
     fitting: list[tuple[ast.Class, dict[str, Value]]] = []
     for f in _functions(name, classes, scope):
-        bound = _bound(signature_of(f, scope.context).inputs, values, named or {})
+        bound = _bound(signature_of(f, scope.context).inputs, values, named or {}, scope)
         if bound is not None and all((f.origin or f) is not (g.origin or g) for g, _ in fitting):
             fitting.append((f, bound))
     if not fitting:
@@ -141,15 +141,23 @@ def _check_results(name: str, function: ast.Class, cls: ast.Class, span: Span, s
     result = outputs[0].type
     if name == TEXT and result.primitive != "String":
         raise Diagnostic("R079", f"the operator {name} of {cls.name} gives no String", span, hint)
-    if name == CONSTRUCTOR and not _is_of(result.cls, cls):
+    if name == CONSTRUCTOR and _declared(result.cls, scope) is not _declared(cls, scope):
         raise Diagnostic("R079", f"the constructor {function.name} of {cls.name} gives something else", span, hint)
 
 
-def _is_of(found: object, cls: ast.Class) -> bool:
-    return isinstance(found, ast.Class) and (found.origin or found) is (cls.origin or cls)
+def _declared(found: object, scope: Scope) -> object:
+    """The class that a record is of, what is short for it and what it is seen from left out."""
+    while isinstance(found, ast.Class) and found.alias is not None:
+        bases = base_classes(scope.context.library, found)
+        if not bases:
+            break
+        found = bases[0]
+    return (found.origin or found) if isinstance(found, ast.Class) else found
 
 
-def _bound(inputs: list[Local], values: Sequence[Value], named: dict[str, Value]) -> dict[str, Value] | None:
+def _bound(
+    inputs: list[Local], values: Sequence[Value], named: dict[str, Value], scope: Scope
+) -> dict[str, Value] | None:
     """Values by the names of the inputs, where they are a valid match: all given, of the right types and dimensions."""
     names = [i.name for i in inputs]
     bound = dict(zip(names, values, strict=False)) | named
@@ -160,25 +168,20 @@ def _bound(inputs: list[Local], values: Sequence[Value], named: dict[str, Value]
         if given is None:
             if local.declaration.modification.value is None:
                 return None
-        elif not _matches(local, given):
+        elif not _matches(local, given, scope):
             return None
     return bound
 
 
-def _matches(local: Local, value: Value) -> bool:
+def _matches(local: Local, value: Value, scope: Scope) -> bool:
     if len(shape_of(value)) != len(local.declaration.dimensions) + len(local.type.dimensions):
         return False
     for item in items_of(value):
         if isinstance(item, Record):
-            if local.type.cls is None or not _same_record(item, local.type.cls):
+            if local.type.cls is None or _declared(item.cls, scope) is not _declared(local.type.cls, scope):
                 return False
         else:
             found = item.type if isinstance(item, Expr) else "String"
             if found != local.type.primitive and (local.type.primitive, found) != (REAL, INTEGER):
                 return False
     return True
-
-
-def _same_record(value: Record, cls: ast.Class) -> bool:
-    """Of the class itself, seen from wherever, or of one that extends it and is therefore like it."""
-    return _is_of(value.cls, cls)

@@ -47,7 +47,7 @@ def xorshift128plus(state: list[int]) -> tuple[list[int], float]:
 
 
 def xorshift1024star(state: list[int]) -> tuple[list[int], float]:
-    s, at = _joined(state[:32]), state[32]
+    s, at = _joined(state[:32]), state[32] & 15
     a, at = s[at], (at + 1) & 15
     b = s[at]
     b = (b ^ b << 31) & _MASK

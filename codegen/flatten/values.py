@@ -183,6 +183,9 @@ def concatenate(along: int, parts: list[Array], span: Span) -> Array:
     if len({p.shape[0] for p in parts}) > 1:
         found = " and ".join(shape_text(p.shape) for p in parts)
         raise Diagnostic("R042", f"arrays of sizes {found} side by side", span, "they need equally many rows")
+    if not parts[0].shape[0]:
+        joined_size = sum(p.shape[along - 1] for p in parts)
+        return Array((*parts[0].shape[: along - 1], joined_size, *parts[0].shape[along:]), ())
     rows = zip(*(p.rows() for p in parts), strict=True)
     joined = [concatenate(along - 1, list(row), span) for row in rows]
     return stack(joined, span)

@@ -21,7 +21,7 @@ INK, MUTED, GRID = "#222222", "#666666", "#dddddd"
 
 # The paper's names. Fill behind curves, and a darker shade of it for text and markers.
 BAND_FILL = {"green": "#d5ecd4", "orange": "#fde3c0", "red": "#f8cfca", "violet": "#e2d5ef"}
-BAND_INK = {"green": "#2b7a2b", "orange": "#b35a00", "red": "#b3261e", "violet": "#6a3d9a"}
+BAND_INK = {"green": "#236823", "orange": "#964a00", "red": "#b3261e", "violet": "#6a3d9a"}
 
 _STYLE = {
     "font.family": "DejaVu Sans",

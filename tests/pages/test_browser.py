@@ -1,0 +1,116 @@
+"""The pages in a real browser, Debian's Chromium: nothing on the console, nothing wider than the window, nothing
+serious found by axe-core, tables and figures whole on paper."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+import shutil
+from typing import Any
+
+import pytest
+
+import lacuna
+from lacuna.analysis.map.maps import build_map
+from tests.analysis.plants import ReferencePlant, paper_settings
+
+ROOT = Path(__file__).parents[2]
+CHROMIUM = shutil.which("chromium")
+if CHROMIUM is None:
+    pytest.skip("Chromium is not installed", allow_module_level=True)
+playwright = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
+axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed")
+
+WIDTHS = (380, 820, 1600)
+VANISHED = 1  # px: rounding of a length
+HISTORY = "actuator,cycles,severity,low,high,event\n" + "".join(
+    f"A1,{k},{0.02 + 4e-5 * k},{0.01 + 4e-5 * k},{0.03 + 4e-5 * k},\nA<2>,{k},0.02,0.01,0.03,\n"
+    for k in range(0, 3001, 300)
+)
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    """Every kind of report that does not take minutes to make."""
+    folder = tmp_path_factory.mktemp("pages")
+    build_map(ReferencePlant(), paper_settings(folder, COARSE), folder / "map")
+    model = folder / "Small.mo"
+    model.write_text(
+        'model Small\n  Real x(start=1, fixed=true);\n  parameter Real k(unit="1/s") = 1;\nequation\n'
+        "  der(x) = if x > 0.5 then -k*x else -2*k*x;\n  annotation(experiment(StopTime=1, Interval=0.01));\n"
+        "end Small;\n",
+        encoding="utf-8",
+    )
+    lacuna.compare(model, out=folder / "compare")
+    (folder / "history.csv").write_text(HISTORY, encoding="utf-8")
+    lacuna.forecast(folder / "history.csv", out=folder / "forecast")
+    examples = {path.name: path for path in lacuna.copy_examples(folder / "examples")}
+    case = lacuna.open_case(examples["missing-physics"])
+    case.judge(ROOT / "model/Benches/DcServo.mo", out=folder / "judge")
+    return {name: folder / name / "report.html" for name in ("map", "compare", "forecast", "judge")}
+
+
+COARSE = ("step = 0.01", "step = 0.1")
+NAMES = ("map", "compare", "forecast", "judge")
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    with playwright.sync_playwright() as started:
+        running = started.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield running
+        running.close()
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize("name", NAMES)
+def test_nothing_overflows_and_nothing_is_said_on_the_console(
+    pages: dict[str, Path], browser: Any, name: str, width: int, scheme: str
+) -> None:
+    context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme)
+    page, said = context.new_page(), []
+    page.on("console", lambda message: said.append(message.text) if message.type in ("error", "warning") else None)
+    page.on("pageerror", lambda error: said.append(str(error)))
+    page.on("request", lambda request: said.append(request.url) if request.url.startswith("http") else None)
+    page.goto(pages[name].as_uri())
+    assert page.evaluate("document.documentElement.scrollWidth") <= width + VANISHED
+    assert said == []
+    context.close()
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("name", NAMES)
+def test_axe_finds_nothing_serious(pages: dict[str, Path], browser: Any, name: str, scheme: str) -> None:
+    context = browser.new_context(color_scheme=scheme)
+    page = context.new_page()
+    page.goto(pages[name].as_uri())
+    found = axe.Axe().run(page).response["violations"]
+    grave = [(v["id"], v["nodes"][0]["html"][:200]) for v in found if v["impact"] in ("serious", "critical")]
+    assert grave == []
+    context.close()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_on_paper_no_table_is_cut(pages: dict[str, Path], browser: Any, name: str) -> None:
+    """At the width of A4 less its margins, 180 mm at 96 dots an inch."""
+    width = round(180 / 25.4 * 96)
+    context = browser.new_context(viewport={"width": width, "height": 1000})
+    page = context.new_page()
+    page.goto(pages[name].as_uri())
+    page.emulate_media(media="print")
+    wide = "e => e.getBoundingClientRect().right > innerWidth + 1"
+    cut = f"[...document.querySelectorAll('table, figure, pre')].filter({wide})"
+    assert page.evaluate(f"{cut}.map(e => e.outerHTML.slice(0, 200))") == []
+    assert page.pdf(format="A4").startswith(b"%PDF")
+    context.close()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_verdict_comes_first_and_the_page_says_where_it_comes_from(pages: dict[str, Path], name: str) -> None:
+    text = pages[name].read_text(encoding="utf-8")
+    body = text[text.index("<main>") :]
+    if name != "judge":
+        assert body.index('class="verdict"') < body.index("<table")
+    assert f"Lacuna {lacuna.__version__}" in text and "Made by <code>" in text
+    assert "prefers-color-scheme: dark" in text and "@media print" in text
