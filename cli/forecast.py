@@ -9,6 +9,7 @@ import typer
 
 import lacuna
 from lacuna.cli.answer import Answer, answered, progress
+from lacuna.cli.options import assignments, number
 
 
 @answered
@@ -33,6 +34,10 @@ def forecast(
     unfiltered: Annotated[
         bool, typer.Option("--unfiltered", help="The currents did not pass the map's filters")
     ] = False,
+    limit: Annotated[
+        list[str] | None,
+        typer.Option(help="NAME=VALUE: where a quantity of diagnoses (`lacuna explain`) has its limit; repeat"),
+    ] = None,
     out: Annotated[Path | None, typer.Option(help="Folder of the results; default: out/forecast/HISTORY")] = None,
 ) -> Answer:
     """Say when each actuator reaches the bands of its map, how sure that is, and its last advisable test.
@@ -41,11 +46,12 @@ def forecast(
     file beside it), and event (empty or replaced). Writes forecast.json, report.html and fan charts. "Too early to
     say" is an answer; a history that contradicts itself is refused with the row.
     """
+    limits = {name: number(name, text) for name, text in assignments(limit, "--limit").items()}
     folder = out or Path("out/forecast") / _name(history)
     with progress() as tell:
         found = lacuna.forecast(
             history, map, folder, laws=laws or (), risk=risk, horizon=horizon, unit=unit, columns=current,
-            unfiltered=unfiltered, progress=tell,
+            unfiltered=unfiltered, limits=limits, progress=tell,
         )  # fmt: skip
     sentences = found.sentences
     more = [f"... and {len(sentences) - SHOWN} more actuators"] if len(sentences) > SHOWN else []

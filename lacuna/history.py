@@ -8,6 +8,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from lacuna.analysis.errors import AnalysisError
 from lacuna.extras import names_missing_packages
 from lacuna.progress import Progress, counted, spoken
 
@@ -64,18 +65,24 @@ def refresh(
     progress: Progress | None = None,
 ) -> int:
     """Read again, by the map in folder `map`, what another map has read and whose file is still there; rows that are
-    new."""
+    new.
+
+    What this map refuses keeps its reading: an AnalysisError names it, after all the others have been read.
+    """
     from lacuna.analysis.history.store import Store
 
-    new = 0
-    done = set()
+    again = {entry.recording: entry for entry in Store(store).outdated(map_hash(Path(map)))}
+    new, refused = 0, []
     count = counted("assessing again", progress)
-    outdated = list(Store(store).outdated(map_hash(Path(map))))
-    for number, entry in enumerate(outdated):
-        count(number, len(outdated))
-        if entry.recording not in done:
-            done.add(entry.recording)
+    for number, entry in enumerate(again.values()):
+        count(number, len(again))
+        try:
             new += _again(entry, map, store, columns, unfiltered)
+        except AnalysisError as refusal:
+            refused.append(f"{entry.path}: {refusal}")
+    if refused:
+        kept = f"{len(refused)} of {len(again)} recordings keep their older reading"
+        raise AnalysisError(f"{kept}: {'; '.join(refused)}")
     return new
 
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from html import escape
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.prognosis import diagnoses
 from lacuna.analysis.prognosis.bank import Bank
 from lacuna.analysis.prognosis.forecast import Forecast, Limits, Options, forecasts
 from lacuna.analysis.prognosis.history import Assess, History, read_histories
@@ -69,19 +70,18 @@ def forecast(
     unit: str | None = None,
     columns: Sequence[str] | None = None,
     unfiltered: bool = False,
+    limits: Mapping[str, float] | None = None,
     progress: Progress | None = None,
 ) -> Prognosis:
     """When each actuator of `history` reaches the bands of `map`, how sure that is, and its last advisable test.
 
     `history` is a folder with history.csv (or .parquet), such a file, a history store (URL, or .db file), or what
-    `read_histories` gave. `map` is the
-    folder of the actuator's map, which gives the bands and assesses recordings that have no severity yet; without it
-    the
-    paper's bands are taken. `laws` are further folders or files of degradation laws; `risk` the greatest probability
-    of the last limit at an advised test; `horizon` how far ahead is looked, in the history's unit; `unit` "cycles" or
-    "hours", where
-    the table has both. `columns` and `unfiltered` as in `assess`. With `out`, also forecast.json, report.html and
-    figures there.
+    `read_histories` gave. `map` is the folder of the actuator's map, which gives the bands and assesses recordings that
+    have no severity yet; without it the paper's bands are taken. `laws` are further folders or files of degradation
+    laws; `risk` the greatest probability of the last limit at an advised test; `horizon` how far ahead is looked, in
+    the history's unit; `unit` "cycles" or "hours", where the table has both. `columns` and `unfiltered` as in `assess`.
+    `limits` {quantity: value} belong to a history of diagnoses by `explain` (column diagnosis): parameters of the
+    model, or effect@location.parameter. With `out`, also forecast.json, report.html and figures there.
 
     Raises AnalysisError where history, map or laws cannot be used, with file, row and reason.
     """
@@ -94,10 +94,13 @@ def forecast(
 
             history = Store(history).histories(unit)
         else:
-            history = read_histories(history, assessor(map, columns, unfiltered), unit)
+            history = read_histories(history, assessor(map, columns, unfiltered), unit, diagnoses.reader(limits or {}))
     bank = Bank(degradation_laws(laws))
-    limits = {fault: limits_of(settings, fault) for fault in {h.fault for h in history}}
-    said = forecasts(history, bank, lambda h: limits[h.fault], options, progress=counted("forecasting", progress))
+    faults = {h.fault for h in history}
+    if limits and not faults <= set(limits):
+        raise AnalysisError("a history is of severities or of diagnoses, not of both; `limits` are for diagnoses")
+    own = {fault: diagnoses.SHARES if limits else limits_of(settings, fault) for fault in faults}
+    said = forecasts(history, bank, lambda h: own[h.fault], options, progress=counted("forecasting", progress))
     if out is not None:
         from lacuna.analysis.prognosis.publish import publish
 

@@ -7,7 +7,6 @@ rate. Arrays are [S, B, K]: S laws with their shapes, B histories, K = rates x n
 from __future__ import annotations
 
 from collections.abc import Sequence
-from copy import copy
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,7 +15,8 @@ from lacuna.analysis.prognosis.law import Law, prior, tables
 from lacuna.analysis.prognosis.settings import DEFAULT, FilterSettings
 
 LOST = 1e-3  # of the greatest weight
-GONE = 1e-10  # weight below which a hypothesis can be left out for good
+EM_STEPS = 20  # after which a fleet's shares have settled to a few per cent of themselves
+GONE = 1e-8  # weight below which a hypothesis can be left out for good
 
 
 class Bank:
@@ -42,39 +42,28 @@ class Bank:
         within = np.multiply.outer(of_life / of_life.sum(), noises[:, 0] / noises[:, 0].sum())
         self.prior = self._unfold(prior(self.laws)[:, None, None, None] * within[None, :, :, None] / len(commons))
 
-    def only(self, kept: np.ndarray) -> Bank:
-        """The same with some of the columns K."""
-        other = copy(self)
-        for name in ("wander2", "diffusion2", "change", "common", "prior"):
-            setattr(other, name, getattr(self, name)[:, :, kept])
-        return other
-
     def learn(self, weights: np.ndarray) -> None:
-        """Take laws and lives of a fleet into the prior: weights [S, B, K] of its hypotheses, each after its whole
-        history.
+        """Take laws, lives and noises of a fleet into the prior: weights [S, B, K] of its hypotheses, each after its
+        whole history.
 
-        One step of the EM algorithm for a mixture's shares under a Dirichlet prior (empirical Bayes: Robbins 1956),
-        worth
-        `settings.actuators`. Noises and common errors keep their prior: they stand for what a catalogue lacks, and a
-        fleet that shows little of it is no reason to believe in none.
+        The EM algorithm for a mixture's shares under a Dirichlet prior (empirical Bayes: Robbins 1956; Dempster, Laird,
+        Rubin 1977) worth `settings.actuators`. No test is read again: a weight is prior times likelihood, so that
+        a new prior only weighs it anew. Common errors keep their prior: they belong to the assessments, and one part
+        says little of its own.
         """
-        own = self.settings.actuators
-        mean = (own * self.prior + weights.sum(axis=1, keepdims=True)) / (own + weights.shape[1])
-        shape = (len(self.laws), 1, *self.shape)
-        of_life = mean.reshape(shape).sum(axis=(3, 4), keepdims=True)
-        others = self.prior.reshape(shape).sum(axis=(0, 2), keepdims=True)
-        self.prior = (of_life * others).reshape(self.prior.shape)
+        own, first = self.settings.actuators, self.prior
+        likelihood = weights / np.maximum(first, 1e-300)
+        for _ in range(EM_STEPS):
+            posterior = likelihood * self.prior
+            posterior /= posterior.sum(axis=(0, 2), keepdims=True)
+            mean = (own * first + posterior.sum(axis=1, keepdims=True)) / (own + weights.shape[1])
+            of_part = mean.reshape(-1, self.shape[-1]).sum(axis=1)
+            of_common = first.reshape(-1, self.shape[-1]).sum(axis=0)
+            self.prior = np.multiply.outer(of_part, of_common).reshape(first.shape)
 
     def _unfold(self, values: np.ndarray) -> np.ndarray:
         """[S|1, rates|1, noises|1, commons|1] -> [S, 1, K]."""
         return np.broadcast_to(values, (len(self.laws), *self.shape)).reshape(len(self.laws), 1, -1).copy()
-
-    def each(self, function: str, *arguments: np.ndarray) -> np.ndarray:
-        """A function of the law tables over arrays [S, B, K], each law on its own slice."""
-        result = np.empty(np.broadcast_shapes(*(a.shape for a in arguments)))
-        for s, table in enumerate(self.tables):
-            result[s] = getattr(table, function)(*(a[s] if a.shape[0] > 1 else a[0] for a in arguments))
-        return result
 
     def start(self, interval: np.ndarray) -> Beliefs:
         """Before the first test; `interval` [B] between tests, in use."""
@@ -105,15 +94,6 @@ class Beliefs:
     def rows(self, select: np.ndarray) -> Beliefs:
         """Of some histories only."""
         return replace(self, **{name: value[:, select] for name, value in vars(self).items()})
-
-    def only(self, kept: np.ndarray) -> Beliefs:
-        """Of some columns K only."""
-        return replace(self, **{name: value[:, :, kept] for name, value in vars(self).items()})
-
-    def put(self, select: np.ndarray, others: Beliefs) -> None:
-        """Replace some histories', in place."""
-        for name, value in vars(self).items():
-            value[:, select] = getattr(others, name)
 
 
 def in_use(w: np.ndarray) -> np.ndarray:

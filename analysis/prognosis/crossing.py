@@ -46,11 +46,11 @@ class Remaining:
         shape = ln.shape
         ln = ln.reshape(len(self.mean), -1)
         result = np.empty(ln.shape)
-        gone = np.isneginf(self.mean)
-        mean = np.where(gone, 0.0, self.mean)
-        for k in range(ln.shape[1]):
-            p = np.where(gone, 1.0, ndtr((ln[:, k, None] - mean) / self.sd))
-            result[:, k] = (self.weight * p).sum(axis=1)
+        for b, (mean, sd, weight) in enumerate(zip(self.mean, self.sd, self.weight, strict=True)):
+            gone = np.isneginf(mean)
+            some = (weight > 0) & ~gone
+            p = ndtr((ln[b, :, None] - mean[some]) / sd[some])
+            result[b] = (weight[some] * p).sum(axis=1) + weight[gone].sum()
         return result.reshape(shape)
 
     def quantiles(self, probabilities, never: np.ndarray) -> np.ndarray:
@@ -114,47 +114,51 @@ def remaining(bank: Bank, beliefs: Beliefs, limit: float, error: np.ndarray, int
     """Up to severity `limit` (a share of the last limit). `error` [B]: standard deviation of an assessment now,
     `interval` [B]: usual use between tests, in which abrupt changes of the rate are counted."""
     s, b, k = beliefs.x.shape
-    flat = {name: value.transpose(1, 0, 2).reshape(b, -1) for name, value in vars(beliefs).items()}
-    kept = np.argpartition(-flat["w"], min(KEPT, s * k) - 1, axis=1)[:, :KEPT]
-    of = {name: np.take_along_axis(value, kept, axis=1) for name, value in flat.items()}
-    weight = np.where(of["w"] >= LOST * of["w"].max(axis=1, keepdims=True), of["w"], 0)
+    weight = beliefs.w.transpose(1, 0, 2).reshape(b, -1)
+    count = min(KEPT, s * k)
+    kept = np.argpartition(-weight, count - 1, axis=1)[:, :count]
+    weight = np.take_along_axis(weight, kept, axis=1)
+    weight = np.where(weight >= LOST * weight.max(axis=1, keepdims=True), weight, 0)
     weight /= weight.sum(axis=1, keepdims=True)
-    parts = [_parts(bank, of, weight, kept, error, interval, limit, node) for node in _nodes(bank)]
-    mean, sd, weights = (np.concatenate(values, axis=1) for values in zip(*parts, strict=True))
-    return Remaining(mean, sd, weights)
+    law, place = np.divmod(kept, k)
+    row = np.arange(b)[:, None]
+    of = {name: getattr(beliefs, name)[law, row, place] for name in ("x", "l", "xx", "xl", "ll")}
+    mean, sd, share = _lognormals(bank, of, law, place, limit, error[:, None], interval[:, None])
+    weights = weight * share
+    return Remaining(*(a.transpose(1, 0, 2).reshape(b, -1) for a in (mean, sd, weights)))
 
 
-def _nodes(bank: Bank) -> list[tuple[float, float, bool, float]]:
-    """(standard deviations of x, of the common error, whether the rate changes on the way, weight)."""
+def _nodes(bank: Bank) -> tuple[np.ndarray, ...]:
+    """(standard deviations of x, of the common error, whether the rate changes on the way, weight), [N, 1, 1] each."""
     z, w = np.polynomial.hermite_e.hermegauss(NODES)
     common = any(bank.settings.commons)
     zc, wc = np.polynomial.hermite_e.hermegauss(COMMON_NODES) if common else (np.zeros(1), np.ones(1))
     w, wc = w / w.sum(), wc / wc.sum()
-    steady = [(a, c, False, p * q) for a, p in zip(z, w, strict=True) for c, q in zip(zc, wc, strict=True)]
-    return steady + [(a, 0.0, True, p) for a, p in zip(z, w, strict=True) if bank.settings.change]
+    nodes = [(a, c, False, p * q) for a, p in zip(z, w, strict=True) for c, q in zip(zc, wc, strict=True)]
+    nodes += [(a, 0.0, True, p) for a, p in zip(z, w, strict=True) if bank.settings.change]
+    return tuple(np.array(column)[:, None, None] for column in zip(*nodes, strict=True))
 
 
-def _parts(bank: Bank, of: dict, weight, kept, error, interval, limit: float, node):
-    """Mean and standard deviation of ln(use), and weight, of each kept hypothesis at one node."""
-    z, common, changes, share = node
-    law, place = np.divmod(kept, bank.prior.shape[2])
+def _lognormals(bank: Bank, of: dict, law, place, limit: float, error, interval):
+    """Mean and standard deviation of ln(use), and weight, [N, B, kept], of each kept hypothesis at each node."""
+    z, common, changes, share = _nodes(bank)
     deviation = np.sqrt(np.maximum(of["xx"], 1e-16))
     slope = of["xl"] / deviation  # of ln r, for one standard deviation of x
     x = of["x"] + z * deviation
-    edge = limit + common * np.sqrt(bank.common[law, 0, place]) * error[:, None]
+    edge = limit + common * (np.sqrt(bank.common[law, 0, place]) * error)
     distance, scatter = np.empty(x.shape), np.empty(x.shape)
-    for s, table in enumerate(bank.tables):
-        mine = law == s
-        distance[mine] = table.age(edge[mine]) - table.age(x[mine])
-        scatter[mine] = table.scatter(x[mine], edge[mine])
+    for s in np.unique(law):
+        mine, table = law == s, bank.tables[s]
+        distance[:, mine] = table.age(edge[:, mine]) - table.age(x[:, mine])
+        scatter[:, mine] = table.scatter(x[:, mine], edge[:, mine])
     ahead = np.maximum(distance, 1e-12)
     tau = ahead / bank.life[law, 0, 0]
     variance = np.maximum(of["ll"] - slope**2, 1e-12) + bank.wander2[law, 0, place] * np.minimum(tau, 1) / 3
     passage = np.minimum(bank.diffusion2[law, 0, place] * scatter / ahead**2, LARGEST**2)
     variance += passage
+    # An abrupt change lies at any place on the way: mean square of the share that is left.
+    variance += np.where(changes, bank.settings.change_size**2 / 3, 0)
     mean = np.where(distance > 0, np.log(ahead) - of["l"] - z * slope - passage / 2, -np.inf)
-    tests = np.exp(np.clip(mean, -700, 700)) / interval[:, None]
+    tests = np.exp(np.clip(mean, -700, 700)) / interval
     change = 1 - np.exp(-bank.settings.change * tests)
-    if changes:
-        variance += bank.settings.change_size**2 / 3  # at any place on the way: mean square of the share that is left
-    return mean, np.sqrt(np.minimum(variance, LARGEST**2)), share * weight * (change if changes else 1 - change)
+    return mean, np.sqrt(np.minimum(variance, LARGEST**2)), share * np.where(changes, change, 1 - change)

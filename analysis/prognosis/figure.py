@@ -49,7 +49,7 @@ def draw(axes: Axes, f: Forecast, smoothed: tuple[np.ndarray, np.ndarray, np.nda
                           rotation=90, va="bottom", ha="right", fontsize=8, color="#b3261e")  # fmt: skip
     axes.axvline(f.at, color=MUTED, linewidth=0.8)
     axes.set_xlabel(h.unit)
-    axes.set_ylabel("severity")
+    axes.set_ylabel("share of the way to the limit" if np.isinf(f.limits.last) else "severity")
     axes.legend(loc="upper left", fontsize=8, frameon=False)
 
 
@@ -62,5 +62,6 @@ def _bands(axes: Axes, f: Forecast) -> float:
             axes.axhspan(low, min(high, top), color=BAND_FILL.get(name, "#eeeeee"), linewidth=0, zorder=0)
             axes.text(0.995, low, f"{name} ", transform=axes.get_yaxis_transform(), ha="right", va="bottom", fontsize=8,
                       color=BAND_INK.get(name, MUTED), fontweight="bold")  # fmt: skip
-    axes.set_ylim(min(0, f.limits.first), top)
+    lowest = np.nanmin(np.where(np.isfinite(f.history.severity), f.history.severity, 0))
+    axes.set_ylim(min(0, max(f.limits.first, 1.05 * lowest)), top)
     return top

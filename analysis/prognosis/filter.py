@@ -10,21 +10,20 @@ posteriors are merged by their moments (probabilistic data association: Bar-Shal
 likelihood is the hypothesis' evidence, by which the hypotheses are weighed (Gaussian sums: Sorenson,
 Alspach 1971).
 
-Where rate and law are known, the filter is the Kalman filter of a Wiener process with drift, exactly.
+Where rate and law are known, the filter is the Kalman filter of a Wiener process with drift, exactly. The arithmetic is
+in C++ (analysis/native/src/hypotheses.cpp).
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+import ctypes
 from dataclasses import dataclass
 
 import numpy as np
 
 from lacuna.analysis.prognosis.bank import GONE, Bank, Beliefs
-
-ROOT_2PI = np.sqrt(2 * np.pi)
-PRUNED_EVERY = 4  # tests
-STEEPEST = 50.0  # growth of a deviation between two tests: beyond it a Gaussian means nothing
+from lacuna.analysis.spectra.library import CBeliefs, CHypotheses, CTests, library, pointer
 
 
 @dataclass(frozen=True)
@@ -45,82 +44,66 @@ class Series:
 
 @dataclass(frozen=True)
 class Step:
-    """What one column of tests did: beliefs before and after, and the way in which each test was read; `bank` has the
-    hypotheses that the beliefs are of."""
+    """One test of all histories. `predicted` is before it, `filtered` after it."""
 
-    bank: Bank
-    predicted: Beliefs
-    slope: tuple[np.ndarray, np.ndarray]  # dx'/dx, dx'/dl from the test before
     filtered: Beliefs
     outlier: np.ndarray  # [B] probability that the test says nothing
     evidence: np.ndarray  # [B] logarithm of the test's likelihood
+    predicted: Beliefs | None = None  # where it is kept, as the next
+    slope: tuple[np.ndarray, np.ndarray] | None = None  # dx'/dx, dx'/dl from the test before
 
 
-def run(bank: Bank, series: Series, *, prune: bool = False) -> Iterator[Step]:
-    """One Step for each column of `series`. With `prune`, hypotheses that no history needs any more are left out."""
+def run(bank: Bank, series: Series, *, keep: bool = False) -> Iterator[Step]:
+    """One Step for each column of `series`. With `keep` all that a smoother needs, of all hypotheses, in arrays of its
+    own; else `filtered` lasts until the next one, and what has lost a history (a weight below GONE) is left out of
+    it for good, with weight 0."""
     beliefs = bank.start(series.interval)
+    hypotheses = _hypotheses(bank, beliefs.x.shape, 0.0 if keep else GONE)
     before = np.zeros(len(series.use))
     for k in range(series.use.shape[1]):
-        predicted, slope = predict(bank, beliefs, series.use[:, k] - before)
-        beliefs, outlier, evidence = update(bank, predicted, slope[1], series, k)
+        if keep:
+            beliefs = Beliefs(*(value.copy() for value in vars(beliefs).values()))
+        yield _step(hypotheses, beliefs, series, k, before, keep)
         before = series.use[:, k]
-        yield Step(bank, predicted, slope, beliefs, outlier, evidence)
-        if prune and k % PRUNED_EVERY == PRUNED_EVERY - 1:
-            kept = np.flatnonzero((beliefs.w > GONE).any(axis=(0, 1)))
-            if len(kept) < beliefs.w.shape[2]:
-                bank, beliefs = bank.only(kept), beliefs.only(kept)
 
 
-def predict(bank: Bank, b: Beliefs, use: np.ndarray) -> tuple[Beliefs, tuple[np.ndarray, np.ndarray]]:
-    """Beliefs after `use` [B] more, and the slopes of the new severity."""
-    moved = np.exp(np.minimum(b.l, 700)) * use[None, :, None]  # by which the age rises
-    x = bank.each("severity", bank.each("age", b.x) + moved)
-    growth = bank.each("growth", x)
-    along = np.minimum(growth / bank.each("growth", b.x), STEEPEST)
-    turn = np.minimum(moved * growth, STEEPEST)
-    xl = along * b.xl + turn * b.ll
-    xx = along * along * b.xx + turn * (along * b.xl + xl) + bank.diffusion2 * np.maximum(x - b.x, 0)
-    ll = b.ll + bank.wander2 * np.minimum(moved / bank.life, 1)
-    return Beliefs(x, b.l, xx, xl, ll, b.w), (along, turn)
-
-
-def update(bank: Bank, b: Beliefs, turn: np.ndarray, series: Series, k: int):
-    """(beliefs, probability of an outlier [B], log evidence [B]) after the tests of column `k`."""
-    settings = bank.settings
-    value, below, above = (a[:, k][None, :, None] for a in (series.value, series.below, series.above))
-    miss = value - b.x
-    variance = (1 - bank.common) * np.where(miss < 0, above, below) ** 2
-    jump = settings.change_size**2
-    changed = (b.xx + jump * turn * turn, b.xl + jump * turn, b.ll + jump)
-    usual = 1 - settings.wide - settings.outlier - bank.change
-    ways = [
-        (usual, b.xx, b.xl, b.ll, variance),
-        (settings.wide, b.xx, b.xl, b.ll, settings.wide_scale**2 * variance),
-        (bank.change, *changed, variance),
-    ]
-    density = np.full(b.x.shape, settings.outlier / settings.outlier_range)
-    total, dx, dl = density.copy(), 0.0, 0.0
-    xx, xl, ll = density * b.xx, density * b.xl, density * b.ll
-    for share, pxx, pxl, pll, r in ways:
-        s = pxx + r
-        p = (share / ROOT_2PI) * np.exp(-0.5 * miss * miss / s) / np.sqrt(s)
-        gain, turned = pxx / s, pxl / s
-        ex, el = gain * miss, turned * miss
-        total += p
-        dx, dl = dx + p * ex, dl + p * el
-        xx += p * (pxx - gain * pxx + ex * ex)
-        xl += p * (pxl - gain * pxl + ex * el)
-        ll += p * (pll - turned * pxl + el * el)
-    dx, dl = dx / total, dl / total
-    w = b.w * total
-    evidence = w.sum(axis=(0, 2))
-    outlier = (b.w * density).sum(axis=(0, 2)) / evidence
-    w = w / evidence[None, :, None]
-    after = Beliefs(
-        b.x + dx, b.l + dl, xx / total - dx * dx, xl / total - dx * dl, ll / total - dl * dl, w
+def _step(hypotheses: CHypotheses, beliefs: Beliefs, series: Series, k: int, before: np.ndarray, keep: bool) -> Step:
+    """Takes `beliefs` over the tests of column `k`, in place."""
+    use, value, below, above = (
+        np.ascontiguousarray(a) for a in (series.use[:, k] - before, series.value[:, k], series.below[:, k],
+                                          series.above[:, k])
     )  # fmt: skip
-    valid = series.valid[:, k]
-    if valid.all():
-        return after, outlier, np.log(evidence)
-    after.put(~valid, b.rows(~valid))
-    return after, np.where(valid, outlier, 0.0), np.where(valid, np.log(evidence), 0.0)
+    valid = np.ascontiguousarray(series.valid[:, k], dtype=np.uint8)
+    outlier, evidence = np.empty(len(use)), np.empty(len(use))
+    size = beliefs.x.shape if keep else (0,)
+    predicted = Beliefs(*(np.empty(size) for _ in range(5)), beliefs.w.copy()) if keep else None
+    slope = (np.empty(size), np.empty(size)) if keep else None
+    tests = CTests(*map(pointer, (use, value, below, above)), valid.ctypes.data)
+    library().lacuna_hypotheses_test(
+        ctypes.byref(hypotheses), ctypes.byref(tests), ctypes.byref(_pointers(beliefs)),
+        ctypes.byref(_pointers(predicted)) if predicted else None, *(map(pointer, slope) if slope else (None, None)),
+        pointer(outlier), pointer(evidence),
+    )  # fmt: skip
+    return Step(beliefs, outlier, np.log(evidence), predicted, slope)
+
+
+def _hypotheses(bank: Bank, shape: tuple[int, ...], gone: float) -> CHypotheses:
+    """What the C++ step must know of the bank; it keeps the arrays alive that it points to."""
+    one = bank.tables[0]
+    arrays = [
+        np.ascontiguousarray(a, dtype=float)
+        for a in (one.x, np.array([t.g for t in bank.tables]), np.array([t.u for t in bank.tables]), bank.life,
+                  bank.wander2, bank.diffusion2, bank.change, bank.common)
+    ]  # fmt: skip
+    settings = bank.settings
+    laws, histories, columns = shape
+    found = CHypotheses(
+        laws, histories, columns, len(one.x), *map(pointer, arrays), settings.wide, settings.wide_scale,
+        settings.outlier, settings.outlier_range, settings.change_size, gone,
+    )  # fmt: skip
+    found.arrays = arrays
+    return found
+
+
+def _pointers(beliefs: Beliefs) -> CBeliefs:
+    return CBeliefs(*(pointer(value) for value in vars(beliefs).values()))

@@ -119,10 +119,10 @@ def forecasts(
             [series_of([h], one.span, bank.settings.floor, one.healthy) for h, one in zip(batch, scale, strict=True)]
         )
         outliers = []
-        for step in run(bank, series, prune=True):
+        for step in run(bank, series):
             outliers.append(step.outlier)
             last = step
-        said = _forecasts(batch, last.bank, scale, options, last, series, np.array(outliers).T)
+        said = _forecasts(batch, bank, scale, options, last, series, np.array(outliers).T)
         result |= dict(zip(rows, said, strict=True))
         progress(len(result), len(histories))
     return [result[k] for k in range(len(histories))]

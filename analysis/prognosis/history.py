@@ -3,8 +3,8 @@
 `history.csv` (or Parquet) has the columns `actuator` and `cycles` or `hours`, then `severity, low, high` (fractions,
 95 %) or
 `recording` (a file beside it), and `event`: empty or `replaced` (the part was replaced before this row's test). A
-column
-`fault` tells several faults of one actuator apart.
+column `fault` tells several faults of one actuator apart; a column `diagnosis` names what `lacuna explain` wrote of
+the test.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from lacuna.analysis.errors import AnalysisError
 
 UNITS = ("cycles", "hours")
 EVENTS = ("", "replaced")
+SEPARATORS = {";": "semicolon", "\t": "tab"}  # that other programs write
 FILES = ("history.csv", "history.parquet")
 TWO_SIDED_95 = 1.959964
 SAME_SCALE = 8.0  # by which hours a cycle may differ within one actuator before units are taken to be mixed
@@ -51,13 +52,14 @@ class History:
         return [slice(a, b) for a, b in zip(starts, [*starts[1:], len(self.use)], strict=True)]
 
 
-def read_histories(path: Path | str, assess: Assess | None = None, unit: str | None = None) -> list[History]:
+def read_histories(
+    path: Path | str, assess: Assess | None = None, unit: str | None = None, diagnosed: Assess | None = None
+) -> list[History]:
     """Histories of a folder with history.csv or .parquet, or of such a file, in order of actuator.
 
-    `assess` reads the severities of a recording where the table has none; it raises AnalysisError where the
-    recording is
-    refused, which is a missing test with a warning. `unit`: the column to count by, where there are both. Raises
-    AnalysisError with file, row and reason for what cannot be a history.
+    `assess` reads the severities of a recording where the table has none; it raises AnalysisError where the recording
+    is refused, which is a missing test with a warning. `diagnosed` reads those of a diagnosis. `unit`: the column to
+    count by, where there are both. Raises AnalysisError with file, row and reason for what cannot be a history.
     """
     file = _file(Path(path))
     rows = _table(file)
@@ -70,7 +72,7 @@ def read_histories(path: Path | str, assess: Assess | None = None, unit: str | N
         actuator = reader.text("actuator")
         if not actuator:
             raise reader.error("actuator is empty")
-        for fault, *reading in reader.readings(assess):
+        for fault, *reading in reader.readings(assess, diagnosed):
             group = groups.setdefault((actuator, fault), _Group())
             group.add(reader, counted, reading)
     return [group.history(file, *key, counted) for key, group in sorted(groups.items())]
@@ -111,7 +113,7 @@ def _table(file: Path) -> list[tuple[int, Row]]:
     except (UnicodeDecodeError, csv.Error) as error:
         raise AnalysisError(f"{file}: not a table: {error}") from None
     for line, row in rows:
-        if "?" in row:
+        if "?" in row and len(names) > 1:
             raise AnalysisError(f"{file}:{line}: more cells than columns")
     return [(line, {name: (value or "").strip() for name, value in row.items()}) for line, row in rows]
 
@@ -122,7 +124,13 @@ def _unit(file: Path, rows: list[tuple[int, Row]], wanted: str | None) -> str:
         raise AnalysisError(f"use is counted in {' or '.join(UNITS)}, not {wanted!r}")
     columns = set(rows[0][1])
     if "actuator" not in columns:
-        raise AnalysisError(f"{file}: column actuator is missing")
+        known = " ".join(map(str, columns))
+        other = [name for mark, name in SEPARATORS.items() if mark in known]
+        raise AnalysisError(
+            f"{file}: columns are separated by {other[0]}s; a history has commas, and points in its numbers"
+            if other and len(columns) == 1
+            else f"{file}: column actuator is missing; there are {', '.join(sorted(map(str, columns)))}"
+        )
     present = [unit for unit in UNITS if unit in columns]
     if not present:
         raise AnalysisError(f"{file}: column cycles (or hours) is missing")
@@ -159,7 +167,8 @@ class _Reader:
         try:
             value = float(text)
         except ValueError:
-            raise self.error(f"{name} is {text!r}, not a number") from None
+            point = "; a decimal point is wanted" if "," in text else ""
+            raise self.error(f"{name} is {text!r}, not a number{point}") from None
         if not math.isfinite(value) or "_" in text:
             raise self.error(f"{name} is {text}, not a finite number")
         return value
@@ -170,7 +179,7 @@ class _Reader:
             raise self.error(f"event is {event!r}; known is 'replaced', or nothing")
         return event == "replaced"
 
-    def readings(self, assess: Assess | None) -> list[tuple]:
+    def readings(self, assess: Assess | None, diagnosed: Assess | None = None) -> list[tuple]:
         """(fault, severity, low, high, warning) of this test: given, or assessed, or none."""
         fault, severity = self.text("fault"), self.value("severity")
         if not math.isnan(severity):
@@ -180,6 +189,10 @@ class _Reader:
             if not low <= severity <= high:
                 raise self.error(f"severity {severity:g} lies outside its own interval {low:g} to {high:g}")
             return [(fault, severity, low, high, "")]
+        if diagnosis := self.text("diagnosis"):
+            if diagnosed is None:
+                raise self.error(f"{diagnosis} cannot be read here: `lacuna forecast` reads diagnoses, with --limit")
+            return [(*found, "") for found in diagnosed(self.file.parent / diagnosis)]
         name = self.text("recording")
         if not name:
             return [(fault, math.nan, math.nan, math.nan, "")]

@@ -7,6 +7,7 @@ from html import escape
 from markupsafe import Markup
 import pyarrow as pa
 
+from lacuna.analysis.prognosis.telling import use
 from lacuna.analysis.report.page import figure, page
 
 SHOWN = 60  # actuators at greatest risk
@@ -44,14 +45,14 @@ def _drawing(rows: list[dict]) -> str:
     top = max(ends[int(0.9 * (len(ends) - 1))], 1e-12) * 1.1
     left, height = 220, ROW * (len(rows) + 2)
 
-    def at(use: float | None) -> float:
-        return left + (WIDTH - left) * min(1.0, (top if use is None else use) / top)
+    def at(left_over: float | None) -> float:
+        return left + (WIDTH - left) * min(1.0, (top if left_over is None else left_over) / top)
 
     parts = [f'<svg viewBox="0 0 {WIDTH} {height}" font-size="12" font-family="system-ui,sans-serif">']
     for k in range(5):
         x = left + (WIDTH - left) * k / 5
         parts.append(f'<path d="M{x:.1f} 0V{height - ROW}" stroke="#ddd"/><text x="{x:.1f}" y="{height - 4}">'
-                     f'{top * k / 5:.3g}{" " + escape(rows[0]["unit"]) if not k else ""}</text>')  # fmt: skip
+                     f'{use(top * k / 5)}{" " + escape(rows[0]["unit"]) if not k else ""}</text>')  # fmt: skip
     for k, r in enumerate(rows):
         y = ROW * (k + 0.5) + 4
         name = escape(r["actuator"] + (f" {r['fault']}" if r["fault"] else ""))

@@ -20,7 +20,7 @@ from lacuna.analysis.prognosis.forecast import LEVELS as PROBABILITIES
 from lacuna.analysis.prognosis.forecast import Forecast
 from lacuna.analysis.prognosis.series import last_error, series_of
 from lacuna.analysis.prognosis.smoother import tracked
-from lacuna.analysis.prognosis.telling import counted_verdicts, forecast_json, sentence, urgency
+from lacuna.analysis.prognosis.telling import counted_verdicts, forecast_json, sentence, urgency, use
 from lacuna.analysis.prognosis.verdict import FORECAST
 from lacuna.analysis.report.page import figure, heading, page, table
 
@@ -68,14 +68,14 @@ def _part(f: Forecast, svg: str, risk: float) -> Markup:
 
 
 def _cell(value: float) -> str:
-    return f"{value:.3g}" if np.isfinite(value) else "-"
+    return use(value) if np.isfinite(value) else "-"
 
 
 def curves(f: Forecast, bank: Bank):
     """(smoothed, levels) for `figure.draw`: what the tests say of the past, and when each severity is reached."""
     limit, healthy = f.limits.span, f.limits.healthy
     series = series_of([f.history], limit, bank.settings.floor, healthy)
-    steps = list(run(bank, series))
+    steps = list(run(bank, series, keep=True))
     mean, deviation = tracked(bank, steps)
     part = f.history.lives[-1]
     smoothed = (f.history.use[part], healthy + mean[:, 0] * limit, deviation[:, 0] * limit)

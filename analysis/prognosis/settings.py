@@ -18,11 +18,13 @@ class FilterSettings:
     `first`: mean and standard deviation of the severity before the first test: anything that a map can show.
     `noises`: (share, factor of wander, factor of diffusion, whether the rate may change abruptly) of the law's own
         process
-        noise, each tried: calmer than declared, as declared, which is believed most, and rougher. Only where the
-        noise is rough can a change be merged into one Gaussian without spoiling what is known of a steady rate.
+        noise, each tried, and none preferred: calmer than declared, as declared, and rougher, factors of two or so
+        apart. The roughest stands for a law that the catalogue lacks. Only where the noise is rough can a change be
+        merged into one Gaussian without spoiling what is known of a steady rate.
     `commons`: share of an assessment's variance that all tests of one actuator have in common (its own inertia and
         friction, say) and that the trend cannot show; each tried, and told by how much less than stated the tests
-        scatter. Half is what the tests of docs/robustness.md have, sorted by friction and inertia.
+        scatter. The tests of docs/robustness.md scatter about an actuator's own mean with 0.25 to 0.7 of the stated
+        variance, the less the smaller the severity: these are the two ends.
     `wide`, `wide_scale`: share of tests with an error of so many of the assessment's own standard deviations.
     `outlier`, `outlier_range`: share of tests that say nothing, spread over so many limits.
     `change`, `change_size`: probability a test that the rate changes abruptly (duty, lubrication: about once in two
@@ -37,11 +39,12 @@ class FilterSettings:
     tile: float = float(np.log(2.0))
     first: tuple[float, float] = (0.25, 0.5)
     noises: tuple[tuple[float, float, float, float], ...] = (
-        (0.2, 0.2, 0.2, 0.0),
-        (0.6, 1.0, 1.0, 0.0),
-        (0.2, 4.0, 3.0, 1.0),
+        (0.25, 0.5, 0.5, 0.0),
+        (0.25, 1.0, 1.0, 0.0),
+        (0.25, 2.5, 1.5, 0.0),
+        (0.25, 4.0, 3.0, 1.0),
     )
-    commons: tuple[float, ...] = (0.0, 0.5)
+    commons: tuple[float, ...] = (0.3, 0.75)
     wide: float = 0.05
     wide_scale: float = 3.5
     outlier: float = 0.02

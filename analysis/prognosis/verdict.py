@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from lacuna.analysis.prognosis.history import TWO_SIDED_95, History
 
 FORECAST, TOO_EARLY, STEADY = "forecast", "too_early", "steady"
+BEYOND = "what was read lies beyond the last limit: repeat the test, or remove the part"
 DECADE = 10.0  # between the ends of the 80 % interval: wider, no removal can be planned by it
 SETTLED = 0.05  # probability of the limit within as much use again as was watched, below which a part is called steady
 FEWEST = 3  # tests of a part: two give a rate, the third can contradict it
@@ -36,10 +38,12 @@ def verdict_on(h: History, outlier: np.ndarray, quantiles: np.ndarray, again: fl
     rows = rows[np.isfinite(h.severity[rows])]
     sd = (h.high - h.low)[rows] / 2 / TWO_SIDED_95
     part = _Part(h.use[rows], h.severity[rows], np.maximum(sd, 1e-9), outlier[rows - h.lives[-1].start] > 0.5)
+    beyond = (BEYOND,) if len(rows) and quantiles[2] == 0 else ()
     if h.doubts:
-        return TOO_EARLY, "the history contradicts itself", ()
+        return TOO_EARLY, "the history contradicts itself", beyond
     if len(rows) < FEWEST:
-        return TOO_EARLY, f"{len(rows)} tests of this part; a trend needs {FEWEST}", ()
+        tests = f"{len(rows) or 'no'} {'test' if len(rows) == 1 else 'tests'} of this part with a severity"
+        return TOO_EARLY, f"{tests}; a trend needs {FEWEST}", beyond
     if contradiction := _contradiction(part, h.unit):
         return TOO_EARLY, "the tests contradict each other", (contradiction,)
     _, low, median, high, _ = quantiles
@@ -69,11 +73,12 @@ def _contradiction(part: _Part, unit: str) -> str:
     n = len(part.use)
     if n >= 2 * FEWEST and part.outlier.sum() > INCOHERENT * n:
         return f"{part.outlier.sum()} of {n} tests do not fit the others: are some another actuator's?"
-    for k in range(FEWEST, n - FEWEST + 1):
-        before, after = slice(k - FEWEST, k), slice(k, k + FEWEST)
-        fall = np.median(part.severity[before]) - np.median(part.severity[after])
-        if fall > FALL * np.hypot(part.sd[before].mean(), part.sd[after].mean()):
-            place = f"severity falls at {unit} {part.use[k]:g}"
+    if n >= 2 * FEWEST:
+        middle = np.median(sliding_window_view(part.severity, FEWEST), axis=-1)
+        error = sliding_window_view(part.sd, FEWEST).mean(axis=-1)
+        falls = middle[:-FEWEST] - middle[FEWEST:] > FALL * np.hypot(error[:-FEWEST], error[FEWEST:])
+        if falls.any():
+            place = f"severity falls at {unit} {part.use[FEWEST + int(np.argmax(falls))]:g}"
             return f"{place}: a replacement that is not recorded, or another actuator's tests?"
     if n >= 2 * FEWEST and part.outlier[-FEWEST:].all():
         return f"the last {FEWEST} tests do not fit those before: another actuator's, or a sudden fault?"

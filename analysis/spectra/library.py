@@ -36,6 +36,24 @@ class CEstimate(ctypes.Structure):
     ]
 
 
+class CHypotheses(ctypes.Structure):
+    _fields_ = [
+        *((name, ctypes.c_size_t) for name in ("laws", "histories", "columns", "points")),
+        *((name, DOUBLES) for name in ("severity", "growth", "age", "life", "wander2", "diffusion2", "change",
+                                       "common")),
+        *((name, ctypes.c_double) for name in ("wide", "wide_scale", "outlier", "outlier_range", "change_size",
+                                               "gone")),
+    ]  # fmt: skip
+
+
+class CBeliefs(ctypes.Structure):
+    _fields_ = [(name, DOUBLES) for name in ("x", "l", "xx", "xl", "ll", "w")]
+
+
+class CTests(ctypes.Structure):
+    _fields_ = [*((name, DOUBLES) for name in ("use", "value", "below", "above")), ("valid", ctypes.c_void_p)]
+
+
 def library_path() -> Path:
     """Where liblacuna_analysis.so is (`lacuna.native`)."""
     return native_library("lacuna_analysis")
@@ -63,6 +81,13 @@ _FUNCTIONS = {
     "lacuna_transform_name": (_TEXT, []),
     "lacuna_signature_size": (_SIZE, [_SIZE]),
     "lacuna_signature": (ctypes.c_int, [ctypes.POINTER(CChannel), _SIZE, DOUBLES]),
+    "lacuna_hypotheses_test": (
+        None,
+        [
+            *(ctypes.POINTER(kind) for kind in (CHypotheses, CTests, CBeliefs, CBeliefs)),
+            *[DOUBLES] * 4,
+        ],
+    ),
     "lacuna_table_new": (_ADDRESS, [_TEXT, _SIZE, *_MESSAGE]),
     "lacuna_table_free": (None, [_ADDRESS]),
     "lacuna_table_channels": (_SIZE, [_ADDRESS]),

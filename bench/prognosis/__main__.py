@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bench.prognosis import page, study
+from bench.prognosis import bounds, page, study
 from bench.prognosis.fleet import Part, Readings, part
 from bench.prognosis.truth import KNOWN, UNKNOWN
 import lacuna
@@ -25,7 +25,7 @@ from lacuna.analysis.severity.prepared import Prepared
 from lacuna.analysis.severity.robustness import Results, run_tests
 from lacuna.codegen.compile import compile_model
 
-SEED, PARTS, PROGPY_PARTS, PAIRS, TESTS = 20261123, 1000, 200, 60, 4096
+SEED, PARTS, PROGPY_PARTS, PAIRS, TESTS = 20261124, 1000, 200, 60, 4096
 PAST, PAST_PARTS = 1_000_000, 300  # parts of the same fleet whose lives have ended
 RISK = 0.001  # the command's default
 
@@ -85,6 +85,9 @@ def measured(parts: list[Part], past: list[Part], seed: int) -> str:
     if not why:
         progpy = study.sample_scores([parts[k] for k in known], study.progpy_samples(seed), lambda *_: None)
     is_unknown = np.array([p.law in UNKNOWN for p in parts])
+    in_catalogue = np.array([k for k, p in enumerate(parts) if p.law in KNOWN])
+    told = page.Bounds(in_catalogue, bounds.told_the_law([parts[k] for k in in_catalogue]),
+                       bounds.told_the_population(parts))  # fmt: skip
     goals = page.goals([ours, alone], line, known, progpy, is_unknown)
     both = study.two_faults(parts[: 2 * PAIRS], bank, seed)
     return page.PAGE.format(
@@ -97,7 +100,10 @@ def measured(parts: list[Part], past: list[Part], seed: int) -> str:
         goals="\n".join(goals),
         shares=" | ".join(f"{100 * c:.0f} %" for c in page.CHECKPOINTS),
         dashes=" | ".join("---" for _ in page.CHECKPOINTS),
-        table="\n".join(page.table(ours, alone.scores, line, progpy, known)),
+        table="\n".join(page.table(ours, alone.scores, line, told, progpy, known)),
+        bound_law=page.spread(told.law.alpha_lambda()[page.LATE]),
+        bound_population=page.spread(told.population.alpha_lambda()[page.LATE]),
+        horizon=100 * ours.scores.horizon(),
         laws="\n".join(page.by_law(ours.scores, [p.law for p in parts])),
         removals_text=REMOVALS,
         removals="\n".join(_removals(parts, ours.removals, alone.removals)),

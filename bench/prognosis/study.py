@@ -54,9 +54,9 @@ class Arm:
     removals: Removals
 
 
-def walked(parts: Sequence[Part], bank: Bank, risk: float) -> Arm:
+def walked(parts: Sequence[Part], bank: Bank, risk: float | None) -> Arm:
     """All tests of the parts in turn: a forecast at every checkpoint, as `lacuna forecast` makes it of the tests so
-    far, and a removal at the first test after which the risk of violet by the next one exceeds `risk`."""
+    far, and a removal at the first test after which the risk of violet by the next one exceeds `risk` (None: never)."""
     scores, verdicts = Scores.empty(len(parts)), np.full((len(parts), len(CHECKPOINTS)), "", dtype=object)
     series = joined([series_of([p.history], LIMIT, bank.settings.floor) for p in parts])
     first = np.array([p.history.lives[-1].start for p in parts])
@@ -66,12 +66,12 @@ def walked(parts: Sequence[Part], bank: Bank, risk: float) -> Arm:
         outliers[:, k] = step.outlier
         due = (rows == (first + k + 1)[:, None]).any(axis=1)
         there = first + k < [len(p.history.use) for p in parts]
-        now = np.flatnonzero(there & (due | (np.isnan(removed) & (k >= 2))))
+        now = np.flatnonzero(there & (due | (np.isnan(removed) & (k >= 2 and risk is not None))))
         if not len(now):
             continue
         error = np.array([_error_until(series, b, k) for b in now])
         reach = remaining(bank, step.filtered.rows(now), 1.0, error, series.interval[now])
-        over = reach.reached(series.interval[now][:, None])[:, 0] > risk
+        over = reach.reached(series.interval[now][:, None])[:, 0] > (np.inf if risk is None else risk)
         for place, b in enumerate(now):
             p = parts[b]
             if over[place] and np.isnan(removed[b]) and k >= 2:

@@ -10,7 +10,8 @@ history counts. What the forecast must know stands in <code>annotation(__Lacuna(
 <li><code>law</code>: identifier, as forecasts name it.</li>
 <li><code>rate</code>: the parameter that <code>der(severity)</code> is proportional to. Its value is unknown over decades,
 and found from the history.</li>
-<li><code>shapes(p={...})</code>: values at which another unknown parameter is tried, each weighed by the evidence.</li>
+<li><code>shapes(p={...})</code>: values at which another unknown parameter is tried, each weighed by the
+evidence: so close that what remains of a life differs less between neighbours than the process noise lets it.</li>
 <li><code>wander</code>: process noise of the rate, standard deviation of its logarithm over one life.</li>
 <li><code>diffusion</code>: process noise of the severity itself, its standard deviation after growth from 0 to 1.</li>
 <li><code>reference</code>: where the law is described.</li>

@@ -72,6 +72,33 @@ size_t lacuna_table_channels(const lacuna_table *table);
 int lacuna_table_estimate(const lacuna_table *table, const lacuna_channel *channels, double rms_mean,
                           lacuna_estimate *estimate);
 
+/* The filter of a forecast (analysis/prognosis/filter.py): Gaussians over severity x and logarithm l of a law's rate.
+ * Arrays over hypotheses are [laws][histories][columns]. */
+typedef struct {
+  size_t laws, histories, columns, points;
+  const double *severity;                               /* [points] of the laws' tables, rising */
+  const double *growth, *age;                           /* [laws][points], age rising */
+  const double *life;                                   /* [laws] age at the limit, the unit of wander */
+  const double *wander2, *diffusion2, *change, *common; /* [laws][columns] */
+  double wide, wide_scale, outlier, outlier_range, change_size;
+  double gone; /* a hypothesis of less weight is left out from then on */
+} lacuna_hypotheses;
+
+typedef struct {
+  double *x, *l, *xx, *xl, *ll, *w;
+} lacuna_beliefs;
+
+typedef struct {
+  const double *use, *value, *below, *above; /* [histories]; use since the test before */
+  const unsigned char *valid;                /* [histories] 0: a test without a reading */
+} lacuna_tests;
+
+/* Take `beliefs` over one test of each history. Writes `outlier` (probability that the test says nothing) and
+ * `evidence` (its likelihood), [histories]. `predicted` (all but w), `along` and `turn` (dx'/dx, dx'/dl) may be NULL.
+ */
+void lacuna_hypotheses_test(const lacuna_hypotheses *hypotheses, const lacuna_tests *tests, lacuna_beliefs *beliefs,
+                            lacuna_beliefs *predicted, double *along, double *turn, double *outlier, double *evidence);
+
 /* The implementation of the Fourier transform that this library was built with: "FFTW" or "Eigen". */
 const char *lacuna_transform_name(void);
 

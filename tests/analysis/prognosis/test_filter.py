@@ -59,7 +59,7 @@ def dense(series: Series, rate: float):
 def test_known_rate_is_the_dense_gaussian(seed):
     series, _, rate = wiener(seed)
     bank = Bank([WIENER], GAUSSIAN)
-    steps = list(run(bank, series))
+    steps = list(run(bank, series, keep=True))
     mean, covariance, evidence = dense(series, rate)
     assert steps[-1].filtered.x.item() == pytest.approx(mean[-1], abs=1e-9)
     assert steps[-1].filtered.xx.item() == pytest.approx(covariance[-1, -1], rel=1e-7)

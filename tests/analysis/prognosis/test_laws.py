@@ -14,7 +14,7 @@ CLOSED = {
     "linear": 1 + 0 * X,
     "exponential": X,
     "crack, m = 2": X**2,
-    "archard, load = 5": 1 + 5 * X,
+    "archard, load = 4": 1 + 4 * X,
     "friction, level = 1.2": np.maximum(1 - X / 1.2, 0),
     "winding, rise = 20": np.exp(11600 / 373.15 - 11600 / (373.15 + 20 * X)),
 }
@@ -22,7 +22,7 @@ AGES = {
     "linear": lambda a, b: b - a,
     "exponential": lambda a, b: np.log(b / a),
     "crack, m = 2": lambda a, b: 1 / a - 1 / b,
-    "archard, load = 5": lambda a, b: np.log((1 + 5 * b) / (1 + 5 * a)) / 5,
+    "archard, load = 4": lambda a, b: np.log((1 + 4 * b) / (1 + 4 * a)) / 4,
     "friction, level = 1.2": lambda a, b: 1.2 * np.log((1.2 - a) / (1.2 - b)),
 }
 

@@ -1,0 +1,79 @@
+"""A quantity of `lacuna explain`, from one dated diagnosis to the next, as a severity: its share of the way to a limit.
+
+A diagnosis.json gives the value of each parameter of the model, and of each effect that it found, with its standard
+deviation. Nothing is said of a quantity in a diagnosis that does not name it: a missing test.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+import json
+import math
+from pathlib import Path
+
+from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.prognosis.forecast import Limits
+from lacuna.analysis.prognosis.history import TWO_SIDED_95
+
+FILE = "diagnosis.json"
+SHARES = Limits(("limit",), (1.0,), -math.inf, math.inf)
+Quantities = dict[str, tuple[float, float, float]]  # name: value, standard deviation, value of a healthy machine
+
+
+def reader(limits: Mapping[str, float]) -> Callable[[Path], list[tuple[str, float, float, float]]]:
+    """(quantity, severity, low, high) of a diagnosis, for each quantity of `limits` {name: value at its limit}.
+
+    Severity is 0 at the healthy value and 1 at the limit, which may lie on either side of it. A parameter is healthy
+    at the value that its model declares, which the first diagnosis read fixes; an effect is where it is absent.
+    """
+    healthy: dict[str, float] = {}
+
+    def read(path: Path) -> list[tuple[str, float, float, float]]:
+        found = quantities(path)
+        if not limits:
+            raise AnalysisError(f"{path}: which quantity has what limit? There are {changes(found)}")
+        return [_severity(path, name, limit, found, healthy) for name, limit in limits.items()]
+
+    return read
+
+
+def _severity(path: Path, name: str, limit: float, found: Quantities, healthy: dict[str, float]):
+    if name not in found:
+        if "@" not in name:
+            raise AnalysisError(f"{path}: no quantity {name!r}; there are {changes(found)}")
+        return name, math.nan, math.nan, math.nan
+    value, deviation, believed = found[name]
+    start = healthy.setdefault(name, believed)
+    span = limit - start
+    if not math.isfinite(span) or span == 0:
+        raise AnalysisError(f"{path}: the limit of {name} is {limit:g}, and {start:g} is healthy")
+    severity, width = (value - start) / span, TWO_SIDED_95 * deviation / abs(span)
+    return name, severity, severity - width, severity + width
+
+
+def quantities(path: Path) -> Quantities:
+    """Of a diagnosis.json, or of a folder with one: parameters by name, an effect's as effect@location.parameter."""
+    file = path / FILE if path.is_dir() else path
+    try:
+        content = json.loads(file.read_text(encoding="utf-8"))
+        own = {
+            name: (float(p["value"]), float(p["std"]), float(p["believed"]))
+            for name, p in content.get("parameters", {}).items()
+        }
+        effects = {
+            f"{f['effect']}@{f['location']}.{name}": (float(p["value"]), float(p["std"]), 0.0)
+            for f in content.get("findings", [])
+            for name, p in f.get("parameters", {}).items()
+        }
+    except OSError:
+        raise AnalysisError(f"{file} is missing") from None
+    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        raise AnalysisError(f"{file}: not a diagnosis of `lacuna explain`: {error!r}") from None
+    return own | effects
+
+
+def changes(found: Quantities) -> str:
+    """Quantities in words, those first that lie furthest from healthy, in their standard deviations."""
+    far = {name: abs(v - healthy) / max(sd, 1e-300) for name, (v, sd, healthy) in found.items()}
+    names = sorted(far, key=lambda name: -far[name])
+    return ", ".join(f"{n} ({found[n][0]:.4g}, healthy {found[n][2]:.4g})" for n in names) or "none"
