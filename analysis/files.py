@@ -13,6 +13,16 @@ import numpy as np
 
 from lacuna.analysis.errors import AnalysisError
 
+LARGEST = 1 << 30  # bytes of a file that is read: a hundred signals for a quarter of an hour at 1 kHz as text
+
+
+def check_file(path: Path, error: type[Exception] = AnalysisError) -> None:
+    """Raises `error` where `path` is no file of a size that is read: devices and pipes have no end."""
+    if not path.is_file():
+        raise error(f"{path}: {'is not a file' if path.exists() else 'there is no such file'}")
+    if path.stat().st_size > LARGEST:
+        raise error(f"{path}: larger than {LARGEST >> 20} MB")
+
 
 @contextmanager
 def published_together(folder: Path) -> Iterator[Path]:

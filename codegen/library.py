@@ -82,6 +82,8 @@ class Library:
         """The classes of one file, each time the same objects. Raises F001 when it cannot be read."""
         path = Path(path)
         if path not in self._parsed:
+            if path.exists() and not path.is_file():
+                raise Diagnostic("F001", f"{path} is not a file", hint="a model is a .mo file")
             try:
                 text = path.read_bytes().decode("utf-8")
             except OSError as error:

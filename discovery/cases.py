@@ -9,6 +9,7 @@ import tomllib
 
 import numpy as np
 
+from lacuna.analysis.files import check_file
 from lacuna.analysis.recording.channel import RecordingError, on_one_time
 from lacuna.analysis.recording.formats import read_recorded
 from lacuna.codegen.library import Library
@@ -141,6 +142,8 @@ def load(folder: str | Path, libraries: Sequence[str | Path] = ()) -> Case:
 
 
 def _read(path: Path) -> dict:
+    if path.exists():
+        check_file(path, CaseError)
     try:
         raw = tomllib.loads(path.read_text(encoding="utf-8"))
         check(raw)

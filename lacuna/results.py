@@ -38,7 +38,7 @@ class Result:
 
     def __init__(self, run: runtime.Result, names: Sequence[str] | None, seconds: float) -> None:
         self._run = run
-        self.names: list[str] = list(names) if names is not None else run.model.declared
+        self.names: list[str] = [n for n in names if n != "time"] if names is not None else run.model.declared
         self.seconds = seconds  # of computing
 
     @property
@@ -142,7 +142,9 @@ class Result:
         extra `plot`."""
         from lacuna.figures import trajectories
 
-        return trajectories(self.time, {name: self[name] for name in names or self._own()}, self.units)
+        return trajectories(
+            self.time, {name: self[name] for name in [n for n in names if n != "time"] or self._own()}, self.units
+        )
 
     def _own(self) -> list[str]:
         """Real variables of the model itself; those of its components where it declares none."""

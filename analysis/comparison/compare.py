@@ -13,7 +13,7 @@ from lacuna.analysis.comparison.deviation import SignalDeviation, signal_deviati
 from lacuna.analysis.comparison.scenarios import Scenario
 from lacuna.analysis.comparison.study import Lane, Study, rows, run
 from lacuna.analysis.errors import AnalysisError
-from lacuna.analysis.files import published_together
+from lacuna.analysis.files import check_file, published_together
 
 
 def compare_lanes(
@@ -72,6 +72,7 @@ def compare_with_file(
 
 def read_columns(path: Path) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """`time` and the other columns of a CSV with one header line; empty fields are NaN. `event` is left out."""
+    check_file(path)
     with path.open(newline="", encoding="utf-8") as file:
         lines = list(csv.reader(file))
     header = [name.strip() for name in lines[0]] if lines else []

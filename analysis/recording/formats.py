@@ -14,10 +14,10 @@ from importlib import import_module
 from pathlib import Path
 import tempfile
 
+from lacuna.analysis.files import check_file
 from lacuna.analysis.recording.channel import Reader, Recorded, RecordingError
 from lacuna.extras import names_missing_packages
 
-LARGEST = 1 << 30  # bytes of a file: a hundred signals for a quarter of an hour at 1 kHz as text
 _READERS = {
     "text": (".csv", ".txt", ".tsv", ".dat", ".asc"),
     "matlab": (".mat",),
@@ -33,10 +33,7 @@ SUFFIXES = tuple(suffix for suffixes in _READERS.values() for suffix in suffixes
 def read_recorded(path: Path | str) -> Recorded:
     """The channels of a file. Raises RecordingError for what is no recording, MissingPackage for want of its reader."""
     path = Path(path)
-    if not path.is_file():
-        raise RecordingError(f"{path}: {'is not a file' if path.exists() else 'there is no such file'}")
-    if path.stat().st_size > LARGEST:
-        raise RecordingError(f"{path}: larger than {LARGEST >> 20} MB")
+    check_file(path, RecordingError)
     return _reader(path)(path)
 
 

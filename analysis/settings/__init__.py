@@ -11,6 +11,7 @@ import tomllib
 from typing import Any
 
 from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.files import check_file
 
 PAPER = Path(__file__).with_name("paper.toml")
 
@@ -116,6 +117,8 @@ class _Table(dict):
 def load_settings(path: Path | str = PAPER) -> Settings:
     """Read a settings file. Raises AnalysisError naming the file and the entry that is missing or impossible."""
     path = Path(path)
+    if path.exists():
+        check_file(path)
     try:
         text = path.read_text(encoding="utf-8")
         raw = tomllib.loads(text)

@@ -10,9 +10,12 @@ from lacuna.codegen.symbolic.expr import BUILTINS, Expr
 _KEYWORDS = """auto break case char const continue default do double else enum extern float for goto if inline int long
 register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while"""
 _TAKEN = """m t x xdot v y yp r g cj values next start interval pow fabs fmin fmax trunc isfinite isnan memcpy main
-INFINITY NAN NULL tangent lane lanes"""
+INFINITY NAN NULL EOF DECIMAL_DIG math_errhandling tangent lane lanes"""
 _RESERVED = frozenset([*_KEYWORDS.split(), *_TAKEN.split(), *BUILTINS])
-_GENERATED = re.compile(r"(tmp|rel|tick|when|fires)\d+$|(fn|mdl|der|pre|tangent)_")
+_GENERATED = re.compile(
+    r"(tmp|rel|tick|when|fires)\d+$|(fn|mdl|der|pre|tangent)_|"
+    r"(HUGE|FP|FLT|DBL|LDBL|MATH|MDL)_"  # macros of the headers that generated C includes
+)
 
 
 class Names:

@@ -13,6 +13,7 @@ from lacuna.codegen.flatten.blanks import blank
 from lacuna.codegen.flatten.constants import AtRunTime
 from lacuna.codegen.flatten.context import Context
 from lacuna.codegen.flatten.effects import effect
+from lacuna.codegen.flatten.effort import MAX_NESTED_STEPS, nested_call, one_more_step
 from lacuna.codegen.flatten.function_locals import Local, Signature, fit, typed
 from lacuna.codegen.flatten.instance import package_of
 from lacuna.codegen.flatten.iterators import iterate
@@ -59,7 +60,8 @@ def interpret(signature: Signature, arguments: dict[str, Value], context: Contex
             if local.is_flexible:
                 run.flexible.add(local.name)
             run.locals[local.name] = blank(local, scope)
-    run.block(signature.body)
+    with nested_call(run.symbolic, span):
+        run.block(signature.body)
     results = [run.locals[local.name] for local in signature.outputs]
     for local, value in zip(signature.outputs, results, strict=True):
         if any(isinstance(s, Expr) and any(n.op == "unset" for n in ex.walk(s)) for s in scalars(value)):
@@ -101,10 +103,10 @@ class _Run:
         """Run statements; "break" or "return" where one of these ended the block."""
         for item in items:
             self.steps += 1
-            if self.steps > self.limit:
+            if self.steps > self.limit or one_more_step() > MAX_NESTED_STEPS:
                 if self.symbolic:
                     raise AtRunTime("a long computation", item.span)
-                message = f"no end after {MAX_STEPS} statements"
+                message = f"no end after {MAX_STEPS if self.steps > self.limit else MAX_NESTED_STEPS} statements"
                 raise Diagnostic("F034", message, item.span, "does the loop reach its end?")
             signal = self._item(item)
             if signal:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import isinf
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.arguments import ArgumentParser
 from lacuna.codegen.syntax.lexer import string_value
 
+LONGEST_INTEGER = 18  # digits: what 64 bits hold
 _RELATIONS = ("<", "<=", ">", ">=", "==", "<>")
 _ADDITIVE = ("+", "-", ".+", ".-")
 _MULTIPLICATIVE = ("*", "/", ".*", "./")
@@ -129,12 +131,23 @@ class ExpressionParser(ArgumentParser):
             hint = "put the signed part in parentheses, such as a*(-b)"
             raise Diagnostic("P016", f"a sign directly after '{self.words[self.at - 1]}'", self.span(), hint)
 
+    def _number(self, word: str, at: int) -> int | float:
+        if word.isdigit():
+            if len(word) > LONGEST_INTEGER:
+                hint = "Integers have 32 bits in most tools; write a Real, such as 1e20"
+                raise Diagnostic("P030", f"an Integer of {len(word)} digits", self.span(at), hint)
+            return int(word)
+        if isinf(value := float(word)):
+            raise Diagnostic(
+                "P030", f"{word[:20]} is beyond the largest Real number", self.span(at), "at most 1.79e308"
+            )
+        return value
+
     def primary(self) -> ast.Expression:
         start, kind = self.at, self.kind
         if kind == "num":
             self.at += 1
-            word = self.words[start]
-            return ast.Literal(self.span(start), int(word) if word.isdigit() else float(word))
+            return ast.Literal(self.span(start), self._number(self.words[start], start))
         if kind == "str":
             self.at += 1
             return ast.Literal(self.span(start), string_value(self.words[start]))

@@ -199,3 +199,26 @@ def test_fit_of_a_practice_case_is_looked_at_alone(shared: Path, tmp_path: Path)
     assert result.exit_code == 0, result.output
     assert "believed" in result.output
     assert (tmp_path / "fit" / "report.html").stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["simulate", "/dev/zero"],
+        ["simulate", SERVO, "-u", "u=/dev/zero:u"],
+        ["compare", SERVO, "--against", "/dev/zero"],
+        ["maps", "--settings", "/dev/zero"],
+        ["explain", "case"],
+    ],
+)
+def test_a_device_is_no_file(words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("case").mkdir()
+    Path("case/case.toml").symlink_to("/dev/zero")
+    assert "is not a file" in refused(*words)
+
+
+def test_time_alone_is_a_signal(tmp_path: Path) -> None:
+    assert lacuna("simulate", SERVO, "--signal", "time", "--plot", "--out", str(tmp_path)).exit_code == 0
+    assert (tmp_path / "SquareWaveServo.csv").read_text(encoding="utf-8").splitlines()[0] == "time"
+    assert (tmp_path / "SquareWaveServo.svg").exists()

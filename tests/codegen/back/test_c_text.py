@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import ctypes
 from pathlib import Path
+import subprocess
 
 import pytest
 
-from lacuna.codegen.cache import compile_c
+from lacuna.codegen.cache import INCLUDE, compile_c
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.emit.c_text import c_comment, c_string
 from lacuna.codegen.emit.expression import function_name
+from lacuna.codegen.emit.names import Names
 from lacuna.runtime import Model, simulate
 from tests.codegen.generated import write_model
 
@@ -77,3 +79,12 @@ end Once;""")  # fmt: skip
         for _ in range(i, n + 1):
             y, n = y + 1, n - 1
     assert result["y"][-1] == y
+
+
+def test_no_identifier_is_a_macro_of_the_headers() -> None:
+    includes = "#include <math.h>\n#include <stddef.h>\n#include <string.h>\n#include <mdl_abi.h>\n"
+    command = ["cc", "-std=c11", f"-I{INCLUDE}", "-dM", "-E", "-x", "c", "-"]
+    text = subprocess.run(command, input=includes, capture_output=True, text=True, check=True).stdout
+    macros = {line.split()[1] for line in text.splitlines() if "(" not in line.split()[1]}
+    assert "HUGE_VAL" in macros
+    assert {name for name in macros if not name.startswith("_") and Names([]).identifier(name) in macros} == set()
