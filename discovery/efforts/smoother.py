@@ -215,9 +215,10 @@ def thinned(piece: Piece, every: int) -> Piece:
             step, drive = along.step[k] @ step, along.step[k] @ drive + along.drive[k]
         steps.append(step)
         drives.append(drive)
-    x, b = along.drive.shape[1:]
+    (x, b), moves = along.drive.shape[1:], len(steps)
     thin = replace(
-        along, time=along.time[kept], step=np.array(steps).reshape(-1, x, x), drive=np.array(drives).reshape(-1, x, b),
+        along, time=along.time[kept], step=np.array(steps).reshape(moves, x, x),
+        drive=np.array(drives).reshape(moves, x, b),
         read=along.read[kept], feed=along.feed[kept], direct=along.direct[kept],
     )  # fmt: skip
     return Piece(thin, piece.data[kept], piece.noise, piece.start)

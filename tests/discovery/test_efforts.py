@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 import json
 from pathlib import Path
 
@@ -19,7 +20,7 @@ from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.efforts.sites import read
-from lacuna.discovery.efforts.smoother import Latent, Piece, Whitener, course, evidence
+from lacuna.discovery.efforts.smoother import Latent, Piece, Whitener, course, evidence, thinned
 from lacuna.discovery.explain import explain, judge_written, write_amended
 from lacuna.discovery.intervals import undetermined
 from lacuna.discovery.machine import Machine
@@ -112,6 +113,15 @@ def test_other_units_and_readings_at_other_rates_change_nothing() -> None:
     rows = sparse.data[np.isfinite(sparse.data).all(axis=2)]
     white = Whitener(sparse, LATENT)(sparse.data)
     np.testing.assert_allclose(white.T @ white, rows.T @ np.linalg.solve(cover, rows), rtol=1e-9)
+
+
+def test_a_model_without_states_is_thinned_too() -> None:
+    """As a device whose motion is imposed: its readings follow the effort at once."""
+    p, none = piece(7), np.zeros((7, 0, 0))
+    still = replace(p.along, step=none, drive=np.zeros((7, 0, 2)), read=np.zeros((7, 2, 0)))
+    thin = thinned(replace(p, along=still, start=np.zeros(0)), 3)
+    np.testing.assert_array_equal(thin.data, p.data[::3])
+    assert thin.along.step.shape == (2, 0, 0)
 
 
 def test_an_effort_of_no_size_is_none() -> None:

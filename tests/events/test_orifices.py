@@ -33,11 +33,10 @@ def tanks(folder: Path, law: str) -> runtime.Model:
 @pytest.mark.parametrize("law", LAWS)
 def test_the_fall_to_rest(tmp_path: Path, law: str, solver: str) -> None:
     """d' = -2 sqrt(d): d = (sqrt(d0) - t)^2, and at rest from t = 1 on."""
-    if law in ("branches", "turned round") and solver == "ida":
-        pytest.skip("IDA's noise at rest switches the branches to and fro, which it refuses as chattering")
     result = runtime.simulate(tanks(tmp_path, law), solver=solver, stop=3.0, interval=0.1, rtol=1e-8)
-    assert result.complete, result.failure
     t = result["time"]
+    if not result.complete:  # IDA's noise at rest may switch the branches to and fro: refused, and right until then
+        assert solver == "ida" and "chattering" in result.failure.message and t[-1] > 0.9
     assert result["d"] == pytest.approx(np.maximum(1 - t, 0) ** 2, abs=2e-6)
 
 

@@ -12,7 +12,7 @@ from lacuna.codegen.search_path import search_path
 from lacuna.runtime.model import Model
 from lacuna.runtime.simulation import simulate
 
-MODEL = Path(__file__).parents[1] / "models" / "DcServoOfParts.mo"
+MODEL = Path(__file__).parents[1] / "models" / "library" / "DcServoOfParts.mo"
 PAIRS = {"ours.i": "inductor.i", "ours.w": "shaft.w", "ours.theta": "shaft.phi"}
 
 
