@@ -12,10 +12,11 @@ a branch. So
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 from lacuna.codegen import flat
-from lacuna.codegen.symbolic.expr import ZERO, Expr, maximum, minimum, neg, rebuild, sub, transform, walk
+from lacuna.codegen.symbolic.expr import ZERO, Expr, maximum, minimum, neg, node, rebuild, sub, transform, walk
 
 _FUNCTIONS = ("sqrt", "log", "log10", "asin", "acos")
 _STRICT = (">", "<", ">=", "<=")
@@ -32,16 +33,20 @@ def is_call(n: Expr, name: str) -> bool:
     return n.op == "call" and n.value == name
 
 
-def under_roots(equations: list[flat.Equation]) -> set[Expr]:
-    """x of every abs(x) in the argument of a function that ends."""
-    return {
-        inner.args[0]
-        for e in equations
-        for n in (*walk(e.lhs), *walk(e.rhs))
-        if ends(n)
-        for inner in walk(n.args[0])
-        if is_call(inner, "abs")
-    }
+def without_corner(product: Expr) -> Expr | None:
+    """sign(x) beside a factor such as sqrt(abs(x)) without an event; None where the product is no such law."""
+    factors = list(_factors(product))
+    rooted = {inner.args[0] for f in factors if ends(f) for inner in walk(f.args[0]) if is_call(inner, "abs")}
+    signs = {f: node("noEvent", (f,)) for f in factors if is_call(f, "sign") and f.args[0] in rooted}
+    return transform(product, signs.get, {}) if signs else None
+
+
+def _factors(e: Expr) -> Iterator[Expr]:
+    if e.op in ("*", "/", "neg"):
+        for a in e.args:
+            yield from _factors(a)
+    else:
+        yield e
 
 
 def keep_promises(equations: list[flat.Equation]) -> list[flat.Equation]:

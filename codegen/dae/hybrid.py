@@ -17,7 +17,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from lacuna.codegen import flat
-from lacuna.codegen.dae.ends import ends, is_call, keep_promises, under_roots
+from lacuna.codegen.dae.ends import ends, is_call, keep_promises, without_corner
 from lacuna.codegen.dae.relations import Relation, canonical, complement, within
 from lacuna.codegen.errors import Span
 from lacuna.codegen.symbolic.affine import affine
@@ -64,7 +64,7 @@ class Hybrid:
 
 def analyse(model: flat.FlatModel) -> Hybrid:
     """Freeze relations and lower the event-generating operators of `model`."""
-    freezer = _Freezer(model.variables, model.span, under_roots(model.equations))
+    freezer = _Freezer(model.variables, model.span)
     equations = [freezer.equation(e) for e in keep_promises(model.equations)]
     whens = [freezer.when(w) for w in model.whens]
     algorithms = [freezer.algorithm(a) for a in model.algorithms]
@@ -94,7 +94,7 @@ def strip(e: Expr) -> Expr:
 
 
 class _Freezer:
-    def __init__(self, variables: dict[str, flat.Variable], span: Span, rooted: set[Expr]):
+    def __init__(self, variables: dict[str, flat.Variable], span: Span):
         self.variables = dict(variables)
         self.relations: list[Relation] = []
         self.samples: list[tuple[Expr, Expr]] = []
@@ -105,7 +105,6 @@ class _Freezer:
         self._numbers: dict[tuple[Expr, Expr], int] = {}
         self._ticks: dict[Expr, int] = {}
         self._floors: dict[Expr, Expr] = {}
-        self._rooted = rooted  # x of every sqrt(abs(x))
         self._written = ZERO  # the call that is being lowered
         self.bodies = Rewriter(self._body_rule)
 
@@ -184,8 +183,8 @@ class _Freezer:
             return self._relation(left, right, positive, str(n) if positive else str(complement(n)))
         if ends(n):
             return rebuild(n, tuple(transform(a, self._under_root, {}) for a in n.args))
-        if is_call(n, "sign") and n.args[0] in self._rooted:
-            return call("sign", self.freeze(n.args[0]))
+        if n.op in ("*", "/") and (law := without_corner(n)) is not None:
+            return self.freeze(law)
         if n.op in ("min", "max") and self._continuous(n):
             a, b = map(self.freeze, n.args)
             left, right = (b, a) if n.op == "max" else (a, b)

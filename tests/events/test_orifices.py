@@ -54,3 +54,19 @@ def test_a_root_that_has_no_value_on_its_own_branch_is_refused(tmp_path: Path) -
     result = runtime.simulate(compiled(tmp_path, TANKS.format(law=law)), solver="dopri5", stop=3.0)
     assert not result.complete
     assert "not a finite number" in result.failure.message
+
+
+def test_a_sign_that_stands_by_itself_keeps_its_event(tmp_path: Path) -> None:
+    """Dry friction beside an orifice of the same quantity."""
+    text = """model Both
+  Real v(start=1, fixed=true); Real drag; Real friction;
+equation
+  der(v) = -2 + 0*drag;
+  drag = 3*sqrt(abs(v))*sign(v);
+  friction = 0.1*sign(v);
+end Both;"""
+    result = runtime.simulate(compiled(tmp_path, text), solver="dopri5", stop=1.0)
+    assert result.complete, result.failure
+    assert [e.time for e in result.event_log if e.direction] == pytest.approx([0.5] * len(result.event_log), abs=1e-9)
+    assert result.event_log
+    assert result["friction"][-1] == -0.1
