@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from bench.progress import progress_bar
 from lacuna.analysis.map.maps import build_map
 from lacuna.analysis.map.plant import ModelPlant
-from lacuna.analysis.progress import progress_bar
 from lacuna.analysis.settings import load_settings
 from lacuna.analysis.severity.combined.grid import build_grid, other_fault
 from lacuna.analysis.severity.combined.report import write_studies

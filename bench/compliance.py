@@ -18,8 +18,8 @@ from bench.msl import first_finding
 from lacuna.codegen import cache
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.errors import Diagnostic
-from lacuna.codegen.library import Library
-from lacuna.codegen.search_path import search_path
+from lacuna.codegen.library.classes import Library
+from lacuna.codegen.library.search_path import search_path
 from lacuna.runtime.errors import SimulationError
 from lacuna.runtime.model import Model
 from lacuna.runtime.simulation import Session

@@ -11,7 +11,7 @@ import time
 import numpy as np
 
 from bench.generated import ROOT
-from lacuna.discovery import cases
+from lacuna.discovery.case import cases
 from lacuna.discovery.explain import explain
 from lacuna.runtime import Session
 

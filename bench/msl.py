@@ -17,8 +17,8 @@ from bench import isolated, msl_page
 from bench.trajectories import deviation, read_reference
 from lacuna.codegen.compile import compile_model, translate
 from lacuna.codegen.errors import Diagnostic
-from lacuna.codegen.library import Library
-from lacuna.codegen.search_path import search_path
+from lacuna.codegen.library.classes import Library
+from lacuna.codegen.library.search_path import search_path
 from lacuna.codegen.syntax import ast
 from lacuna.runtime.errors import SimulationError
 from lacuna.runtime.model import Model

@@ -12,10 +12,11 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-from lacuna.codegen.library import Library
-from lacuna.discovery import cases, diagnosis, report
-from lacuna.discovery.cases import Case, Recording
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.case import cases
+from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.explain import Explanation, explain, write_amended
+from lacuna.discovery.explanation import diagnosis, report
 
 ROOT = Path(__file__).parents[1]
 PAGE = ROOT / "docs" / "real-machines.md"

@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from bench.progress import progress_bar
 from lacuna.analysis.map.maps import build_map
 from lacuna.analysis.map.plant import ModelPlant
-from lacuna.analysis.progress import progress_bar
 from lacuna.analysis.report.robustness import write_study
 from lacuna.analysis.settings import load_settings
 from lacuna.analysis.severity.preparation import prepare_assessment

@@ -21,10 +21,10 @@ import tempfile
 
 from lacuna.codegen import flat
 from lacuna.codegen.dae.prepared import Prepared
-from lacuna.codegen.emit.c_text import SourceNames
+from lacuna.codegen.emit.text.c_text import SourceNames
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.search_path import names_in, split_name
-from lacuna.codegen.search_path import search_path as default_path
+from lacuna.codegen.library.search_path import names_in, split_name
+from lacuna.codegen.library.search_path import search_path as default_path
 import lacuna.units
 
 COMPILER = (

@@ -24,15 +24,15 @@ from lacuna.codegen.dae.storage import Storage
 from lacuna.codegen.emit.source import generate
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten import flatten
-from lacuna.codegen.library import Library
+from lacuna.codegen.library.classes import Library
 from lacuna.codegen.structure.aliases import eliminate_aliases
 from lacuna.codegen.structure.causal import causalise
 from lacuna.codegen.structure.constants import precompute, precompute_inverses
-from lacuna.codegen.structure.index_reduction import reduce_index
+from lacuna.codegen.structure.index.index_reduction import reduce_index
 from lacuna.codegen.structure.nominal import infer
 from lacuna.codegen.structure.residual_form import jacobian, residual_form
+from lacuna.codegen.structure.sorting.tearing import Tearing
 from lacuna.codegen.structure.system import DeclaredValues
-from lacuna.codegen.structure.tearing import Tearing
 from lacuna.codegen.symbolic.expr import Expr, own_table
 
 T = TypeVar("T")

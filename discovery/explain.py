@@ -7,11 +7,13 @@ from dataclasses import replace
 from pathlib import Path
 import time
 
-from lacuna.codegen.library import Library
-from lacuna.discovery.cases import Case
-from lacuna.discovery.comparison import Ranked
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.case.cases import Case
+from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.efforts.find import INDIFFERENT
-from lacuna.discovery.evidence import (
+from lacuna.discovery.explanation.experiments import separate
+from lacuna.discovery.explanation.explanation import Clock, Explanation
+from lacuna.discovery.fit.evidence import (
     astray,
     holds,
     is_noise,
@@ -21,12 +23,10 @@ from lacuna.discovery.evidence import (
     settled,
     whiteness,
 )
-from lacuna.discovery.experiments import separate
-from lacuna.discovery.explanation import Clock, Explanation
-from lacuna.discovery.judge import judge_file
+from lacuna.discovery.fit.time_limit import within
+from lacuna.discovery.naming.comparison import Ranked
+from lacuna.discovery.naming.judge import judge_file
 from lacuna.discovery.steps import add_findings, add_fit, add_location, add_scatter, opened
-from lacuna.discovery.time_limit import within
-from lacuna.discovery.values import is_parameter
 
 LEAST_TAKEN = 0.2  # of the NRMSE on unseen recordings, that findings which leave far more than noise must take away
 

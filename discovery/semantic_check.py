@@ -13,11 +13,11 @@ import math
 import numpy as np
 from scipy.signal import lfilter
 
-from lacuna.discovery.cases import Recording
-from lacuna.discovery.least_squares import Free
-from lacuna.discovery.machine import Machine
-from lacuna.discovery.recordings_check import Problem, longest_run
-from lacuna.discovery.tracking import filled
+from lacuna.discovery.case.cases import Recording
+from lacuna.discovery.case.recordings_check import Problem, longest_run
+from lacuna.discovery.fit.least_squares import Free
+from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.tracking import filled
 
 SCALES = {
     -1.0: "its sign is reversed", 1000.0: "it is 1000 times too large", 1e-3: "it is 1000 times too small",

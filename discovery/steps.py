@@ -7,28 +7,28 @@ from dataclasses import replace
 
 import numpy as np
 
-from lacuna.codegen.library import Library
-from lacuna.discovery import catalogue, places
-from lacuna.discovery.amend import Amendment
-from lacuna.discovery.beyond import explain_beyond
-from lacuna.discovery.cases import Case, CaseError
-from lacuna.discovery.comparison import MIN_GAIN
-from lacuna.discovery.dips import explored, is_smooth
-from lacuna.discovery.evidence import astray, is_noise, nearly_noise, outside_belief
-from lacuna.discovery.explanation import Explanation
-from lacuna.discovery.fit import Fit, believed, carried, falling_bandwidths, fit, noise_of
-from lacuna.discovery.hypotheses import enumerate_attachments
-from lacuna.discovery.judge import judge, noise_floor, try_judge
-from lacuna.discovery.lead import ROUGH, Lead, lead_for
-from lacuna.discovery.locate import locate
-from lacuna.discovery.machine import Machine
-from lacuna.discovery.name import rank
-from lacuna.discovery.open_world import explain_open
-from lacuna.discovery.recordings_check import check_case
-from lacuna.discovery.search import Search
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.case.cases import Case, CaseError
+from lacuna.discovery.case.recordings_check import check_case
+from lacuna.discovery.catalogue import catalogue, places
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
+from lacuna.discovery.explanation.explanation import Explanation
+from lacuna.discovery.fit.evidence import astray, is_noise, nearly_noise, outside_belief
+from lacuna.discovery.fit.fit import Fit, believed, carried, falling_bandwidths, fit, noise_of
+from lacuna.discovery.fit.lead import ROUGH, Lead, lead_for
+from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.time_limit import TimeUp
+from lacuna.discovery.fit.tracking import trackable
+from lacuna.discovery.law.beyond import explain_beyond
+from lacuna.discovery.law.locate import locate
+from lacuna.discovery.law.open_world import explain_open
+from lacuna.discovery.naming.comparison import MIN_GAIN
+from lacuna.discovery.naming.dips import explored, is_smooth
+from lacuna.discovery.naming.judge import judge, noise_floor, try_judge
+from lacuna.discovery.naming.name import rank
+from lacuna.discovery.naming.search import Search
 from lacuna.discovery.semantic_check import check_against_model
-from lacuna.discovery.time_limit import TimeUp
-from lacuna.discovery.tracking import trackable
 
 Progress = Callable[[str], None]
 

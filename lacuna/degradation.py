@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from lacuna.analysis.errors import AnalysisError
-from lacuna.analysis.prognosis.law import Law, severities
+from lacuna.analysis.prognosis.filter.law import Law, severities
 from lacuna.codegen.compile import compile_model
-from lacuna.codegen.library import Library
+from lacuna.codegen.library.classes import Library
 from lacuna.codegen.syntax import ast
 from lacuna.runtime import Model, Session
 

@@ -12,9 +12,9 @@ from lacuna.notebook import page, paragraph, table
 from lacuna.progress import Progress, spoken
 
 if TYPE_CHECKING:
-    from lacuna.discovery import cases
-    from lacuna.discovery.explanation import Explanation as Found
-    from lacuna.discovery.judge import Judgement
+    from lacuna.discovery.case import cases
+    from lacuna.discovery.explanation.explanation import Explanation as Found
+    from lacuna.discovery.naming.judge import Judgement
 
 Verdict = Literal["missing_physics", "parameters", "consistent", "undetermined"]
 LIMIT = 600.0  # s, of a search
@@ -127,7 +127,7 @@ class Case:
 
     @names_missing_packages
     def __init__(self, folder: str | Path, libraries: Iterable[str | Path] = ()) -> None:
-        from lacuna.discovery.cases import load
+        from lacuna.discovery.case.cases import load
 
         self.folder = Path(folder)
         self._case: cases.Case = load(self.folder, list(libraries))
@@ -146,10 +146,10 @@ class Case:
         self, *, out: str | Path | None = None, limit: float = LIMIT, progress: Progress | None = None
     ) -> Explanation:
         """See `lacuna.explain`."""
-        from lacuna.discovery import diagnosis
         from lacuna.discovery.explain import explain as explained
         from lacuna.discovery.explain import judge_written, write_amended
-        from lacuna.discovery.store import kept
+        from lacuna.discovery.explanation import diagnosis
+        from lacuna.discovery.fit.store import kept
 
         folder = self._out("explain", out)
         with kept(folder / ".unfinished"):
@@ -214,10 +214,10 @@ class Case:
     @names_missing_packages
     def judge(self, model: str | Path, *, out: str | Path | None = None, progress: Progress | None = None) -> Judged:
         """How well does a model file, as written, simulate the recordings that nothing was fitted to?"""
-        from lacuna.discovery import places
-        from lacuna.discovery.amend import Amendment
-        from lacuna.discovery.judge import judge_file
-        from lacuna.discovery.report import write_judgement
+        from lacuna.discovery.catalogue import places
+        from lacuna.discovery.catalogue.amend import Amendment
+        from lacuna.discovery.explanation.report import write_judgement
+        from lacuna.discovery.naming.judge import judge_file
 
         path = Path(model)
         path.open().close()  # an unreadable file is said before anything is simulated
@@ -237,7 +237,7 @@ class Case:
         self, found: Found, folder: Path, amended: Path | None = None, *, ranking: tuple[tuple[str, ...], ...] = (),
         ranked: tuple[str, ...] = (), remark: str = "", written: tuple[Path, ...] = (), concluded: bool = False,
     ) -> Explanation:  # fmt: skip
-        from lacuna.discovery import diagnosis, report
+        from lacuna.discovery.explanation import diagnosis, report
 
         page_of = report.write(found, folder, amended)
         files = (*written, page_of, *([amended] if amended else []))

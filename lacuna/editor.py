@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-from lacuna.codegen.search_path import search_path
+from lacuna.codegen.library.search_path import search_path
 from lacuna.extras import names_missing_packages
 from lacuna.lsp.format import format_text
 

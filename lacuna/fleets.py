@@ -37,10 +37,10 @@ def fleet(
     of `scheduler`; what is done is kept in out/parts, and a run that was killed goes on there. Needs the extra
     `distributed`. Raises AnalysisError as `forecast` does.
     """
-    from lacuna.analysis.prognosis.bank import Bank
+    from lacuna.analysis.prognosis.filter.bank import Bank
     from lacuna.analysis.prognosis.fleet import FleetWork, run_fleet
     from lacuna.analysis.prognosis.forecast import Options
-    from lacuna.analysis.prognosis.overview import overview
+    from lacuna.analysis.prognosis.pages.overview import overview
 
     settings = map_settings(map)
     read = _histories(histories)
@@ -62,7 +62,7 @@ def _histories(source: Path | str) -> list[Any]:
     from lacuna.analysis.prognosis.history import FILES, read_histories
 
     if "://" in str(source) or Path(source).suffix in (".db", ".sqlite"):
-        from lacuna.analysis.history.store import Store
+        from lacuna.analysis.prognosis.store import Store
 
         return Store(source).histories()
     path = Path(source)

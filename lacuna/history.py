@@ -13,7 +13,7 @@ from lacuna.extras import names_missing_packages
 from lacuna.progress import Progress, counted, spoken
 
 if TYPE_CHECKING:
-    from lacuna.analysis.history.store import Entry
+    from lacuna.analysis.prognosis.store import Entry
 
 TWO_SIDED_95 = 1.959964
 
@@ -39,7 +39,7 @@ def remember(
     again; a newer map's reading is, beside the older one. `replaced`: the part is new since the test before. Raises
     AnalysisError where the recording is refused or the store cannot be used. Needs the extras `maps` and `history`.
     """
-    from lacuna.analysis.history.store import Entry, Store, file_hash
+    from lacuna.analysis.prognosis.store import Entry, Store, file_hash
 
     path = Path(recording).resolve()
     spoken(progress)(f"assessing {path.name}")
@@ -69,7 +69,7 @@ def refresh(
 
     What this map refuses keeps its reading: an AnalysisError names it, after all the others have been read.
     """
-    from lacuna.analysis.history.store import Store
+    from lacuna.analysis.prognosis.store import Store
 
     again = {entry.recording: entry for entry in Store(store).outdated(map_hash(Path(map)))}
     new, refused = 0, []
@@ -96,7 +96,7 @@ def _again(entry: Entry, map: str | Path, store: str | Path, columns: Sequence[s
 @names_missing_packages
 def export_history(store: str | Path, path: str | Path) -> None:
     """Write the store as a history.csv or .parquet, which `forecast` reads. Needs the extra `history`."""
-    from lacuna.analysis.history.store import Store
+    from lacuna.analysis.prognosis.store import Store
 
     Store(store).export(Path(path))
 

@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from lacuna.codegen.library import MODEL_KINDS, Library
-from lacuna.codegen.search_path import search_path
+from lacuna.codegen.library.classes import MODEL_KINDS, Library
+from lacuna.codegen.library.search_path import search_path
 from lacuna.extras import names_missing_packages
 from lacuna.runtime import SOLVERS
 
@@ -37,7 +37,7 @@ def list_models(inside: str | Path = "", *, libraries: Iterable[str | Path] = ()
 @names_missing_packages
 def list_effects(*, libraries: Iterable[str | Path] = ()) -> list[Entry]:
     """The catalogue that an explanation chooses from, identifier and title. Needs the extra `explain`."""
-    from lacuna.discovery.catalogue import read
+    from lacuna.discovery.catalogue.catalogue import read
 
     return [Entry(effect.identifier, effect.title) for effect in read(Library(search_path(libraries)))]
 

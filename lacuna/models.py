@@ -15,9 +15,9 @@ from lacuna.codegen.compile import CompiledModel, compile_model, translate
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flat.text import dump_flat
 from lacuna.codegen.flatten import flatten
-from lacuna.codegen.library import Library
-from lacuna.codegen.report import dump as dump_structure
-from lacuna.codegen.search_path import search_path
+from lacuna.codegen.library.classes import Library
+from lacuna.codegen.library.search_path import search_path
+from lacuna.codegen.structure.report import dump as dump_structure
 from lacuna.errors import UserError
 from lacuna.inputs import Input, as_inputs
 from lacuna.notebook import page, table

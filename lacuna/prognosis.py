@@ -10,10 +10,10 @@ from typing import Any
 
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis import diagnoses
-from lacuna.analysis.prognosis.bank import Bank
+from lacuna.analysis.prognosis.filter.bank import Bank
 from lacuna.analysis.prognosis.forecast import Forecast, Limits, Options, forecasts
 from lacuna.analysis.prognosis.history import Assess, History, read_histories
-from lacuna.analysis.prognosis.telling import counted_verdicts, forecast_json, sentence, urgency
+from lacuna.analysis.prognosis.pages.telling import counted_verdicts, forecast_json, sentence, urgency
 from lacuna.analysis.settings import PAPER, Settings, load_settings
 from lacuna.degradation import degradation_laws
 from lacuna.extras import names_missing_packages
@@ -90,7 +90,7 @@ def forecast(
     spoken(progress)("reading the history")
     if isinstance(history, Path | str):
         if "://" in str(history) or Path(history).suffix in (".db", ".sqlite"):
-            from lacuna.analysis.history.store import Store
+            from lacuna.analysis.prognosis.store import Store
 
             history = Store(history).histories(unit)
         else:
@@ -102,7 +102,7 @@ def forecast(
     own = {fault: diagnoses.SHARES if limits else limits_of(settings, fault) for fault in faults}
     said = forecasts(history, bank, lambda h: own[h.fault], options, progress=counted("forecasting", progress))
     if out is not None:
-        from lacuna.analysis.prognosis.publish import publish
+        from lacuna.analysis.prognosis.pages.publish import publish
 
         publish(said, bank, Path(out), risk, version("lacuna"))
     return Prognosis(said, risk)

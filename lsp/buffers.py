@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from lacuna.codegen.library import Library
+from lacuna.codegen.library.classes import Library
 from lacuna.codegen.syntax import ast, parse
 
 

@@ -10,7 +10,7 @@ import re
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flat import FlatModel
 from lacuna.codegen.flatten import flatten
-from lacuna.codegen.library import MODEL_KINDS, Library
+from lacuna.codegen.library.classes import MODEL_KINDS, Library
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.lexer import KEYWORDS
 from lacuna.lsp.buffers import BufferedLibrary

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.scope import base_classes, find_class, own_or_inherited
-from lacuna.codegen.library import Library
+from lacuna.codegen.flatten.names.scope import base_classes, find_class, own_or_inherited
+from lacuna.codegen.library.classes import Library
 from lacuna.codegen.syntax import ast
 from lacuna.lsp.document import Document, Name
 

@@ -18,7 +18,7 @@ import pyarrow.compute as pc
 import pyarrow.parquet as pq
 
 from lacuna.analysis.errors import AnalysisError
-from lacuna.analysis.prognosis.bank import Bank
+from lacuna.analysis.prognosis.filter.bank import Bank
 from lacuna.analysis.prognosis.forecast import Forecast, Limits, Options, fleet_prior, forecasts
 from lacuna.analysis.prognosis.history import UNITS, History
 

@@ -9,9 +9,9 @@ import math
 import numpy as np
 
 from lacuna.analysis.errors import AnalysisError
-from lacuna.analysis.prognosis.bank import Bank, Beliefs, in_use
-from lacuna.analysis.prognosis.crossing import Remaining, remaining
-from lacuna.analysis.prognosis.filter import Series, Step, run
+from lacuna.analysis.prognosis.filter.bank import Bank, Beliefs, in_use
+from lacuna.analysis.prognosis.filter.crossing import Remaining, remaining
+from lacuna.analysis.prognosis.filter.filter import Series, Step, run
 from lacuna.analysis.prognosis.history import History
 from lacuna.analysis.prognosis.series import joined, last_error, series_of
 from lacuna.analysis.prognosis.verdict import FEWEST, FORECAST, verdict_on

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from lacuna.analysis.prognosis.filter import Series
+from lacuna.analysis.prognosis.filter.filter import Series
 from lacuna.analysis.prognosis.history import TWO_SIDED_95, History
 
 

@@ -17,7 +17,7 @@ import lacuna
 from lacuna.analysis.files import load_arrays
 from lacuna.analysis.map.maps import build_map
 from lacuna.analysis.map.plant import ModelPlant
-from lacuna.analysis.prognosis.bank import Bank
+from lacuna.analysis.prognosis.filter.bank import Bank
 from lacuna.analysis.prognosis.forecast import fleet_prior
 from lacuna.analysis.settings import load_settings
 from lacuna.analysis.severity.preparation import prepare_assessment

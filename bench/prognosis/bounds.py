@@ -14,9 +14,9 @@ import numpy as np
 from bench.prognosis.fleet import Part
 from bench.prognosis.scores import Scores
 from bench.prognosis.study import walked
-from lacuna.analysis.prognosis.bank import Bank
-from lacuna.analysis.prognosis.law import Law
-from lacuna.analysis.prognosis.settings import DEFAULT
+from lacuna.analysis.prognosis.filter.bank import Bank
+from lacuna.analysis.prognosis.filter.law import Law
+from lacuna.analysis.prognosis.filter.settings import DEFAULT
 
 WANDER, SCATTER, SHOCKS = 0.1, 0.02, 0.08  # of truth.py
 # Lives of 20 to 120 tests, evenly in the logarithm: their median, and a spread of the same size.

@@ -12,9 +12,9 @@ import numpy as np
 from bench.prognosis.fleet import LIMIT, Part
 from bench.prognosis.rivals import NEVER, kalman_check, progpy_remaining, progpy_version, straight_line
 from bench.prognosis.scores import CHECKPOINTS, HORIZON, LEVELS, Scores, crps_of_samples
-from lacuna.analysis.prognosis.bank import Bank
-from lacuna.analysis.prognosis.crossing import Remaining, remaining
-from lacuna.analysis.prognosis.filter import run
+from lacuna.analysis.prognosis.filter.bank import Bank
+from lacuna.analysis.prognosis.filter.crossing import Remaining, remaining
+from lacuna.analysis.prognosis.filter.filter import run
 from lacuna.analysis.prognosis.forecast import LONG, Limits, forecasts
 from lacuna.analysis.prognosis.history import TWO_SIDED_95, History
 from lacuna.analysis.prognosis.series import joined, last_error, series_of

@@ -14,7 +14,7 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.constants import is_parametric
 from lacuna.codegen.symbolic.expr import TRUE, Expr, special
 from lacuna.codegen.symbolic.rewrite import assigned
-from lacuna.codegen.union_find import UnionFind
+from lacuna.codegen.symbolic.union_find import UnionFind
 
 Assigns = dict[str, flat.Assign]
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
-from lacuna.codegen.structure.blocks import strong_components
+from lacuna.codegen.structure.sorting.blocks import strong_components
 from lacuna.codegen.symbolic.expr import REAL, Expr
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import Rewriter, assigned, expressions

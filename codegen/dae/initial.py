@@ -11,9 +11,9 @@ from lacuna.codegen import flat
 from lacuna.codegen.dae.homotopy import rows_at_start
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.causal import Assignment, Step, causalise, unknowns_of
-from lacuna.codegen.structure.matching import Matching
+from lacuna.codegen.structure.sorting.matching import Matching
+from lacuna.codegen.structure.sorting.tearing import Tearing
 from lacuna.codegen.structure.system import Row, System
-from lacuna.codegen.structure.tearing import Tearing
 from lacuna.codegen.symbolic.expr import Expr, const, var
 
 

@@ -5,19 +5,19 @@ from __future__ import annotations
 from lacuna.codegen import flat
 from lacuna.codegen.dae.events import DiscreteEquation
 from lacuna.codegen.dae.prepared import Prepared
-from lacuna.codegen.emit.asserts import assert_index
-from lacuna.codegen.emit.c_text import SourceNames, c_comment, c_string
-from lacuna.codegen.emit.checks import Checks
-from lacuna.codegen.emit.continuous import Continuous
-from lacuna.codegen.emit.discrete import Discrete
-from lacuna.codegen.emit.equations import EquationTable
-from lacuna.codegen.emit.expression import number
-from lacuna.codegen.emit.large import Large
-from lacuna.codegen.emit.names import Names
-from lacuna.codegen.emit.prelude import helpers
-from lacuna.codegen.emit.tables import Tables
-from lacuna.codegen.emit.tangents import Tangents
-from lacuna.codegen.emit.user_functions import calls, user_functions
+from lacuna.codegen.emit.callbacks.asserts import assert_index
+from lacuna.codegen.emit.callbacks.checks import Checks
+from lacuna.codegen.emit.callbacks.continuous import Continuous
+from lacuna.codegen.emit.callbacks.discrete import Discrete
+from lacuna.codegen.emit.callbacks.equations import EquationTable
+from lacuna.codegen.emit.callbacks.large import Large
+from lacuna.codegen.emit.callbacks.tables import Tables
+from lacuna.codegen.emit.derivatives.tangents import Tangents
+from lacuna.codegen.emit.functions.prelude import helpers
+from lacuna.codegen.emit.functions.user_functions import calls, user_functions
+from lacuna.codegen.emit.text.c_text import SourceNames, c_comment, c_string
+from lacuna.codegen.emit.text.expression import number
+from lacuna.codegen.emit.text.names import Names
 from lacuna.codegen.structure.causal import expressions_of
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.symbolic.rewrite import expressions

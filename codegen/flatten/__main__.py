@@ -5,7 +5,7 @@ import sys
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flat.text import dump_flat
 from lacuna.codegen.flatten import flatten
-from lacuna.codegen.library import Library
+from lacuna.codegen.library.classes import Library
 
 if __name__ == "__main__":
     try:

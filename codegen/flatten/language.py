@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from lacuna.codegen.flatten import arrays, calls, iterators, lower, overloads
-from lacuna.codegen.flatten.context import Lowering
-from lacuna.codegen.flatten.functions import run
-from lacuna.codegen.flatten.overconstrained import is_root, rooted
-from lacuna.codegen.flatten.references import read
-from lacuna.codegen.flatten.streams import actual_stream, in_stream
-from lacuna.codegen.flatten.structure import cardinality
+from lacuna.codegen.flatten.connections.overconstrained import is_root, rooted
+from lacuna.codegen.flatten.connections.streams import actual_stream, in_stream
+from lacuna.codegen.flatten.connections.structure import cardinality
+from lacuna.codegen.flatten.expressions import arrays, lower
+from lacuna.codegen.flatten.functions import calls, overloads
+from lacuna.codegen.flatten.functions.declared import run
+from lacuna.codegen.flatten.names.context import Lowering
+from lacuna.codegen.flatten.references import iterators
+from lacuna.codegen.flatten.references.references import read
 from lacuna.codegen.syntax import ast
 
 _OF_CONNECTIONS = {

@@ -9,23 +9,23 @@ from pathlib import Path
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.algorithms import flatten_algorithm
-from lacuna.codegen.flatten.connections import connection_equations
-from lacuna.codegen.flatten.constants import evaluate
-from lacuna.codegen.flatten.context import Context
-from lacuna.codegen.flatten.equations import Collected, check_discrete
-from lacuna.codegen.flatten.expandable import expand
-from lacuna.codegen.flatten.instance import ArrayNode, Instance, Node
+from lacuna.codegen.flatten.classes.instance import ArrayNode, Instance, Node
+from lacuna.codegen.flatten.classes.leaf import Leaf
+from lacuna.codegen.flatten.connections.connections import connection_equations
+from lacuna.codegen.flatten.connections.expandable import expand
+from lacuna.codegen.flatten.connections.streams import stream_variables
+from lacuna.codegen.flatten.connections.structure import Structure
+from lacuna.codegen.flatten.equations.algorithms import flatten_algorithm
+from lacuna.codegen.flatten.equations.equations import Collected, check_discrete
+from lacuna.codegen.flatten.equations.variables import add_used_constants, flatten_variables, mark_discrete
+from lacuna.codegen.flatten.expressions.constants import evaluate
+from lacuna.codegen.flatten.expressions.lower import lower_scalar
 from lacuna.codegen.flatten.language import LOWERING
-from lacuna.codegen.flatten.leaf import Leaf
-from lacuna.codegen.flatten.lower import lower_scalar
-from lacuna.codegen.flatten.modifiers import Modifier
-from lacuna.codegen.flatten.scope import Scope
+from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.modifiers import Modifier
+from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.sections import flatten_items
-from lacuna.codegen.flatten.streams import stream_variables
-from lacuna.codegen.flatten.structure import Structure
-from lacuna.codegen.flatten.variables import add_used_constants, flatten_variables, mark_discrete
-from lacuna.codegen.library import MODEL_KINDS, Library
+from lacuna.codegen.library.classes import MODEL_KINDS, Library
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.symbolic.rewrite import assigned, expressions

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
-from lacuna.codegen.flatten.asserts import lower_assert
-from lacuna.codegen.flatten.conditionals import flatten_if
-from lacuna.codegen.flatten.effects import effect
-from lacuna.codegen.flatten.equations import Collected, equalities, unroll
-from lacuna.codegen.flatten.overconstrained import STATEMENTS, graph_of
-from lacuna.codegen.flatten.scope import Scope
-from lacuna.codegen.flatten.when import flatten_when
+from lacuna.codegen.flatten.connections.overconstrained import STATEMENTS, graph_of
+from lacuna.codegen.flatten.equations.asserts import lower_assert
+from lacuna.codegen.flatten.equations.conditionals import flatten_if
+from lacuna.codegen.flatten.equations.effects import effect
+from lacuna.codegen.flatten.equations.equations import Collected, equalities, unroll
+from lacuna.codegen.flatten.equations.when import flatten_when
+from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.syntax import ast
 
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from lacuna.codegen.structure.blocks import strong_components
-from lacuna.codegen.structure.matching import Matching
 from lacuna.codegen.structure.reach import Reach, users_of
+from lacuna.codegen.structure.sorting.blocks import strong_components
+from lacuna.codegen.structure.sorting.matching import Matching
+from lacuna.codegen.structure.sorting.tearing import Assignment, Tearing
 from lacuna.codegen.structure.system import Row
-from lacuna.codegen.structure.tearing import Assignment, Tearing
 from lacuna.codegen.symbolic.affine import UNSAFE, isolate
 from lacuna.codegen.symbolic.differentiate import Differentiator
 from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, neg

@@ -10,8 +10,8 @@ from operator import or_
 
 from lacuna.codegen.structure.causal import LinearBlock, Step, unknowns_of
 from lacuna.codegen.structure.reach import Reach, Users, users_of
+from lacuna.codegen.structure.sorting.tearing import Assignment, Tearing, Torn
 from lacuna.codegen.structure.system import Row, System
-from lacuna.codegen.structure.tearing import Assignment, Tearing, Torn
 from lacuna.codegen.symbolic.differentiate import Differentiator
 from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, der, is_const, substitute, var
 from lacuna.codegen.symbolic.leaves import leaves

@@ -251,7 +251,7 @@ class Class:
     annotation: Modification | None = None
     parent: Class | None = None
     within: str = ""
-    # Of a class as seen from another (flatten/views.py):
+    # Of a class as seen from another (flatten/names/views.py):
     origin: Class | None = None
     redeclared: dict[str, Class] = field(default_factory=dict)
     whole: Class | None = None

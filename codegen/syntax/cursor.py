@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.suggest import did_you_mean
+from lacuna.codegen.library.suggest import did_you_mean
 from lacuna.codegen.syntax.lexer import KEYWORDS, Source
 
 MAX_DEPTH = 100

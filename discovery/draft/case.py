@@ -11,9 +11,9 @@ import numpy as np
 
 from lacuna.analysis.recording.heads import Head
 from lacuna.codegen.compile import compile_model
-from lacuna.codegen.search_path import search_path, split_name
-from lacuna.discovery import noise
-from lacuna.discovery.cases import CaseError
+from lacuna.codegen.library.search_path import search_path, split_name
+from lacuna.discovery.case import noise
+from lacuna.discovery.case.cases import CaseError
 from lacuna.discovery.draft.match import Match, Target, matched
 from lacuna.discovery.draft.recorded import Recording, parted, read_recording, write_recorded
 from lacuna.discovery.draft.write import Column, Draft, case_toml

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import re
 
 from lacuna.analysis.recording.heads import Head
-from lacuna.codegen.suggest import distance
+from lacuna.codegen.library.suggest import distance
 from lacuna.recorded_units import to_si
 from lacuna.units import parse_unit
 

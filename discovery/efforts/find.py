@@ -11,19 +11,19 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from lacuna.codegen.library import Library
-from lacuna.discovery.amend import Amendment
-from lacuna.discovery.cases import Case
-from lacuna.discovery.comparison import score
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.case.cases import Case
+from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.efforts.screening import proposals
-from lacuna.discovery.empirical_law import fitted_law, simplified
-from lacuna.discovery.evidence import nearly_noise, settled
-from lacuna.discovery.fit import Fit
-from lacuna.discovery.law_screen import Proposal
-from lacuna.discovery.screen import Candidate
+from lacuna.discovery.fit.evidence import nearly_noise, settled
+from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.law.empirical_law import fitted_law, simplified
+from lacuna.discovery.law.law_screen import Proposal
+from lacuna.discovery.naming.comparison import score
+from lacuna.discovery.naming.screen import Candidate
 from lacuna.runtime import SimulationError
 
 PLACES = 3  # at most, at which laws are fitted

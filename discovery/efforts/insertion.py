@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from lacuna.discovery.amend import Attachment
-from lacuna.discovery.catalogue import Effect, EffectParameter
+from lacuna.discovery.catalogue.amend import Attachment
+from lacuna.discovery.catalogue.catalogue import Effect, EffectParameter
 from lacuna.discovery.efforts.sites import Site
 
 Signal = tuple[str, str, str]  # name in the component, expression of the model, unit

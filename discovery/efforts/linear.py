@@ -17,9 +17,9 @@ from lacuna.codegen import flat
 from lacuna.codegen.compile import translate
 from lacuna.codegen.symbolic.differentiate import Differentiator, partial
 from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, var
-from lacuna.discovery.cases import Recording
+from lacuna.discovery.case.cases import Recording
 from lacuna.discovery.efforts.numeric import Evaluator, NotNumeric, Value, table
-from lacuna.discovery.machine import Machine
+from lacuna.discovery.fit.machine import Machine
 from lacuna.runtime import RecordedInput
 
 NEWTON = 4  # rounds at most; the trajectory solves the equations, only the derivatives are to be found

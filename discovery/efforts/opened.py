@@ -15,14 +15,14 @@ import numpy as np
 from lacuna.codegen.cache import CompilerError
 from lacuna.codegen.compile import translate
 from lacuna.codegen.errors import Diagnostic
-from lacuna.codegen.library import Library
+from lacuna.codegen.library.classes import Library
 from lacuna.codegen.units.inference import UnitInference, of_variable
-from lacuna.discovery.amend import Amendment
-from lacuna.discovery.cases import Case
+from lacuna.discovery.case.cases import Case
+from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.insertion import probe
 from lacuna.discovery.efforts.linear import Along, Linear
 from lacuna.discovery.efforts.sites import Site, read
-from lacuna.discovery.machine import Machine, write_source
+from lacuna.discovery.fit.machine import Machine, write_source
 from lacuna.units import Unit
 
 ALIKE = 1e-5  # of a direction, by which two places may differ: rounding of the linearisation

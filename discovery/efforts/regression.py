@@ -14,8 +14,8 @@ import numpy as np
 
 from lacuna.discovery.efforts.located import Guided, thinned_all
 from lacuna.discovery.efforts.smoother import Latent, Piece, Whitener
-from lacuna.discovery.law import Site
-from lacuna.discovery.law_terms import Group
+from lacuna.discovery.law.law import Site
+from lacuna.discovery.law.law_terms import Group
 
 DISCREPANCIES = (0.3, 0.03)  # of the located effort's size, that a law may leave
 NEAR = 5.0  # believed sigmas, within which parameters are looked for

@@ -10,10 +10,10 @@ from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.located import Guided, Locator, Site
 from lacuna.discovery.efforts.regression import Regression
 from lacuna.discovery.efforts.terms import groups, variables
-from lacuna.discovery.law import Law
-from lacuna.discovery.law import Site as LawSite
-from lacuna.discovery.law_screen import Proposal
-from lacuna.discovery.law_terms import Group
+from lacuna.discovery.law.law import Law
+from lacuna.discovery.law.law import Site as LawSite
+from lacuna.discovery.law.law_screen import Proposal
+from lacuna.discovery.law.law_terms import Group
 
 KINDS = 40  # kinds of terms that are kept
 FAMILIES = 12  # kinds of terms whose shapes are refined

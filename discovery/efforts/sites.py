@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from lacuna.codegen.errors import Span
-from lacuna.codegen.flatten.context import Context
-from lacuna.codegen.flatten.inheritance import written
-from lacuna.codegen.flatten.instance import Instance
+from lacuna.codegen.flatten.classes.inheritance import written
+from lacuna.codegen.flatten.classes.instance import Instance
 from lacuna.codegen.flatten.language import LOWERING
-from lacuna.codegen.library import Library
+from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.library.classes import Library
 from lacuna.codegen.syntax import ast
 
 

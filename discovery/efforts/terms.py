@@ -13,7 +13,7 @@ import numpy as np
 
 from lacuna.codegen.units.inference import SECOND
 from lacuna.discovery.efforts.linear import Along
-from lacuna.discovery.law_terms import DRY, Group, Shape, Variable
+from lacuna.discovery.law.law_terms import DRY, Group, Shape, Variable
 from lacuna.units import parse_unit
 
 MOST = 12  # variables at a place, the nearest first: their pairs are what a search costs

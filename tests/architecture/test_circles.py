@@ -47,4 +47,4 @@ def test_modules_import_in_no_circle(folder: str) -> None:
 def test_the_imports_are_found() -> None:
     graph = import_graph("codegen")
     assert {"lacuna.codegen.flatten", "lacuna.codegen.emit.source"} <= graph["lacuna.codegen.compile"]
-    assert "lacuna.codegen.flatten.calls" in graph["lacuna.codegen.flatten.language"]
+    assert "lacuna.codegen.flatten.functions.calls" in graph["lacuna.codegen.flatten.language"]

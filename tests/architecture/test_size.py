@@ -5,13 +5,17 @@ The limits are for readers, so nothing is split at a number: an exception is fin
 from __future__ import annotations
 
 import ast
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 import re
 
+import pytest
+
 from tests.architecture.sources import FOLDERS, ROOT, files
 
 FILE_LIMIT, FUNCTION_LIMIT = 300, 50
+ROOMS = 12
 
 LONG_FILES = {
     "codegen/symbolic/expr.py": "one table of node types, their builders, rules and printer: they change together",
@@ -38,6 +42,15 @@ def test_files_are_small() -> None:
     }
     assert {name: lines for name, lines in long.items() if name not in LONG_FILES} == {}
     assert set(LONG_FILES) <= set(long), "an exception that is no longer needed"
+
+
+@pytest.mark.parametrize("stage", ["codegen", "analysis", "discovery"])
+def test_every_folder_opens_to_a_dozen_rooms(stage: str) -> None:
+    modules = {path for path in files(stage, ".py") if path.name != "__init__.py"}
+    rooms = modules | {path.parent for path in modules if path.parent != ROOT / stage}
+    inside = Counter(str(room.parent.relative_to(ROOT)) for room in rooms)
+    assert inside[stage] > 1
+    assert {folder: count for folder, count in inside.items() if count > ROOMS} == {}
 
 
 def python_functions(path: Path) -> Iterator[tuple[str, int]]:

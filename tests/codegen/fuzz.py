@@ -19,7 +19,7 @@ import traceback
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten import flatten
-from lacuna.codegen.library import Library
+from lacuna.codegen.library.classes import Library
 from tests.codegen.grammar import random_model
 
 ROOT = Path(__file__).parents[2]

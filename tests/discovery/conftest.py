@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from lacuna.codegen.compile import compile_model
-from lacuna.codegen.library import Library
-from lacuna.discovery import catalogue
-from lacuna.discovery.amend import Amendment, Attachment
-from lacuna.discovery.cases import Case
-from lacuna.discovery.hypotheses import enumerate_attachments
-from lacuna.discovery.places import read
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.case.cases import Case
+from lacuna.discovery.catalogue import catalogue
+from lacuna.discovery.catalogue.amend import Amendment, Attachment
+from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
+from lacuna.discovery.catalogue.places import read
 from lacuna.runtime import Model, RecordedInput, simulate
 
 BELIEVED = {"R": 3.5, "L": 3.3e-3, "Ke": 0.03, "J": 7e-6, "b": 2e-5}

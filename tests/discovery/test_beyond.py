@@ -7,15 +7,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lacuna.codegen.library import Library
-from lacuna.discovery.amend import Amendment
-from lacuna.discovery.cases import load
-from lacuna.discovery.empirical_law import find
-from lacuna.discovery.experiments import separate
-from lacuna.discovery.law_terms import Group, evaluate
-from lacuna.discovery.machine import Machine
-from lacuna.discovery.places import read
-from lacuna.discovery.response import Response
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.case.cases import load
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.places import read
+from lacuna.discovery.explanation.experiments import separate
+from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.law.empirical_law import find
+from lacuna.discovery.law.law_terms import Group, evaluate
+from lacuna.discovery.law.response import Response
 from lacuna.discovery.steps import fit_believed
 from tests.discovery.conftest import BELIEVED, write_case, write_model
 

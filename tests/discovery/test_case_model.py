@@ -14,14 +14,15 @@ import pytest
 import lacuna
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.errors import Diagnostic
-from lacuna.discovery import case_keys, diagnosis, report
-from lacuna.discovery.amend import Amendment
-from lacuna.discovery.cases import CaseError, load
+from lacuna.discovery.case import case_keys
+from lacuna.discovery.case.cases import CaseError, load
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.explain import explain, judge_written, write_amended
-from lacuna.discovery.fit import believed
-from lacuna.discovery.judge import judge_file
-from lacuna.discovery.machine import Machine
-from lacuna.discovery.places import read
+from lacuna.discovery.explanation import diagnosis, report
+from lacuna.discovery.fit.fit import believed
+from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.naming.judge import judge_file
 
 ROOT = Path(__file__).resolve().parents[2]
 SHARED = Path(os.environ.get("LACUNA_SHARED", ROOT.parent / "shared"))

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lacuna.discovery.cases import CaseError, load
+from lacuna.discovery.case.cases import CaseError, load
 from lacuna.recorded_units import UnitError, to_si
 
 

@@ -8,9 +8,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from lacuna.discovery import dips, screen
-from lacuna.discovery.least_squares import Free, Problem, solve
-from lacuna.discovery.time_limit import TimeUp
+from lacuna.discovery.fit.least_squares import Free, Problem, solve
+from lacuna.discovery.fit.time_limit import TimeUp
+from lacuna.discovery.naming import dips, screen
 
 FREE = [Free("x", 1.0, 1.0, step=1e-3)]
 BELIEVED = [Free("y", 0.0, 1.0, sigma=1.0)]

@@ -10,16 +10,17 @@ from scipy.optimize import nnls
 
 from lacuna import runtime
 from lacuna.codegen.compile import compile_model
-from lacuna.codegen.library import Library
-from lacuna.discovery import candidate_fit, catalogue
-from lacuna.discovery.amend import Amendment, Attachment
-from lacuna.discovery.cases import load
-from lacuna.discovery.fit import fit
-from lacuna.discovery.least_squares import bounded_linear
-from lacuna.discovery.machine import Machine
-from lacuna.discovery.places import read
-from lacuna.discovery.screen import Screen, prepare
-from lacuna.discovery.shapes import limits_of
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.case.cases import load
+from lacuna.discovery.catalogue import catalogue
+from lacuna.discovery.catalogue.amend import Amendment, Attachment
+from lacuna.discovery.catalogue.places import read
+from lacuna.discovery.fit.fit import fit
+from lacuna.discovery.fit.least_squares import bounded_linear
+from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.naming import candidate_fit
+from lacuna.discovery.naming.screen import Screen, prepare
+from lacuna.discovery.naming.shapes import limits_of
 from lacuna.discovery.steps import fit_believed
 
 from .conftest import BELIEVED, attachment, conceal, write_case

@@ -11,10 +11,10 @@ import pytest
 from scipy.linalg import block_diag
 
 from lacuna.codegen.compile import compile_model
-from lacuna.codegen.library import Library
-from lacuna.discovery import diagnosis
-from lacuna.discovery.amend import Amendment
-from lacuna.discovery.cases import load
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.case.cases import load
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.places import read as read_structure
 from lacuna.discovery.efforts.copied import right_side
 from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.located import Locator
@@ -22,9 +22,9 @@ from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.efforts.sites import read
 from lacuna.discovery.efforts.smoother import Latent, Piece, Whitener, course, evidence, thinned
 from lacuna.discovery.explain import explain, judge_written, write_amended
-from lacuna.discovery.intervals import undetermined
-from lacuna.discovery.machine import Machine
-from lacuna.discovery.places import read as read_structure
+from lacuna.discovery.explanation import diagnosis
+from lacuna.discovery.fit.intervals import undetermined
+from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.steps import fit_believed
 from lacuna.runtime import Model, RecordedInput, simulate
 

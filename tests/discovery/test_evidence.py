@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from lacuna.discovery.evidence import holds, like_noise, pays, whiteness
-from lacuna.discovery.noise import Noise, sample_weights
+from lacuna.discovery.case.noise import Noise, sample_weights
+from lacuna.discovery.fit.evidence import holds, like_noise, pays, whiteness
 
 N = 8000
 white = np.random.default_rng(3).standard_normal(N)

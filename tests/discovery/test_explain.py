@@ -10,22 +10,23 @@ import shutil
 import numpy as np
 import pytest
 
-from lacuna.codegen.library import Library
-from lacuna.discovery import catalogue, diagnosis, report
-from lacuna.discovery.amend import Amendment
-from lacuna.discovery.cases import load
-from lacuna.discovery.comparison import confidences
-from lacuna.discovery.evidence import is_noise
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.case.cases import load
+from lacuna.discovery.case.noise import estimate, quantum
+from lacuna.discovery.catalogue import catalogue
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.explain import _conclude, explain, judge_written, write_amended
-from lacuna.discovery.explanation import Explanation
-from lacuna.discovery.intervals import standard_errors
-from lacuna.discovery.judge import judge_file
-from lacuna.discovery.least_squares import Free, Problem, solve
-from lacuna.discovery.locate import locate
-from lacuna.discovery.machine import Machine
-from lacuna.discovery.name import Naming
-from lacuna.discovery.noise import estimate, quantum
-from lacuna.discovery.places import read
+from lacuna.discovery.explanation import diagnosis, report
+from lacuna.discovery.explanation.explanation import Explanation
+from lacuna.discovery.fit.evidence import is_noise
+from lacuna.discovery.fit.intervals import standard_errors
+from lacuna.discovery.fit.least_squares import Free, Problem, solve
+from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.law.locate import locate
+from lacuna.discovery.naming.comparison import confidences
+from lacuna.discovery.naming.judge import judge_file
+from lacuna.discovery.naming.name import Naming
 from lacuna.discovery.steps import fit_believed
 
 

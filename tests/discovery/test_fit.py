@@ -7,9 +7,9 @@ from collections.abc import Callable, Mapping
 import numpy as np
 import pytest
 
-from lacuna.discovery import fit as fitting
-from lacuna.discovery.least_squares import Free, Problem
-from lacuna.discovery.objective import anneal
+from lacuna.discovery.fit import fit as fitting
+from lacuna.discovery.fit.least_squares import Free, Problem
+from lacuna.discovery.fit.objective import anneal
 
 
 class OneSignal:

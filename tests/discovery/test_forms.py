@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from lacuna.discovery.efforts.sites import Site as Place
-from lacuna.discovery.law import Law, Site, attach
-from lacuna.discovery.law_terms import Group, Shape, Variable, lagged
+from lacuna.discovery.law.law import Law, Site, attach
+from lacuna.discovery.law.law_terms import Group, Shape, Variable, lagged
 
 POWER = (Shape("p", "1", 2.0, 0.1, 8.0),)
 RELAXING = Group(("((x1/x1_ref) - lag((x1/x1_ref), {t}))",), (Shape("t", "s", 0.5, 0.1, 5.0),))

@@ -6,16 +6,16 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from lacuna.codegen.library import Library
-from lacuna.discovery.amend import Amendment
-from lacuna.discovery.cases import load
-from lacuna.discovery.fit import fit
-from lacuna.discovery.intervals import covariance
-from lacuna.discovery.least_squares import Free, Problem, solve
-from lacuna.discovery.machine import Machine
-from lacuna.discovery.noise import Noise, last_digit, sample_weights
-from lacuna.discovery.places import read
-from lacuna.discovery.secants import input_shift
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.case.cases import load
+from lacuna.discovery.case.noise import Noise, last_digit, sample_weights
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.places import read
+from lacuna.discovery.fit.fit import fit
+from lacuna.discovery.fit.intervals import covariance
+from lacuna.discovery.fit.least_squares import Free, Problem, solve
+from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.secants import input_shift
 from lacuna.discovery.steps import fit_believed
 
 from .conftest import BELIEVED, write_case

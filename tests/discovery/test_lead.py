@@ -7,17 +7,17 @@ from types import SimpleNamespace
 
 import pytest
 
-from lacuna.codegen.library import Library
-from lacuna.discovery import lead as leading
-from lacuna.discovery.amend import Amendment
-from lacuna.discovery.cases import Case, load
-from lacuna.discovery.fit import FALLING, believed, falling_bandwidths, fit, linearised, noise_of
-from lacuna.discovery.lead import BELIEVABLE, HELD, SHARES, Lead
-from lacuna.discovery.machine import Machine
-from lacuna.discovery.name import screen_all
-from lacuna.discovery.places import read
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.case.cases import Case, load
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.places import read
+from lacuna.discovery.fit import lead as leading
+from lacuna.discovery.fit.fit import FALLING, believed, falling_bandwidths, fit, linearised, noise_of
+from lacuna.discovery.fit.lead import BELIEVABLE, HELD, SHARES, Lead
+from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.tracking import trackable
+from lacuna.discovery.naming.name import screen_all
 from lacuna.discovery.steps import STIFFLY
-from lacuna.discovery.tracking import trackable
 
 from .conftest import BELIEVED, attachment, conceal
 

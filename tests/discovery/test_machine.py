@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lacuna.codegen.library import Library
-from lacuna.discovery.amend import Amendment
-from lacuna.discovery.cases import load
-from lacuna.discovery.fit import believed, noise_of
-from lacuna.discovery.machine import LEAST_RTOL, RTOL, Machine
-from lacuna.discovery.noise import Noise
-from lacuna.discovery.places import read
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.case.cases import load
+from lacuna.discovery.case.noise import Noise
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.places import read
+from lacuna.discovery.fit.fit import believed, noise_of
+from lacuna.discovery.fit.machine import LEAST_RTOL, RTOL, Machine
 
 
 @pytest.fixture(scope="module")

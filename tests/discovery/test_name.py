@@ -9,19 +9,19 @@ import time
 
 import pytest
 
-from lacuna.codegen.library import Library
-from lacuna.discovery import name as naming
-from lacuna.discovery import restarts
-from lacuna.discovery.amend import Amendment, Attachment
-from lacuna.discovery.cases import Case, load
-from lacuna.discovery.fit import Fit, fit
-from lacuna.discovery.machine import Machine
-from lacuna.discovery.name import Naming, compete
-from lacuna.discovery.places import read
-from lacuna.discovery.restarts import begin_again
-from lacuna.discovery.screen import Candidate, Screen, prepare
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.case.cases import Case, load
+from lacuna.discovery.catalogue.amend import Amendment, Attachment
+from lacuna.discovery.catalogue.places import read
+from lacuna.discovery.fit.fit import Fit, fit
+from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.time_limit import TimeUp, check, within
+from lacuna.discovery.naming import name as naming
+from lacuna.discovery.naming import restarts
+from lacuna.discovery.naming.name import Naming, compete
+from lacuna.discovery.naming.restarts import begin_again
+from lacuna.discovery.naming.screen import Candidate, Screen, prepare
 from lacuna.discovery.steps import fit_believed
-from lacuna.discovery.time_limit import TimeUp, check, within
 from lacuna.runtime import SimulationError
 
 from .conftest import BELIEVED, attachment

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from lacuna.discovery.organise import organiser
+from lacuna.discovery.law.organise import organiser
 
 time = np.linspace(0.0, 4.0, 4000)
 speed = 20.0 * np.sin(4.0 * time)

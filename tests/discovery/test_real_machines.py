@@ -5,15 +5,15 @@ from __future__ import annotations
 import pytest
 
 from bench.real_machines import recordings_folder
-from lacuna.codegen.library import Library
-from lacuna.discovery import catalogue, places
-from lacuna.discovery.amend import Amendment
-from lacuna.discovery.cases import load
-from lacuna.discovery.fit import believed, fit, noise_of
-from lacuna.discovery.hypotheses import enumerate_attachments
-from lacuna.discovery.judge import judge
-from lacuna.discovery.least_squares import Free
-from lacuna.discovery.machine import Machine
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.case.cases import load
+from lacuna.discovery.catalogue import catalogue, places
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
+from lacuna.discovery.fit.fit import believed, fit, noise_of
+from lacuna.discovery.fit.least_squares import Free
+from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.naming.judge import judge
 
 STARTS = {
     "CoulombFriction": {"tau_c": 3e-3},

@@ -14,14 +14,14 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from lacuna.codegen.library import Library
+from lacuna.codegen.library.classes import Library
 from lacuna.discovery import semantic_check
-from lacuna.discovery.amend import Amendment
-from lacuna.discovery.cases import Case, CaseError, Recording, load
+from lacuna.discovery.case.cases import Case, CaseError, Recording, load
+from lacuna.discovery.case.recordings_check import Problem, check_case
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.explain import explain
-from lacuna.discovery.machine import Machine
-from lacuna.discovery.places import read
-from lacuna.discovery.recordings_check import Problem, check_case
+from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.steps import opened
 
 Spoil = Callable[[Recording], None]

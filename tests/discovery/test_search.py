@@ -9,25 +9,25 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lacuna.codegen.library import Library
-from lacuna.discovery import search as searching
-from lacuna.discovery.amend import Amendment
-from lacuna.discovery.cases import Case, load
-from lacuna.discovery.catalogue import read as read_catalogue
-from lacuna.discovery.comparison import Ranked
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.case.cases import Case, load
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.catalogue import read as read_catalogue
+from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.explain import explain
-from lacuna.discovery.fit import Fit, fit
-from lacuna.discovery.judge import Judgement, judge, noise_floor
-from lacuna.discovery.lead import Lead
-from lacuna.discovery.machine import Machine
-from lacuna.discovery.name import Naming
-from lacuna.discovery.places import read
-from lacuna.discovery.race import _enriched, best_starts, first_round, in_the_race
-from lacuna.discovery.restarts import _shared
-from lacuna.discovery.screen import Candidate, Screen, prepare
-from lacuna.discovery.search import Finding, Search
+from lacuna.discovery.fit.fit import Fit, fit
+from lacuna.discovery.fit.lead import Lead
+from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.time_limit import TimeUp
+from lacuna.discovery.naming import search as searching
+from lacuna.discovery.naming.comparison import Ranked
+from lacuna.discovery.naming.judge import Judgement, judge, noise_floor
+from lacuna.discovery.naming.name import Naming
+from lacuna.discovery.naming.race import _enriched, best_starts, first_round, in_the_race
+from lacuna.discovery.naming.restarts import _shared
+from lacuna.discovery.naming.screen import Candidate, Screen, prepare
+from lacuna.discovery.naming.search import Finding, Search
 from lacuna.discovery.steps import fit_believed
-from lacuna.discovery.time_limit import TimeUp
 
 from .conftest import BELIEVED, attachment, conceal
 

@@ -10,11 +10,11 @@ import pytest
 
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.flatten import flatten
-from lacuna.codegen.library import Library
-from lacuna.discovery import catalogue, places
-from lacuna.discovery.amend import Amendment, Attachment
-from lacuna.discovery.cases import Signal
-from lacuna.discovery.hypotheses import enumerate_attachments
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.case.cases import Signal
+from lacuna.discovery.catalogue import catalogue, places
+from lacuna.discovery.catalogue.amend import Amendment, Attachment
+from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.runtime import Model, RecordedInput, simulate
 
 FRICTIONS = {

@@ -10,7 +10,7 @@ import pytest
 import lacuna
 from lacuna.codegen.flat.text import dump_flat
 from lacuna.codegen.flatten import flatten
-from lacuna.codegen.library import Library
+from lacuna.codegen.library.classes import Library
 from lacuna.codegen.syntax.lexer import tokenize
 
 ROOT = Path(__file__).parents[2]

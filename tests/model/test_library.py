@@ -8,7 +8,7 @@ import re
 import pytest
 
 from lacuna.codegen.flatten import flatten
-from lacuna.codegen.library import Library
+from lacuna.codegen.library.classes import Library
 
 MODEL = Path(__file__).parents[2] / "model"
 FILES = sorted(MODEL.rglob("*.mo"))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lacuna.codegen.compile import compile_model
-from lacuna.codegen.search_path import search_path
+from lacuna.codegen.library.search_path import search_path
 from lacuna.runtime.model import Model
 from lacuna.runtime.simulation import simulate
 

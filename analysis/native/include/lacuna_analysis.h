@@ -72,7 +72,7 @@ size_t lacuna_table_channels(const lacuna_table *table);
 int lacuna_table_estimate(const lacuna_table *table, const lacuna_channel *channels, double rms_mean,
                           lacuna_estimate *estimate);
 
-/* The filter of a forecast (analysis/prognosis/filter.py): Gaussians over severity x and logarithm l of a law's rate.
+/* The filter of a forecast (analysis/prognosis/filter/filter.py): Gaussians over severity x and logarithm l of a law's rate.
  * Arrays over hypotheses are [laws][histories][columns]. */
 typedef struct {
   size_t laws, histories, columns, points;

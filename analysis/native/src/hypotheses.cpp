@@ -1,4 +1,4 @@
-// The step of the Gaussian-sum filter from test to test: equations and sources in analysis/prognosis/filter.py.
+// The step of the Gaussian-sum filter from test to test: equations and sources in analysis/prognosis/filter/filter.py.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 import lacuna
 from lacuna.analysis.errors import AnalysisError
-from lacuna.analysis.history.store import Entry, Store, file_hash
+from lacuna.analysis.prognosis.store import Entry, Store, file_hash
 from lacuna.analysis.severity.preparation import TABLE_FILE
 from lacuna.cli.main import app
 from tests.analysis.reference import simulate

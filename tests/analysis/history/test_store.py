@@ -16,9 +16,9 @@ import pytest
 from sqlalchemy import create_engine
 
 from lacuna.analysis.errors import AnalysisError
-from lacuna.analysis.history import store as module
-from lacuna.analysis.history.store import Entry, Store, file_hash
+from lacuna.analysis.prognosis import store as module
 from lacuna.analysis.prognosis.history import read_histories
+from lacuna.analysis.prognosis.store import Entry, Store, file_hash
 
 SERVERS = sorted(Path("/usr/lib/postgresql").glob("*/bin/postgres"))
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from lacuna.analysis.prognosis.filter.law import Law
 from lacuna.analysis.prognosis.forecast import Limits
 from lacuna.analysis.prognosis.history import History
-from lacuna.analysis.prognosis.law import Law
 
 LIMITS = Limits(("orange", "red", "violet"), (0.11, 0.27, 0.34), 0.0, 0.5)
 

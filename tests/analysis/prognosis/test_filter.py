@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from scipy.stats import invgauss, multivariate_normal
 
-from lacuna.analysis.prognosis.bank import Bank
-from lacuna.analysis.prognosis.crossing import remaining
-from lacuna.analysis.prognosis.filter import Series, run
+from lacuna.analysis.prognosis.filter.bank import Bank
+from lacuna.analysis.prognosis.filter.crossing import remaining
+from lacuna.analysis.prognosis.filter.filter import Series, run
+from lacuna.analysis.prognosis.filter.law import Law
+from lacuna.analysis.prognosis.filter.settings import FilterSettings
+from lacuna.analysis.prognosis.filter.smoother import smooth
 from lacuna.analysis.prognosis.forecast import forecasts
-from lacuna.analysis.prognosis.law import Law
 from lacuna.analysis.prognosis.series import series_of
-from lacuna.analysis.prognosis.settings import FilterSettings
-from lacuna.analysis.prognosis.smoother import smooth
 from tests.analysis.prognosis import particles
 from tests.analysis.prognosis.histories import LAWS, LIMITS, exponential, history, linear
 

@@ -11,10 +11,10 @@ import pytest
 
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis import fleet as module
-from lacuna.analysis.prognosis.bank import Bank
+from lacuna.analysis.prognosis.filter.bank import Bank
 from lacuna.analysis.prognosis.fleet import FleetWork, histories_of, run_fleet
 from lacuna.analysis.prognosis.forecast import Options, forecasts
-from lacuna.analysis.prognosis.overview import overview
+from lacuna.analysis.prognosis.pages.overview import overview
 from tests.analysis.prognosis.histories import LAWS, LIMITS, exponential, history, linear
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lacuna.analysis.errors import AnalysisError
-from lacuna.analysis.prognosis.bank import Bank
+from lacuna.analysis.prognosis.filter.bank import Bank
 from lacuna.analysis.prognosis.forecast import Options, forecasts
 from tests.analysis.prognosis.histories import LAWS, LIMITS, exponential, history, linear
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lacuna.analysis.errors import AnalysisError
-from lacuna.analysis.prognosis.law import Law, LawTable, prior, severities
+from lacuna.analysis.prognosis.filter.law import Law, LawTable, prior, severities
 from lacuna.degradation import degradation_laws
 
 X = severities()

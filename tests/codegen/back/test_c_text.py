@@ -10,9 +10,9 @@ import pytest
 
 from lacuna.codegen.cache import INCLUDE, compile_c
 from lacuna.codegen.compile import compile_model
-from lacuna.codegen.emit.c_text import c_comment, c_string
-from lacuna.codegen.emit.expression import function_name
-from lacuna.codegen.emit.names import Names
+from lacuna.codegen.emit.text.c_text import c_comment, c_string
+from lacuna.codegen.emit.text.expression import function_name
+from lacuna.codegen.emit.text.names import Names
 from lacuna.runtime import Model, simulate
 from tests.codegen.generated import write_model
 

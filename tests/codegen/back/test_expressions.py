@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 
 from lacuna.codegen.cache import compile_c
 from lacuna.codegen.compile import compile_model
-from lacuna.codegen.emit.body import Body
-from lacuna.codegen.emit.expression import number
-from lacuna.codegen.emit.names import Names
-from lacuna.codegen.emit.prelude import helpers
+from lacuna.codegen.emit.functions.prelude import helpers
+from lacuna.codegen.emit.text.body import Body
+from lacuna.codegen.emit.text.expression import number
+from lacuna.codegen.emit.text.names import Names
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.affine import affine, isolate
 from lacuna.codegen.symbolic.differentiate import Differentiator, partial

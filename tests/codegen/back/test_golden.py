@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from lacuna.codegen.compile import translate
-from lacuna.codegen.report import dump
+from lacuna.codegen.structure.report import dump
 
 FOLDER = Path(__file__).parent / "golden"
 MODELS = sorted(p.stem for p in FOLDER.glob("*.mo"))

@@ -8,8 +8,8 @@ import numpy as np
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components, maximum_bipartite_matching
 
-from lacuna.codegen.structure.blocks import strong_components
-from lacuna.codegen.structure.matching import Matching
+from lacuna.codegen.structure.sorting.blocks import strong_components
+from lacuna.codegen.structure.sorting.matching import Matching
 
 
 @st.composite

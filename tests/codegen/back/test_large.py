@@ -13,8 +13,9 @@ import numpy as np
 import pytest
 
 from lacuna.codegen.compile import translate
-from lacuna.codegen.emit import large, rolled
+from lacuna.codegen.emit.callbacks import large
 from lacuna.codegen.emit.source import generate
+from lacuna.codegen.emit.text import rolled
 from lacuna.codegen.symbolic.expr import own_table
 from tests.codegen.generated import Generated, write_model
 

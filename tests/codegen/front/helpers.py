@@ -7,7 +7,7 @@ from pathlib import Path
 from lacuna.codegen.flat import FlatModel
 from lacuna.codegen.flat.text import equation_text
 from lacuna.codegen.flatten import flatten
-from lacuna.codegen.library import Library
+from lacuna.codegen.library.classes import Library
 
 
 def flatten_text(folder: Path, text: str, **options: object) -> FlatModel:

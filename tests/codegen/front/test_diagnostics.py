@@ -9,8 +9,8 @@ import pytest
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten import flatten
-from lacuna.codegen.library import Library
-from lacuna.codegen.suggest import distance, nearest
+from lacuna.codegen.library.classes import Library
+from lacuna.codegen.library.suggest import distance, nearest
 from lacuna.codegen.syntax import parse
 from tests.codegen.front.helpers import flatten_text
 

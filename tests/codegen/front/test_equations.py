@@ -9,7 +9,7 @@ import pytest
 from lacuna.codegen import flat
 from lacuna.codegen.flat.text import dump_flat, equation_text
 from lacuna.codegen.flatten import flatten
-from lacuna.codegen.library import Library
+from lacuna.codegen.library.classes import Library
 from lacuna.codegen.symbolic.expr import to_text
 from tests.codegen.front.helpers import equations, flatten_text
 

@@ -10,7 +10,7 @@ import pytest
 from lacuna import runtime
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.flatten import flatten
-from lacuna.codegen.library import Library
+from lacuna.codegen.library.classes import Library
 from lacuna.codegen.syntax import parse
 
 ROOT = Path(__file__).parents[3]

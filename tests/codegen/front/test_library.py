@@ -8,7 +8,7 @@ import pytest
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten import flatten
-from lacuna.codegen.library import Library
+from lacuna.codegen.library.classes import Library
 from tests.codegen.front.helpers import equations
 
 

@@ -9,8 +9,8 @@ import pytest
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten import flatten
-from lacuna.codegen.library import Library
-from lacuna.codegen.search_path import MODEL_FOLDER, search_path
+from lacuna.codegen.library.classes import Library
+from lacuna.codegen.library.search_path import MODEL_FOLDER, search_path
 
 
 def write(folder: Path, **files: str) -> Path:

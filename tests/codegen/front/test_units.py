@@ -9,7 +9,7 @@ import pytest
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten import flatten
-from lacuna.codegen.library import Library
+from lacuna.codegen.library.classes import Library
 from lacuna.units import format_unit, parse_unit
 from tests.codegen.front.helpers import flatten_text
 

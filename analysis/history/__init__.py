@@ -1,1 +1,0 @@
-"""The history store: every assessment that was made, in a database."""

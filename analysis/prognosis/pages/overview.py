@@ -1,0 +1,70 @@
+"""The overview of a fleet: one page, everything inside, to be pinned to a wall."""
+
+from __future__ import annotations
+
+from html import escape
+
+from markupsafe import Markup
+import pyarrow as pa
+
+from lacuna.analysis.prognosis.pages.telling import use
+from lacuna.analysis.report.page import figure, page
+
+SHOWN = 60  # actuators at greatest risk
+WIDTH, ROW = 1000, 18  # of the drawing
+
+_COUNTS = Markup("""<p class="counts"><span><b>{total}</b> actuators</span> <span><b>{now}</b> remove now</span>
+<span><b>{forecast}</b> with a forecast</span> <span><b>{early}</b> too early to say</span>
+<span><b>{steady}</b> steady</span></p>
+<p>{shown} at greatest risk: use that remains to {limit} (median, 80 % and 95 % intervals), and the last advised test
+(red).</p>""")
+
+
+def overview(table: pa.Table, limit: str, title: str = "Fleet") -> str:
+    """The page, of a table as `run_fleet` gives it."""
+    rows = table.slice(0, SHOWN).to_pylist()
+    first = [r for r in rows if r["verdict"] == "forecast"]
+    verdicts = table["verdict"].to_pylist()
+    now = sum(v == "forecast" and a is not None and a <= at for v, a, at in zip(
+        verdicts, table["advised_last_test"].to_pylist(), table["at"].to_pylist(), strict=True))  # fmt: skip
+    counts = _COUNTS.format(
+        total=len(table), now=now, limit=limit, shown=len(first), forecast=verdicts.count("forecast"),
+        early=verdicts.count("too_early"), steady=verdicts.count("steady"),
+    )  # fmt: skip
+    drawn = _drawing(first)
+    picture = figure(drawn, "Use that remains, by actuator") if drawn else Markup("")
+    verdict = f"{now} of {len(table)} actuators are to be removed now."
+    return page(title, counts + picture, verdict=verdict, notes=["The whole table is in fleet.parquet."])
+
+
+def _drawing(rows: list[dict]) -> str:
+    """A bar for each actuator, by remaining use; what is beyond the axis runs out of it."""
+    if not rows:
+        return ""
+    ends = sorted(r["high80"] if r["high80"] is not None else r["median"] or 0 for r in rows)
+    top = max(ends[int(0.9 * (len(ends) - 1))], 1e-12) * 1.1
+    left, height = 220, ROW * (len(rows) + 2)
+
+    def at(left_over: float | None) -> float:
+        return left + (WIDTH - left) * min(1.0, (top if left_over is None else left_over) / top)
+
+    parts = [f'<svg viewBox="0 0 {WIDTH} {height}" font-size="12" font-family="system-ui,sans-serif">']
+    for k in range(5):
+        x = left + (WIDTH - left) * k / 5
+        parts.append(f'<path d="M{x:.1f} 0V{height - ROW}" stroke="#ddd"/><text x="{x:.1f}" y="{height - 4}">'
+                     f'{use(top * k / 5)}{" " + escape(rows[0]["unit"]) if not k else ""}</text>')  # fmt: skip
+    for k, r in enumerate(rows):
+        y = ROW * (k + 0.5) + 4
+        name = escape(r["actuator"] + (f" {r['fault']}" if r["fault"] else ""))
+        parts.append(
+            f'<text x="{left - 8}" y="{y + 4:.1f}" text-anchor="end">{name}, {100 * r["severity"]:.0f} %</text>'
+        )
+        for low, high, colour in (("low95", "high95", "#c9d8e8"), ("low80", "high80", "#6f9cc6")):
+            x, end = at(r[low]), at(r[high])
+            parts.append(
+                f'<rect x="{x:.1f}" y="{y - 5:.1f}" width="{max(end - x, 1):.1f}" height="10" fill="{colour}"/>'
+            )
+        parts.append(f'<rect x="{at(r["median"]):.1f}" y="{y - 6:.1f}" width="2" height="12" fill="#0b3d6b"/>')
+        if r["advised_last_test"] is not None:
+            parts.append(f'<circle cx="{at(r["advised_last_test"] - r["at"]):.1f}" cy="{y:.1f}" r="4" fill="#b3261e"/>')
+    return "".join([*parts, "</svg>"])

@@ -1,0 +1,91 @@
+"""Files of a forecast: forecast.json, a fan chart for each actuator, and a report of one page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import io
+import json
+from pathlib import Path
+import re
+
+from markupsafe import Markup
+import numpy as np
+
+from lacuna.analysis.files import published_together
+from lacuna.analysis.prognosis.filter.bank import Bank
+from lacuna.analysis.prognosis.filter.crossing import remaining
+from lacuna.analysis.prognosis.filter.filter import run
+from lacuna.analysis.prognosis.filter.smoother import tracked
+from lacuna.analysis.prognosis.forecast import LEVELS as PROBABILITIES
+from lacuna.analysis.prognosis.forecast import Forecast
+from lacuna.analysis.prognosis.pages.figure import LEVELS, draw
+from lacuna.analysis.prognosis.pages.telling import counted_verdicts, forecast_json, sentence, urgency, use
+from lacuna.analysis.prognosis.series import last_error, series_of
+from lacuna.analysis.prognosis.verdict import FORECAST
+from lacuna.analysis.report.page import figure, heading, page, table
+
+DRAWN = 40  # actuators that get a figure; of more, those at greatest risk
+
+
+def publish(said: Sequence[Forecast], bank: Bank, out: Path, risk: float, version: str) -> None:
+    """Write forecast.json, report.html and figures into `out`, together or not at all."""
+    from lacuna.analysis.report.figures.style import in_style, new_figure
+
+    first = sorted(said, key=urgency)[:DRAWN]
+    parts = []
+    with published_together(out) as scratch, in_style():
+        text = json.dumps(forecast_json(said, risk, version), indent=2, ensure_ascii=False, allow_nan=False)
+        (scratch / "forecast.json").write_text(text + "\n", encoding="utf-8")
+        for f in first:
+            drawn = new_figure()
+            draw(drawn.add_subplot(), f, *curves(f, bank))
+            name = re.sub(r"[^\w.-]", "_", f"{f.history.actuator}_{f.history.fault}".rstrip("_"))
+            drawn.axes[0].set_title(f.history.actuator.replace("$", r"\$"))
+            drawn.savefig(scratch / f"{name}.png")
+            drawn.axes[0].set_title("")  # the page has the name, escaped
+            picture = io.StringIO()
+            drawn.savefig(picture, format="svg", metadata=dict.fromkeys(("Date", "Creator", "Format", "Type")))
+            parts.append(_part(f, picture.getvalue(), risk))
+        shown = f"{len(first)} of {len(said)} shown, those at greatest risk first." if len(said) > DRAWN else ""
+        limits = ", ".join(f"{n} from {v:g}" for n, v in zip(said[0].limits.names, said[0].limits.values, strict=True))
+        notes = ["Intervals are of remaining use; the fan shows when each severity is reached.", f"Limits: {limits}."]
+        whole = page(
+            "Flights that remain", Markup("").join(parts), verdict=f"{counted_verdicts(said)} {shown}".strip(),
+            notes=notes, inputs=[scratch / "forecast.json"],
+        )  # fmt: skip
+        (scratch / "report.html").write_text(whole, encoding="utf-8")
+
+
+def _part(f: Forecast, svg: str, risk: float) -> Markup:
+    said = sentence(f, risk)
+    parts = [heading(said), *(Markup("<p class=warn>{}</p>").format(w) for w in f.warnings), figure(svg, said)]
+    if f.verdict == FORECAST:
+        header = ["limit", "97.5 % later than", "90 %", "median", "10 %", "2.5 %"]
+        rows = [[name, *map(_cell, row)] for name, row in zip(f.limits.names, f.quantiles, strict=True)]
+        laws = ", ".join(f"{n} {100 * w:.0f} %" for n, w in list(f.weights.items())[:3])
+        parts += [table(header, rows), Markup("<p><small>Laws: {}.</small></p>").format(laws)]
+    return Markup("").join(parts)
+
+
+def _cell(value: float) -> str:
+    return use(value) if np.isfinite(value) else "-"
+
+
+def curves(f: Forecast, bank: Bank):
+    """(smoothed, levels) for `figure.draw`: what the tests say of the past, and when each severity is reached."""
+    limit, healthy = f.limits.span, f.limits.healthy
+    series = series_of([f.history], limit, bank.settings.floor, healthy)
+    steps = list(run(bank, series, keep=True))
+    mean, deviation = tracked(bank, steps)
+    part = f.history.lives[-1]
+    smoothed = (f.history.use[part], healthy + mean[:, 0] * limit, deviation[:, 0] * limit)
+    if f.verdict != FORECAST or mean[-1, 0] >= 1:
+        return smoothed, None
+    shares = np.linspace(min(mean[-1, 0], 0.99), 1.1, LEVELS)
+    error = np.array([last_error(series, 0)])
+    last = steps[-1].filtered
+    quantiles = [
+        remaining(bank, last, s, error, series.interval).quantiles(PROBABILITIES, np.array([10 * f.horizon]))[0]
+        for s in shares
+    ]
+    return smoothed, (healthy + shares * limit, np.array(quantiles))

@@ -1,0 +1,76 @@
+"""Asserts of level error: their order in the table, the C of their checks, and the values that a violated one shows."""
+
+from __future__ import annotations
+
+from lacuna.codegen import flat
+from lacuna.codegen.dae.events import DiscreteEquation
+from lacuna.codegen.dae.prepared import Prepared
+from lacuna.codegen.dae.storage import Storage
+from lacuna.codegen.emit.text.body import Body
+from lacuna.codegen.symbolic.expr import Expr, walk
+from lacuna.codegen.symbolic.leaves import leaves
+from lacuna.codegen.symbolic.rewrite import all_statements
+
+
+def all_asserts(p: Prepared) -> list[flat.Assert]:
+    """Asserts in the order of the descriptor: those of the model, of its when clauses, of its functions."""
+    return [*_errors(p.model.asserts), *_event_asserts(p), *_inside([f.body for f in p.model.functions.values()])]
+
+
+def assert_index(p: Prepared, s: flat.Assert) -> int:
+    """Row of an assert in the table."""
+    return next(k for k, a in enumerate(all_asserts(p)) if (a.span, a.origin) == (s.span, s.origin))
+
+
+def of_parameters(p: Prepared) -> list[tuple[int, flat.Assert]]:
+    """(row, assert) of those of the model that depend on parameters alone: they are checked before anything else."""
+    return [(k, a) for k, a in enumerate(_errors(p.model.asserts)) if _is_of_parameters(p.storage, a.condition)]
+
+
+def of_the_run(p: Prepared) -> list[tuple[int, flat.Assert]]:
+    """(row, assert) of those of the model that depend on what changes."""
+    early = {k for k, _ in of_parameters(p)}
+    return [(k, a) for k, a in enumerate(_errors(p.model.asserts)) if k not in early]
+
+
+def write_assert(body: Body, condition: Expr, row: int) -> None:
+    body.line(f"if (!({body.value(condition)})) {{")
+    body.line(f"  (void)mdl_fail(m, MDL_FAILURE_ASSERT, {row}, 0.0);")
+    body.line("  return -1;")
+    body.line("}")
+
+
+def shown_values(p: Prepared) -> list[list[str]]:
+    """Of each assert in the table, the variables whose values explain a violation, in the order of its condition.
+
+    In a when clause a discrete variable may be about to change: what is stored is not what was compared, and it is left
+    out. The variables of a function have no place in the table.
+    """
+    conditions = [a.condition for a in _errors(p.declared.asserts)]
+    values = [_variables(c) for c in conditions]
+    for a in _event_asserts(p):
+        values.append([n for n in _variables(a.condition) if (slot := p.storage.slot(n)) and slot.array != "d"])
+    return values + [[] for _ in range(len(all_asserts(p)) - len(values))]
+
+
+def _errors(asserts: list[flat.Assert]) -> list[flat.Assert]:
+    return [a for a in asserts if a.level == "error"]
+
+
+def _event_asserts(p: Prepared) -> list[flat.Assert]:
+    return _inside([[step] if isinstance(step, flat.When) else step.statements for step in p.events
+                    if not isinstance(step, DiscreteEquation)])  # fmt: skip
+
+
+def _inside(bodies: list[list[flat.Statement]]) -> list[flat.Assert]:
+    return _errors([s for body in bodies for s in all_statements(body) if isinstance(s, flat.Assert)])
+
+
+def _is_of_parameters(storage: Storage, condition: Expr) -> bool:
+    slots = [storage.slot(str(n.value)) if n.op == "var" else None for n in leaves(condition)]
+    return all(slot is not None and slot.array == "p" for slot in slots)
+
+
+def _variables(condition: Expr) -> list[str]:
+    found = leaves(condition)
+    return list(dict.fromkeys(str(n.value) for n in walk(condition) if n.op == "var" and n in found))

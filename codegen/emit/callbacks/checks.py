@@ -1,0 +1,124 @@
+"""What the runtime needs to look after a run: which equation gives what, sizes of unknowns and guards, divisors."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from lacuna.codegen import flat
+from lacuna.codegen.dae.prepared import Prepared
+from lacuna.codegen.emit.callbacks.continuous import c_function, function
+from lacuna.codegen.emit.callbacks.discrete import is_settable
+from lacuna.codegen.emit.callbacks.equations import EquationTable
+from lacuna.codegen.emit.text.body import Access, Body
+from lacuna.codegen.emit.text.names import Names
+from lacuna.codegen.emit.text.rolled import Rolled, assignment, in_parts
+from lacuna.codegen.emit.text.steps import comment
+from lacuna.codegen.structure.causal import Assignment, Division, Step
+from lacuna.codegen.structure.constants import dependency_order
+from lacuna.codegen.structure.nominal import difference, told
+from lacuna.codegen.symbolic.expr import ZERO, Expr, var
+from lacuna.codegen.symbolic.leaves import leaves
+
+NOMINALS = "static int mdl_nominals(mdl_data *m, double *nominal)"
+_POINT = "mdl_data *m, double t, const double *x, const double *xdot, const double *v"
+DIVISIONS = f"static int mdl_divisions({_POINT}, double *value)"
+PHASES = f"static int mdl_phases({_POINT}, double *phase)"
+SMALL = 50  # rows up to which each is a line of its own
+MAX_SHOWN = 8  # variables whose values a message shows
+
+
+def dependent_parameters(prepared: Prepared) -> list[tuple[str, flat.Equation]]:
+    """Parameters that follow others, in the order in which they are computed, each with its equation."""
+    model = prepared.model
+    names = [n for n in dependency_order(model) if not is_settable(model.variables[n])]
+    return [(n, _binding(model.variables[n])) for n in names]
+
+
+def _binding(v: flat.Variable) -> flat.Equation:
+    return flat.Equation(var(v.name), v.binding, v.span, text=f"{v.name} = {v.binding}")
+
+
+@dataclass
+class Checks:
+    """Tables and callbacks of one model; `rows` are the indices of declared variables in the table."""
+
+    prepared: Prepared
+    equations: EquationTable
+    names: Names
+    rows: dict[str, int]
+
+    def computed(self) -> list[str]:
+        storage = self.prepared.storage
+        parameters = [
+            f"{{MDL_PARAMETER, {storage.slot(name).index}, {self.equations.index(equation)}}}"
+            for name, equation in dependent_parameters(self.prepared)
+        ]
+        return parameters + [
+            f"{{{self._place(unknown)}, {self.equations.index(source)}}}"
+            for step in self.prepared.explicit
+            for unknown, source in _sources(step)
+        ]
+
+    def _place(self, unknown: Expr) -> str:
+        slot = self.prepared.storage.slot(str((unknown.args[0] if unknown.op == "der" else unknown).value))
+        return f"{'MDL_DERIVATIVE' if unknown.op == 'der' else 'MDL_ALGEBRAIC'}, {slot.index}"
+
+    def equation_variables(self) -> tuple[list[str], list[str]]:
+        """(where those of each equation begin, rows of the variables)."""
+        first, variables = [0], []
+        for e in self.equations.entries:
+            names = sorted({str(n.value) for n in leaves(e.lhs) | leaves(e.rhs) if n.op == "var"} & self.rows.keys())
+            variables += [str(self.rows[n]) for n in names[:MAX_SHOWN]]
+            first.append(len(variables))
+        return [str(k) for k in first], variables
+
+    def nominals(self) -> str:
+        sizes, model = self.prepared.nominals, self.prepared.model
+        unknowns = [*map(var, self.prepared.storage.states), *self.prepared.residual.tears]
+        found = [sizes.get(u) for u in unknowns]
+        found += [difference(r.left, r.right, sizes, model) for r in self.prepared.relations]
+        rows = [(f"nominal[{k}]", told(size) if size else ZERO, "") for k, size in enumerate(found)]
+        return self._write(NOMINALS, rows, self.prepared.storage.frozen)
+
+    def divisions(self) -> str:
+        rows = []
+        for k, q in enumerate(self.prepared.divisions):
+            rows.append((f"value[{2 * k}]", q.numerator, comment(q.source)))
+            rows.append((f"value[{2 * k + 1}]", q.divisor, ""))
+        return self._write(DIVISIONS, rows, self.prepared.storage.point)
+
+    def phases(self) -> str:
+        """Nothing where there are none."""
+        rows = [(f"phase[{k}]", e, "") for k, e in enumerate(self.prepared.guards.phases)]
+        return self._write(PHASES, rows, self.prepared.storage.point) if rows else ""
+
+    def _write(self, signature: str, rows: list[tuple[str, Expr, str]], access: Access) -> str:
+        """A callback that stores the value of each row (place, value, comment)."""
+        if len(rows) > SMALL:
+            rolled = Rolled(self.names, access)
+            rolled.plan(value for _, value, _ in rows)
+            for place, value, note in rows:
+                rolled.add(assignment(place, value, comment=note))
+            return in_parts(signature, rolled.parts(), rolled.shared, c_function)
+        body = Body(self.names, access)
+        body.plan(value for _, value, _ in rows)
+        for place, value, note in rows:
+            if note:
+                body.line(note)
+            body.line(f"{place} = {body.value(value)};")
+        return function(signature, body)
+
+    def division_equations(self) -> list[str]:
+        return [str(self.equations.index(q.source)) for q in self.prepared.divisions]
+
+
+def _sources(step: Step) -> Iterator[tuple[Expr, flat.Equation]]:
+    """Each unknown of a step with its equation; a tear with a residual of its block."""
+    if isinstance(step, Assignment | Division):
+        yield step.unknown, step.row.source
+        return
+    for unknown, row in zip(step.tears, step.residuals, strict=True):
+        yield unknown, row.source
+    for a in step.assignments:
+        yield a.unknown, a.row.source

@@ -1,0 +1,1 @@
+"""Directional derivatives of the callbacks (runtime/include/mdl_tangent.h)."""

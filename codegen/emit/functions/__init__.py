@@ -1,0 +1,1 @@
+"""C functions beside the callbacks: helpers, the solver of nonlinear blocks, functions of the model."""

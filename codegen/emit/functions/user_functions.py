@@ -1,0 +1,69 @@
+"""Functions of the model as static C functions, each only where it is called.
+
+One scalar result is returned; several results, and arrays, go through pointers at the end of the arguments of a
+function `..._all` (NULL where not wanted), beside which a short one returns the first. Arrays are row-major. A function
+that fails (an assert, a subscript out of range, a loop without end) notes it in m->failure and gives NaN.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from lacuna.codegen import flat
+from lacuna.codegen.emit.functions.function_body import FunctionBody, declarations, returns_value
+from lacuna.codegen.emit.text.expression import function_name
+from lacuna.codegen.emit.text.names import Names
+from lacuna.codegen.symbolic.expr import BUILTINS, Expr, walk
+from lacuna.codegen.symbolic.function_tangent import by_name
+from lacuna.codegen.symbolic.rewrite import all_statements, expressions
+
+
+def user_functions(
+    functions: dict[str, flat.Function],
+    called: Iterable[str],
+    names: Names,
+    assert_index: Callable[[flat.Assert], int],
+) -> str:
+    """C of the functions `called` in expressions and of those that they call, callees first. `assert_index` gives the
+    row of an assert in the model's table."""
+    written: dict[str, str] = {}
+    values: dict[str, str] = {}
+
+    def visit(name: str, as_value: bool) -> None:
+        f = by_name(functions, name)
+        if name not in written:
+            written[name] = ""
+            for inner, inner_value in _calls_of(f):
+                visit(inner, inner_value)
+            del written[name]
+            written[name] = FunctionBody(f, functions, names, assert_index).write()
+        if as_value and not returns_value(f) and name not in values:
+            values[name] = _first_result(f)
+
+    for name in called:
+        visit(name, True)
+    return "\n\n".join([*written.values(), *values.values()])
+
+
+def calls(roots: Iterable[Expr]) -> list[str]:
+    """Names of the functions of the model that occur in expressions, in order."""
+    found = (str(n.value) for root in roots for n in walk(root) if n.op == "call")
+    return list(dict.fromkeys(name for name in found if name not in BUILTINS and name != "[]"))
+
+
+def _calls_of(f: flat.Function) -> list[tuple[str, bool]]:
+    """(name, whether in an expression) of the functions that `f` calls."""
+    whole = [s.value for s in all_statements(f.body) if isinstance(s, flat.AssignCall)]
+    inside = [e for e in (*f.defaults.values(), *expressions(f.body)) if e not in whole]
+    inside += [a for call in whole for a in call.args]
+    return [(str(call.value), False) for call in whole] + [(name, True) for name in calls(inside)]
+
+
+def _first_result(f: flat.Function) -> str:
+    arguments, names = declarations(f, Names(f.shapes))
+    pointers = ["&result", *["NULL"] * (len(f.outputs) - 1)]
+    return (
+        f"static double {function_name(f.name)}({', '.join(arguments)}) {{\n"
+        f"  double result = 0.0;\n  {function_name(f.name, whole=True)}({', '.join(['m', *names, *pointers])});\n"
+        "  return result;\n}"
+    )

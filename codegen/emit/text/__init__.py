@@ -1,0 +1,1 @@
+"""How C is written: names, literals, expressions, bodies, sequences of steps."""

@@ -1,0 +1,157 @@
+"""The steps of a causalised system as C: assignments, checked divisions, linear and nonlinear blocks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from lacuna.codegen import flat
+from lacuna.codegen.emit.text.body import Body
+from lacuna.codegen.emit.text.c_text import c_comment
+from lacuna.codegen.errors import Span
+from lacuna.codegen.structure.causal import Division, LinearBlock, NonlinearBlock, Step, expressions_of
+from lacuna.codegen.structure.sorting.tearing import Assignment
+from lacuna.codegen.structure.system import Row
+from lacuna.codegen.symbolic.expr import Expr
+
+
+def comment(source: flat.Equation, text: str | None = None) -> str:
+    """`/* file:line  equation */`"""
+    text = text or source.text or f"{source.lhs} = {source.rhs}"
+    return f"/* {place(source.span)}  {c_comment(text)} */"
+
+
+def place(span: Span) -> str:
+    """file:line, for comments."""
+    return f"{c_comment(Path(span.file).name)}:{span.line}"
+
+
+class StepWriter:
+    """Writes steps into a body; `equation_index(row)` for failures, `start(unknown)` the entry value of a tear."""
+
+    def __init__(
+        self,
+        body: Body,
+        equation_index: Callable[[flat.Equation], int],
+        start: Callable[[Expr], str],
+        nominal: Callable[[Expr], Expr],
+    ):
+        self._body, self._equation_index, self._start, self._nominal = body, equation_index, start, nominal
+        self._last_comment = ""
+
+    def plan(self, steps: Sequence[Step]) -> list[Expr]:
+        """Expressions that the steps compute in the function's own scope."""
+        return [e for step in steps if not isinstance(step, NonlinearBlock) for e in expressions_of(step)]
+
+    def write(self, steps: Sequence[Step]) -> None:
+        for step in steps:
+            match step:
+                case Assignment():
+                    self._assignment(step)
+                case Division():
+                    self._division(step)
+                case LinearBlock():
+                    self._linear(step)
+                case NonlinearBlock():
+                    self._nonlinear(step)
+
+    def note(self, row: Row) -> None:
+        text = comment(row.source, row.text)
+        if text != self._last_comment:
+            self._body.line(text)
+        self._last_comment = text
+
+    def _assignment(self, step: Assignment, declare: bool = True) -> None:
+        self.note(step.row)
+        self._body.let(step.unknown, step.value, declare)
+
+    def _fail(self, kind: str, row: Row, value: str = "0.0") -> str:
+        return f"return mdl_fail(m, MDL_FAILURE_{kind}, {self._equation_index(row.source)}, {value});"
+
+    def _solve(self, matrix: str, right: str, rows: Sequence[Row]) -> None:
+        """A singular matrix is told at the equation that comes with the unknown that it does not determine."""
+        self._body.line(f"const int {matrix}_singular = mdl_solve({len(rows)}, {matrix}, {right});")
+        equation = self._equation_of(rows, f"{matrix}_singular")
+        self._body.line(f"if ({matrix}_singular) return mdl_fail(m, MDL_FAILURE_SINGULAR, {equation}, 0.0);")
+
+    def _equation_of(self, rows: Sequence[Row], singular: str) -> str:
+        """The equation of the unknown that mdl_solve names, of the first one where it names none."""
+        equations = ", ".join(str(self._equation_index(row.source)) for row in (rows[0], *rows))
+        return f"(const int[]){{{equations}}}[{singular}]"
+
+    def _division(self, step: Division) -> None:
+        body = self._body
+        self.note(step.row)
+        divisor = f"{body.names.leaf(step.unknown)}_divisor"
+        body.line(f"const double {divisor} = {body.value(step.denominator)};")
+        body.line(f"if ({divisor} == 0.0) {self._fail('SINGULAR', step.row)}")
+        numerator = body.value(step.numerator, 7)
+        name = body.names.leaf(step.unknown)
+        body.line(f"const double {name} = {numerator} / {divisor};")
+        body.define(step.unknown)
+
+    def _linear(self, step: LinearBlock) -> None:
+        body, size = self._body, len(step.tears)
+        body.line(f"/* linear block of {size + len(step.assignments)}, torn to {size} */")
+        for row in step.residuals:
+            self.note(row)
+        matrix = [body.value(a) for line in step.matrix for a in line]
+        right = [body.value(b) for b in step.right]
+        names = [body.names.leaf(u) for u in step.tears]
+        if size == 1:
+            divisor = f"{names[0]}_divisor"
+            body.line(f"const double {divisor} = {matrix[0]};")
+            body.line(f"if ({divisor} == 0.0) {self._fail('SINGULAR', step.residuals[0])}")
+            body.line(f"const double {names[0]} = {body.value(step.right[0], 8)} / {divisor};")
+        else:
+            block = f"{names[0]}_block"
+            body.line(f"double {block}_a[{size * size}] = {{{', '.join(matrix)}}};")
+            body.line(f"double {block}_b[{size}] = {{{', '.join(right)}}};")
+            self._solve(f"{block}_a", f"{block}_b", step.residuals)
+            for k, name in enumerate(names):
+                body.line(f"const double {name} = {block}_b[{k}];")
+        for u in step.tears:
+            body.define(u)
+        for a in step.assignments:
+            self._assignment(a)
+
+    def _nonlinear(self, step: NonlinearBlock) -> None:
+        """A loop that evaluates the block wherever its solver (emit/functions/newton.py) looks."""
+        body, size = self._body, len(step.tears)
+        names = [body.names.leaf(u) for u in step.tears]
+        block = f"{names[0]}_block"
+        body.line(f"/* nonlinear block of {size + len(step.assignments)}, torn to {size} */")
+        for u in step.tears:
+            body.declare(u, self._start(u))
+        for a in step.assignments:
+            body.declare(a.unknown, "0.0")
+        body.line(f"double {block}_x[{size}] = {{{', '.join(names)}}};")
+        body.line(f"double {block}_work[{4 * size}] = {{{', '.join(names)}}};")
+        nominal = ", ".join(body.value(self._nominal(u)) for u in step.tears)
+        body.line(f"const double {block}_nominal[{size}] = {{{nominal}}};")
+        fields = f".n = {size}, .x = {block}_x, .work = {block}_work, .nominal = {block}_nominal"
+        body.line(f"mdl_newton {block} = {{{fields}}};")
+        with body.scope("for (;;)", expressions_of(step)):
+            for k, name in enumerate(names):
+                body.line(f"{name} = {block}_x[{k}];")
+            for a in step.assignments:
+                self._assignment(a, declare=False)
+            body.line(f"if ({block}.phase == MDL_SOLVED) break;")
+            self._look(step, block)
+        for a in (*step.tears, *(a.unknown for a in step.assignments)):
+            body.define(a)
+
+    def _look(self, step: NonlinearBlock, block: str) -> None:
+        body, size = self._body, len(step.tears)
+        for row in step.residuals:
+            self.note(row)
+        residuals = ", ".join(body.value(r.residual) for r in step.residuals)
+        body.line(f"double {block}_r[{size}] = {{{residuals}}};")
+        body.line(f"const int {block}_looked = mdl_newton_look(&{block}, {block}_r);")
+        body.line(f"if ({block}.phase == MDL_FAILED) return mdl_fail(m, {block}.singular ? MDL_FAILURE_SINGULAR "
+                  f": MDL_FAILURE_NEWTON, {self._equation_of(step.residuals, f'{block}.singular')}, 0.0);")  # fmt: skip
+        body.line(f"if ({block}_looked) continue;")
+        matrix = ", ".join(body.value(j) for line in step.jacobian for j in line)
+        body.line(f"double {block}_a[{size * size}] = {{{matrix}}};")
+        body.line(f"const int {block}_singular = mdl_solve({size}, {block}_a, {block}_r);")
+        body.line(f"mdl_newton_step(&{block}, {block}_r, {block}_singular);")

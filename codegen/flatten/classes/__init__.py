@@ -1,0 +1,1 @@
+"""Classes with their modifications become a tree of components."""

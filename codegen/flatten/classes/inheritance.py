@@ -1,0 +1,189 @@
+"""What a class inherits and declares, with the modifications that meet each element."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.classes.restrictions import check_class
+from lacuna.codegen.flatten.names.component import Component
+from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.modifiers import Modifier, from_tree, merge
+from lacuna.codegen.flatten.names.scope import Scope, base_class, base_clauses, own_or_inherited
+from lacuna.codegen.flatten.names.unknown import unknown_class
+from lacuna.codegen.library.suggest import did_you_mean
+from lacuna.codegen.syntax import ast
+
+MAX_DEPTH = 40
+
+
+@dataclass
+class Element:
+    """A declaration as an instance sees it: own or inherited, with the modification from outside."""
+
+    declaration: ast.Component
+    cls: ast.Class  # where it is declared
+    modifier: Modifier | None
+
+
+class Inheritance:
+    """Elements by name, sections with the classes they are written in, and the classes; bases before what extends them.
+
+    `elements` are in order of declaration. Raises R010, R011, R030 to R032 and R037 for what does not fit.
+    """
+
+    def __init__(self, context: Context, instance: Component, cls: ast.Class, modifier: Modifier | None) -> None:
+        self._context, self._instance = context, instance
+        self.elements: dict[str, Element] = {}
+        self.sections: list[tuple[ast.Section, ast.Class]] = []
+        self.classes: list[ast.Class] = []  # own class and bases
+        self.visible: dict[int, set[str]] = {}  # names of elements, by identity of the class whose text may use them
+        self._collect(cls, modifier)
+        if modifier is not None:
+            self._refuse_unknown(modifier, self.elements, cls)
+            self._refuse_protected(modifier, cls)
+
+    def _collect(self, cls: ast.Class, modifier: Modifier | None, depth: int = 0) -> None:
+        if depth > MAX_DEPTH:
+            raise Diagnostic("R011", f"{cls.name} extends itself", cls.span, "break the circle of extends")
+        context = self._context
+        scope = Scope(context, cls, self._instance)
+        if isinstance(cls.written, Scope):
+            scope = cls.written
+        elif cls.alias is not None and cls.parent is not None:
+            scope = Scope(context, cls.parent, None)
+        check_class(cls, context)
+        constraint = self._constraint(cls)
+        if cls.alias is None:
+            modifier = merge(modifier, constraint)
+        self.classes.append(cls)
+        visible = self.visible.setdefault(id(cls.origin or cls), set())
+        for reference, tree in base_clauses(cls):
+            base = base_class(context.library, cls, reference, tree)
+            if base is None:
+                raise unknown_class(context.library, cls, reference, "class")
+            inner = from_tree(tree, scope)
+            if cls.alias is not None and constraint is not None:
+                inner = merge(inner, constraint)
+            before, sections = dict(self.elements), len(self.sections)
+            self._collect(base, modifier if inner.empty else merge(modifier, inner), depth + 1)
+            if tree.left_out:
+                self._leave_out(tree.left_out, sections, base)
+            inherited = {n: e for n, e in self.elements.items() if before.get(n) is not e}
+            self._refuse_unknown(inner, inherited, base)
+            if any(e.protected and e.base is reference for e in cls.extends):
+                for name, e in inherited.items():
+                    self.elements[name] = replace(e, declaration=replace(e.declaration, protected=True))
+            visible |= self.visible[id(base.origin or base)]
+        for declaration in cls.components:
+            outer = modifier.children.get(declaration.name) if modifier else None
+            self._add(Element(declaration, cls, outer))
+        visible.update(c.name for c in cls.components)
+        self.sections += [(section, cls) for section in cls.sections]
+
+    def _constraint(self, cls: ast.Class) -> Modifier | None:
+        """The modification of the constraining clause that `cls` was chosen under."""
+        if cls.constrained is None:
+            return None
+        tree, around = cls.constrained
+        return from_tree(tree, Scope(self._context, around, self._instance.parent))
+
+    def _leave_out(self, left_out: list[ast.Ref | ast.Connect], first: int, base: ast.Class) -> None:
+        """Selective extension (Modelica 3.6, 7.4): drop inherited components with their connections, or connections."""
+        names = {str(item): item for item in left_out if isinstance(item, ast.Ref)}
+        pairs = {frozenset((written(c.left), written(c.right))): c for c in left_out if isinstance(c, ast.Connect)}
+        used: set[frozenset[str]] = set()
+        for name, item in names.items():
+            if name not in self.elements:
+                hint = did_you_mean(name, self.elements, f"{base.name} has {', '.join(list(self.elements)[:10])}")
+                raise Diagnostic("R032", f"{base.path} has no component {name} to leave out", item.span, hint)
+            del self.elements[name]
+
+        def kept(item: ast.Item) -> bool:
+            if not isinstance(item, ast.Connect):
+                return True
+            pair = frozenset((written(item.left), written(item.right)))
+            used.add(pair)
+            return pair not in pairs and item.left.names[0] not in names and item.right.names[0] not in names
+
+        for k in range(first, len(self.sections)):
+            section, cls = self.sections[k]
+            self.sections[k] = (replace(section, items=[i for i in section.items if kept(i)]), cls)
+        for pair, item in pairs.items():
+            if pair not in used:
+                hint = "write it as the base class does"
+                raise Diagnostic("R032", f"{base.path} has no such connection to leave out", item.span, hint)
+
+    def _add(self, element: Element) -> None:
+        name = element.declaration.name
+        present = self.elements.get(name)
+        if element.declaration.redeclares:
+            element = _redeclared(element, present)
+        elif present is not None and present.declaration is not element.declaration:
+            same_type = str(present.declaration.type) == str(element.declaration.type)
+            if present.cls is element.cls or not same_type:
+                error = Diagnostic("R010", f"{name} is declared twice", element.declaration.span, "rename one of them")
+                error.notes.append((present.declaration.span, "the other declaration"))
+                raise error
+        self.elements[name] = element
+
+    def _refuse_unknown(self, modifier: Modifier, elements: dict[str, Element], cls: ast.Class) -> None:
+        for name, child in modifier.children.items():
+            if name not in elements and own_or_inherited(self._context.library, cls, name) is None:
+                hint = did_you_mean(name, elements, f"{cls.name} has {', '.join(list(elements)[:10]) or 'no elements'}")
+                raise Diagnostic("R032", f"{cls.path} has no element {name} to modify", child.span, hint)
+
+    def _refuse_protected(self, modifier: Modifier, cls: ast.Class) -> None:
+        for name, child in modifier.children.items():
+            declaration = self.elements[name].declaration if name in self.elements else None
+            if declaration is not None and declaration.protected:
+                hint = "make it public, or modify it in an extends clause"
+                error = Diagnostic("R037", f"{name} is protected in {cls.name}", child.span, hint)
+                error.notes.append((declaration.span, "declared here"))
+                raise error
+
+
+def _redeclared(element: Element, present: Element | None) -> Element:
+    """An element written with `redeclare`, in place of the inherited one. Raises R032, R033, R037."""
+    new = element.declaration
+    if present is None:
+        hint = "redeclare what a base class declares, or remove 'redeclare'"
+        raise Diagnostic("R032", f"{new.name} redeclares nothing", new.span, hint)
+    old = present.declaration
+    refuse_redeclaration(new, old, new.span)
+    if old.protected != new.protected:
+        hint = "declare both public, or both protected"
+        raise Diagnostic("R037", f"{new.name} and what it redeclares differ in visibility", new.span, hint)
+    if new.constraint is None and old.constraint is not None:
+        new = replace(new, constraint=old.constraint)
+    return replace(element, declaration=inheriting(new, old))
+
+
+def refuse_redeclaration(new: ast.Component, old: ast.Component, span: Span) -> None:
+    """Raises R033 where a component cannot be redeclared: constants, final ones, and those not replaceable."""
+    why = "a constant" if old.variability == "constant" else "final" if old.final else ""
+    if why or not old.replaceable:
+        message = f"{old.name} is {why or 'not replaceable'}" + (" and cannot be redeclared" if why else "")
+        error = Diagnostic("R033", message, span, "declare it with 'replaceable'" if not why else "remove 'redeclare'")
+        error.notes.append((old.span, "declared here"))
+        raise error
+
+
+def inheriting(new: ast.Component, old: ast.Component) -> ast.Component:
+    """A redeclaration with the prefixes and sizes of the original where it has none of its own (7.3)."""
+    return replace(
+        new, variability=new.variability or old.variability, causality=new.causality or old.causality,
+        flow=new.flow or old.flow, stream=new.stream or old.stream, inner=new.inner or old.inner,
+        outer=new.outer or old.outer, dimensions=new.dimensions or old.dimensions,
+        condition=new.condition or old.condition, protected=old.protected,
+        description=new.description or old.description,
+    )  # fmt: skip
+
+
+def written(reference: ast.Ref) -> str:
+    """A name as text, subscripts that are whole numbers included, to compare connections."""
+    parts = []
+    for name, subscripts in zip(reference.names, reference.subscripts, strict=True):
+        shown = [str(s.value) if isinstance(s, ast.Literal) else "?" for s in subscripts or ()]
+        parts.append(name + (f"[{','.join(shown)}]" if shown else ""))
+    return ".".join(parts)

@@ -1,0 +1,137 @@
+"""A declared variable of a primitive type, scalar or array, with its attributes and binding."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from math import prod
+
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.classes.types import ATTRIBUTES, EXTERNAL, Type
+from lacuna.codegen.flatten.expressions.enumerations import IndexType
+from lacuna.codegen.flatten.expressions.lower import modifier_value
+from lacuna.codegen.flatten.names.component import Component
+from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.modifiers import Modifier
+from lacuna.codegen.flatten.names.values import Array, Record, Value, indices, shape_of, shape_text
+from lacuna.codegen.library.suggest import did_you_mean
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import Expr
+from lacuna.codegen.syntax import ast
+
+
+class Leaf:
+    """`names` are its scalars in row-major order: x, or x[1], x[2], ... ("A[1,2]" for a matrix)."""
+
+    def __init__(
+        self,
+        context: Context,
+        instance: Component,
+        declaration: ast.Component,
+        name: str,
+        found: Type,
+        shape: tuple[int, ...],
+        modifier: Modifier,
+        index_types: tuple[IndexType, ...] = (),
+    ) -> None:
+        self.instance, self.declaration, self.name, self.type = instance, declaration, name, found
+        self.shape, self.modifier, self.index_types = shape, modifier, index_types
+        self.span = declaration.span
+        self.primitive = found.primitive
+        self.variability = self._variability()
+        self.causality = declaration.causality or found.causality or instance.causality
+        self.flow, self.stream = declaration.flow or instance.flow, declaration.stream or instance.stream
+        self.open_ended = instance.open_ended  # in an expandable connector: its direction follows from the connections
+        if shape:
+            self.names = tuple(f"{name}[{','.join(map(str, i))}]" for i in indices(shape))
+        else:
+            self.names = (name,)
+        self._binding: Value | None = None
+        self._bound = self._lowering = False
+        self._check_attributes()
+        for position, scalar in enumerate(self.names):
+            context.scalars[scalar] = (self, position)
+
+    def _variability(self) -> str:
+        """The stricter of the declaration's own and the surrounding component's."""
+        order = ("constant", "parameter", "discrete", "")
+        given = (self.declaration.variability, self.instance.variability)
+        if self.primitive != "Real" and not any(given):
+            return "discrete"
+        return min(given, key=order.index) or "continuous"
+
+    def _check_attributes(self) -> None:
+        for name, child in self.modifier.children.items():
+            if name not in ATTRIBUTES[self.primitive]:
+                hint = did_you_mean(name, ATTRIBUTES[self.primitive], "see the attributes in docs/language.md")
+                raise Diagnostic("R035", f"{self.primitive} has no attribute {name}", child.span, hint)
+
+    @property
+    def is_structural(self) -> bool:
+        return self.variability in ("constant", "parameter")
+
+    @cached_property
+    def is_free(self) -> bool:
+        """A parameter that initial equations determine."""
+        return self.variability == "parameter" and self._is_false(self.modifier.children.get("fixed"))
+
+    @staticmethod
+    def _is_false(fixed: Modifier | None) -> bool:
+        value = fixed.value if fixed is not None else None
+        return value is ex.FALSE or (isinstance(value, ast.Literal) and value.value is False)
+
+    def value(self) -> Value:
+        """The variable(s) as expressions; a String is its text."""
+        if self.primitive in ("String", EXTERNAL):
+            return self.text()
+        if not self.shape:
+            return ex.var(self.name, self.primitive)
+        return self._elements
+
+    @cached_property
+    def _elements(self) -> Array:
+        return Array(self.shape, tuple(ex.var(n, self.primitive) for n in self.names))
+
+    def text(self) -> Value:
+        value = self.binding()
+        if value is None:
+            hint = 'bind it: = "..."' if self.primitive == "String" else "bind it to a call of its constructor"
+            raise Diagnostic("F020", f"the {self.primitive} {self.name} has no value", self.span, hint)
+        return value
+
+    def binding(self) -> Value | None:
+        """The value of its declaration equation or binding, checked for size and type; None where it has none."""
+        if self._lowering:
+            raise Diagnostic("F022", f"the value of {self.name} depends on itself", self.span, "break the circle")
+        if not self._bound:
+            self._lowering = True
+            try:
+                if self.modifier.value is not None:
+                    self._binding = self._fit(modifier_value(self.modifier), self.modifier, "the binding")
+            finally:
+                self._lowering = False
+            self._bound = True
+        return self._binding
+
+    def attribute(self, name: str) -> Value | None:
+        """One attribute of all elements (a scalar where the variable is one)."""
+        child = self.modifier.children.get(name)
+        if child is None or child.value is None:
+            return None
+        return self._fit(modifier_value(child), child, name)
+
+    def _fit(self, value: Value, modifier: Modifier, what: str) -> Value:
+        if isinstance(value, Record):
+            hint = "use one field of it"
+            raise Diagnostic("R041", f"a record for the {self.primitive} {self.name}", modifier.span, hint)
+        if shape_of(value) == self.shape:
+            return value
+        if not isinstance(value, Array) and modifier.each:
+            return Array(self.shape, (value,) * prod(self.shape))
+        sizes = f"{self.name} has size {shape_text(self.shape)}, {what} {shape_text(shape_of(value))}"
+        hint = f"write each {what} = ..." if what != "the binding" else "use fill(value, n)"
+        if isinstance(value, Array):
+            hint = "both need the same size"
+        raise Diagnostic("R036", sizes, modifier.span, hint)
+
+    def element(self, value: Value | None, position: int) -> Expr | str | None:
+        return value.items[position] if isinstance(value, Array) else value

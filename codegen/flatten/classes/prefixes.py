@@ -1,0 +1,77 @@
+"""What may stand before a declaration, by the type it declares (Modelica 3.6, 4.4.2.2, 4.7, 5.4)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.classes.inheritance import Element
+from lacuna.codegen.flatten.classes.types import Type
+from lacuna.codegen.flatten.names.modifiers import Modifier
+from lacuna.codegen.symbolic.expr import REAL
+from lacuna.codegen.syntax import ast
+
+ElementsOf = Callable[[ast.Class], Mapping[str, Element]]
+
+
+def check_prefixes(declaration: ast.Component, found: Type, elements: ElementsOf) -> None:
+    """Raises R072 for a prefix that the type of the component does not allow."""
+    name, span, cls = declaration.name, declaration.span, found.cls
+    written = [declaration.variability, declaration.causality]
+    written += [p for p in ("flow", "stream") if getattr(declaration, p)]
+    prefixes = [p for p in written if p]
+    if not prefixes:
+        return
+    if found.primitive is not None:
+        if (declaration.flow or declaration.stream) and found.primitive != REAL:
+            raise Diagnostic("R072", f"{name} is {prefixes[-1]} and no Real", span, "only Reals flow")
+        if declaration.causality and found.causality:
+            hint = f"{declaration.type} is {found.causality} already"
+            raise Diagnostic("R072", f"{name} is {declaration.causality} of what is {found.causality}", span, hint)
+        return
+    if cls.kind in ("model", "block"):
+        hint = "prefixes are for types, records and connectors"
+        raise Diagnostic("R072", f"the {cls.kind} {name} cannot be {prefixes[0]}", span, hint)
+    if cls.kind == "connector" and declaration.variability in ("parameter", "constant"):
+        hint = "remove the prefix, or declare a record"
+        raise Diagnostic("R072", f"the connector {name} cannot be a {declaration.variability}", span, hint)
+    inner = _first_prefixed(cls, bool(declaration.flow or declaration.stream), bool(declaration.causality), elements)
+    if inner:
+        hint = f"remove one of the two: {inner} has a prefix of its own"
+        raise Diagnostic("R072", f"{name} and its element {inner} both have such a prefix", span, hint)
+
+
+def _first_prefixed(cls: ast.Class, kind: bool, causal: bool, elements: ElementsOf) -> str:
+    """The first element that is flow or stream (where `kind`), or input or output (where `causal`); "" if none is."""
+    if cls.alias is not None and cls.alias.causality and causal:
+        return cls.name
+    for name, element in elements(cls).items():
+        d = element.declaration
+        if (kind and (d.flow or d.stream)) or (causal and d.causality):
+            return name
+    return ""
+
+
+def check_outer(declaration: ast.Component, outside: Modifier | None) -> None:
+    """Raises R076 for an outer declaration that is modified (5.4)."""
+    own = declaration.modification
+    if own.value is not None or own.arguments or (outside is not None and not outside.empty):
+        span = outside.span if outside is not None and not outside.empty else own.span
+        hint = "modify the inner one"
+        raise Diagnostic("R076", f"{declaration.name} is outer and cannot be modified", span, hint)
+
+
+def check_block(cls: ast.Class, declaration: ast.Component, found: Type, elements: ElementsOf) -> None:
+    """Raises R070 for a connector of a block whose direction is open (4.7)."""
+    if cls.kind != "block" or declaration.protected or declaration.causality or declaration.outer:
+        return
+    if found.cls is None or found.cls.kind != "connector" or found.cls.expandable or found.causality:
+        return
+    open_ended = [
+        name for name, e in elements(found.cls).items()
+        if not e.declaration.causality and e.declaration.variability not in ("parameter", "constant")
+    ]  # fmt: skip
+    if found.primitive is None and open_ended and any(elements(found.cls)[n].declaration.flow for n in open_ended):
+        hint = "write a model, or connectors of inputs and outputs"
+        message = f"{declaration.name} of a block is neither input nor output"
+        raise Diagnostic("R070", message, declaration.span, hint)

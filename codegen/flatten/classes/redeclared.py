@@ -1,0 +1,102 @@
+"""What stands for a replaceable class or component is a subtype of its constraining class (Modelica 3.6, 7.3.2)."""
+
+from __future__ import annotations
+
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.classes.subtypes import ElementsOf, require_subtype
+from lacuna.codegen.flatten.classes.types import Type, resolve_type, type_of
+from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.modifiers import Modifier
+from lacuna.codegen.flatten.names.scope import Scope, base_class, base_classes, base_clauses, own_or_inherited
+from lacuna.codegen.flatten.names.views import constrain, modified, view
+from lacuna.codegen.library.classes import Library
+from lacuna.codegen.syntax import ast
+
+
+class _Checked(set[int]):
+    """Classes looked at, by identity."""
+
+
+def check_redeclared(cls: ast.Class, context: Context, elements: ElementsOf) -> None:
+    """Raises R032, R033, R034 or R037 for a redeclaration in `cls` that does not fit; each class is looked at once."""
+    checked, origin = context.table(_Checked), cls.origin or cls
+    if id(origin) in checked:
+        return
+    checked.add(id(origin))
+    for nested in origin.classes.values():
+        _nested(nested, origin, context, elements)
+    for component in origin.components:
+        if component.constraint is not None:
+            scope = Scope(context, origin)
+            bound = resolve_type(component.constraint.base, scope)
+            chosen = resolve_type(component.type, scope)
+            require_subtype(chosen, bound, context, elements, f"the type of {component.name}", component.span)
+    for reference, tree in base_clauses(origin):
+        for argument in tree.arguments:
+            if isinstance(argument.redeclare, ast.Class):
+                base = base_class(context.library, origin, reference, tree)
+                new = view(context.library, argument.redeclare, origin, written=origin.written)
+                _in_place(new, own_or_inherited(context.library, base.origin or base, argument.name), context, elements)
+
+
+def check_modifier(cls: ast.Class, modifier: Modifier, context: Context, elements: ElementsOf) -> None:
+    """The same for classes that the modification of a component redeclares: protected ones are out of its reach."""
+    for name, child in modifier.children.items():
+        if not isinstance(child.redeclare, ast.Class) and not (child.children and child.redeclare is None):
+            continue
+        old = own_or_inherited(context.library, cls.origin or cls, name)
+        if old is None:
+            continue
+        if old.protected:
+            raise Diagnostic("R037", f"{name} is protected in {cls.name}", child.span, "make it public to modify it")
+        if isinstance(child.redeclare, ast.Class):
+            scope = child.redeclared_in
+            _in_place(view(context.library, child.redeclare, scope.cls, written=scope), old, context, elements)
+
+
+def _nested(nested: ast.Class, cls: ast.Class, context: Context, elements: ElementsOf) -> None:
+    if nested.constraint is not None:
+        bound = resolve_type(nested.constraint.base, Scope(context, cls))
+        chosen = type_of(nested, context)
+        if nested.alias is not None:  # its own sizes are not those of the types that are compared
+            chosen.dimensions = chosen.dimensions[len(nested.alias.dimensions) :]
+        require_subtype(chosen, bound, context, elements, nested.name, nested.span)
+    if nested.redeclares:
+        old = _inherited(context.library, cls, nested.name)
+        if old is None:
+            hint = "redeclare what a base class declares, or remove 'redeclare'"
+            raise Diagnostic("R032", f"{nested.name} redeclares nothing", nested.span, hint)
+        constrain(context.library, nested, old, by_element=True)
+        if nested.extends_same is None:
+            _in_place(nested, old, context, elements)
+
+
+def _inherited(library: Library, cls: ast.Class, name: str) -> ast.Class | None:
+    """The class `name` of the bases of `cls`, as they declare it."""
+    found = (own_or_inherited(library, base.origin or base, name) for base in base_classes(library, cls))
+    return next((f for f in found if f is not None), None)
+
+
+def _in_place(new: ast.Class, old: ast.Class | None, context: Context, elements: ElementsOf) -> None:
+    if old is None:
+        return
+    constrain(context.library, new, old, by_element=False)
+    bound: Type = type_of(old, context)
+    if old.constraint is not None and old.parent is not None:
+        bound = resolve_type(old.constraint.base, Scope(context, old.parent))
+    require_subtype(type_of(new, context), bound, context, elements, f"{new.name} for {old.name}", new.span)
+
+
+def seen(cls: ast.Class, modifier: Modifier | None, context: Context) -> ast.Class:
+    """`cls` with the classes that `modifier` redeclares or modifies in it."""
+    library = context.library
+    redeclared: dict[str, ast.Class] = {}
+    for name, child in modifier.children.items() if modifier is not None else ():
+        if isinstance(child.redeclare, ast.Class):
+            scope = child.redeclared_in
+            redeclared[name] = view(library, child.redeclare, scope.cls, written=scope)
+        elif child.redeclare is None and child.children and child.tree is not None:
+            plain = own_or_inherited(library, cls, name)
+            if plain is not None:
+                redeclared[name] = modified(library, plain, child.tree, child.scope, child.scope.cls)
+    return view(library, cls, cls.parent, redeclared, cls.whole) if redeclared else cls

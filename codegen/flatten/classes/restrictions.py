@@ -1,0 +1,174 @@
+"""What the specification forbids a class to declare: specialised classes, inheritance, prefixes, names (Modelica 3.6).
+
+Each class is looked at once, when a model first uses it; what no model uses is not judged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.scope import PRIMITIVES, base_class, base_clauses, own_or_inherited
+from lacuna.codegen.syntax import ast
+
+# What each kind of class may extend besides `class` (7.1.3).
+MAY_EXTEND = {
+    "package": ("package",),
+    "operator": ("operator",),
+    "function": ("function",),
+    "type": ("type",),
+    "record": ("record",),
+    "connector": ("type", "record", "connector"),
+    "block": ("record", "block"),
+    "model": ("record", "block", "model"),
+    "class": ("package", "operator", "function", "type", "record", "connector", "block", "model"),
+}
+_ATTRIBUTES_OF_ENUMERATIONS = ("quantity", "min", "max", "start", "fixed")  # 4.9.5
+_WITHOUT_SECTIONS = ("connector", "record", "package", "type")
+_ALL_PUBLIC = ("connector", "record")
+
+
+class _Checked(set[int]):
+    """Classes looked at, by identity."""
+
+
+def check_class(cls: ast.Class, context: Context) -> None:
+    """Raises R070 (contents of a specialised class), R071 (what it extends) or R074 (names)."""
+    checked, origin = context.table(_Checked), cls.origin or cls
+    if id(origin) in checked:
+        return
+    checked.add(id(origin))
+    for finding in _findings(origin):
+        raise finding
+    _check_bases(cls, context)
+
+
+def _findings(cls: ast.Class) -> Iterator[Diagnostic]:
+    yield from _names(cls)
+    yield from _sections(cls)
+    for component in cls.components:
+        yield from _component(cls, component)
+
+
+def _names(cls: ast.Class) -> Iterator[Diagnostic]:
+    for span, name in _declared(cls):
+        if name in PRIMITIVES:
+            yield Diagnostic(
+                "R074", f"{name} is the name of a predefined type", span, f"rename it, for example my{name}"
+            )
+    for component in cls.components:
+        if component.name in cls.classes:
+            hint = "rename one of them"
+            yield Diagnostic("R010", f"{component.name} is declared as a class, too", component.span, hint)
+    seen: set[str] = set()
+    for literal, _ in cls.literals or ():
+        if literal in _ATTRIBUTES_OF_ENUMERATIONS:
+            hint = "choose another name"
+            yield Diagnostic("R074", f"{literal} is an attribute and cannot be a literal", cls.span, hint)
+        if literal in seen:
+            yield Diagnostic("R074", f"the literal {literal} is given twice", cls.span, "remove one of them")
+        seen.add(literal)
+    names: set[str] = set()
+    for item in cls.imports:
+        name = item.alias or item.path.names[-1]
+        if not item.every and name in names:
+            hint = "import one of them under another name: import A = B.C;"
+            yield Diagnostic("R075", f"{name} is imported twice", item.span, hint)
+        names |= set() if item.every else {name}
+
+
+def _declared(cls: ast.Class) -> Iterator[tuple[Span, str]]:
+    yield cls.span, cls.name
+    yield from ((c.span, c.name) for c in cls.components)
+    yield from ((c.span, c.name) for c in cls.classes.values())
+
+
+def _sections(cls: ast.Class) -> Iterator[Diagnostic]:
+    if cls.kind in _WITHOUT_SECTIONS and cls.sections:
+        section = cls.sections[0]
+        what = "an algorithm" if section.algorithm else "equations"
+        yield Diagnostic("R070", f"a {cls.kind} has no {what}", section.span, "write a model or a block")
+
+
+def _component(cls: ast.Class, component: ast.Component) -> Iterator[Diagnostic]:
+    kind, span = cls.kind, component.span
+    if kind in _ALL_PUBLIC and component.protected:
+        yield Diagnostic("R070", f"a {kind} has no protected elements", span, "make it public")
+    if kind in _ALL_PUBLIC and (component.inner or component.outer):
+        yield Diagnostic("R070", f"a {kind} has neither inner nor outer elements", span, "declare it in a model")
+    if kind == "record" and (component.causality or component.flow or component.stream):
+        hint = "prefixes of that kind belong into connectors, blocks and functions"
+        yield Diagnostic(
+            "R070", f"{component.name}: an element of a record is not input, output, flow or stream", span, hint
+        )
+    if kind == "package" and component.variability != "constant":
+        yield Diagnostic(
+            "R070", f"{component.name}: a package holds classes and constants", span, "declare it constant"
+        )
+
+
+def _check_bases(cls: ast.Class, context: Context) -> None:
+    if cls.alias is not None:
+        return
+    allowed = MAY_EXTEND.get(cls.kind, ())
+    for reference, tree in base_clauses(cls):
+        base = base_class(context.library, cls, reference, tree)
+        if base is not None:
+            _check_operators(cls, base, reference)
+        if base is None or base.kind in (*allowed, "class"):
+            continue
+        if cls.kind == "function" and base.kind == "class":
+            continue
+        hint = f"a {cls.kind} extends {' or '.join(allowed)}"
+        raise Diagnostic("R071", f"the {cls.kind} {cls.name} extends the {base.kind} {base.name}", reference.span, hint)
+    _check_replaceable_bases(cls, context)
+    if cls.alias is None and len(cls.extends) + len(cls.components) > 1:
+        for clause in cls.extends:
+            if _is_simple(clause.base, cls, context):
+                hint = "a class that extends a simple or an array type has nothing else"
+                raise Diagnostic("R071", f"{cls.name} extends {clause.base} and more", clause.base.span, hint)
+
+
+def _check_operators(cls: ast.Class, base: ast.Class, reference: ast.Ref) -> None:
+    """Nothing extends an operator record, nor a class around one, but by a short definition (14.2, 4.7)."""
+    held = next((c for c in base.classes.values() if c.operator and c.kind == "record"), None)
+    found = base if base.operator and base.kind == "record" else held
+    if found is not None:
+        hint = "write a short definition: operator record NAME = BASE(...);"
+        what = f"the operator record {base.name}" if found is base else f"{base.name}, which holds an operator record"
+        raise Diagnostic("R071", f"{cls.name} extends {what}", reference.span, hint)
+
+
+def check_flow_record(cls: ast.Class, span: Span, context: Context) -> None:
+    """An operator record that flows has '+', '-' and '0': what connections add up (9.2). Raises R079."""
+    if not (cls.operator and cls.kind == "record"):
+        return
+    for name in ("'+'", "'-'", "'0'"):
+        if own_or_inherited(context.library, cls, name) is None:
+            hint = "declare it in the operator record"
+            raise Diagnostic("R079", f"{cls.name} is a flow and has no operator {name}", span, hint)
+
+
+def _check_replaceable_bases(cls: ast.Class, context: Context) -> None:
+    for clause in cls.extends:
+        base = base_class(context.library, cls, clause.base, clause.modification)
+        if base is not None and ((base.replaceable and base.alias is None) or (base.origin or base).replaceable):
+            hint = "extend a class that is not replaceable (7.1.4)"
+            raise Diagnostic("R071", f"{cls.name} extends the replaceable {base.name}", clause.base.span, hint)
+
+
+def _is_simple(reference: ast.Ref, cls: ast.Class, context: Context, depth: int = 0) -> bool:
+    """A primitive type, an array type, or a type with a prefix of its own."""
+    if str(reference) in PRIMITIVES:
+        return True
+    clauses = {id(r): t for r, t in base_clauses(cls)}
+    base = base_class(context.library, cls, reference, clauses.get(id(reference), ast.Modification(reference.span)))
+    if base is None or depth > 20:
+        return False
+    if base.literals is not None:
+        return True
+    if base.alias is not None:
+        prefixed = bool(base.alias.dimensions or base.alias.causality)
+        return prefixed or _is_simple(base.alias.base, base, context, depth + 1)
+    return any(_is_simple(e.base, base, context, depth + 1) for e in base.extends)

@@ -1,0 +1,60 @@
+"""May one class stand in place of another? (Modelica 3.6, 6.4 and 7.3, as far as translation needs it)"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.classes.inheritance import Element
+from lacuna.codegen.flatten.classes.types import Type, resolve_type
+from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.syntax import ast
+
+ElementsOf = Callable[[ast.Class], Mapping[str, Element]]
+MAX_DEPTH = 8  # of components in components: as deep as types are compared
+
+
+def require_subtype(chosen: Type, bound: Type, context: Context, elements: ElementsOf, what: str, span: Span) -> None:
+    """Raises R034 where `chosen` cannot stand for `bound`."""
+    reason = mismatch(chosen, bound, context, elements)
+    if reason:
+        hint = f"choose a class that has what {bound.cls.name if bound.cls else bound.primitive} has"
+        raise Diagnostic("R034", f"{what}: {reason}", span, hint)
+
+
+def mismatch(chosen: Type, bound: Type, context: Context, elements: ElementsOf, depth: int = 0) -> str:
+    """Why `chosen` is no subtype of `bound`; "" where it is one."""
+    if chosen.primitive or bound.primitive:
+        open_ended = bound.cls is not None and bound.cls.literals == () and bool(chosen.literals)  # enumeration(:)
+        if chosen.primitive != bound.primitive or (chosen.literals != bound.literals and not open_ended):
+            return f"{_name(chosen)} is no {_name(bound)}"
+        if len(chosen.dimensions) != len(bound.dimensions):
+            return f"{len(chosen.dimensions)} dimensions where {len(bound.dimensions)} are needed"
+        return ""
+    if chosen.cls is bound.cls or depth > MAX_DEPTH:
+        return ""
+    needed, offered = elements(bound.cls), elements(chosen.cls)
+    missing = [n for n, e in needed.items() if n not in offered and not e.declaration.protected]
+    if missing:
+        return f"{chosen.cls.name} lacks {', '.join(missing)} of {bound.cls.name}"
+    for name, element in needed.items():
+        if element.declaration.protected:
+            continue
+        if offered[name].declaration.protected:
+            return f"{name} is protected in {chosen.cls.name}"
+        inner = [_type_of(e, context) for e in (offered[name], element)]
+        reason = mismatch(inner[0], inner[1], context, elements, depth + 1)
+        if reason:
+            return f"{name}: {reason}"
+    return ""
+
+
+def _type_of(element: Element, context: Context) -> Type:
+    found = resolve_type(element.declaration.type, Scope(context, element.cls, None))
+    found.dimensions = [0] * (len(found.dimensions) + len(element.declaration.dimensions))
+    return found
+
+
+def _name(kind: Type) -> str:
+    return kind.cls.name if kind.cls is not None else str(kind.primitive)

@@ -1,0 +1,99 @@
+"""What a type name means: a primitive type with its attributes and sizes, an enumeration, or a class."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.classes.restrictions import check_class
+from lacuna.codegen.flatten.expressions.evaluate import evaluate_dimensions
+from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.modifiers import Modifier, from_tree, merge
+from lacuna.codegen.flatten.names.scope import PRIMITIVES, Scope, base_class, find_class
+from lacuna.codegen.flatten.names.unknown import unknown_class
+from lacuna.codegen.syntax import ast
+
+EXTERNAL = "ExternalObject"
+ATTRIBUTES = {
+    "Real": ("value", "quantity", "unit", "displayUnit", "min", "max", "start", "fixed", "nominal", "stateSelect"),
+    "Integer": ("quantity", "min", "max", "start", "fixed"),
+    "Boolean": ("quantity", "start", "fixed"),
+    "String": ("quantity", "start", "fixed"),
+    EXTERNAL: (),
+}
+
+
+@dataclass
+class Type:
+    """`primitive` is Real, Integer, Boolean or String, else None and `cls` is structured."""
+
+    primitive: str | None
+    cls: ast.Class | None = None
+    literals: tuple[str, ...] = ()
+    modifier: Modifier | None = None
+    dimensions: list[int] = field(default_factory=list)
+    causality: str = ""
+    named: ast.Class | None = None  # of a primitive type with a name of its own: the class of that name
+
+
+def resolve_type(reference: ast.Ref, scope: Scope, depth: int = 0) -> Type:
+    """Follow aliases down to a primitive type or a class. Raises R001 for an unknown name."""
+    if depth > 20:
+        raise Diagnostic("R011", f"the type {reference} is defined by itself", reference.span, "break the circle")
+    if str(reference) in PRIMITIVES:
+        return Type(str(reference))
+    library = scope.context.library
+    cls = find_class(library, scope.cls, reference, of_base=depth > 0)
+    if cls is None:
+        raise unknown_class(library, scope.cls, reference, "type or class")
+    return type_of(cls, scope.context, depth)
+
+
+def type_of(cls: ast.Class, context: Context, depth: int = 0) -> Type:
+    """What a class is as the type of a component."""
+    if cls.literals is not None:
+        check_class(cls, context)
+        return Type("Integer", cls, tuple(name for name, _ in cls.literals))
+    inside = cls.written if isinstance(cls.written, Scope) else Scope(context, cls, None)
+    if cls.alias is not None:
+        found = _of_alias(cls, context, depth)
+        if found.primitive is None and not cls.alias.dimensions:
+            return Type(None, cls)
+        if cls.constrained is not None:
+            tree, around = cls.constrained
+            found.modifier = merge(from_tree(tree, Scope(context, around, None)), found.modifier)
+        found.modifier = merge(from_tree(cls.alias.modification, inside), found.modifier)
+        found.dimensions = evaluate_dimensions(cls.alias.dimensions, inside, None, cls.name) + found.dimensions
+        found.causality = cls.alias.causality or found.causality
+        found.named = cls
+        return found
+    if is_external(cls):
+        return Type(EXTERNAL, cls)
+    for clause in cls.extends:
+        if str(clause.base) in PRIMITIVES or _is_primitive(clause.base, inside, depth):
+            found = resolve_type(clause.base, inside, depth + 1)
+            found.modifier = merge(from_tree(clause.modification, inside), found.modifier)
+            found.named = cls
+            return found
+    return Type(None, cls)
+
+
+def is_external(cls: ast.Class) -> bool:
+    """Is it a class of external objects (Modelica 3.6, 12.9.7)?"""
+    return any(str(clause.base) == EXTERNAL for clause in cls.extends)
+
+
+def _of_alias(cls: ast.Class, context: Context, depth: int) -> Type:
+    reference = cls.alias.base
+    if cls.alias.target is None and str(reference) in PRIMITIVES:
+        return Type(str(reference))
+    base = base_class(context.library, cls, reference, cls.alias.modification)
+    if base is None:
+        raise unknown_class(context.library, cls, reference, "type or class")
+    if depth > 20:
+        raise Diagnostic("R011", f"the type {reference} is defined by itself", reference.span, "break the circle")
+    return type_of(base, context, depth + 1)
+
+
+def _is_primitive(base: ast.Ref, scope: Scope, depth: int) -> bool:
+    return scope.cls.kind in ("type", "connector") and resolve_type(base, scope, depth + 1).primitive is not None

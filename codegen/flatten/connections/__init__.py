@@ -1,0 +1,1 @@
+"""connect() to equations: connectors, sets, streams, and graphs of overdetermined connectors."""

@@ -1,0 +1,170 @@
+"""Expandable connectors get the elements that connections bring to them (Modelica 3.6, 9.1.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.classes.instance import Absent, ArrayNode, Instance, Node
+from lacuna.codegen.flatten.classes.leaf import Leaf
+from lacuna.codegen.flatten.connections.connectors import Connector, connectors, pick
+from lacuna.codegen.flatten.expressions.constants import known
+from lacuna.codegen.flatten.expressions.lower import lower_scalar
+from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.modifiers import Modifier
+from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.symbolic.expr import INTEGER
+from lacuna.codegen.syntax import ast
+
+Connections = list[tuple[ast.Connect, Scope]]
+
+
+def expand(connections: Connections, context: Context) -> None:
+    """Add to expandable connectors what `connections` name in them, until nothing is new.
+
+    Raises R061 where neither side of a connection is declared anywhere.
+    """
+    found: dict[tuple[int, tuple[str, ...]], bool] = {}  # by what a name means, all elements of arrays together
+
+    def touches(ref: ast.Ref, scope: Scope) -> bool:
+        key = id(scope.instance), ref.names
+        if key not in found:
+            found[key] = _touches_expandable(ref, scope)
+        return found[key]
+
+    waiting = [c for c in connections if any(touches(ref, c[1]) for ref in (c[0].left, c[0].right))]
+    changed = True
+    while changed:
+        changed = False
+        for item, scope in waiting:
+            with context.attempt():
+                changed = _expand_one(item, scope, waiting) or changed
+    for item, scope in waiting:
+        if _owner(item.left, scope) is not None and _owner(item.right, scope) is not None:
+            hint = "declare it in one of the expandable connectors"
+            with context.attempt():
+                raise Diagnostic("R061", f"neither {item.left} nor {item.right} is declared", item.span, hint)
+
+
+def _touches_expandable(ref: ast.Ref, scope: Scope) -> bool:
+    return any(isinstance(n, Instance) and n.cls.expandable for n in _along(ref, scope))
+
+
+def _along(ref: ast.Ref, scope: Scope) -> Iterator[Node]:
+    """The components that the names of `ref` mean, as far as there are such; of arrays every element."""
+    nodes: list[Node | None] = [scope.instance.child(ref.names[0])]
+    for name in (*ref.names[1:], None):
+        nodes = [inner for n in nodes for inner in (n.items if isinstance(n, ArrayNode) else [n])]
+        yield from (n for n in nodes if n is not None)
+        if name is not None:
+            nodes = [n.child(name) if isinstance(n, Instance) else None for n in nodes]
+
+
+def _owner(ref: ast.Ref, scope: Scope) -> Instance | None:
+    """The expandable connector that lacks the last name of `ref`; None where there is nothing missing."""
+    if len(ref.names) < 2:
+        return None
+    part = replace(ref, names=ref.names[:-1], subscripts=ref.subscripts[:-1])
+    owners = _resolved(part, scope)
+    if len(owners) != 1 or not isinstance(owners[0], Instance) or not owners[0].cls.expandable:
+        return None
+    return owners[0] if owners[0].child(ref.names[-1]) is None else None
+
+
+def _resolved(ref: ast.Ref, scope: Scope) -> list[Connector]:
+    nodes: list[Connector] = [scope.instance.child(ref.names[0])]
+    for at, subscripts in enumerate(ref.subscripts):
+        if at:
+            nodes = [n.child(ref.names[at]) for n in nodes if isinstance(n, Instance)]
+        nodes = [picked for n in nodes if n is not None for picked in pick(n, subscripts, ref, at, scope)]
+    return nodes
+
+
+def _expand_one(item: ast.Connect, scope: Scope, all_of_them: Connections) -> bool:
+    missing = [(_owner(ref, scope), ref) for ref in (item.left, item.right)]
+    if missing[0][0] is not None and missing[1][0] is not None:
+        return False
+    for (owner, ref), other in zip(missing, (item.right, item.left), strict=True):
+        if owner is not None:
+            found = connectors(other, scope)
+            if found:
+                _add(owner, ref, found, scope, all_of_them)
+            return bool(found)
+    left, right = connectors(item.left, scope), connectors(item.right, scope)
+    changed = False
+    for a, b in zip(left, right, strict=False):
+        if isinstance(a, Instance) and isinstance(b, Instance) and (a.cls.expandable or b.cls.expandable):
+            changed = _share(a, b) or changed
+            changed = _share(b, a) or changed
+    return changed
+
+
+def _share(giver: Instance, taker: Instance) -> bool:
+    """Both have what one of them has, nested expandable connectors included."""
+    changed = False
+    for name in list(giver.present):
+        node = giver.child(name)
+        have = taker.child(name)
+        if have is None and taker.cls.expandable and not isinstance(node, Absent):
+            taker.adopt(name, _like(node, name, taker))
+            changed = True
+        elif isinstance(node, Instance) and isinstance(have, Instance) and node.cls.expandable:
+            changed = _share(node, have) or changed
+    return changed
+
+
+def _add(owner: Instance, ref: ast.Ref, found: list[Connector], scope: Scope, connections: Connections) -> None:
+    name, first = ref.names[-1], found[0]
+    shape: tuple[int, ...] = (len(found),) if len(found) > 1 else ()
+    if ref.subscripts[-1] is not None:
+        shape = _largest(owner, name, connections)
+    node = first[0] if isinstance(first, tuple) else first
+    if isinstance(node, Leaf):
+        whole = not isinstance(first, tuple)
+        owner.adopt(name, _leaf(node, name, owner, node.shape if whole and not shape else shape))
+    elif shape:
+        items = [_like(node, f"{name}[{k + 1}]", owner) for k in range(shape[0])]
+        owner.adopt(name, ArrayNode(owner.path_of(name), shape, items, (None,)))
+    else:
+        owner.adopt(name, _like(node, name, owner))
+
+
+def _largest(owner: Instance, name: str, connections: Connections) -> tuple[int, ...]:
+    """The size of an array that connections name by its elements: the largest subscript of each dimension."""
+    sizes: list[int] = []
+    for item, scope in connections:
+        for ref in (item.left, item.right):
+            if ref.names[-1] != name or ref.subscripts[-1] is None or _owner(ref, scope) is not owner:
+                continue
+            for k, subscript in enumerate(ref.subscripts[-1]):
+                number = known(lower_scalar(subscript, scope, INTEGER), scope, subscript.span, "the subscript").value
+                sizes += [0] * (k + 1 - len(sizes))
+                sizes[k] = max(sizes[k], int(number))
+    return tuple(sizes)
+
+
+def _like(node: Node, name: str, owner: Instance) -> Node:
+    """A component of the same kind as `node`, as the element `name` of `owner`."""
+    if isinstance(node, Leaf):
+        return _leaf(node, name, owner, node.shape)
+    if isinstance(node, ArrayNode):
+        items = [_like(n, f"{name}[{k + 1}]", owner) for k, n in enumerate(node.items)]
+        return ArrayNode(owner.path_of(name), node.shape, items, node.index_types)
+    assert isinstance(node, Instance)
+    declaration = replace(node.declaration, name=name, condition=None, protected=False)
+    new = Instance(owner.context, node.cls, owner.path_of(name), owner, None, declaration)
+    if new.cls.expandable:
+        _share(node, new)
+    return new
+
+
+def _leaf(like: Leaf, name: str, owner: Instance, shape: tuple[int, ...]) -> Leaf:
+    declaration = replace(
+        like.declaration, name=name, condition=None, protected=False, causality="", inner=False, outer=False,
+        variability="", modification=ast.Modification(like.span),
+    )  # fmt: skip
+    modifier = like.type.modifier or Modifier(like.span)
+    attributes = {k: m for k, m in modifier.children.items() if k not in ("start", "fixed")}
+    plain = replace(modifier, value=None, children={k: replace(m, each=True) for k, m in attributes.items()})
+    return Leaf(owner.context, owner, declaration, owner.path_of(name), like.type, shape, plain, (None,) * len(shape))

@@ -1,0 +1,1 @@
+"""Sections of equations and algorithms to scalar equations and statements."""

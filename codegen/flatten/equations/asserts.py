@@ -1,0 +1,39 @@
+"""assert(condition, message, level), wherever it stands."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.equations.equations import origin_of
+from lacuna.codegen.flatten.expressions.constants import known
+from lacuna.codegen.flatten.expressions.enumerations import enumeration_of
+from lacuna.codegen.flatten.expressions.lower import lower, lower_scalar
+from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, TRUE
+from lacuna.codegen.syntax import ast
+
+
+def lower_assert(call: ast.Call, scope: Scope) -> flat.Assert:
+    arguments = dict(zip(("condition", "message", "level"), call.args, strict=False)) | call.named
+    if not {"condition", "message"} <= arguments.keys():
+        hint = 'assert(x > 0, "what is wrong and what to do")'
+        raise Diagnostic("R050", "assert needs a condition and a message", call.span, hint)
+    condition = lower_scalar(arguments["condition"], scope, BOOLEAN)
+    level = _level(arguments["level"], scope) if "level" in arguments else "error"
+    message = ""
+    if condition is not TRUE:  # else nobody reads it (8.3.7)
+        message = lower(arguments["message"], replace(scope, message=True, conditional=True))
+    if not isinstance(message, str):
+        hint = 'assert(x > 0, "text", AssertionLevel.warning)'
+        raise Diagnostic("R020", "the message of assert is not a String", call.span, hint)
+    return flat.Assert(condition, message, call.span, level, origin_of(scope))
+
+
+def _level(e: ast.Expression, scope: Scope) -> str:
+    value = lower_scalar(e, scope, INTEGER)
+    if enumeration_of(value, scope.context) != "AssertionLevel":
+        hint = "AssertionLevel.warning or AssertionLevel.error"
+        raise Diagnostic("R020", "the level of assert is no AssertionLevel", e.span, hint)
+    return ("warning", "error")[int(known(value, scope, e.span, "the level of assert").value) - 1]

@@ -1,0 +1,128 @@
+"""Equalities spread into scalar equations, their types and variabilities checked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.expressions.constants import variability
+from lacuna.codegen.flatten.expressions.enumerations import require_same
+from lacuna.codegen.flatten.expressions.lower import lower, lower_results
+from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.flatten.names.values import Record, Value, holds_records, items_of, shape_of, shape_text
+from lacuna.codegen.flatten.references.iterators import iterate
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
+from lacuna.codegen.syntax import ast
+
+
+@dataclass
+class Collected:
+    """What sections contribute to the flat model."""
+
+    equations: list[flat.Equation] = field(default_factory=list)
+    whens: list[flat.When] = field(default_factory=list)
+    algorithms: list[flat.Algorithm] = field(default_factory=list)
+    asserts: list[flat.Assert] = field(default_factory=list)
+    connections: list[tuple[ast.Connect, Scope]] = field(default_factory=list)
+    branches: list[ast.Procedure] = field(default_factory=list)  # Connections.branch(...) and the like
+
+
+def unroll(item: ast.For, scope: Scope) -> list[Scope]:
+    """One scope for each pass of a loop, the first iterator being the outermost."""
+    scopes = [scope]
+    for iterator in item.iterators:
+        scopes = [s.with_locals(**{iterator.name: v}) for s in scopes for v in iterate(iterator, s, item.body)]
+    return scopes
+
+
+def equalities(item: ast.Equality, scope: Scope) -> list[flat.Equation]:
+    """left = right, scalar by scalar. Raises R024 for types and R042 for sizes that differ."""
+    if isinstance(item.left, ast.Tuple):
+        return _several(item, scope)
+    left, right = lower(item.left, scope), lower(item.right, scope)
+    return equate(left, right, item.span, scope, item.text)
+
+
+def equate(left: Value, right: Value, span: Span, scope: Scope, text: str) -> list[flat.Equation]:
+    """The scalar equations of left = right."""
+    if shape_of(left) != shape_of(right) or holds_records(left) != holds_records(right):
+        message = f"{shape_text(shape_of(left))} = {shape_text(shape_of(right))}"
+        raise Diagnostic("R042", f"the sides differ in size: {message}", span, "both sides need the same size")
+    result = []
+    for a, b in _pairs(left, right, span):
+        check_types(a, b, span, scope)
+        result.append(flat.Equation(a, b, span, origin_of(scope), text))
+    return result
+
+
+def _pairs(left: Value, right: Value, span: Span) -> Iterator[tuple[Expr | str, Expr | str]]:
+    """Corresponding scalars; the fields of records by their names."""
+    for a, b in zip(items_of(left), items_of(right), strict=True):
+        if not isinstance(a, Record):
+            yield a, b
+            continue
+        if not isinstance(b, Record) or set(a.fields) != set(b.fields):
+            raise Diagnostic("R042", "records of different kind", span, "both sides need the same fields")
+        for name, part in a.fields.items():
+            if shape_of(part) != shape_of(b.fields[name]):
+                raise Diagnostic("R042", f"the sides differ in size: {name}", span, "both sides need the same size")
+            yield from _pairs(part, b.fields[name], span)
+
+
+def check_types(a: Expr | str, b: Expr | str, span: Span, scope: Scope) -> None:
+    """Both sides Boolean, both Integer, or at least one Real with numbers only."""
+    if isinstance(a, str) or isinstance(b, str):
+        raise Diagnostic("R024", "an equation between Strings", span, "Strings are parameters only")
+    kinds = {a.type, b.type}
+    if BOOLEAN in kinds and len(kinds) > 1:
+        hint = "a Boolean as a number: if b then 1 else 0"
+        raise Diagnostic("R024", f"the sides are {a.type} and {b.type}", span, hint)
+    if a.op == "var" and a.type == INTEGER and b.type == REAL:
+        hint = "integer(x) gives the whole number at or below x; or declare it Real"
+        raise Diagnostic("R024", f"the Integer {a.value} is set to a Real", span, hint)
+    require_same(a, b, scope.context, span)
+
+
+def check_target(target: Expr | str, span: Span, scope: Scope) -> None:
+    """What is assigned is a variable, neither parameter nor constant. Raises R058."""
+    if not isinstance(target, Expr) or target.op != "var":
+        raise Diagnostic("R058", "the left side is not a variable", span, "write: variable, then its value")
+    kind = variability(target, scope.context)
+    if kind == "constant" or (kind == "parameter" and not scope.initial):
+        hint = "declare it without 'parameter' or 'constant'"
+        raise Diagnostic("R058", f"the {kind} {target.value} is assigned", span, hint)
+
+
+def check_discrete(equations: list[flat.Equation], assigned: set[str], context: Context) -> None:
+    """A discrete variable that no event sets does not follow what varies between events. Raises R063."""
+    for e in equations:
+        for a, b in ((e.lhs, e.rhs), (e.rhs, e.lhs)):
+            alone = a.op == "var" and a.value not in assigned and variability(a, context) == "discrete"
+            if alone and b.op not in ("var", "der") and variability(b, context) == "continuous":
+                hint = "set it at events: when ... then; or drop 'discrete'"
+                message = f"the discrete {a.value} equals what varies continuously"
+                raise Diagnostic("R063", message, e.span, hint)
+
+
+def _several(item: ast.Equality, scope: Scope) -> list[flat.Equation]:
+    results = lower_results(item.right, scope)
+    if len(item.left.items) > len(results):
+        message = f"{item.right.function} has {len(results)} results, {len(item.left.items)} are wanted"
+        raise Diagnostic("R023", message, item.left.span, "leave some out")
+    equations = []
+    for target, value in zip(item.left.items, results, strict=False):
+        if target is not None:
+            equations += equate(lower(target, scope), value, item.span, scope, item.text)
+    return equations
+
+
+def origin_of(scope: Scope) -> str:
+    return scope.instance.name if scope.instance is not None else ""
+
+
+def real_or_same(kind: str, value: Expr) -> bool:
+    """May a variable of type `kind` take `value`?"""
+    return value.type == kind or (kind == REAL and value.type == INTEGER)

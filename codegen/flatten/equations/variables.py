@@ -1,0 +1,171 @@
+"""Declared variables to flat variables with their attributes; bindings of unknowns to equations."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.classes.leaf import Leaf
+from lacuna.codegen.flatten.classes.types import EXTERNAL
+from lacuna.codegen.flatten.equations.equations import real_or_same
+from lacuna.codegen.flatten.expressions.constants import evaluate, is_parameter
+from lacuna.codegen.flatten.expressions.enumerations import enumeration_of, require_same
+from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
+
+_STATE_SELECT = ("never", "avoid", "default", "prefer", "always")
+_NUMERIC = ("start", "min", "max", "nominal")
+
+
+def flatten_variables(leaf: Leaf, model: flat.FlatModel) -> None:
+    """Add the scalars of one declaration to `model`, and its binding where it is not a parameter."""
+    if leaf.primitive in ("String", EXTERNAL):
+        return
+    context = leaf.instance.context
+    values = {name: leaf.attribute(name) for name in leaf.modifier.children}
+    binding = leaf.binding()
+    for position, name in enumerate(leaf.names):
+        _note_places(leaf, name)
+        attributes = {k: leaf.element(v, position) for k, v in values.items() if v is not None}
+        variable = _variable(leaf, name, attributes)
+        value = leaf.element(binding, position)
+        if leaf.is_structural:
+            variable.binding = _parameter_value(leaf, variable, value, context)
+        elif value is not None:
+            span = leaf.modifier.span
+            checked = _typed(value, leaf, name, span)
+            v = ex.var(name, leaf.primitive)
+            text = f"{name} = {ex.to_text(checked)}"
+            model.equations.append(flat.Equation(v, checked, leaf.span, leaf.instance.name, text))
+        model.variables[name] = variable
+
+
+def _note_places(leaf: Leaf, name: str) -> None:
+    places = leaf.instance.context.places
+    if leaf.modifier.value is not None:
+        places[name, "binding"] = leaf.modifier.span
+    places |= {(name, key): child.span for key, child in leaf.modifier.children.items()}
+
+
+def _variable(leaf: Leaf, name: str, attributes: dict[str, Expr | str]) -> flat.Variable:
+    context, span = leaf.instance.context, leaf.span
+    result = flat.Variable(
+        name,
+        span,
+        leaf.primitive,
+        leaf.variability,
+        description=leaf.declaration.description,
+        final=leaf.modifier.final,
+    )
+    for key in _NUMERIC:
+        if key in attributes:
+            value = _typed(attributes[key], leaf, f"{key} of {name}", leaf.modifier.children[key].span)
+            if not is_parameter(value, context):
+                hint = "use parameters and constants"
+                raise Diagnostic("R055", f"{key} of {name} varies in time", leaf.modifier.children[key].span, hint)
+            setattr(result, key, value)
+    if "fixed" in attributes:
+        result.fixed = _of_type(attributes["fixed"], BOOLEAN, f"fixed of {name}", leaf.modifier.children["fixed"].span)
+    for key in ("unit", "quantity"):
+        if key in attributes:
+            setattr(result, key, _text(attributes[key], key, leaf))
+    if "stateSelect" in attributes:
+        result.state_select = _state_select(attributes["stateSelect"], leaf)
+    result.enumeration = leaf.type.literals
+    if leaf.instance.parent is None and leaf.instance.name == "" and leaf.causality:
+        result.causality = leaf.causality
+    return result
+
+
+def _state_select(value: Expr | str, leaf: Leaf) -> str:
+    context, span = leaf.instance.context, leaf.modifier.children["stateSelect"].span
+    if isinstance(value, str) or enumeration_of(value, context) != "StateSelect":
+        hint = "StateSelect.prefer and the like"
+        raise Diagnostic("R020", f"stateSelect of {leaf.name} is no StateSelect", span, hint)
+    return _STATE_SELECT[int(evaluate(value, context, span, "stateSelect").value) - 1]
+
+
+def _text(value: Expr | str, key: str, leaf: Leaf) -> str:
+    if not isinstance(value, str):
+        hint = f'{key} = "..."'
+        raise Diagnostic("R020", f"{key} of {leaf.name} is not a String", leaf.modifier.children[key].span, hint)
+    return value
+
+
+def _typed(value: Expr | str, leaf: Leaf, what: str, span: Span) -> Expr:
+    """`value` for the variable `leaf`; a whole number becomes a Real constant where that is needed."""
+    kind = leaf.primitive
+    checked = _of_type(value, kind, what, span)
+    require_same(ex.var(leaf.names[0], kind), checked, leaf.instance.context, span)
+    return checked
+
+
+def _of_type(value: Expr | str, kind: str, what: str, span: Span) -> Expr:
+    if isinstance(value, str) or not real_or_same(kind, value):
+        found = "String" if isinstance(value, str) else value.type
+        hint = "integer(x) gives the whole number at or below x" if (kind, found) == (INTEGER, REAL) else ""
+        raise Diagnostic("R024", f"{what} is {kind}, its value {found}", span, hint or f"give it a {kind}")
+    if kind == REAL and value.op == "const":
+        return ex.const(float(value.value))
+    return value
+
+
+def _parameter_value(leaf: Leaf, variable: flat.Variable, value: Expr | None, context: Context) -> Expr | None:
+    span = leaf.modifier.span if leaf.modifier.value is not None else leaf.span
+    if value is not None:
+        checked = _typed(value, leaf, variable.name, span)
+        if not is_parameter(checked, context):
+            message = f"the {leaf.variability} {variable.name} depends on what varies: {ex.to_text(checked)}"
+            raise Diagnostic("R055", message, span, "remove 'parameter', or use parameters and constants only")
+        return checked
+    if variable.fixed is ex.FALSE:
+        return None
+    if variable.start is not None and leaf.variability == "parameter":
+        hint = f"give it a value: {variable.name} = ..."
+        message = f"{variable.name} has no value; its start value is used"
+        context.warnings.append(Diagnostic("W001", message, leaf.span, hint, severity="warning"))
+        return variable.start
+    hint = "give it one where it is declared or used: = ..."
+    raise Diagnostic("F023", f"the {leaf.variability} {variable.name} has no value", leaf.span, hint)
+
+
+def add_used_constants(model: flat.FlatModel, context: Context, expressions: list[Expr]) -> None:
+    """Constants of packages that the model's expressions name."""
+    pending = expressions
+    while pending:
+        added = []
+        for name in dict.fromkeys(_names(pending)):
+            if name not in model.variables and name in context.scalars:
+                leaf, position = context.scalars[name]
+                value = leaf.element(leaf.binding(), position)
+                attributes = {k: leaf.element(leaf.attribute(k), position) for k in leaf.modifier.children}
+                variable = _variable(leaf, name, {k: v for k, v in attributes.items() if v is not None})
+                variable.binding = _parameter_value(leaf, variable, value, context)
+                model.variables[name] = variable
+                if variable.binding is not None:
+                    added.append(variable.binding)
+        pending = added
+
+
+def _names(expressions: list[Expr]) -> list[str]:
+    seen: set[Expr] = set()
+    names = []
+    stack = list(expressions)
+    while stack:
+        e = stack.pop()
+        if e not in seen:
+            seen.add(e)
+            if e.op == "var":
+                names.append(str(e.value))
+            stack.extend(e.args)
+    return names
+
+
+def mark_discrete(model: flat.FlatModel, targets: list[str]) -> None:
+    """A Real that is assigned at events only is discrete, declared so or not."""
+    for name in targets:
+        variable = model.variables.get(name)
+        if variable is not None and variable.variability == flat.CONTINUOUS:
+            model.variables[name] = replace(variable, variability=flat.DISCRETE)

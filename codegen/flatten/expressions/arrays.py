@@ -1,0 +1,225 @@
+"""Array functions of the language: sizes, constructors, reductions, concatenation, a little linear algebra."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import prod
+
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.expressions.constants import known
+from lacuna.codegen.flatten.expressions.lower import Handler, lower, need_numbers
+from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.flatten.names.values import (  # fmt: skip
+    Array,
+    Value,
+    concatenate,
+    elementwise,
+    fold,
+    integers,
+    items_of,
+    promote,
+    scalars,
+    shape_of,
+    shape_text,
+    transpose,
+)
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, Expr
+from lacuna.codegen.syntax import ast
+
+
+def _arguments(e: ast.Call, scope: Scope, least: int, most: int) -> list[Value]:
+    if e.named or not least <= len(e.args) <= most:
+        wanted = str(least) if least == most else f"{least} to {most}" if most < 99 else f"at least {least}"
+        message = f"{e.function} takes {wanted} arguments, given {len(e.args) + len(e.named)}"
+        raise Diagnostic("R050", message, e.span, "arguments of built-in functions are given by position")
+    return [lower(a, scope) for a in e.args]
+
+
+def _number(value: Value, scope: Scope, span: Span, what: str) -> int:
+    if not isinstance(value, Expr) or value.type != INTEGER:
+        raise Diagnostic("R020", f"{what} is not an Integer", span, "use a whole number or an Integer parameter")
+    number = known(value, scope, span, what).value
+    if not 0 <= number <= 1_000_000:
+        raise Diagnostic("R043", f"{what} is {number}", span, "sizes are from 0 to 1000000")
+    return number
+
+
+def _array(value: Value, e: ast.Call, dimensions: tuple[int, ...] = ()) -> Array:
+    if not isinstance(value, Array) or (dimensions and len(value.shape) not in dimensions):
+        wanted = " or ".join({1: "a vector", 2: "a matrix"}[d] for d in dimensions) or "an array"
+        message = f"{e.function} needs {wanted}, given {shape_text(shape_of(value))}"
+        raise Diagnostic("R051", message, e.span, "see the array functions in docs/language.md")
+    return value
+
+
+def size_of_array(e: ast.Call, scope: Scope) -> Value:
+    arguments = _arguments(e, scope, 1, 2)
+    shape = shape_of(arguments[0])
+    if len(arguments) == 1:
+        return integers(list(shape))
+    dimension = _number(arguments[1], scope, e.span, "the dimension")
+    if not 1 <= dimension <= len(shape):
+        message = f"size: dimension {dimension} of {shape_text(shape)}"
+        raise Diagnostic("R051", message, e.span, f"it has {len(shape)} dimensions")
+    return ex.const(shape[dimension - 1])
+
+
+def _ndims(e: ast.Call, scope: Scope) -> Value:
+    return ex.const(len(shape_of(_arguments(e, scope, 1, 1)[0])))
+
+
+def _filled(value: Value, sizes: list[Value], e: ast.Call, scope: Scope) -> Array:
+    shape = tuple(_number(s, scope, e.span, "a size") for s in sizes)
+    scope.context.spend(prod(shape), e.span)
+    return Array(shape + shape_of(value), items_of(value) * prod(shape))
+
+
+def _fill(e: ast.Call, scope: Scope) -> Value:
+    value, *sizes = _arguments(e, scope, 2, 99)
+    return _filled(value, sizes, e, scope)
+
+
+def _constant_array(value: int) -> Callable[[ast.Call, Scope], Value]:
+    return lambda e, scope: _filled(ex.const(value), _arguments(e, scope, 1, 99), e, scope)
+
+
+def _identity(e: ast.Call, scope: Scope) -> Value:
+    n = _number(_arguments(e, scope, 1, 1)[0], scope, e.span, "a size")
+    scope.context.spend(n * n, e.span)
+    return Array((n, n), tuple(ex.const(int(i == j)) for i in range(n) for j in range(n)))
+
+
+def _diagonal(e: ast.Call, scope: Scope) -> Value:
+    v = _array(_arguments(e, scope, 1, 1)[0], e, (1,)).items
+    scope.context.spend(len(v) ** 2, e.span)
+    n = range(len(v))
+    return Array((len(v), len(v)), tuple(v[i] if i == j else ex.const(0) for i in n for j in n))
+
+
+def _linspace(e: ast.Call, scope: Scope) -> Value:
+    first, last, count = _arguments(e, scope, 3, 3)
+    for end in (first, last):
+        need_numbers(end, e.span, "linspace")
+    n = _number(count, scope, e.span, "the count")
+    if n < 2:
+        raise Diagnostic("R051", f"linspace of {n} points", e.span, "it needs at least 2")
+    scope.context.spend(n, e.span)
+    step = ex.div(ex.sub(last, first), ex.const(float(n - 1)))
+    return Array((n,), tuple(ex.add(first, ex.mul(ex.const(float(i)), step)) for i in range(n)))
+
+
+def _reduction(join: Callable[[Expr, Expr], Expr], empty: Expr | None) -> Callable[[ast.Call, Scope], Value]:
+    def build(e: ast.Call, scope: Scope) -> Value:
+        arguments = _arguments(e, scope, 1, 2 if empty is None else 1)
+        if len(arguments) == 2:
+            for a in arguments:
+                if not isinstance(a, Expr) or a.type == BOOLEAN:
+                    hint = "of an array: max(x); of two numbers: max(a, b)"
+                    raise Diagnostic("R051", f"{e.function} of two needs numbers", e.span, hint)
+            return join(*arguments)
+        values = _array(arguments[0], e)
+        if empty is None and values.items and all(isinstance(i, Expr) and i.type == BOOLEAN for i in values.items):
+            return fold(ex.logical_and if str(e.function) == "min" else ex.logical_or, list(values.items))
+        need_numbers(values, e.span, str(e.function))
+        items = list(values.items)
+        if not items and empty is None:
+            raise Diagnostic("R051", f"{e.function} of an empty array", e.span, "it needs at least one element")
+        return fold(join, items) if items else empty
+
+    return build
+
+
+def _transpose(e: ast.Call, scope: Scope) -> Value:
+    return transpose(_array(_arguments(e, scope, 1, 1)[0], e, (2,)))
+
+
+def _cross(e: ast.Call, scope: Scope) -> Value:
+    a, b = (_array(v, e, (1,)).items for v in _arguments(e, scope, 2, 2))
+    if len(a) != 3 or len(b) != 3:
+        raise Diagnostic("R051", "cross needs two vectors of 3", e.span, "a cross product lives in space")
+    pairs = ((1, 2), (2, 0), (0, 1))
+    return Array((3,), tuple(ex.sub(ex.mul(a[i], b[j]), ex.mul(a[j], b[i])) for i, j in pairs))
+
+
+def _vector(e: ast.Call, scope: Scope) -> Value:
+    value = _arguments(e, scope, 1, 1)[0]
+    items = scalars(value)
+    return Array((len(items),), tuple(items))
+
+
+def _scalar(e: ast.Call, scope: Scope) -> Value:
+    items = scalars(_arguments(e, scope, 1, 1)[0])
+    if len(items) != 1:
+        raise Diagnostic("R051", f"scalar of {len(items)} elements", e.span, "it takes an array of one")
+    return items[0]
+
+
+def _cat(e: ast.Call, scope: Scope) -> Value:
+    along, *parts = _arguments(e, scope, 2, 99)
+    dimension = _number(along, scope, e.span, "the dimension")
+    arrays = [_array(p, e) for p in parts]
+    if not 1 <= dimension <= min(len(a.shape) for a in arrays):
+        raise Diagnostic("R051", f"cat along dimension {dimension}", e.span, "the arrays have fewer dimensions")
+    return concatenate(dimension, arrays, e.span)
+
+
+def _matrix(e: ast.Call, scope: Scope) -> Value:
+    """The first two sizes; those after must be 1."""
+    value = promote(_arguments(e, scope, 1, 1)[0], 2)
+    if any(n != 1 for n in value.shape[2:]):
+        raise Diagnostic("R051", f"matrix of {shape_text(value.shape)}", e.span, "sizes after the second are 1")
+    return Array(value.shape[:2], value.items)
+
+
+def _outer_product(e: ast.Call, scope: Scope) -> Value:
+    a, b = (_array(v, e, (1,)).items for v in _arguments(e, scope, 2, 2))
+    return Array((len(a), len(b)), tuple(ex.mul(x, y) for x in a for y in b))
+
+
+def _symmetric(e: ast.Call, scope: Scope) -> Value:
+    """The upper triangle, mirrored."""
+    a = _array(_arguments(e, scope, 1, 1)[0], e, (2,))
+    n = range(a.shape[0])
+    if a.shape[0] != a.shape[1]:
+        raise Diagnostic("R051", f"symmetric of {shape_text(a.shape)}", e.span, "it needs a square matrix")
+    return Array(a.shape, tuple(a.items[min(i, j) * len(n) + max(i, j)] for i in n for j in n))
+
+
+def _skew(e: ast.Call, scope: Scope) -> Value:
+    """The matrix of a cross product: skew(x)*y = cross(x, y)."""
+    x = _array(_arguments(e, scope, 1, 1)[0], e, (1,)).items
+    if len(x) != 3:
+        raise Diagnostic("R051", "skew needs a vector of 3", e.span, "a cross product lives in space")
+    zero = ex.const(0)
+    return Array((3, 3), (zero, ex.neg(x[2]), x[1], x[2], zero, ex.neg(x[0]), ex.neg(x[1]), x[0], zero))
+
+
+_DOMAINS: dict[str, tuple[Callable[[float], bool], str]] = {
+    "sqrt": (lambda x: x >= 0, "numbers from 0"), "log": (lambda x: x > 0, "numbers above 0"),
+    "log10": (lambda x: x > 0, "numbers above 0"), "asin": (lambda x: abs(x) <= 1, "numbers from -1 to 1"),
+    "acos": (lambda x: abs(x) <= 1, "numbers from -1 to 1"),
+}  # fmt: skip
+
+
+def map_call(e: ast.Call, scope: Scope, count: int) -> Value:
+    """A scalar built-in, element by element where it is given arrays."""
+    arguments = _arguments(e, scope, count, count)
+    name = str(e.function)
+    for a, written in zip(arguments, e.args, strict=True):
+        need_numbers(a, written.span, name)
+        for item in scalars(a):
+            if name in _DOMAINS and item.op == "const" and not _DOMAINS[name][0](item.value) and not scope.conditional:
+                message = f"{name}({ex.to_text(item)}) does not exist"
+                raise Diagnostic("R064", message, written.span, f"{name} takes {_DOMAINS[name][1]}")
+    return elementwise(lambda *xs: ex.call(name, *xs), arguments, e.span, f"arguments of {name}")
+
+
+FUNCTIONS: dict[str, Handler] = {
+    "size": size_of_array, "ndims": _ndims, "fill": _fill, "zeros": _constant_array(0), "ones": _constant_array(1),
+    "identity": _identity, "diagonal": _diagonal, "linspace": _linspace, "transpose": _transpose, "cross": _cross,
+    "vector": _vector, "scalar": _scalar, "matrix": _matrix, "cat": _cat,
+    "outerProduct": _outer_product, "symmetric": _symmetric, "skew": _skew,
+    "sum": _reduction(ex.add, ex.const(0)), "product": _reduction(ex.mul, ex.const(1)),
+    "min": _reduction(ex.minimum, None), "max": _reduction(ex.maximum, None),
+}  # fmt: skip

@@ -1,0 +1,61 @@
+"""Expressions of the source that must be known at translation."""
+
+from __future__ import annotations
+
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.expressions.constants import known
+from lacuna.codegen.flatten.expressions.enumerations import index_type
+from lacuna.codegen.flatten.expressions.lower import lower, modifier_value
+from lacuna.codegen.flatten.names.modifiers import Modifier
+from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.flatten.names.values import Array, Value, shape_of
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER
+from lacuna.codegen.syntax import ast
+
+MAX_SIZE = 100_000
+
+
+def evaluate_boolean(e: ast.Expression, scope: Scope, what: str = "the condition") -> bool:
+    value = lower(e, scope)
+    if isinstance(value, str | Array) or getattr(value, "type", None) != BOOLEAN:
+        raise Diagnostic("R020", f"{what} is not a Boolean", e.span, "use a comparison, or a Boolean parameter")
+    return bool(known(value, scope, e.span, what).value)
+
+
+def evaluate_integer(e: ast.Expression, scope: Scope, what: str) -> int:
+    value = lower(e, scope)
+    if isinstance(value, str | Array) or getattr(value, "type", None) != INTEGER:
+        raise Diagnostic("R020", f"{what} is not an Integer", e.span, "use a whole number or an Integer parameter")
+    return int(known(value, scope, e.span, what).value)
+
+
+def evaluate_dimensions(
+    dimensions: list[ast.Expression], scope: Scope, modifier: Modifier | None, name: str
+) -> list[int]:
+    """Sizes of a declaration; `:` takes the size of the binding in `modifier`."""
+    result = []
+    bound: Value | None = None
+    for position, dimension in enumerate(dimensions):
+        if isinstance(dimension, ast.Colon):
+            if bound is None:
+                if modifier is None or modifier.value is None:
+                    hint = "give a size, or bind it to an array"
+                    raise Diagnostic("R043", f"the size of {name} is unknown", dimension.span, hint)
+                bound = modifier_value(modifier)
+            shape = shape_of(bound)
+            if position >= len(shape):
+                raise Diagnostic("R043", f"{name} is bound to a scalar", dimension.span, "bind it to an array")
+            result.append(shape[position])
+            continue
+        size = _dimension(dimension, scope, name)
+        if not 0 <= size <= MAX_SIZE:
+            raise Diagnostic("R043", f"{name} has size {size}", dimension.span, f"sizes are from 0 to {MAX_SIZE}")
+        result.append(size)
+    return result
+
+
+def _dimension(e: ast.Expression, scope: Scope, name: str) -> int:
+    kind = index_type(e, scope)
+    if kind is not None:
+        return len(kind)
+    return evaluate_integer(e, scope, f"the size of {name}")

@@ -1,0 +1,265 @@
+"""Expressions of the source to values: names resolved, arrays spread into scalars, types checked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.expressions.constants import is_known, known
+from lacuna.codegen.flatten.expressions.enumerations import require_same
+from lacuna.codegen.flatten.names.modifiers import Modifier
+from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.flatten.names.values import (
+    Array,
+    Record,
+    Value,
+    concatenate,
+    elementwise,
+    holds_records,
+    multiply,
+    promote,
+    shape_of,
+    stack,
+)
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
+from lacuna.codegen.syntax import ast
+
+Handler = Callable[..., Value]
+
+
+def lower(e: ast.Expression, scope: Scope) -> Value:
+    """The value of `e`. Raises R... for names, types and sizes that do not fit."""
+    return scope.context.lowering.nodes[type(e)](e, scope)
+
+
+def lower_results(e: ast.Expression, scope: Scope) -> list[Value]:
+    """All results of a call, for a list of variables on the left. Raises R023 for anything but a call."""
+    if not isinstance(e, ast.Call):
+        raise Diagnostic("R023", "a list on the left needs a call on the right", e.span, "(a, b) = f(x)")
+    return scope.context.lowering.results(e, scope)
+
+
+def lower_scalar(e: ast.Expression, scope: Scope, kind: str = "") -> Expr:
+    """As `lower`, for what must be a scalar (of type `kind`; Integer serves as Real)."""
+    value = lower(e, scope)
+    if not isinstance(value, Expr):
+        found = "a String" if isinstance(value, str) else "a record" if isinstance(value, Record) else "an array"
+        raise Diagnostic("R020", f"{found} where a scalar is needed", e.span, "use one element of it")
+    if kind and value.type != kind and not (kind == REAL and value.type == INTEGER):
+        raise Diagnostic("R020", f"this is {value.type}, {kind} is needed", e.span, _conversion(value.type, kind))
+    return value
+
+
+def _conversion(have: str, need: str) -> str:
+    if have == BOOLEAN:
+        return "write if b then 1 else 0"
+    if need == BOOLEAN:
+        return "use a comparison, such as x > 0"
+    return "integer(x) gives the whole number at or below x"
+
+
+def modifier_value(modifier: Modifier) -> Value:
+    """The value of a modifier in the scope it was written in, narrowed to its array element."""
+    value = modifier.value
+    if not isinstance(value, Expr | str | Array | Record):
+        value = lower(value, modifier.scope)
+    for position in () if modifier.each else modifier.index:
+        if not isinstance(value, Array):
+            hint = "write each before it to give every element the same value"
+            raise Diagnostic("R036", "one value for an array of components", modifier.span, hint)
+        if not 1 <= position <= value.shape[0]:
+            message = f"{value.shape[0]} values for an array of at least {position} elements"
+            raise Diagnostic("R036", message, modifier.span, "both need the same size")
+        value = value.rows()[position - 1]
+    return value
+
+
+def _literal(e: ast.Literal, scope: Scope) -> Value:
+    return e.value if isinstance(e.value, str) else ex.const(e.value)
+
+
+def _need(value: Value, kinds: tuple[str, ...], span: Span, op: str) -> None:
+    items = value.items if isinstance(value, Array) else (value,)
+    for item in items:
+        if not isinstance(item, Expr) or item.type not in kinds:
+            found = item.type if isinstance(item, Expr) else "String" if isinstance(item, str) else "record"
+            wanted = " or ".join(kinds)
+            hint = _conversion(found, kinds[0]) if isinstance(item, Expr) else "use numbers, or fields of the record"
+            raise Diagnostic("R021", f"{op} is applied to a {found}; it needs {wanted}", span, hint)
+
+
+def need_numbers(value: Value, span: Span, op: str) -> None:
+    _need(value, (REAL, INTEGER), span, op)
+
+
+def _unary(e: ast.Unary, scope: Scope) -> Value:
+    value = lower(e.operand, scope)
+    if holds_records(value) and e.op != "+":
+        return scope.context.lowering.overloaded(e.op, [value], e.span, scope)
+    if e.op == "not":
+        _need(value, (BOOLEAN,), e.span, "not")
+        return elementwise(ex.logical_not, [value], e.span, "not")
+    need_numbers(value, e.span, e.op)
+    return elementwise(ex.neg, [value], e.span, "a sign") if "-" in e.op else value
+
+
+def _binary(e: ast.Binary, scope: Scope) -> Value:
+    left, right = lower(e.left, scope), lower(e.right, scope)
+    if holds_records(left) or holds_records(right):
+        return scope.context.lowering.overloaded(e.op, [left, right], e.span, scope)
+    if e.op in ("and", "or"):
+        for value in (left, right):
+            _need(value, (BOOLEAN,), e.span, e.op)
+        return elementwise(ex.logical_and if e.op == "and" else ex.logical_or, [left, right], e.span, e.op)
+    if isinstance(left, str) and isinstance(right, str):
+        return _texts(e, left, right)
+    if e.op in ex.RELATIONS:
+        return _relation(e, left, right, scope)
+    for value in (left, right):
+        need_numbers(value, e.span, e.op)
+    return _ARITHMETIC[e.op](left, right, e.span)
+
+
+def _texts(e: ast.Binary, left: str, right: str) -> Value:
+    if e.op == "+":
+        return left + right
+    if e.op in ("==", "<>"):
+        return ex.const((left == right) == (e.op == "=="))
+    raise Diagnostic("R021", f"{e.op} is applied to Strings", e.span, "Strings can be joined by + and compared by ==")
+
+
+def _relation(e: ast.Binary, left: Value, right: Value, scope: Scope) -> Expr:
+    for value in (left, right):
+        if not isinstance(value, Expr):
+            raise Diagnostic("R021", f"{e.op} compares scalars", e.span, "compare element by element")
+    if (left.type == BOOLEAN) != (right.type == BOOLEAN) or (left.type == BOOLEAN and e.op not in ("==", "<>")):
+        raise Diagnostic("R021", f"{e.op} between {left.type} and {right.type}", e.span, "compare like with like")
+    require_same(left, right, scope.context, e.span)
+    exact = e.op in ("==", "<>") and REAL in (left.type, right.type) and not scope.in_function
+    if exact and not (is_known(left, scope.context) and is_known(right, scope.context)):
+        hint = "compare with a tolerance, abs(a - b) < eps, or use Integers"
+        raise Diagnostic("R022", f"Reals that vary cannot be compared with {e.op}", e.span, hint)
+    return ex.relation(e.op, left, right)
+
+
+def _same_size(function: Callable[[Expr, Expr], Expr], what: str) -> Callable[[Value, Value, Span], Value]:
+    def build(a: Value, b: Value, span: Span) -> Value:
+        if shape_of(a) != shape_of(b):
+            elementwise_name = {"a sum": ".+", "a difference": ".-"}[what]
+            if not (shape_of(a) and shape_of(b)):
+                hint = f"{elementwise_name} works on every element"
+                raise Diagnostic("R042", f"{what} of an array and a scalar", span, hint)
+        return elementwise(function, [a, b], span, what)
+
+    return build
+
+
+def _each(function: Callable[[Expr, Expr], Expr], what: str) -> Callable[[Value, Value, Span], Value]:
+    return lambda a, b, span: elementwise(function, [a, b], span, what)
+
+
+def _divide(a: Value, b: Value, span: Span) -> Value:
+    if isinstance(b, Array):
+        raise Diagnostic("R042", "division by an array", span, "./ divides element by element")
+    return _quotient(a, b, span)
+
+
+def _quotient(a: Value, b: Value, span: Span) -> Value:
+    if any(ex.is_const(d, 0) for d in (b.items if isinstance(b, Array) else (b,))):
+        raise Diagnostic("R046", "division by zero", span, "the denominator is the constant 0")
+    return elementwise(ex.div, [a, b], span, "a quotient")
+
+
+def _power(a: Value, b: Value, span: Span) -> Value:
+    if not (isinstance(a, Array) or isinstance(b, Array)):
+        return ex.power(a, b)
+    whole = isinstance(b, Expr) and b.op == "const" and b.type == INTEGER and b.value >= 0
+    if not whole or len(shape_of(a)) != 2 or a.shape[0] != a.shape[1]:
+        hint = "a square matrix has powers to whole numbers from 0 known at translation; .^ works on every element"
+        raise Diagnostic("R042", "a power of an array", span, hint)
+    size = range(a.shape[0])
+    result: Value = Array(a.shape, tuple(ex.const(float(i == j)) for i in size for j in size))
+    for _ in range(b.value):
+        result = multiply(result, a, span)
+    return result
+
+
+_ARITHMETIC: dict[str, Callable[[Value, Value, Span], Value]] = {
+    "+": _same_size(ex.add, "a sum"), "-": _same_size(ex.sub, "a difference"), "*": multiply, "/": _divide,
+    "^": _power, ".+": _each(ex.add, "a sum"), ".-": _each(ex.sub, "a difference"), ".*": _each(ex.mul, "a product"),
+    "./": _quotient, ".^": _each(ex.power, "a power"),
+}  # fmt: skip
+
+
+def _if(e: ast.IfExpression, scope: Scope) -> Value:
+    otherwise: Value | None = None
+    chosen: list[tuple[Expr, ast.Expression]] = []
+    last = e.otherwise
+    for written, value in e.branches:
+        condition = lower_scalar(written, scope, BOOLEAN)
+        if condition.op == "const" and condition.value:
+            last = value
+            break
+        if condition.op != "const":
+            chosen.append((condition, value))
+            scope = replace(scope, conditional=True)
+    otherwise = lower(last, scope)
+    for condition, written in reversed(chosen):
+        otherwise = _choice(condition, lower(written, scope), otherwise, written.span, scope)
+    return otherwise
+
+
+def _choice(condition: Expr, then: Value, otherwise: Value, span: Span, scope: Scope) -> Value:
+    if isinstance(then, str) or isinstance(otherwise, str) or shape_of(then) != shape_of(otherwise):
+        decided = known(condition, scope, span, "the condition of alternatives of different size")
+        return then if decided.value else otherwise
+    if isinstance(then, Record) and isinstance(otherwise, Record) and then.fields.keys() == otherwise.fields.keys():
+        fields = {n: _choice(condition, v, otherwise.fields[n], span, scope) for n, v in then.fields.items()}
+        return Record(then.name, fields, then.cls)
+    if holds_records(then) or holds_records(otherwise):
+        raise Diagnostic("R041", "an if-expression of different records", span, "choose between their fields")
+
+    def pick(a: Expr, b: Expr) -> Expr:
+        if (a.type == BOOLEAN) != (b.type == BOOLEAN):
+            raise Diagnostic("R021", f"one alternative is {a.type}, the other {b.type}", span, "make them alike")
+        return ex.if_else(condition, a, b)
+
+    return elementwise(pick, [then, otherwise], span, "alternatives")
+
+
+def _array(e: ast.ArrayLiteral, scope: Scope) -> Value:
+    return stack([lower(x, scope) for x in e.elements], e.span)
+
+
+def _matrix(e: ast.MatrixLiteral, scope: Scope) -> Value:
+    rows = [concatenate(2, [promote(lower(x, scope), 2) for x in row], e.span) for row in e.rows]
+    return concatenate(1, rows, e.span)
+
+
+def _end(e: ast.End, scope: Scope) -> Value:
+    if scope.end is None:
+        raise Diagnostic("R048", "'end' as a value", e.span, "it stands for the last index, inside subscripts only")
+    return ex.const(scope.end)
+
+
+def _tuple(e: ast.Tuple, scope: Scope) -> Value:
+    raise Diagnostic("R023", "a list in parentheses is no value", e.span, "an array is written {a, b}")
+
+
+def _colon(e: ast.Colon, scope: Scope) -> Value:
+    raise Diagnostic("R048", "':' as a value", e.span, "it stands for all elements, inside subscripts only")
+
+
+def _partial_function(e: ast.PartialFunction, scope: Scope) -> Value:
+    raise Diagnostic("R090", f"the function {e.function} where a value is needed", e.span,
+                     "hand it to an input that is a function, or call it")  # fmt: skip
+
+
+OPERATORS: dict[type, Handler] = {  # names and calls have files of their own
+    ast.PartialFunction: _partial_function,
+    ast.Literal: _literal, ast.Unary: _unary, ast.Binary: _binary, ast.IfExpression: _if, ast.ArrayLiteral: _array,
+    ast.MatrixLiteral: _matrix, ast.Colon: _colon,
+    ast.End: _end, ast.Tuple: _tuple,
+}  # fmt: skip

@@ -1,0 +1,75 @@
+"""String(x, ...): numbers, Booleans and literals as text (Modelica 3.6, 3.7.1)."""
+
+from __future__ import annotations
+
+import re
+
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.expressions.constants import known
+from lacuna.codegen.flatten.expressions.enumerations import enumeration_of
+from lacuna.codegen.flatten.expressions.lower import lower, lower_scalar
+from lacuna.codegen.flatten.names.scope import Scope, literals_of
+from lacuna.codegen.flatten.names.values import Record, Value
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
+from lacuna.codegen.syntax import ast
+
+_FORMAT = re.compile(r"([-+ #0]*)(\d*)(?:\.(\d+))?([diuoxXeEfFgG])$")
+_OPTIONS = {"minimumLength": INTEGER, "leftJustified": BOOLEAN, "significantDigits": INTEGER}
+
+
+def text_of(e: ast.Call, scope: Scope) -> Value:
+    """The text of a value known at translation. In the message of an assert, what varies is shown as its source."""
+    if not e.args:
+        raise Diagnostic("R050", "String needs a value", e.span, "write String(x)")
+    value = lower(e.args[0], scope)
+    if isinstance(value, str):
+        return value
+    if isinstance(value, Record):
+        text = scope.context.lowering.text(value, e, scope)
+        if text is not None:
+            return text
+    if not isinstance(value, Expr):
+        raise Diagnostic("R020", "String of what is no scalar", e.span, "use one element of it")
+    if scope.message and value.op != "const":
+        return str(value)
+    constant = known(value, scope, e.span, "the value of a String")
+    options = _options(e, constant, scope)
+    return _written(constant, options, enumeration_of(value, scope.context), scope, e.span)
+
+
+def _options(e: ast.Call, value: Expr, scope: Scope) -> dict[str, object]:
+    names = ["significantDigits"] if value.type == REAL and len(e.args) > 1 else []
+    names += ["minimumLength", "leftJustified"]
+    written = dict(zip(names, e.args[1:], strict=False)) | e.named
+    options: dict[str, object] = {}
+    for name, option in written.items():
+        if name == "format":
+            options[name] = lower(option, scope)
+        elif name in _OPTIONS and not (name == "significantDigits" and value.type != REAL):
+            number = lower_scalar(option, scope, _OPTIONS[name])
+            options[name] = known(number, scope, option.span, name).value
+        else:
+            hint = "minimumLength, leftJustified, significantDigits (of a Real), format"
+            raise Diagnostic("R050", f"String has no argument {name}", option.span, hint)
+    return options
+
+
+def _written(value: Expr, options: dict[str, object], kind: str, scope: Scope, span: Span) -> str:
+    if "format" in options:
+        return _formatted(value, str(options["format"]), span)
+    if kind:
+        text = literals_of(kind, scope)[value.value - 1]
+    elif value.type == BOOLEAN:
+        text = str(value.value).lower()
+    else:
+        text = f"{value.value:.{options.get('significantDigits', 6)}g}" if value.type == REAL else str(int(value.value))
+    length = int(options.get("minimumLength", 0))
+    return text.ljust(length) if options.get("leftJustified", True) else text.rjust(length)
+
+
+def _formatted(value: Expr, form: str, span: Span) -> str:
+    """C's printf with one conversion, written without its %."""
+    match = _FORMAT.match(form)
+    if match is None or (match[4] in "diuoxX") != (value.type != REAL):
+        raise Diagnostic("R050", f"{form!r} is no format of a {value.type}", span, 'such as "6.3f" or "5d"')
+    return f"%{form}" % value.value

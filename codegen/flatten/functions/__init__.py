@@ -1,0 +1,1 @@
+"""Calls of functions: of the language, of the model, and of the library."""

@@ -1,0 +1,232 @@
+"""Calls in expressions: built-in operators, what the subset leaves out, functions and records of the model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.classes.types import is_external
+from lacuna.codegen.flatten.expressions.arrays import map_call, size_of_array
+from lacuna.codegen.flatten.expressions.constants import is_parameter, known, variability
+from lacuna.codegen.flatten.expressions.derivative import time_derivative
+from lacuna.codegen.flatten.expressions.enumerations import as_integer
+from lacuna.codegen.flatten.expressions.lower import Handler, lower, lower_scalar
+from lacuna.codegen.flatten.expressions.texts import text_of
+from lacuna.codegen.flatten.functions.code import is_done
+from lacuna.codegen.flatten.functions.declared import call_function
+from lacuna.codegen.flatten.names.scope import Scope, enumeration, find_class, own_or_inherited
+from lacuna.codegen.flatten.names.unknown import visible_classes
+from lacuna.codegen.flatten.names.values import FunctionValue, Value, elementwise, shape_of
+from lacuna.codegen.library.suggest import did_you_mean
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
+from lacuna.codegen.syntax import ast
+
+_OUTSIDE = {
+    "delay": "model the transport, for example by a chain of first-order lags",
+    "spatialDistribution": "divide the length into elements",
+    "Clock": "use when sample(start, interval) then",
+    "previous": "use pre(x) inside when sample(...)",
+    "hold": "a discrete variable holds its value",
+    "subSample": "use a second sample(...)",
+    "superSample": "use a second sample(...)",
+    "shiftSample": "use the start of sample(start, interval)",
+    "interval": "use the parameter given to sample",
+    "Subtask": "clocks are left out",
+}
+
+
+def lower_call(e: ast.Call, scope: Scope) -> Value:
+    """The value of a call; of several results the first."""
+    name = str(e.function)
+    handler = scope.context.lowering.functions.get(name) if name not in scope.locals else None
+    if handler is not None:
+        return handler(e, scope)
+    results = call_of_model(e, scope)
+    if not results or is_done(results[0], scope.context):
+        raise Diagnostic("R004", f"{name} has no result", e.span, "call it as a statement of its own: f(x);")
+    return results[0]
+
+
+def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
+    """All results of a function or record constructor declared in a model."""
+    name = str(e.function)
+    local = scope.locals.get(name)
+    if isinstance(local, FunctionValue):
+        return call_function(local.cls, e, scope, local.bound)
+    cls = find_class(scope.context.library, scope.cls, e.function)
+    if cls is not None and cls.kind == "function":
+        return call_function(cls, e, scope)
+    if cls is not None and is_external(cls):
+        return call_function(own_or_inherited(scope.context.library, cls, "constructor"), e, scope)
+    if cls is not None and cls.kind == "record":
+        return [scope.context.lowering.construct(cls, e, scope)]
+    if cls is not None:
+        raise Diagnostic("R004", f"{name} is a {cls.kind} and cannot be called", e.function.span, "call a function")
+    if name in _OUTSIDE or name.startswith("Connections."):
+        hint = _OUTSIDE.get(name, "it stands alone in an equation section, under conditions known at translation only")
+        raise Diagnostic("R091", f"{name} is outside the subset", e.function.span, hint)
+    if name in ("reinit", "assert", "terminate"):
+        raise Diagnostic("R004", f"{name} has no value", e.function.span, "it stands alone, ended by ';'")
+    known = [*scope.context.lowering.functions, *visible_classes(scope.context.library, scope.cls)]
+    hint = did_you_mean(e.function.names[-1], known, "declare it, or import its package")
+    if scope.instance is not None and e.function.names[0] in scope.instance.elements:
+        hint = f"{name} is a variable: index it as {name}[i], multiply as {name}*(...)"
+    raise Diagnostic("R004", f"there is no function {name}", e.function.span, hint)
+
+
+def _take(e: ast.Call, count: int) -> list[ast.Expression]:
+    if e.named or len(e.args) != count:
+        message = f"{e.function} takes {count} argument{'s' * (count != 1)}, given {len(e.args) + len(e.named)}"
+        raise Diagnostic("R050", message, e.span, "arguments of built-in functions are given by position")
+    return e.args
+
+
+def _der(e: ast.Call, scope: Scope) -> Value:
+    (written,) = _take(e, 1)
+    value = lower(written, scope)
+    return elementwise(lambda x: time_derivative(x, scope, e.span), [value], e.span, "der")
+
+
+def _pre(e: ast.Call, scope: Scope) -> Value:
+    (written,) = _take(e, 1)
+
+    def build(x: Expr) -> Expr:
+        if x.op == "const" or (x.op == "var" and variability(x, scope.context) in ("parameter", "constant")):
+            return x
+        if x.op != "var":
+            raise Diagnostic("R052", "pre is of a variable", written.span, "give the expression a variable of its own")
+        return ex.pre(x)
+
+    return elementwise(build, [lower(written, scope)], e.span, "pre")
+
+
+def _edge(e: ast.Call, scope: Scope) -> Value:
+    (written,) = _take(e, 1)
+    x = lower_scalar(written, scope, BOOLEAN)
+    if x.op != "var":
+        hint = "give the expression a Boolean variable of its own"
+        raise Diagnostic("R052", "edge is of a Boolean variable", written.span, hint)
+    return ex.special("edge", x)
+
+
+def _change(e: ast.Call, scope: Scope) -> Value:
+    (written,) = _take(e, 1)
+
+    def build(x: Expr) -> Expr:
+        if x.op != "var":
+            hint = "give the expression a variable of its own"
+            raise Diagnostic("R052", "change is of a discrete variable", written.span, hint)
+        return ex.special("change", x)
+
+    return elementwise(build, [lower(written, scope)], e.span, "change")
+
+
+def _no_event(e: ast.Call, scope: Scope) -> Value:
+    (written,) = _take(e, 1)
+    value = lower(written, scope)
+    return elementwise(lambda x: x if x.op == "const" else _wrap("noEvent", x), [value], e.span, "noEvent")
+
+
+def _wrap(op: str, x: Expr) -> Expr:
+    return ex.special(op, x, type=x.type)
+
+
+def _smooth(e: ast.Call, scope: Scope) -> Value:
+    order, written = _take(e, 2)
+    degree = lower_scalar(order, scope, INTEGER)
+    degree = known(degree, scope, order.span, "the order of smooth")
+    value = lower(written, scope)
+    return elementwise(lambda x: ex.special("smooth", degree, x, type=x.type), [value], e.span, "smooth")
+
+
+def _by_name(e: ast.Call, names: tuple[str, ...]) -> list[ast.Expression]:
+    """The arguments of a built-in operator whose inputs have names, in that order."""
+    written = dict(zip(names, e.args, strict=False)) | e.named
+    if len(e.args) + len(e.named) != len(names) or set(written) != set(names):
+        message = f"{e.function} takes {', '.join(names)}"
+        raise Diagnostic("R050", message, e.span, f"{e.function}({', '.join(names)})")
+    return [written[name] for name in names]
+
+
+def _homotopy(e: ast.Call, scope: Scope) -> Value:
+    """A choice that `dae.homotopy` takes apart; the simplified expression must fit the actual one."""
+    actual, simplified = (lower(a, scope) for a in _by_name(e, ("actual", "simplified")))
+    if shape_of(actual) != shape_of(simplified):
+        raise Diagnostic("R042", "homotopy of two sizes", e.span, "both expressions need the same size")
+    if scope.instance is None:  # in a function
+        return actual
+
+    def build(actual: Expr, simplified: Expr) -> Expr:
+        varies = actual.type == REAL and not is_parameter(actual, scope.context)
+        return ex.if_else(ex.special("homotopy"), actual, simplified) if varies else actual
+
+    return elementwise(build, [actual, simplified], e.span, "homotopy")
+
+
+def _semi_linear(e: ast.Call, scope: Scope) -> Value:
+    """smooth(0, if x >= 0 then k1*x else k2*x) (Modelica 3.6, 3.7.4.5)."""
+    x, above, below = (lower(a, scope) for a in _by_name(e, ("x", "positiveSlope", "negativeSlope")))
+
+    def build(x: Expr, above: Expr, below: Expr) -> Expr:
+        chosen = ex.if_else(ex.relation(">=", x, ex.const(0)), ex.mul(above, x), ex.mul(below, x))
+        return chosen if chosen.op == "const" else ex.special("smooth", ex.const(0), chosen, type=REAL)
+
+    return elementwise(build, [x, above, below], e.span, "semiLinear")
+
+
+def _instance_name(e: ast.Call, scope: Scope) -> Value:
+    """getInstanceName(): the name of the model without its package, then the path of the component (3.7.4)."""
+    _take(e, 0)
+    if scope.instance is None:
+        raise Diagnostic("R054", "getInstanceName in a function", e.span, "hand the name over as an argument")
+    top = scope.context.model.rpartition(".")[2]
+    return f"{top}.{scope.instance.name}" if scope.instance.name else top
+
+
+def _sample(e: ast.Call, scope: Scope) -> Value:
+    parts = [lower_scalar(a, scope, REAL) for a in _take(e, 2)]
+    for value, written in zip(parts, e.args, strict=True):
+        if not is_parameter(value, scope.context):
+            hint = "start and interval are parameters or constants"
+            raise Diagnostic("R053", "sample at times that vary", written.span, hint)
+    return ex.special("sample", *parts)
+
+
+def _phase(op: str) -> Callable[[ast.Call, Scope], Value]:
+    def build(e: ast.Call, scope: Scope) -> Value:
+        _take(e, 0)
+        return ex.special(op)
+
+    return build
+
+
+def _integer_of(e: ast.Call, scope: Scope) -> Value:
+    """Integer(e): the number of an enumeration literal, from 1."""
+    (written,) = _take(e, 1)
+    return as_integer(lower_scalar(written, scope, INTEGER))
+
+
+def _size_of_enumeration(e: ast.Call, scope: Scope) -> Value | None:
+    if e.args and isinstance(e.args[0], ast.Ref):
+        cls = enumeration(e.args[0], scope)
+        if cls is not None:
+            return ex.const(len(cls.literals))
+    return None
+
+
+def _size(e: ast.Call, scope: Scope) -> Value:
+    return _size_of_enumeration(e, scope) or size_of_array(e, scope)
+
+
+def _scalar_function(count: int) -> Callable[[ast.Call, Scope], Value]:
+    return lambda e, scope: map_call(e, scope, count)
+
+
+SCALAR_FUNCTIONS: dict[str, Handler] = {name: _scalar_function(count) for name, count in ex.BUILTINS.items()}
+OPERATORS: dict[str, Handler] = {
+    "der": _der, "pre": _pre, "edge": _edge, "change": _change, "noEvent": _no_event, "smooth": _smooth,
+    "sample": _sample, "initial": _phase("initial"), "terminal": _phase("terminal"), "String": text_of,
+    "Integer": _integer_of, "size": _size, "homotopy": _homotopy, "semiLinear": _semi_linear,
+    "getInstanceName": _instance_name,
+}  # fmt: skip

@@ -1,0 +1,298 @@
+"""Calls of functions declared in a model: arguments bound, then inlined, or kept as a function of fixed sizes.
+
+What runs straight (assignments, ifs, loops of known length) becomes an expression at the place of the call; the rest
+becomes a `flat.Function`, one for each combination of array sizes, and for each result a call names.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.classes.types import EXTERNAL
+from lacuna.codegen.flatten.expressions.constants import AtRunTime, evaluate, is_known
+from lacuna.codegen.flatten.expressions.lower import lower
+from lacuna.codegen.flatten.functions.code import Sources, emitted_call
+from lacuna.codegen.flatten.functions.interpret import interpret
+from lacuna.codegen.flatten.functions.library.external import call_external
+from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
+from lacuna.codegen.flatten.functions.locals import Local, Signature, fit, signature_of
+from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.scope import Scope, find_class
+from lacuna.codegen.flatten.names.values import (
+    Array,
+    FunctionValue,
+    Record,
+    Value,
+    scalars,
+    shape_of,
+    shape_text,
+    stack,
+)
+from lacuna.codegen.flatten.references.iterators import references
+from lacuna.codegen.library.suggest import did_you_mean
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import Expr
+from lacuna.codegen.syntax import ast
+
+MAX_INLINE_NODES = 250
+MAX_INLINE_DEPTH = 12
+Written = dict[str, tuple[Value, Span]]  # arguments with their places, by the name of the input
+_EVENTFUL = ("abs", "sign", "floor", "ceil", "integer", "mod", "rem", "div")
+
+
+def call_function(cls: ast.Class, e: ast.Call, scope: Scope, given: dict[str, Value] | None = None) -> list[Value]:
+    """The results of a call, `given` being inputs bound before. Raises R050 and R062 for arguments that do not fit.
+
+    Arguments with more dimensions than the inputs have are taken element by element (Modelica 3.6, 12.4.6).
+    """
+    if cls.partial:
+        raise Diagnostic("R015", f"the function {cls.name} is partial", e.function.span, "call one that extends it")
+    signature = signature_of(cls, scope.context)
+    written = written_arguments(cls, signature.inputs, e, scope, given or {})
+    return _call_rows(signature, written, e, scope)
+
+
+def _call_rows(signature: Signature, written: Written, e: ast.Call, scope: Scope) -> list[Value]:
+    """As `call_function`, of one row of arguments, which may have rows themselves."""
+    shape = _vector_shape(signature, written, e.span)
+    if not shape:
+        return _call(signature, written, e, scope)
+    if len(signature.outputs) != 1:
+        message = f"{signature.cls.name} has {len(signature.outputs)} results and is called with arrays for scalars"
+        raise Diagnostic("R062", message, e.span, "element by element works for functions of one result")
+    scope.context.spend(shape[0], e.span)
+    rows = [
+        _call_rows(signature, {n: (_row(signature, n, v, k), s) for n, (v, s) in written.items()}, e, scope)
+        for k in range(shape[0])
+    ]
+    return [stack([row[k] for row in rows], e.span) for k in range(len(signature.outputs))]
+
+
+def _extra(signature: Signature, name: str, value: Value) -> int:
+    """How many dimensions the argument has more than the input."""
+    local = next(i for i in signature.inputs if i.name == name)
+    declared = len(local.declaration.dimensions) + len(local.type.dimensions)
+    return len(shape_of(value)) - declared if isinstance(value, Array) and local.type.primitive != EXTERNAL else 0
+
+
+def _row(signature: Signature, name: str, value: Value, number: int) -> Value:
+    return value.rows()[number] if _extra(signature, name, value) > 0 else value
+
+
+def _vector_shape(signature: Signature, written: Written, span: Span) -> tuple[int, ...]:
+    """The sizes over which the call is repeated, () where every argument fits as it is."""
+    shapes = {}
+    for name, (value, _) in written.items():
+        extra = _extra(signature, name, value)
+        if extra > 0:
+            shapes[name] = shape_of(value)[:extra]
+    if len(set(shapes.values())) > 1:
+        found = ", ".join(f"{n} {shape_text(s)}" for n, s in shapes.items())
+        raise Diagnostic("R062", f"arguments taken element by element differ in size: {found}", span, "make them alike")
+    return next(iter(shapes.values()), ())
+
+
+def _call(signature: Signature, written: Written, e: ast.Call, scope: Scope) -> list[Value]:
+    context, cls = scope.context, signature.cls
+    arguments = bind_arguments(cls, signature.inputs, written, e, scope)
+    if not scope.in_function:
+        arguments |= {n: _evaluated(arguments[n], scope, e.span, n) for n in signature.sizing}
+    if cls.external is not None and cls.external.function not in GENERATORS:
+        return call_external(cls, arguments, e, scope)
+    items = [a for v in arguments.values() for a in scalars(v)]
+    known = all(isinstance(a, str) or a.op == "const" for a in items)
+    if known or (context.call_depth < MAX_INLINE_DEPTH and not _has_events(items)):
+        context.call_depth += 1
+        try:
+            results = interpret(signature, arguments, context, e.span)
+            if known or _is_small(results, arguments):
+                results = [_without_events(r) for r in results]
+                for local, value in zip(signature.outputs, results, strict=True):
+                    note_units(local, value, e.span, f"output {local.name} of {cls.name}", scope)
+                return results
+        except AtRunTime:
+            pass
+        except Diagnostic as error:
+            if error.code != "F035" or not scope.conditional or any(isinstance(a, str) for a in items):
+                raise
+        finally:
+            context.call_depth -= 1
+    return emitted_call(signature, arguments, context, e.span)
+
+
+def _evaluated(value: Value, scope: Scope, span: Span, name: str) -> Value:
+    """The value of an argument that decides sizes: parameters in it become structural."""
+    if not isinstance(value, Expr | Array) or not all(isinstance(s, Expr) for s in scalars(value)):
+        return value
+    if not all(is_known(s, scope.context) for s in scalars(value)):
+        return value
+    items = tuple(evaluate(s, scope.context, span, f"the argument {name}") for s in scalars(value))
+    return Array(value.shape, items) if isinstance(value, Array) else items[0]
+
+
+def written_arguments(
+    cls: ast.Class, inputs: list[Local], e: ast.Call, scope: Scope, given: dict[str, Value]
+) -> Written:
+    """The arguments by name, by position or by name in the source, with their places."""
+    names = [i.name for i in inputs if i.name not in given]
+    if len(e.args) > len(names):
+        hint = f"{cls.name}({', '.join(names)})"
+        raise Diagnostic("R050", f"{cls.name} takes {len(names)} arguments, given {len(e.args)}", e.span, hint)
+    sources = dict(zip(names, e.args, strict=False))
+    for name, value in e.named.items():
+        if name not in names:
+            hint = did_you_mean(name, names, f"{cls.name}({', '.join(names)})")
+            raise Diagnostic("R050", f"{cls.name} has no input {name}", value.span, hint)
+        if name in sources:
+            raise Diagnostic("R050", f"the input {name} is given twice", value.span, "keep one of them")
+        sources[name] = value
+    result: Written = {name: (value, e.span) for name, value in given.items()}
+    for local in inputs:
+        if local.name in sources:
+            source = sources[local.name]
+            value = function_value(source, scope) if _takes_function(local) else lower(source, scope)
+            result[local.name] = (value, source.span)
+    return result
+
+
+def bind_arguments(
+    cls: ast.Class, inputs: list[Local], written: Written, e: ast.Call, scope: Scope
+) -> dict[str, Value]:
+    """Values of the inputs by name: the arguments, or the declared defaults, which may use other inputs."""
+    bound: dict[str, Value] = {}
+    open_, waiting = list(inputs), True
+    while open_ and waiting:
+        waiting = False
+        for local in list(open_):
+            inner = replace(local.scope, locals=dict(bound))
+            default = local.declaration.modification.value
+            if local.name in written:
+                value, span = written[local.name]
+            elif default is not None:
+                if _asks_for(default, open_, local):
+                    continue
+                value, span = lower(default, inner), default.span
+            else:
+                hint = f"{cls.name}({', '.join(i.name for i in inputs)})"
+                raise Diagnostic("R050", f"the input {local.name} of {cls.name} is not given", e.span, hint)
+            bound[local.name] = _fitted(local, value, inner, span)
+            note_units(local, bound[local.name], span, f"input {local.name} of {cls.name}", scope)
+            open_.remove(local)
+            waiting = True
+    if open_:
+        names = ", ".join(i.name for i in open_)
+        raise Diagnostic("F022", f"the defaults of {names} depend on each other", e.span, "give one of them")
+    return {i.name: bound[i.name] for i in inputs}
+
+
+def _asks_for(default: ast.Expression, open_: list[Local], local: Local) -> bool:
+    """Does a default use inputs that have no value yet?"""
+    names = {i.name for i in open_}
+    return any(r.names[0] in names for r in references(default))
+
+
+def _fitted(local: Local, value: Value, scope: Scope, span: Span) -> Value:
+    if not _takes_function(local):
+        return fit(local, value, scope, span)
+    if not isinstance(value, FunctionValue):
+        raise Diagnostic("R062", f"{local.name} is a function", span, f"give one such as {local.declaration.type}")
+    return value
+
+
+def _takes_function(local: Local) -> bool:
+    return local.type.cls is not None and local.type.cls.kind == "function"
+
+
+def function_value(e: ast.Expression, scope: Scope) -> FunctionValue:
+    """A function as an argument: its name, or `function f(a = 1)` with inputs bound. Raises R062 for anything else."""
+    ref = e.function if isinstance(e, ast.PartialFunction) else e
+    if not isinstance(ref, ast.Ref):
+        raise Diagnostic("R062", "a function is wanted here", e.span, "give the name of one")
+    local = scope.locals.get(ref.names[0]) if len(ref.names) == 1 else None
+    bound = dict(local.bound) if isinstance(local, FunctionValue) else {}
+    cls = local.cls if isinstance(local, FunctionValue) else find_class(scope.context.library, scope.cls, ref)
+    if cls is None or cls.kind != "function":
+        raise Diagnostic("R062", f"{ref} is no function", e.span, "give the name of a function")
+    inputs = {i.name: i for i in signature_of(cls, scope.context).inputs}
+    for name, value in (e.named if isinstance(e, ast.PartialFunction) else {}).items():
+        if name not in inputs or name in bound:
+            hint = did_you_mean(name, list(inputs), f"{cls.name}({', '.join(inputs)})")
+            raise Diagnostic("R050", f"{cls.name} has no free input {name}", value.span, hint)
+        takes = _takes_function(inputs[name])
+        bound[name] = function_value(value, scope) if takes else lower(value, scope)
+    return FunctionValue(cls, bound)
+
+
+def note_units(local: Local, value: Value, span: Span, what: str, scope: Scope) -> None:
+    """Have the unit check compare `value` with the unit that `local` declares."""
+    if local.unit and isinstance(value, Expr | Array) and not scope.in_function:
+        for item in scalars(value):
+            scope.context.argument_units.append((item, local.unit, what, span))
+
+
+def _eventful(n: Expr) -> bool:
+    return n.op in ex.RELATIONS or n.op in ("min", "max") or (n.op == "call" and n.value in _EVENTFUL)
+
+
+def _has_events(arguments: list[Expr | str]) -> bool:
+    """Would inlining put event-generating arguments under the noEvent of the function's body?"""
+    return any(_eventful(n) for a in arguments if isinstance(a, Expr) for n in ex.walk(a))
+
+
+def _without_events(value: Value) -> Value:
+    """Relations in functions make no events."""
+
+    def quiet(item: Expr | str | Record) -> Expr | str | Record:
+        if isinstance(item, Record):
+            return _without_events(item)
+        if isinstance(item, Expr) and item.op not in ("const", "var") and any(map(_eventful, ex.walk(item))):
+            return ex.special("noEvent", item, type=item.type)
+        return item
+
+    if isinstance(value, Array):
+        return Array(value.shape, tuple(map(quiet, value.items)))
+    if isinstance(value, Record):
+        fields = {name: _without_events(field) for name, field in value.fields.items()}
+        return Record(value.name, fields, value.cls)
+    return quiet(value)
+
+
+def _is_small(results: list[Value], arguments: dict[str, Value]) -> bool:
+    given = {a for v in arguments.values() for a in scalars(v)}
+    seen: set[Expr] = set()
+    stack = [s for r in results for s in scalars(r) if isinstance(s, Expr)]
+    while stack:
+        n = stack.pop()
+        if n not in seen and n not in given:
+            seen.add(n)
+            stack.extend(n.args)
+        if len(seen) > MAX_INLINE_NODES:
+            return False
+    return True
+
+
+def construct_record(cls: ast.Class, e: ast.Call, scope: Scope) -> Record:
+    """Record(a, field = b): fields by position and name, the rest by their defaults."""
+    declared = signature_of(cls, scope.context).locals
+    fields = [
+        replace(f, scope=replace(f.scope, in_function=scope.in_function))
+        for f in declared
+        if f.declaration.variability != "constant" or f.declaration.modification.value is None
+    ]
+    bound = bind_arguments(cls, fields, written_arguments(cls, fields, e, scope, {}), e, scope)
+    return Record(cls.path, bound, cls)
+
+
+def run(name: str, arguments: list[Expr], context: Context, span: Span) -> Expr:
+    """A kept function on constant arguments: its (first) result as a constant."""
+    source = context.table(Sources)[name]
+    bound: dict[str, Value] = {}
+    for local, value in zip(source.inputs, arguments, strict=True):
+        bound[local] = Array(source.shapes[local], value.args) if value.op == "array" else value
+    try:
+        results = interpret(source.signature, bound, context, span)
+    except AtRunTime as reason:
+        message = f"{name} cannot be evaluated at translation: {reason.args[0]}"
+        raise Diagnostic("F021", message, span, "give it constants and parameters only") from None
+    return scalars(results[source.output])[source.element]

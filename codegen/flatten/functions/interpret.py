@@ -1,0 +1,298 @@
+"""Running the body of a function on values: numbers give numbers, expressions give expressions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from math import prod
+
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.classes.instance import package_of
+from lacuna.codegen.flatten.equations.asserts import lower_assert
+from lacuna.codegen.flatten.equations.effects import effect
+from lacuna.codegen.flatten.expressions.constants import AtRunTime
+from lacuna.codegen.flatten.expressions.lower import lower, lower_results, lower_scalar
+from lacuna.codegen.flatten.functions.blanks import blank
+from lacuna.codegen.flatten.functions.effort import MAX_NESTED_STEPS, nested_call, one_more_step
+from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
+from lacuna.codegen.flatten.functions.locals import Local, Signature, fit, typed
+from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.flatten.names.values import (
+    Array,
+    Record,
+    Value,
+    elementwise,
+    holds_records,
+    integers,
+    items_of,
+    scalars,
+    shape_of,
+    shape_text,
+)
+from lacuna.codegen.flatten.references.iterators import iterate
+from lacuna.codegen.flatten.references.references import apply_subscripts
+from lacuna.codegen.library.suggest import did_you_mean
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr
+from lacuna.codegen.syntax import ast
+
+MAX_STEPS = 50_000
+MAX_SYMBOLIC_STEPS = 400
+
+
+def interpret(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
+    """Results of the function on `arguments`. Raises AtRunTime where its course depends on unknown values."""
+    if signature.cls.external is not None:
+        return _native(signature, arguments, span)
+    run = _Run(signature.cls, context, dict(arguments), span)
+    run.inputs = frozenset(arguments)
+    for local in signature.locals:
+        if local.declaration.causality == "input":
+            continue
+        scope = replace(local.scope, locals=run.locals)
+        default = local.declaration.modification.value
+        if default is not None:
+            value = fit(local, lower(default, scope), scope, default.span)
+            run.locals[local.name] = _named_constant(local, signature.cls, value, context) if run.symbolic else value
+        else:
+            if local.is_flexible:
+                run.flexible.add(local.name)
+            run.locals[local.name] = blank(local, scope)
+    with nested_call(run.symbolic, span):
+        run.block(signature.body)
+    results = [run.locals[local.name] for local in signature.outputs]
+    for local, value in zip(signature.outputs, results, strict=True):
+        if any(isinstance(s, Expr) and any(n.op == "unset" for n in ex.walk(s)) for s in scalars(value)):
+            message = f"the output {local.name} of {signature.cls.name} is not assigned in every case"
+            raise Diagnostic("F033", message, local.declaration.span, "assign it, or give it a value first")
+    return results
+
+
+def _native(signature: Signature, arguments: dict[str, Value], span: Span) -> list[Value]:
+    """A generator of random numbers on a known state: (state, number)."""
+    (state,) = arguments.values()
+    if any(not isinstance(w, Expr) or w.op != "const" for w in scalars(state)):
+        raise AtRunTime("a random number", span)
+    words, number = GENERATORS[signature.cls.external.function]([w.value for w in scalars(state)])
+    given = {"Integer": integers(words), "Real": ex.const(number)}
+    return [given[local.type.primitive] for local in signature.outputs]
+
+
+def _named_constant(local: Local, cls: ast.Class, value: Value, context: Context) -> Value:
+    """A constant with a unit stays a constant of the model, by its name: a mere number would have no unit."""
+    if local.declaration.variability != "constant" or not local.unit or isinstance(value, Record):
+        return value
+    return package_of(context, cls).child(local.name).value()
+
+
+class _Run:
+    def __init__(self, cls: ast.Class, context: Context, values: dict[str, Value], span: Span) -> None:
+        self.scope = Scope(context, cls, None, values, in_function=True)
+        self.locals = values
+        self.span = span
+        self.inputs: frozenset[str] = frozenset()
+        self.flexible: set[str] = set()  # arrays declared with `:`, which take the size of what is assigned (12.4.5)
+        self.steps = 0
+        symbolic = any(isinstance(s, Expr) and s.op != "const" for v in values.values() for s in scalars(v))
+        self.symbolic = symbolic
+        self.limit = MAX_SYMBOLIC_STEPS if symbolic else MAX_STEPS
+
+    def block(self, items: Sequence[ast.Item]) -> str:
+        """Run statements; "break" or "return" where one of these ended the block."""
+        for item in items:
+            self.steps += 1
+            if self.steps > self.limit or one_more_step() > MAX_NESTED_STEPS:
+                if self.symbolic:
+                    raise AtRunTime("a long computation", item.span)
+                message = f"no end after {MAX_STEPS if self.steps > self.limit else MAX_NESTED_STEPS} statements"
+                raise Diagnostic("F034", message, item.span, "does the loop reach its end?")
+            signal = self._item(item)
+            if signal:
+                return signal
+        return ""
+
+    def _item(self, item: ast.Item) -> str:
+        if isinstance(item, ast.Assignment):
+            self._assign(item)
+        elif isinstance(item, ast.If):
+            return self._if(item)
+        elif isinstance(item, ast.For):
+            return self._for(item, 0)
+        elif isinstance(item, ast.While):
+            while self._decided(item.condition):
+                signal = self.block(item.body)
+                self.steps += 1
+                if signal == "return":
+                    return signal
+                if signal == "break":
+                    break
+        elif isinstance(item, ast.Break):
+            return "break"
+        elif isinstance(item, ast.Return):
+            return "return"
+        elif isinstance(item, ast.Procedure):
+            self._procedure(item)
+        else:
+            what = type(item).__name__.lower()
+            raise Diagnostic("R059", f"'{what}' in a function", item.span, "functions have no events")
+        return ""
+
+    def _procedure(self, item: ast.Procedure) -> None:
+        if str(item.call.function) != "assert":
+            for a in effect(item, self.scope):
+                if a.condition is not ex.FALSE:
+                    raise AtRunTime("a call for its asserts", item.span)
+                if a.level == "error":
+                    self._fail(a)
+            return
+        check = lower_assert(item.call, self.scope)
+        if check.condition.op != "const":
+            raise AtRunTime("an assert", item.span)
+        if not check.condition.value and check.level == "error":
+            self._fail(check)
+
+    def _fail(self, check: flat.Assert) -> None:
+        if self.symbolic and self.scope.conditional:
+            raise AtRunTime("an assert", check.span)
+        error = Diagnostic("F035", f"the function failed: {check.message}", self.span, "change the arguments")
+        error.notes.append((check.span, "by this assert"))
+        raise error
+
+    def _decided(self, written: ast.Expression) -> bool:
+        condition = lower_scalar(written, self.scope, BOOLEAN)
+        if condition.op != "const":
+            raise AtRunTime("the condition of a loop", written.span)
+        return bool(condition.value)
+
+    def _for(self, item: ast.For, at: int) -> str:
+        iterator = item.iterators[at]
+        shadowed = self.locals.get(iterator.name)
+        values = iterate(iterator, self.scope, item.body)
+        signal = ""
+        for value in values:
+            self.locals[iterator.name] = value
+            inner = at + 1 < len(item.iterators)
+            signal = self._for(item, at + 1) if inner else self.block(item.body)
+            if signal:
+                break
+        if shadowed is None:
+            self.locals.pop(iterator.name, None)
+        else:
+            self.locals[iterator.name] = shadowed
+        return "return" if signal == "return" else ""
+
+    def _if(self, item: ast.If) -> str:
+        outcomes: list[tuple[Expr, dict[str, Value]]] = []
+        before, whole = dict(self.locals), self.scope
+        for written, body in item.branches:
+            self._set(before)
+            condition = TRUE if written is None else lower_scalar(written, self.scope, BOOLEAN)
+            if condition.op == "const" and not condition.value:
+                continue
+            if condition is TRUE and not outcomes:
+                return self.block(body)
+            self.scope = replace(whole, conditional=True)
+            if self.block(body):
+                raise AtRunTime("leaving a branch early", item.span)
+            outcomes.append((condition, dict(self.locals)))
+            if condition is TRUE:
+                break
+        self.scope = whole
+        if not outcomes:
+            self._set(before)
+            return ""
+        if outcomes[-1][0] is not TRUE:
+            outcomes.append((TRUE, before))
+        merged = dict(outcomes[-1][1])
+        for condition, values in reversed(outcomes[:-1]):
+            for name, value in values.items():
+                if name in merged and merged[name] is not value:
+                    merged[name] = _choose(condition, value, merged[name], item.span)
+        self._set(merged)
+        return ""
+
+    def _set(self, values: dict[str, Value]) -> None:
+        self.locals.clear()
+        self.locals.update(values)
+
+    def _assign(self, item: ast.Assignment) -> None:
+        if isinstance(item.target, ast.Tuple):
+            results = lower_results(item.value, self.scope)
+            for target, value in zip(item.target.items, results, strict=False):
+                if target is not None:
+                    self._store(target, value, item.span)
+        else:
+            self._store(item.target, lower(item.value, self.scope), item.span)
+
+    def _store(self, target: ast.Ref, value: Value, span: Span) -> None:
+        name = target.names[0]
+        if name not in self.locals:
+            raise unknown_target(target, self.locals)
+        if name in self.inputs:
+            raise Diagnostic("R058", f"the input {name} is assigned", span, "copy it to a variable first")
+        self.locals[name] = self._updated(self.locals[name], target, 0, value, span)
+
+    def _updated(self, old: Value, target: ast.Ref, at: int, value: Value, span: Span) -> Value:
+        """`old` with the part that `target` names, from name number `at` on, replaced by `value`."""
+        subscripts, last = target.subscripts[at], at + 1 == len(target.names)
+        if subscripts is None:
+            if not last:
+                return self._field_updated(old, target, at + 1, value, span)
+            if target.names[at] in self.flexible and len(shape_of(old)) == len(shape_of(value)):
+                self.scope.context.spend(len(scalars(value)), span)
+                return value
+            return conform(old, value, span, str(target))
+        numbers = Array(shape_of(old), integers(list(range(prod(shape_of(old))))).items)
+        picked = apply_subscripts(numbers, subscripts, self.scope, target)
+        if any(p.op != "const" for p in scalars(picked)):
+            raise AtRunTime("an index", span)
+        if not last and not isinstance(picked, Expr):
+            raise Diagnostic("R042", f"{target}: elements of several records", span, "assign them one by one")
+        if not last:
+            new = self._field_updated(old.items[picked.value], target, at + 1, value, span)
+            return Array(old.shape, (*old.items[: picked.value], new, *old.items[picked.value + 1 :]))
+        if shape_of(picked) != shape_of(value):
+            message = f"{shape_text(shape_of(picked))} := {shape_text(shape_of(value))}"
+            raise Diagnostic("R042", f"the sides differ in size: {message}", span, "both need the same size")
+        items = list(old.items)
+        for position, new in zip(items_of(picked), items_of(value), strict=True):
+            items[position.value] = conform(old.items[position.value], new, span, str(target))
+        return Array(old.shape, tuple(items))
+
+    def _field_updated(self, old: Value, target: ast.Ref, at: int, value: Value, span: Span) -> Record:
+        name = target.names[at]
+        if not isinstance(old, Record) or name not in old.fields:
+            raise Diagnostic("R003", f"{target} has no such element", target.span, "only records have elements")
+        changed = self._updated(old.fields[name], target, at, value, span)
+        return Record(old.name, old.fields | {name: changed}, old.cls)
+
+
+def unknown_target(target: ast.Ref, names: dict[str, Value]) -> Diagnostic:
+    hint = did_you_mean(target.names[0], names, "declare it under 'protected'")
+    return Diagnostic("R002", f"there is no variable {target.names[0]}", target.span, hint)
+
+
+def conform(old: Value, value: Value, span: Span, name: str) -> Value:
+    """`value` for a variable that held `old`: the same size, and a type that fits."""
+    if shape_of(old) != shape_of(value) or holds_records(old) != holds_records(value):
+        message = f"{name} has size {shape_text(shape_of(old))}, given {shape_text(shape_of(value))}"
+        raise Diagnostic("R042", message, span, "both need the same size")
+    if holds_records(old):
+        return value
+    kinds = [o.type if isinstance(o, Expr) else "String" for o in scalars(old)]
+    items = [typed(v, k, name, span) for v, k in zip(scalars(value), kinds, strict=True)]
+    return Array(old.shape, tuple(items)) if isinstance(old, Array) else items[0]
+
+
+def _choose(condition: Expr, then: Value, otherwise: Value, span: Span) -> Value:
+    if isinstance(then, Record) and isinstance(otherwise, Record):
+        fields = {n: _choose(condition, v, otherwise.fields[n], span) for n, v in then.fields.items()}
+        return Record(then.name, fields, then.cls)
+    if isinstance(then, Array) and holds_records(then) and shape_of(then) == shape_of(otherwise):
+        pairs = zip(then.items, items_of(otherwise), strict=True)
+        return Array(then.shape, tuple(_choose(condition, a, b, span) for a, b in pairs))
+    if isinstance(then, str) or isinstance(otherwise, str):
+        raise AtRunTime("a String", span)
+    return elementwise(lambda a, b: ex.if_else(condition, a, b), [then, otherwise], span, "alternatives")

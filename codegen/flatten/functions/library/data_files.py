@@ -1,0 +1,98 @@
+"""Files of data: where they may lie, and columns of comma-separated values, read at translation."""
+
+from __future__ import annotations
+
+import csv
+from functools import lru_cache
+import hashlib
+import math
+from pathlib import Path
+
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.values import Array, Value
+from lacuna.codegen.library.suggest import did_you_mean
+from lacuna.codegen.symbolic import expr as ex
+
+CSV_COLUMN = "csvColumn"
+_URI = "modelica://"
+
+
+def column_of_file(values: list[Value], context: Context, span: Span) -> list[Value]:
+    """csvColumn(fileName, column) as a vector of constants."""
+    if len(values) != 2 or not all(isinstance(v, str) for v in values):
+        raise Diagnostic("R062", f"{CSV_COLUMN} takes the names of a file and of a column", span, "two Strings")
+    name, column = values
+    path = locate(name, context, span)
+    text = _read(path, span)
+    context.files[str(path)] = hashlib.sha256(text.encode()).hexdigest()
+    return [csv_column(text, path, column, span)]
+
+
+def locate(name: str, context: Context, span: Span) -> Path:
+    """Beside the model's file, beside the file of the call, in the folder of a package, or modelica://Package/...;
+    never outside of these folders. Raises F040."""
+    folders = [context.folder, Path(span.file).resolve().parent, *context.library.folders]
+    wanted = name
+    if name.startswith(_URI):
+        package, _, wanted = name.removeprefix(_URI).partition("/")
+        cls = context.library.root
+        for part in package.split("."):
+            cls = context.library.member(cls, part) if cls is not None else None
+        folder = context.library.folder_of(cls) if cls is not None else None
+        if folder is None:
+            raise Diagnostic("F040", f"{name}: there is no package {package}", span, "name a package that is loaded")
+        folders = [folder]
+    for folder in folders:
+        path = (folder / wanted).resolve()
+        if path.is_file() and any(path.is_relative_to(f.resolve()) for f in folders):
+            return path
+    searched = ", ".join(dict.fromkeys(map(str, folders)))
+    raise Diagnostic("F040", f"there is no data file {name}", span, f"looked in and below {searched}")
+
+
+def _read(path: Path, span: Span) -> str:
+    try:
+        return path.read_bytes().decode("utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        raise Diagnostic("F040", f"cannot read {path}: {error}", span, "save it as UTF-8 text") from None
+
+
+@lru_cache(maxsize=64)
+def _rows(text: str) -> list[list[str]]:
+    lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
+    return list(csv.reader(lines))
+
+
+def csv_column(text: str, path: Path, column: str, span: Span) -> Array:
+    """The numbers under the heading `column`; lines starting with # are comments. Those under `time` increase."""
+    rows = _rows(text)
+    if not rows:
+        raise Diagnostic("F041", f"{path.name} is empty", span, "the first line names the columns")
+    heading = [h.strip() for h in rows[0]]
+    if column not in heading:
+        hint = did_you_mean(column, heading, f"it has {', '.join(heading)}")
+        raise Diagnostic("F041", f"{path.name} has no column {column}", span, hint)
+    at = heading.index(column)
+    numbers: list[float] = []
+    for number, row in enumerate(rows[1:], 2):
+        found = row[at].strip() if at < len(row) else "nothing"
+        wrong = _objection(found, numbers[-1:] if column == "time" else [])
+        if wrong:
+            message = f"{path.name}, data line {number}, column {column}: {found!r} {wrong}"
+            raise Diagnostic("F041", message, span, "correct the file")
+        numbers.append(float(found))
+    if not numbers:
+        raise Diagnostic("F041", f"{path.name} has a heading and no data", span, "add lines of numbers")
+    return Array((len(numbers),), tuple(map(ex.const, numbers)))
+
+
+def _objection(found: str, before: list[float]) -> str | None:
+    """What is wrong with a field that should be a number, and greater than the one `before` it, if any."""
+    try:
+        value = float(found)
+    except ValueError:
+        return "is no number"
+    if not math.isfinite(value):
+        return "is no finite number"
+    return f"does not come after {before[0]:g}" if before and value <= before[0] else None

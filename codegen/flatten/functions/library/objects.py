@@ -1,0 +1,271 @@
+"""External objects of the library: tables, made when a model is translated, looked up by functions at run time.
+
+Our own implementations of what Modelica.Blocks.Types.ExternalCombi* and Modelica.Blocks.Tables.Internal declare as
+external C. Values that a table is made of become structural.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+import hashlib
+import itertools
+
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.expressions.constants import known
+from lacuna.codegen.flatten.functions.code import emitted_call
+from lacuna.codegen.flatten.functions.interpret import interpret
+from lacuna.codegen.flatten.functions.library.data_files import locate
+from lacuna.codegen.flatten.functions.library.tables import lookup
+from lacuna.codegen.flatten.functions.library.tables import polynomials as pp
+from lacuna.codegen.flatten.functions.library.tables.files import FileError, read_matrix
+from lacuna.codegen.flatten.functions.locals import signature_of
+from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.flatten.names.values import Array, ExternalValue, Value, scalars
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import Expr
+from lacuna.codegen.syntax import ast
+
+Handler = Callable[[list[Value], "ExternalCall"], list[Value]]
+ALWAYS, AT_JUMPS, NO_EVENTS = range(1, 4)  # Modelica.Blocks.Types.TimeEvents
+
+
+@dataclass(frozen=True)
+class ExternalCall:
+    """An external function that is called: where, and by whom."""
+
+    cls: ast.Class
+    scope: Scope  # of the call
+    span: Span
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    rows: list[list[float]]
+    columns: list[int]  # from 1
+    smoothness: int
+    extrapolation: int
+    start: float = 0.0
+    shift: float = 0.0
+    events: int = NO_EVENTS
+    pieces: dict[int, list[pp.Row]] = field(default_factory=dict)
+
+    @property
+    def abscissa(self) -> list[float]:
+        return [row[0] for row in self.rows]
+
+    def column(self, number: int, span: Span) -> list[pp.Row]:
+        """Output `number`, from 1, as a piecewise polynomial."""
+        if number not in self.pieces:
+            if not 1 <= number <= len(self.columns):
+                message = f"column {number} of a table with {len(self.columns)} columns"
+                raise Diagnostic("F043", message, span, "the columns to look up are chosen by `columns`")
+            y = [row[self.columns[number - 1] - 1] for row in self.rows]
+            try:
+                self.pieces[number] = pp.piecewise(self.abscissa, y, self.smoothness, self.extrapolation)
+            except pp.TableError as reason:
+                raise Diagnostic("F043", str(reason), span, "the first column of a table ascends") from None
+        return self.pieces[number]
+
+    @property
+    def period(self) -> float:
+        x = self.abscissa
+        return x[-1] - x[0] if self.extrapolation == pp.PERIODIC and len(x) > 1 else 0.0
+
+    def instants(self) -> list[float]:
+        """Times of events in the time of the table: of jumps, of every point, or none."""
+        x = self.abscissa
+        found = sorted(set(x)) if self.events == ALWAYS else []
+        if self.events == AT_JUMPS:
+            found = [a for a, b in itertools.pairwise(x) if a == b]
+        if self.period and self.events != NO_EVENTS:
+            found = sorted({t for t in found if t < x[-1]} | {x[0]})
+        return found
+
+
+def _numbers(value: Value, call: ExternalCall, what: str) -> list[float]:
+    result = []
+    for item in scalars(value):
+        if not isinstance(item, Expr):
+            raise Diagnostic("R062", f"{what} is no number", call.span, "give numbers")
+        result.append(known(item, call.scope, call.span, what).value)
+    return result
+
+
+def _integer(value: Value, call: ExternalCall, what: str) -> int:
+    return int(_numbers(value, call, what)[0])
+
+
+def _real(value: Value, call: ExternalCall, what: str) -> float:
+    return float(_numbers(value, call, what)[0])
+
+
+def _matrix(file: Value, name: Value, table: Value, rest: list[Value], call: ExternalCall) -> list[list[float]]:
+    """The data of a table: of a file where one is named, else as given."""
+    if not isinstance(file, str) or not isinstance(name, str):
+        raise Diagnostic("R062", "the names of file and table are Strings", call.span, "give two Strings")
+    if file not in ("", "NoName"):
+        return _from_file(file, name, rest, call)
+    if name not in ("", "NoName") and not scalars(table):
+        hint = "name a file with it, or give the matrix"
+        raise Diagnostic("F043", f"the table {name} would come from a function of the C program", call.span, hint)
+    if not isinstance(table, Array) or len(table.shape) != 2 or 0 in table.shape:
+        raise Diagnostic("F043", "a table without data", call.span, "give a matrix, or a file and a name")
+    numbers = [float(n) for n in _numbers(table, call, "the data of a table")]
+    width = table.shape[1]
+    return [numbers[k : k + width] for k in range(0, len(numbers), width)]
+
+
+def _from_file(file: str, name: str, rest: list[Value], call: ExternalCall) -> list[list[float]]:
+    delimiter = next((r for r in rest if isinstance(r, str)), ",")
+    header = rest[-1]
+    lines = _integer(header, call, "the number of header lines") if isinstance(header, Expr) else 0
+    path = locate(file, call.scope.context, call.span)
+    try:
+        content = path.read_bytes()
+        rows = read_matrix(path, name, delimiter, lines)
+    except (OSError, UnicodeDecodeError, FileError) as reason:
+        raise Diagnostic("F041", f"{path.name}: {reason}", call.span, "correct the file, or its name") from None
+    call.scope.context.files[str(path)] = hashlib.sha256(content).hexdigest()
+    return rows
+
+
+def _columns(value: Value, rows: list[list[float]], call: ExternalCall) -> list[int]:
+    columns = [int(n) for n in _numbers(value, call, "the columns of a table")] or list(range(2, len(rows[0]) + 1))
+    for n in columns:
+        if not 1 <= n <= len(rows[0]):
+            raise Diagnostic("F043", f"column {n} of a table with {len(rows[0])} columns", call.span, "columns")
+    return columns
+
+
+def _checked(table: Table, call: ExternalCall) -> list[Value]:
+    try:
+        pp.check_abscissa(table.abscissa, table.smoothness)
+    except pp.TableError as reason:
+        raise Diagnostic("F043", str(reason), call.span, "the first column of a table ascends") from None
+    return [ExternalValue(call.cls.parent, table)]
+
+
+def _table_1d(a: list[Value], call: ExternalCall) -> list[Value]:
+    """(fileName, tableName, table, rows, columns, columns[:], count, smoothness, extrapolation, verbose, ...)"""
+    rows = _matrix(a[0], a[1], a[2], a[9:], call)
+    kinds = (_integer(a[7], call, "smoothness"), _integer(a[8], call, "extrapolation"))
+    return _checked(Table(rows, _columns(a[5], rows, call), *kinds), call)
+
+
+def _time_table(a: list[Value], call: ExternalCall) -> list[Value]:
+    """(file, name, table, rows, columns, start, columns[:], count, smoothness, extrapolation, shift, events, ...)"""
+    rows = _matrix(a[0], a[1], a[2], a[12:], call)
+    smoothness, extrapolation = _integer(a[8], call, "smoothness"), _integer(a[9], call, "extrapolation")
+    start, shift = _real(a[5], call, "the start of a table"), _real(a[10], call, "the shift of a table")
+    events = _integer(a[11], call, "timeEvents")
+    columns = _columns(a[6], rows, call)
+    return _checked(Table(rows, columns, smoothness, extrapolation, start, shift, events), call)
+
+
+def _table_2d(a: list[Value], call: ExternalCall) -> list[Value]:
+    """(fileName, tableName, table, rows, columns, smoothness, extrapolation, verbose, ...)"""
+    rows = _matrix(a[0], a[1], a[2], a[7:], call)
+    smoothness, extrapolation = _integer(a[5], call, "smoothness"), _integer(a[6], call, "extrapolation")
+    if smoothness not in (pp.LINEAR, pp.CONSTANT):
+        hint = "LinearSegments or ConstantSegments"
+        raise Diagnostic("R091", "smooth interpolation in two dimensions is outside the subset", call.span, hint)
+    if len(rows) < 2 or len(rows[0]) < 2:
+        raise Diagnostic("F043", "a table in two dimensions needs at least one row and one column", call.span, "u1, u2")
+    for axis in ([row[0] for row in rows[1:]], rows[0][1:]):
+        try:
+            pp.check_abscissa(axis, pp.AKIMA)
+        except pp.TableError as reason:
+            raise Diagnostic("F043", str(reason), call.span, "grid points ascend") from None
+    return [ExternalValue(call.cls.parent, Table(rows, [], smoothness, extrapolation))]
+
+
+def _table(value: Value, call: ExternalCall) -> Table:
+    if not isinstance(value, ExternalValue) or not isinstance(value.data, Table):
+        raise Diagnostic("R062", f"{call.cls.name} needs a table", call.span, "give the external object of one")
+    return value.data
+
+
+def _vector(values: list[float]) -> Array:
+    return Array((len(values),), tuple(ex.const(float(v)) for v in values))
+
+
+def _pieces(rows: list[pp.Row]) -> dict[str, Value]:
+    flat = [value for row in rows for value in row[1:]]
+    return {"x": _vector([row[0] for row in rows]), "c": Array((len(rows), 4), _vector(flat).items)}
+
+
+def _run(name: str, arguments: dict[str, Value], call: ExternalCall) -> list[Value]:
+    """A function of `lookup`: evaluated where all is constant, else called at run time."""
+    signature, context = signature_of(lookup.function(name), call.scope.context), call.scope.context
+    arguments = {k: ex.const(float(v)) if isinstance(v, float | int) else v for k, v in arguments.items()}
+    if all(isinstance(s, Expr) and s.op == "const" for v in arguments.values() for s in scalars(v)):
+        return interpret(signature, arguments, context, call.span)
+    return emitted_call(signature, arguments, context, call.span)
+
+
+def _value_1d(a: list[Value], call: ExternalCall) -> list[Value]:
+    """(tableID, icol, u)"""
+    table = _table(a[0], call)
+    rows = table.column(_integer(a[1], call, "the column"), call.span)
+    x = table.abscissa
+    if table.period:
+        return _run("periodic", {"u": a[2], "first": x[0], "period": table.period, **_pieces(rows)}, call)
+    if table.extrapolation == pp.REFUSE:
+        return _run("inside", {"u": a[2], "first": x[0], "last": x[-1], **_pieces(rows)}, call)
+    return _run("piecewise", {"u": a[2], **_pieces(rows)}, call)
+
+
+def _value_timed(a: list[Value], call: ExternalCall) -> list[Value]:
+    """(tableID, icol, t, next, before)"""
+    table = _table(a[0], call)
+    rows = table.column(_integer(a[1], call, "the column"), call.span)
+    place = {"start": table.start, "shift": table.shift, "first": table.abscissa[0], "period": table.period}
+    return _run("timed", {"t": a[2], "next": a[3], "before": a[4], **place, **_pieces(rows)}, call)
+
+
+def _next_event(a: list[Value], call: ExternalCall) -> list[Value]:
+    """(tableID, t)"""
+    table = _table(a[0], call)
+    place = {"start": table.start, "shift": table.shift, "first": table.abscissa[0], "period": table.period}
+    instants = _vector(table.instants() or [-lookup.NEVER])
+    if not table.instants():
+        place["period"] = 0.0
+    return _run("nextEvent", {"t": a[1], **place, "instants": instants}, call)
+
+
+def _value_2d(a: list[Value], call: ExternalCall) -> list[Value]:
+    """(tableID, u1, u2)"""
+    table = _table(a[0], call)
+    x, y = [row[0] for row in table.rows[1:]], table.rows[0][1:]
+    if len(x) == 1 or len(y) == 1 or table.extrapolation in (pp.PERIODIC, pp.REFUSE):
+        hint = "two or more grid points each way, HoldLastPoint or LastTwoPoints"
+        raise Diagnostic("R091", "this table in two dimensions is outside the subset", call.span, hint)
+    z = Array((len(x), len(y)), _vector([v for row in table.rows[1:] for v in row[1:]]).items)
+    grid = {"u": a[1], "v": a[2], "x": _vector(x), "y": _vector(y), "z": z}
+    if table.smoothness == pp.CONSTANT:
+        return _run("steps", grid, call)
+    return _run("bilinear", {**grid, "hold": ex.const(table.extrapolation == pp.HOLD)}, call)
+
+
+def _edge(last: bool, call_2d: bool = False) -> Handler:
+    def build(a: list[Value], call: ExternalCall) -> list[Value]:
+        table = _table(a[0], call)
+        at = -1 if last else 0
+        if call_2d:
+            return [_vector([[row[0] for row in table.rows[1:]][at], table.rows[0][1:][at]])]
+        return [ex.const(table.abscissa[at])]
+
+    return build
+
+
+_P = "ModelicaStandardTables_"
+TABLES: dict[str, Handler] = {
+    f"{_P}CombiTable1D_init3": _table_1d, f"{_P}CombiTimeTable_init3": _time_table,
+    f"{_P}CombiTable2D_init3": _table_2d,
+    f"{_P}CombiTable1D_getValue": _value_1d, f"{_P}CombiTimeTable_getValue": _value_timed,
+    f"{_P}CombiTable2D_getValue": _value_2d, f"{_P}CombiTimeTable_nextTimeEvent": _next_event,
+    f"{_P}CombiTable1D_minimumAbscissa": _edge(False), f"{_P}CombiTable1D_maximumAbscissa": _edge(True),
+    f"{_P}CombiTimeTable_minimumTime": _edge(False), f"{_P}CombiTimeTable_maximumTime": _edge(True),
+    f"{_P}CombiTable2D_minimumAbscissa": _edge(False, True), f"{_P}CombiTable2D_maximumAbscissa": _edge(True, True),
+}  # fmt: skip

@@ -1,0 +1,89 @@
+"""What one run of flattening shares: the library, the scalars by name, the findings."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeVar
+
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flat import Function
+from lacuna.codegen.flatten.names.component import Component, Variable
+from lacuna.codegen.flatten.names.values import Value
+from lacuna.codegen.library.classes import Library
+from lacuna.codegen.symbolic.expr import Expr
+
+T = TypeVar("T")
+MAX_ERRORS = 10
+MAX_ELEMENTS = 300_000
+
+
+@dataclass(frozen=True)
+class Lowering:
+    """How each kind of expression becomes a value (see `lower`); the parts stand in files of their own."""
+
+    nodes: Mapping[type, Callable[..., Value]]  # by kind of node
+    functions: Mapping[str, Callable[..., Value]]  # built-in functions by name
+    results: Callable[..., list[Value]]  # all results of the call of a function of the model
+    overloaded: Callable[..., Value]  # an operator of operator records
+    construct: Callable[..., Value]  # a call of a record
+    text: Callable[..., Value | None]  # String of a record
+    run: Callable[[str, list[Expr], Context, Span], Expr]  # a kept function on constants
+
+
+@dataclass
+class Context:
+    library: Library
+    folder: Path  # of the model's file: data files are looked for here
+    lowering: Lowering
+    model: str = ""  # the name of the class that is flattened
+    scalars: dict[str, tuple[Variable, int]] = field(default_factory=dict)
+    packages: dict[int, Component] = field(default_factory=dict)
+    functions: dict[str, Function] = field(default_factory=dict)
+    evaluated: set[str] = field(default_factory=set)  # structural parameters: names of scalars
+    evaluating: list[str] = field(default_factory=list)
+    constants: dict[str, Expr] = field(default_factory=dict)  # values of those
+    variabilities: dict[Expr, str] = field(default_factory=dict)
+    places: dict[tuple[str, str], Span] = field(default_factory=dict)  # of bindings and attributes: (variable, which)
+    argument_units: list[tuple[Expr, str, str, Span]] = field(default_factory=list)  # value, unit, what, where
+    function_units: dict[str, str] = field(default_factory=dict)  # of the result, by name of a kept function
+    call_depth: int = 0
+    elements: int = 0
+    files: dict[str, str] = field(default_factory=dict)
+    errors: list[Diagnostic] = field(default_factory=list)
+    warnings: list[Diagnostic] = field(default_factory=list)
+    tables: dict[type, Any] = field(default_factory=dict)
+
+    def table(self, kind: type[T]) -> T:
+        """The one `kind` of this run, made when first asked for: what a pass keeps for itself."""
+        found = self.tables.get(kind)
+        if found is None:
+            found = self.tables[kind] = kind()
+        return found
+
+    @contextmanager
+    def attempt(self) -> Iterator[None]:
+        """Collect a Diagnostic raised inside, so that independent findings come together."""
+        try:
+            yield
+        except Diagnostic as error:
+            if all(str(error) != str(known) for known in self.errors):
+                self.errors.append(error)
+            if len(self.errors) >= MAX_ERRORS or self.elements > MAX_ELEMENTS:
+                self.finish()
+
+    def spend(self, count: int, span: Span) -> None:
+        """Count array elements and passes of loops. Raises F037 for a model out of all proportion."""
+        self.elements += count
+        if self.elements > MAX_ELEMENTS:
+            hint = "are the sizes and ranges as meant?"
+            raise Diagnostic("F037", f"more than {MAX_ELEMENTS} array elements and loop passes", span, hint)
+
+    def finish(self) -> None:
+        """Raise the first finding, which carries the others, if there was any."""
+        if self.errors:
+            first = self.errors[0]
+            first.others = self.errors[1:]
+            raise first

@@ -1,0 +1,101 @@
+"""Modifications: trees of name = value that meet a declaration; the outer one wins over the inner one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.symbolic.expr import Expr
+from lacuna.codegen.syntax import ast
+
+
+@dataclass(slots=True)
+class Modifier:
+    """`value` in the scope it was written in; `index` is the array element it is narrowed to."""
+
+    span: Span
+    value: ast.Expression | Expr | None = None
+    scope: Scope | None = None
+    each: bool = False
+    final: bool = False
+    children: dict[str, Modifier] = field(default_factory=dict)
+    redeclare: ast.Component | ast.Class | None = None
+    redeclared_in: Scope | None = None  # the scope a redeclaration is written in
+    tree: ast.Modification | None = None  # as written
+    weak: bool = False  # of a part of a component that is bound as a whole from further outside
+    index: tuple[int, ...] = ()
+
+    @property
+    def empty(self) -> bool:
+        return self.value is None and not self.children and self.redeclare is None
+
+
+def from_tree(tree: ast.Modification, scope: Scope, each: bool = False, final: bool = False) -> Modifier:
+    """The modifier a syntax tree stands for. Raises R030 where a name is modified twice."""
+    result = Modifier(tree.span, tree.value, scope, each, final)
+    for argument in tree.arguments:
+        child = from_tree(argument.modification, scope, argument.each, argument.final)
+        child.span = argument.span
+        child.redeclare, child.tree = argument.redeclare, argument.modification
+        child.redeclared_in = scope if argument.redeclare is not None else None
+        present = result.children.get(argument.name)
+        if present is not None:
+            if (present.value is not None and child.value is not None) or child.redeclare or present.redeclare:
+                error = Diagnostic("R030", f"{argument.name} is modified twice", argument.span, "keep one of them")
+                error.notes.append((present.span, "the other one"))
+                raise error
+            child = merge(child, present)
+        result.children[argument.name] = child
+    return result
+
+
+def merge(outer: Modifier | None, inner: Modifier | None) -> Modifier | None:
+    """Both together, `outer` first. Raises R031 when it touches what `inner` made final."""
+    if inner is None or outer is None:
+        return outer if inner is None else inner
+    if inner.final and (outer.value is not None or outer.redeclare is not None):
+        error = Diagnostic("R031", "this is final and cannot be modified", outer.span, "remove the modification")
+        error.notes.append((inner.span, "made final here"))
+        raise error
+    source = outer if outer.value is not None else inner
+    again = outer.redeclare is not None and inner.redeclare is not None
+    if again and not inner.redeclare.replaceable:
+        hint = "write redeclare replaceable there, or remove one of them"
+        error = Diagnostic("R033", "this was redeclared and is not replaceable any more", outer.span, hint)
+        error.notes.append((inner.span, "redeclared here"))
+        raise error
+    result = replace(source, children=_inner_children(outer, inner, again), final=outer.final or inner.final)
+    chosen = outer if outer.redeclare is not None else inner
+    result.redeclare, result.redeclared_in = chosen.redeclare, chosen.redeclared_in
+    result.span = outer.span
+    for name, child in outer.children.items():
+        result.children[name] = merge(child, result.children.get(name))
+    return result
+
+
+def _inner_children(outer: Modifier, inner: Modifier, again: bool) -> dict[str, Modifier]:
+    """What is left of the parts of `inner`: of a component redeclared again what its constraining clause says; of one
+    bound as a whole by `outer` attributes only."""
+    if again:
+        clause = inner.redeclare.constraint
+        return from_tree(clause.modification, inner.redeclared_in).children if clause is not None else {}
+    if outer.value is not None:
+        return {name: replace(child, weak=True) for name, child in inner.children.items()}
+    return dict(inner.children)
+
+
+def narrow(modifier: Modifier | None, index: tuple[int, ...]) -> Modifier | None:
+    """What `modifier` of an array means for its element `index`; parts under `each` stay whole."""
+    if modifier is None or modifier.each:
+        return modifier
+    children = {name: narrow(child, index) for name, child in modifier.children.items()}
+    return replace(modifier, children=children, index=modifier.index + index)
+
+
+def for_each(modifier: Modifier | None) -> Modifier | None:
+    """A modifier that belongs to the type of an element, as seen from an array of them."""
+    if modifier is None:
+        return None
+    children = {name: for_each(child) for name, child in modifier.children.items()}
+    return replace(modifier, children=children, each=True)

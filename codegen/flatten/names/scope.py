@@ -1,0 +1,250 @@
+"""Where names are looked up: loop variables and function locals, components, then enclosing classes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.names.component import Component
+from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.values import Value
+from lacuna.codegen.flatten.names.views import constrain, is_specialised, member, modified, redeclarations, view
+from lacuna.codegen.library.classes import PREDEFINED, Library
+from lacuna.codegen.library.suggest import did_you_mean
+from lacuna.codegen.syntax import ast
+
+PRIMITIVES = ("Real", "Integer", "Boolean", "String")
+
+
+@dataclass
+class Scope:
+    context: Context
+    cls: ast.Class
+    instance: Component | None = None
+    locals: dict[str, Value] = field(default_factory=dict)
+    end: int | None = None  # the value of `end` inside subscripts
+    in_function: bool = False
+    initial: bool = False  # in an initial section
+    conditional: bool = False  # under a condition not known yet: what cannot be computed may never be asked for
+    message: bool = False  # in the text of an assert
+
+    def with_locals(self, **values: Value) -> Scope:
+        return replace(self, locals={**self.locals, **values})
+
+
+def own_or_inherited(library: Library, cls: ast.Class, name: str, depth: int = 0) -> ast.Class | None:
+    """The class `name` among those declared in `cls`, its base classes and its imports."""
+    found = member(library, cls, name)
+    if found is None and depth <= 30:
+        for base in base_classes(library, cls):
+            found = own_or_inherited(library, base, name, depth + 1)
+            if found is not None:
+                break
+    if found is not None and name in cls.redeclared:
+        return constrain(library, cls.redeclared[name], found, by_element=False)
+    return found
+
+
+def base_classes(library: Library, cls: ast.Class) -> list[ast.Class]:
+    """Classes that `cls` extends or is an alias of; primitive types are left out."""
+    known = library.bases.get(id(cls))
+    if known is None:
+        found = [base_class(library, cls, *clause) for clause in base_clauses(cls)]
+        known = [f for f in found if f is not None]
+        if len(known) == len(found):
+            library.bases[id(cls)] = known
+            library.kept.append(cls)
+    return known
+
+
+def base_clauses(cls: ast.Class) -> list[tuple[ast.Ref, ast.Modification]]:
+    """What `cls` extends or is a short definition of, primitive types left out, with the modifications."""
+    clauses = [(e.base, e.modification) for e in cls.extends]
+    if cls.extends_same is not None:
+        clauses.insert(0, (ast.Ref(cls.span, (cls.name,), (None,)), cls.extends_same))
+    if cls.alias is not None:
+        clauses.append((cls.alias.base, cls.alias.modification))
+    return [(base, tree) for base, tree in clauses if str(base) not in PRIMITIVES]
+
+
+def base_class(library: Library, cls: ast.Class, ref: ast.Ref, tree: ast.Modification) -> ast.Class | None:
+    """The class that a clause of `cls` names, seen with what `cls` and the modifications there redeclare."""
+    if cls.extends_same is not None and tree is cls.extends_same:
+        base = _same_of_bases(library, cls)
+    elif cls.alias is not None and cls.alias.target is not None:
+        base = cls.alias.target
+    else:
+        base = _named_base(library, cls, ref)
+    if base is None:
+        return None
+    redeclared = {n: new for n, (new, _) in redeclarations(library, cls, tree).items()} | cls.redeclared
+    for argument in tree.arguments:
+        parts = argument.redeclare is None and argument.modification.arguments
+        plain = own_or_inherited(library, base, argument.name) if parts else None
+        if plain is not None and argument.name not in redeclared:
+            redeclared[argument.name] = modified(library, plain, argument.modification, cls.written, cls)
+    if not redeclared and not (is_specialised(cls) or (base.kind == "package" and tree.arguments)):
+        return base
+    return view(library, base, base.parent, redeclared, cls.whole or cls)
+
+
+def _named_base(library: Library, cls: ast.Class, ref: ast.Ref) -> ast.Class | None:
+    """The class of an extends clause (looked up among what `cls` declares and outside of it) or of a short definition
+    (looked up outside of it)."""
+    if id(cls) in library.resolving:
+        raise Diagnostic("R011", f"{cls.name} is defined by itself", ref.span, "break the circle")
+    library.resolving.add(id(cls))
+    try:
+        if cls.alias is not None and cls.parent is not None:
+            return find_class(library, cls.parent, ref)
+        return find_class(library, cls, ref, of_base=True)
+    finally:
+        library.resolving.discard(id(cls))
+
+
+def _same_of_bases(library: Library, cls: ast.Class) -> ast.Class | None:
+    """The inherited class that `model extends NAME` is an extension of."""
+    for base in base_classes(library, cls.parent) if cls.parent is not None else ():
+        plain = replace(base, redeclared={n: c for n, c in base.redeclared.items() if n != cls.name})
+        found = own_or_inherited(library, plain, cls.name)
+        if found is not None:
+            if not found.replaceable:
+                hint = "declare it with 'replaceable'"
+                raise Diagnostic("R033", f"{found.name} is not replaceable", cls.span, hint)
+            return found
+    return None
+
+
+def _imported(library: Library, cls: ast.Class, name: str) -> ast.Class | None:
+    """The class that an import of `cls` brings in as `name`: a qualified one first (5.3.1). Raises R075."""
+    for item in cls.imports:
+        if not item.every and (item.alias or item.path.names[-1]) == name:
+            return imported_class(library, item)
+    found = None
+    for item in cls.imports:
+        if not item.every:
+            continue
+        package = imported_class(library, item)
+        new = own_or_inherited(library, package, name) if package is not None else None
+        if new is None or new.protected:
+            continue
+        if found is not None and found is not new:
+            hint = "name the one that is meant by its full name, or import it by name"
+            raise Diagnostic("R075", f"two imports bring in {name}", item.span, hint)
+        found = new
+    return found
+
+
+def imported_class(library: Library, item: ast.Import) -> ast.Class | None:
+    """The class that an import names; None where its last name is no class (a constant of a package).
+
+    Raises R002 and R075: only packages and their public elements are imported (13.2.1).
+    """
+    cls = library.root
+    for at, name in enumerate(item.path.names):
+        found = own_or_inherited(library, cls, name)
+        if found is None:
+            if at and at == len(item.path.names) - 1 and not item.every:
+                return None
+            hint = did_you_mean(name, library.members(cls), "declare it, or import its package")
+            where = f" in {cls.path}" if cls.name else ""
+            raise Diagnostic("R002", f"import: there is no class {name}{where}", item.span, hint)
+        last = at == len(item.path.names) - 1
+        if found.protected:
+            raise Diagnostic("R017", f"{name} is protected in {cls.name}", item.span, "make it public to import it")
+        hidden = bool(at) and not found.encapsulated and not is_package_like(library, cls)
+        if hidden or (last and item.every and not is_package_like(library, found)):
+            hint = "import a package, or an element of one"
+            raise Diagnostic("R075", f"import: {cls.name if hidden else found.name} is no package", item.span, hint)
+        cls = found
+    return cls
+
+
+def find_first(library: Library, cls: ast.Class, name: str, of_base: bool = False) -> ast.Class | None:
+    """The class that the single name `name` means inside `cls`, looking outwards."""
+    current: ast.Class | None = cls
+    while current is not None:
+        if current is cls and of_base:
+            found = member(library, current, name)
+        else:
+            found = own_or_inherited(library, current, name)
+        found = found or _imported(library, current, name)
+        if found is not None:
+            return found
+        if current.name == name:
+            return current
+        if current.encapsulated:
+            return PREDEFINED.get(name)
+        current = current.parent
+    return library.member(library.root, name)
+
+
+def find_class(library: Library, cls: ast.Class, ref: ast.Ref, of_base: bool = False) -> ast.Class | None:
+    """The class that `ref` means inside `cls`, or None."""
+    if ref.absolute:
+        found = library.member(library.root, ref.names[0])
+    else:
+        found = find_first(library, cls, ref.names[0], of_base)
+    for name in ref.names[1:]:
+        if found is None:
+            return None
+        found = class_inside(library, found, name, ref)
+    return found
+
+
+def class_inside(library: Library, cls: ast.Class, name: str, ref: ast.Ref) -> ast.Class | None:
+    """The class `name` as `cls.name` names it from outside (5.3.2). Raises R017 and R075 for what is not to be seen."""
+    found = own_or_inherited(library, cls, name)
+    if found is None:
+        return None
+    if found.protected:
+        error = Diagnostic("R017", f"{name} is protected in {cls.name}", ref.span, "make it public to use it here")
+        error.notes.append((found.span, "declared here"))
+        raise error
+    if not found.encapsulated and not is_package_like(library, cls):
+        hint = f"declare {name} in a package, or write 'encapsulated' before it"
+        raise Diagnostic("R075", f"{cls.name} is no package, {name} cannot be named from outside", ref.span, hint)
+    return found
+
+
+def is_package_like(library: Library, cls: ast.Class, depth: int = 0) -> bool:
+    """Does `cls` hold nothing but classes and constants (4.7)?"""
+    if cls.kind in ("package", "operator") or depth > 20:
+        return True
+    plain = all(c.variability == "constant" for c in cls.components) and not cls.sections
+    return plain and all(is_package_like(library, b, depth + 1) for b in base_classes(library, cls))
+
+
+def enumeration(ref: ast.Ref, scope: Scope) -> ast.Class | None:
+    """The enumeration type that `ref` names, if it names one."""
+    if scope.instance is not None and ref.names[0] in scope.instance.elements:
+        return None
+    cls = find_class(scope.context.library, scope.cls, ref)
+    return cls if cls is not None and cls.literals is not None else None
+
+
+def boolean_type(ref: ast.Ref, scope: Scope, depth: int = 0) -> bool:
+    """Does `ref` name the type Boolean, or one declared as it?"""
+    if scope.instance is not None and ref.names[0] in scope.instance.elements:
+        return False
+    cls = find_class(scope.context.library, scope.cls, ref)
+    if cls is None:
+        return str(ref) == "Boolean"
+    alias = cls.alias
+    return (
+        alias is not None
+        and not alias.dimensions
+        and depth < 30
+        and boolean_type(
+            alias.base, replace(scope, cls=cls.parent or scope.context.library.root, instance=None), depth + 1
+        )
+    )
+
+
+def literals_of(path: str, scope: Scope) -> list[str]:
+    """Names of the literals of the enumeration with this full name."""
+    names = path.split(".")
+    cls: ast.Class | None = scope.context.library.root
+    for name in names:
+        cls = own_or_inherited(scope.context.library, cls, name) if cls is not None else None
+    return [name for name, _ in cls.literals] if cls is not None and cls.literals else []

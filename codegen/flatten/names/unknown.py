@@ -1,0 +1,48 @@
+"""What to say of a name that means nothing: the nearest names that there are."""
+
+from __future__ import annotations
+
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.names.scope import PRIMITIVES, base_classes, find_first, own_or_inherited
+from lacuna.codegen.library.classes import HOME_PACKAGE, Library
+from lacuna.codegen.library.suggest import did_you_mean, nearest
+from lacuna.codegen.syntax import ast
+
+
+def visible_classes(library: Library, cls: ast.Class) -> list[str]:
+    """Names a reference inside `cls` could start with, for hints."""
+    names: list[str] = []
+    current: ast.Class | None = cls
+    while current is not None:
+        names += library.members(current)
+        for base in base_classes(library, current):
+            names += library.members(base)
+        names += [i.alias or i.path.names[-1] for i in current.imports]
+        current = current.parent
+    return names + library.members(library.root)
+
+
+def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> Diagnostic:
+    known: list[str] = [*visible_classes(library, cls), *PRIMITIVES]
+    missing = ref.names[0]
+    current = find_first(library, cls, ref.names[0])
+    for name in ref.names[1:]:
+        if current is None:
+            break
+        known, missing = library.members(current), name
+        current = own_or_inherited(library, current, name)
+    hint = did_you_mean(missing, known) or _elsewhere(library, ref)
+    return Diagnostic("R001", f"there is no {what} {ref}", ref.span, hint)
+
+
+def _elsewhere(library: Library, ref: ast.Ref) -> str:
+    """A hint where a class of this name lies in a package that was not looked in."""
+    if ref.names[0] == "Modelica":
+        return "name the folder of the Modelica Standard Library by --library, or in MODELICAPATH"
+    try:
+        classes = library.all_classes(library.member(library.root, HOME_PACKAGE))
+    except Diagnostic:
+        classes = []
+    names = nearest(ref.names[-1], (c.name for c in classes))
+    found = [c.path for name in names for c in classes if c.name == name]
+    return f"did you mean {' or '.join(found[:3])}?" if found else "declare it, or import its package"

@@ -1,0 +1,129 @@
+"""Loop variables: what they run over, written or implied by what they index (Modelica 3.6, 11.2.2)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator as Iterating
+from dataclasses import fields, is_dataclass, replace
+
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.expressions.constants import known
+from lacuna.codegen.flatten.expressions.enumerations import enumeration_of, index_type
+from lacuna.codegen.flatten.expressions.lower import lower, lower_scalar
+from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.flatten.names.values import Array, Value, shape_of, stack
+from lacuna.codegen.flatten.references.references import node_of
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, TRUE, Expr
+from lacuna.codegen.syntax import ast
+
+
+def iterate(iterator: ast.Iterator, scope: Scope, body: object) -> tuple[Value, ...]:
+    """The values a loop variable takes, in order; without a range they follow from what it indexes in `body`."""
+    if iterator.range is None:
+        return _implied(iterator, scope, body)
+    kind = index_type(iterator.range, scope)
+    if kind is not None:
+        return kind
+    value = lower(iterator.range, scope)
+    if not isinstance(value, Array):
+        raise Diagnostic("R047", f"{iterator.name} runs over a scalar", iterator.span, "write 1:n or an array")
+    if len(value.shape) != 1:
+        message = f"{iterator.name} runs over an array of {len(value.shape)} dimensions"
+        raise Diagnostic("R047", message, iterator.span, "a loop runs over a vector")
+    scope.context.spend(value.shape[0], iterator.span)
+    return tuple(value.rows())
+
+
+def _implied(iterator: ast.Iterator, scope: Scope, body: object) -> tuple[Value, ...]:
+    """The index set of every dimension that the bare loop variable subscripts; they must be the same."""
+    found: tuple[Value, ...] | None = None
+    for reference in references(body):
+        for at, subscripts in enumerate(reference.subscripts):
+            for position, subscript in enumerate(subscripts or ()):
+                if isinstance(subscript, ast.Ref) and subscript.names == (iterator.name,):
+                    indexed = _index_set(reference, at, position, scope)
+                    if found is not None and found != indexed:
+                        message = f"{iterator.name} indexes dimensions of different size, or of different type"
+                        raise Diagnostic("R047", message, reference.span, f"say what it runs over: {iterator.name} in")
+                    found = indexed
+    if found is None:
+        message = f"{iterator.name} has no range and indexes nothing"
+        raise Diagnostic("R047", message, iterator.span, f"say what it runs over: {iterator.name} in 1:n")
+    return found
+
+
+def _index_set(reference: ast.Ref, at: int, position: int, scope: Scope) -> tuple[Value, ...]:
+    """What may stand as subscript number `position` of name number `at`."""
+    upto = slice(0, at + 1)
+    whole = replace(reference, names=reference.names[upto], subscripts=(*reference.subscripts[:at], None))
+    node = node_of(whole, scope)
+    if node is not None:
+        kinds = node.index_types
+        if position < len(kinds) and kinds[position] is not None:
+            return kinds[position]
+        shape = node.shape
+    else:
+        shape = shape_of(lower(whole, scope))
+    if position >= len(shape):
+        raise Diagnostic("R044", f"{whole} has {len(shape)} dimensions", reference.span, "it has too many subscripts")
+    return tuple(map(ex.const, range(1, shape[position] + 1)))
+
+
+def references(tree: object) -> Iterating[ast.Ref]:
+    """Every name in a part of the syntax tree, those inside subscripts included."""
+    if isinstance(tree, ast.Ref):
+        yield tree
+    if isinstance(tree, list | tuple):
+        for part in tree:
+            yield from references(part)
+    elif isinstance(tree, dict):
+        yield from references(list(tree.values()))
+    elif is_dataclass(tree):
+        for f in fields(tree):
+            if f.name != "span":
+                yield from references(getattr(tree, f.name))
+
+
+def range_values(e: ast.Range, scope: Scope) -> Array:
+    """The values of a range of numbers, of an enumeration or of Booleans; its bounds are known at translation."""
+    parts = [e.first, e.step, e.last]
+    lowered = [lower_scalar(p, scope) if p else None for p in parts]
+    values = [
+        known(v, scope, p.span, "a bound of the range") if p else None for v, p in zip(lowered, parts, strict=True)
+    ]
+    first, step, last = values
+    if first.type == BOOLEAN or last.type == BOOLEAN:
+        return _booleans(e, first, step, last)
+    kinds = {enumeration_of(v, scope.context) for v in (first, last)}
+    if kinds != {""}:
+        if len(kinds) > 1 or step is not None:
+            raise Diagnostic("R025", "a range of one enumeration goes from literal to literal", e.span, "E.a:E.c")
+        return Array((max(0, last.value - first.value + 1),), tuple(
+            ex.const(type(first.value)(n)) for n in range(first.value, last.value + 1)))  # fmt: skip
+    return _numbers(e, first.value, 1 if step is None else step.value, last.value, scope)
+
+
+def _booleans(e: ast.Range, first: Expr, step: Expr | None, last: Expr) -> Array:
+    if step is not None or first.type != last.type:
+        raise Diagnostic("R047", "a range of Booleans goes from one to the other", e.span, "false:true")
+    items = tuple(b for b in (FALSE, TRUE) if first.value <= b.value <= last.value)
+    return Array((len(items),), items)
+
+
+def _numbers(e: ast.Range, first: float, step: float, last: float, scope: Scope) -> Array:
+    if step == 0:
+        raise Diagnostic("R047", "the step of a range is 0", e.span, "it counts up or down by a step other than 0")
+    count = max(0, int((last - first) / step + 1e-9) + 1) if (last - first) / step >= 0 else 0
+    scope.context.spend(count, e.span)
+    return Array((count,), tuple(ex.const(first + i * step) for i in range(count)))
+
+
+def comprehension(e: ast.Comprehension, scope: Scope) -> Value:
+    """{e for i in r}: the values of e in order, a new first dimension for each iterator."""
+    first, rest = e.iterators[-1], e.iterators[:-1]
+    inner = ast.Comprehension(e.span, e.body, rest) if rest else e.body
+    rows = [lower(inner, scope.with_locals(**{first.name: v})) for v in iterate(first, scope, e.body)]
+    return stack(rows, e.span)
+
+
+RANGES = {ast.Range: range_values, ast.Comprehension: comprehension}

@@ -1,0 +1,247 @@
+"""Names in expressions: the component, constant or enumeration literal they mean, with subscripts applied."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+import math
+
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.classes.instance import Absent, ArrayNode, Instance, Node
+from lacuna.codegen.flatten.classes.leaf import Leaf
+from lacuna.codegen.flatten.expressions.constants import is_known, known
+from lacuna.codegen.flatten.expressions.elements import at_index
+from lacuna.codegen.flatten.expressions.enumerations import IndexType, enumeration_of, index_number
+from lacuna.codegen.flatten.expressions.lower import lower
+from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.flatten.names.values import (
+    Array,
+    Record,
+    Value,
+    elementwise,
+    holds_records,
+    scalars,
+    shape_of,
+    stack,
+)
+from lacuna.codegen.flatten.references.class_values import from_class
+from lacuna.codegen.library.suggest import did_you_mean
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import BOOLEAN, REAL, Expr
+from lacuna.codegen.syntax import ast
+
+
+def read(ref: ast.Ref, scope: Scope) -> Value:
+    """The value of a name in an expression."""
+    first = ref.names[0]
+    if first in scope.locals:
+        return _read_local(ref, scope)
+    if first == "time" and len(ref.names) == 1:
+        if scope.cls.kind in ("function", "record", "connector"):
+            raise Diagnostic(
+                "R070", f"time in a {scope.cls.kind}", ref.span, "models and blocks know the time; hand it on"
+            )
+        return ex.TIME
+    node = None
+    if scope.instance is not None and not ref.absolute and scope.instance.sees(first, scope.cls):
+        node = scope.instance.meant(first)
+    if node is not None:
+        _refuse_conditional(scope.instance, first, ref)
+        return _walk(node, ref, 0, scope)
+    found = from_class(ref, scope)
+    return found if isinstance(found, Expr) else _walk(found[0], ref, found[1], scope)
+
+
+def _read_local(ref: ast.Ref, scope: Scope) -> Value:
+    value = scope.locals[ref.names[0]]
+    value = apply_subscripts(value, ref.subscripts[0], scope, ref)
+    for name, subscripts in zip(ref.names[1:], ref.subscripts[1:], strict=True):
+        value = apply_subscripts(_element_of(value, name, ref), subscripts, scope, ref)
+    return value
+
+
+def _element_of(value: Value, name: str, ref: ast.Ref) -> Value:
+    """One field of a record, or of every record of an array."""
+    if isinstance(value, Array) and value.items and holds_records(value):
+        stacked = stack([_element_of(record, name, ref) for record in value.items], ref.span)
+        return Array(value.shape + stacked.shape[1:], stacked.items)
+    if not isinstance(value, Record):
+        raise Diagnostic("R003", f"{ref.names[0]} has no element {name}", ref.span, "only records have elements")
+    if name not in value.fields:
+        hint = did_you_mean(name, value.fields, f"{value.name} has {', '.join(value.fields)}")
+        raise Diagnostic("R003", f"{value.name} has no element {name}", ref.span, hint)
+    return value.fields[name]
+
+
+def _walk(node: Node, ref: ast.Ref, at: int, scope: Scope) -> Value:
+    """From `node`, which name number `at` means, to the value at the end of the name."""
+    subscripts = ref.subscripts[at]
+    last = at == len(ref.names) - 1
+    if isinstance(node, Absent):
+        hint = "it can only be connected: connect it to a component of your own, and use that"
+        error = Diagnostic("R016", f"{node.name} does not exist here: its condition is false", ref.span, hint)
+        error.notes.append((node.span, "declared here"))
+        raise error
+    if isinstance(node, Leaf):
+        if not last:
+            hint = f"{node.name} is a {node.primitive}"
+            raise Diagnostic("R003", f"{node.name} has no element {ref.names[at + 1]}", ref.span, hint)
+        return apply_subscripts(node.value(), subscripts, scope, ref, node.index_types)
+    if isinstance(node, ArrayNode):
+        return _walk_array(node, ref, at, scope)
+    assert isinstance(node, Instance)
+    if subscripts is not None:
+        raise Diagnostic("R044", f"{node.name} is no array", ref.span, "remove the subscript")
+    if last:
+        return Record(node.name, {name: _field(node.child(name), ref, scope) for name in node.elements}, node.cls)
+    if ref.names[at + 1] in node.elements:
+        _refuse_conditional(node, ref.names[at + 1], ref)
+    return _walk(member(node, ref, at + 1), ref, at + 1, scope)
+
+
+def _refuse_conditional(instance: Instance, name: str, ref: ast.Ref) -> None:
+    """Modelica 3.6, 4.4.5: a component with a condition is used in connections only."""
+    declaration = instance.elements[name].declaration
+    if declaration.condition is not None:
+        hint = "it can only be connected: connect it to a component of your own, and use that"
+        error = Diagnostic("R016", f"{name} is conditional and can only be connected", ref.span, hint)
+        error.notes.append((declaration.span, "declared here"))
+        raise error
+
+
+def member(node: Node, ref: ast.Ref, at: int) -> Node:
+    """The element that name number `at` means in the component before it; it must exist and be public."""
+    name = ref.names[at]
+    found = node.meant(name) if isinstance(node, Instance) else node.child(name)
+    if found is None:
+        hint = did_you_mean(name, node.elements, f"{node.cls.name} has {', '.join(list(node.elements)[:12])}")
+        raise Diagnostic("R003", f"{node.name} has no element {name}", ref.span, hint)
+    if node.elements[name].declaration.protected:
+        error = Diagnostic("R017", f"{name} is protected in {node.cls.name}", ref.span, "make it public to use it here")
+        error.notes.append((node.elements[name].declaration.span, "declared here"))
+        raise error
+    return found
+
+
+def _field(node: Node, ref: ast.Ref, scope: Scope) -> Value:
+    whole = replace(ref, names=("",), subscripts=(None,))
+    return _walk(node, whole, 0, scope)
+
+
+def _walk_array(node: Node, ref: ast.Ref, at: int, scope: Scope) -> Value:
+    subscripts = ref.subscripts[at]
+    part = replace(ref, names=ref.names[: at + 1])
+    picked = apply_subscripts(node.numbers, subscripts, scope, part, node.index_types)
+    inner = ref.subscripts[:at] + (None,) + ref.subscripts[at + 1 :]
+    plain = replace(ref, subscripts=inner)
+    if isinstance(picked, Expr):
+        return _numbered(node, picked, plain, at, scope)
+    values = [_walk(node.items[p.value - 1], plain, at, scope) for p in picked.items]
+    stacked = stack(values, ref.span)
+    return Array(picked.shape + stacked.shape[1:], stacked.items)
+
+
+def _numbered(node: ArrayNode, number: Expr, ref: ast.Ref, at: int, scope: Scope) -> Value:
+    """From the element of that number; where it changes at run time, `number` chooses among constants."""
+    if number.op == "const":
+        return _walk(node.items[number.value - 1], ref, at, scope)
+    condition, *numbers = number.args
+    values = [_numbered(node, n, ref, at, scope) for n in numbers]
+    return elementwise(lambda a, b: ex.if_else(condition, a, b), values, ref.span, "elements")
+
+
+def apply_subscripts(
+    value: Value,
+    subscripts: tuple[ast.Expression, ...] | None,
+    scope: Scope,
+    ref: ast.Ref,
+    kinds: tuple[IndexType, ...] | None = None,
+) -> Value:
+    """value[i, :, {1, 3}]: each subscript is a number, `:` or a vector of numbers; rows come first. `kinds` are the
+    types of the dimensions; where they are not known (None), any type that can index will do."""
+    if subscripts is None:
+        return value
+    shape = shape_of(value)
+    if len(subscripts) > len(shape):
+        message = f"{ref} has {len(shape)} dimensions and {len(subscripts)} subscripts"
+        raise Diagnostic("R044", message, ref.span, "give one subscript for each dimension")
+    if not subscripts:
+        return value
+    first, rest = subscripts[0], subscripts[1:]
+    later = kinds[1:] if kinds is not None else None
+    if isinstance(first, ast.Colon):
+        return _stacked(value.rows(), value, lambda r: apply_subscripts(r, rest, scope, ref, later), ref)
+    index = _index(first, kinds, replace(scope, end=shape[0]), ref)
+    if isinstance(index, Array):
+        picked = [_row(value, i, scope, ref, first) for i in index.items]
+        return _stacked(picked, value, lambda r: apply_subscripts(r, rest, scope, ref, later), ref)
+    if index.op == "const" or (is_known(index, scope.context) and not scope.in_function):
+        return apply_subscripts(_row(value, index, scope, ref, first), rest, scope, ref, later)
+    if scope.in_function:
+        moved = at_index(value.row(0), index) if shape[0] else None
+        if moved is not None:
+            return apply_subscripts(moved, rest, scope, ref, later)
+    return _choose([apply_subscripts(r, rest, scope, ref, later) for r in value.rows()], index, first, scope)
+
+
+def _index(written: ast.Expression, kinds: tuple[IndexType, ...] | None, scope: Scope, ref: ast.Ref) -> Value:
+    """A subscript as a number, or a vector of numbers."""
+    index = lower(written, scope)
+    items = []
+    for item in scalars(index):
+        if not isinstance(item, Expr):
+            raise Diagnostic("R044", f"a subscript of {ref} is not an Integer", written.span, "use a whole number")
+        kind = None
+        if kinds is None:
+            kind = (item,) if item.type == BOOLEAN or enumeration_of(item, scope.context) else None
+        elif kinds:
+            kind = kinds[0]
+        items.append(index_number(item, kind, scope.context, written.span))
+    return Array(index.shape, tuple(items)) if isinstance(index, Array) else items[0]
+
+
+def _stacked(rows: list[Value], value: Array, part: Callable[[Value], Value], ref: ast.Ref) -> Value:
+    """A part of each row as one array; of no rows, with the sizes that the part of a row has."""
+    if rows or len(value.shape) == 1:
+        return stack([part(r) for r in rows], ref.span)
+    shape = value.shape[1:]
+    return Array((0, *shape_of(part(Array(shape, (ex.ZERO,) * math.prod(shape))))), ())
+
+
+def _row(array: Array, index: Expr, scope: Scope, ref: ast.Ref, written: ast.Expression) -> Value:
+    number = known(index, scope, written.span, "the subscript").value
+    if not 1 <= number <= array.shape[0]:
+        raise Diagnostic("R045", f"{ref}[{number}] is outside 1..{array.shape[0]}", written.span, "arrays start at 1")
+    return array.row(number - 1)
+
+
+def _choose(rows: list[Value], index: Expr, written: ast.Expression, scope: Scope) -> Value:
+    """An element by a number known only at run time: an if-expression over all of them, and not a number outside."""
+    if not rows:
+        raise Diagnostic("R045", "a subscript of an empty array", written.span, "it has no element")
+    is_last = ex.relation("==", index, ex.const(len(rows)))
+
+    def inside(a: Expr) -> Expr:
+        return ex.if_else(is_last, a, ex.const(math.nan)) if a.type == REAL else a
+
+    result = elementwise(inside, [rows[-1]], written.span, "elements")
+    for number in range(len(rows) - 1, 0, -1):
+        condition = ex.relation("==", index, ex.const(number))
+
+        def pick(a: Expr, b: Expr, condition: Expr = condition) -> Expr:
+            return ex.if_else(condition, a, b)
+
+        result = elementwise(pick, [rows[number - 1], result], written.span, "elements")
+    return result
+
+
+def node_of(ref: ast.Ref, scope: Scope) -> Leaf | ArrayNode | None:
+    """The array that the names of `ref` mean, of arrays on the way the first element; None for anything else."""
+    if ref.names[0] in scope.locals or scope.instance is None or ref.absolute:
+        return None
+    node: Node | None = scope.instance.child(ref.names[0])
+    for name in ref.names[1:]:
+        if isinstance(node, ArrayNode) and node.items:
+            node = node.items[0]
+        node = node.child(name) if isinstance(node, Instance) else None
+    return node if isinstance(node, Leaf | ArrayNode) else None

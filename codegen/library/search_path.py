@@ -1,0 +1,113 @@
+"""Where packages lie: the libraries that a user names, the folders of MODELICAPATH, and the package Lacuna."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+import os
+from pathlib import Path
+import re
+
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.library.suggest import did_you_mean
+from lacuna.codegen.syntax import parse
+
+MODEL_FOLDER = Path(__file__).resolve().parents[2] / "model"
+PACKAGE_FILE = "package.mo"
+_VERSION = re.compile(r"(.+?) (\d[\w.+-]*)")  # of a library's folder: "Modelica 4.0.0" (specification, 18.8.4)
+
+
+def search_path(libraries: Iterable[str | Path] = ()) -> list[str]:
+    """Where a class is looked up, in this order: `libraries`, the folders of MODELICAPATH, the package Lacuna.
+
+    A library is the folder of a package, a folder of packages, or a .mo file. Raises F005 where it is none of these,
+    F006 where two of them have one name. Of MODELICAPATH (folders of packages, specification 13.3) the first folder
+    that has a package counts, and folders that are not there are passed over, as of any search path.
+    """
+    given = [_library(Path(path).expanduser().resolve()) for path in libraries]
+    _refuse_namesakes(given)
+    roots = os.environ.get("MODELICAPATH", "").split(os.pathsep)
+    return [*map(str, given), *(root for root in roots if root and Path(root).is_dir()), str(MODEL_FOLDER)]
+
+
+def split_name(name: str) -> tuple[Path | None, str]:
+    """A model as users name it: `Pkg.Class`; `file.mo`, or the folder of a package; either of these with `:Pkg.Class`.
+
+    Returns the file or folder (None for a plain name) and the class ("" where none is named).
+    """
+    place, colon, inner = name.rpartition(":")
+    if colon and (place.endswith(".mo") or os.sep in place or Path(place).is_dir()):
+        return Path(place), inner
+    if name.endswith(".mo") or os.sep in name or (Path(name) / PACKAGE_FILE).is_file():
+        return Path(name), ""
+    return None, name
+
+
+def outermost(folder: Path) -> Path | None:
+    """The folder of the top-level package that `folder` belongs to; None where it is no package."""
+    found = None
+    while (folder / PACKAGE_FILE).is_file():
+        found, folder = folder, folder.parent
+    return found
+
+
+def package_in(folder: Path, name: str) -> Path | None:
+    """The folder or file of the top-level package `name` among those of `folder`; of several versions the newest."""
+    if (folder / name / PACKAGE_FILE).is_file():
+        return folder / name
+    if (folder / f"{name}.mo").is_file():
+        return folder / f"{name}.mo"
+    if not name.isidentifier():
+        return None
+    versions = [p for p in folder.glob(f"{name} *") if (p / PACKAGE_FILE).is_file() and name == _plain(p.name)]
+    return max(versions, key=lambda p: [int(n) for n in re.findall(r"\d+", p.name[len(name) :])], default=None)
+
+
+def names_in(folder: Path) -> list[str]:
+    """Names of the packages and classes that lie in `folder`, by their folders and files."""
+    entries = sorted(folder.iterdir())
+    packages = [_plain(p.name) for p in entries if (p / PACKAGE_FILE).is_file()]
+    return packages + [p.stem for p in entries if p.suffix == ".mo" and p.name != PACKAGE_FILE and p.is_file()]
+
+
+def _plain(folder_name: str) -> str:
+    """Without the version."""
+    match = _VERSION.fullmatch(folder_name)
+    return match[1] if match else folder_name
+
+
+def _library(path: Path) -> Path:
+    if path.name == PACKAGE_FILE and path.is_file():
+        path = path.parent
+    if path.is_file() and path.suffix == ".mo":
+        return path
+    if not path.exists():
+        known = [p.name for p in path.parent.iterdir()] if path.parent.is_dir() else []
+        raise Diagnostic(
+            "F005", f"there is no library at {path}", hint=did_you_mean(path.name, known, "check the path")
+        )
+    if path.is_dir() and (top := outermost(path)):
+        return top
+    if path.is_file() or not names_in(path):
+        hint = "a library is a folder with package.mo, a folder of such folders, or a .mo file"
+        raise Diagnostic("F005", f"the library path {path} holds no package", hint=hint)
+    return path
+
+
+def _refuse_namesakes(libraries: list[Path]) -> None:
+    first: dict[str, Path] = {}
+    for library in libraries:
+        for name in _names_of(library):
+            other = first.setdefault(name, library)
+            if other != library:
+                message = f"two libraries are called {name}: {other} and {library}"
+                raise Diagnostic("F006", message, hint="name one of them only")
+
+
+def _names_of(library: Path) -> list[str]:
+    if library.is_dir() and not (library / PACKAGE_FILE).is_file():
+        return names_in(library)
+    file = library / PACKAGE_FILE if library.is_dir() else library
+    try:
+        return [cls.name for cls in parse(file.read_text(encoding="utf-8"), str(file))]
+    except (OSError, UnicodeDecodeError) as error:
+        raise Diagnostic("F001", f"cannot read {file}: {error}", hint="save it as UTF-8") from None

@@ -1,0 +1,138 @@
+"""Index reduction: which equations must be differentiated, and how often, so that all derivatives follow.
+
+C. Pantelides, The consistent initialization of differential-algebraic systems, SIAM J. Sci. Stat. Comput. 9
+(1988) 213-231. The derivatives that become algebraic are then chosen in `dummy_derivatives`.
+"""
+
+from __future__ import annotations
+
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.structure.index.dummy_derivatives import choose_states
+from lacuna.codegen.structure.sorting.singular import require_regular
+from lacuna.codegen.structure.system import Row, System
+from lacuna.codegen.symbolic.differentiate import Differentiator
+from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, der
+
+
+def reduce_index(model: flat.FlatModel, equations: list[flat.Equation]) -> System:
+    """The index-1 (or 0) system that is equivalent to the continuous equations of `model`."""
+    names = [
+        v.name
+        for v in model.variables.values()
+        if v.variability == flat.CONTINUOUS and v.causality != "input" and v.type == "Real"
+    ]
+    rows = [Row(e.lhs, e.rhs, e) for e in equations]
+    require_regular(rows, names, model)
+    rows = _Pantelides(model, rows, names).run()
+    return choose_states(model, rows, names)
+
+
+def base_name(n: Expr) -> str:
+    """The variable that a derivative of any order is of."""
+    while n.op == "der":
+        n = n.args[0]
+    return str(n.value)
+
+
+class TimeDerivative:
+    """d/dt of equations. An input cannot be differentiated: its derivative is not known."""
+
+    def __init__(self, model: flat.FlatModel):
+        self._model = model
+        self._row: Row | None = None
+        self._differentiate = Differentiator(self._seed)
+
+    def row(self, row: Row) -> Row:
+        self._row = row
+        return Row(self._differentiate(row.lhs), self._differentiate(row.rhs), row.source, integral=row)
+
+    def _seed(self, n: Expr) -> Expr:
+        if n.op == "time":
+            return ONE
+        if n.op not in ("var", "der"):
+            return ZERO
+        v = self._model.variables[base_name(n)]
+        if v.causality == "input":
+            raise Diagnostic(
+                "S004", f"the input {v.name} would have to be differentiated: `{self._row.text}` constrains states",
+                self._row.source.span,
+                "let the input act through an inertia or a filter, or add its derivative as an input",
+                [(v.span, f"{v.name} is declared here")],
+            )  # fmt: skip
+        return der(n) if v.variability == flat.CONTINUOUS else ZERO
+
+
+class _Pantelides:
+    def __init__(self, model: flat.FlatModel, rows: list[Row], names: list[str]):
+        self._unknown = set(names)
+        self._position = {name: k for k, name in enumerate(names)}
+        self._differentiate = TimeDerivative(model)
+        self.rows = rows
+        self.derivative_of: dict[Row, Row] = {}
+        self.has_derivative: set[Expr] = set()  # variables whose derivative is in the system too
+        self.row_of: dict[Expr, Row] = {}
+        self.variable_of: dict[Row, Expr] = {}
+        for row in rows:
+            self._note(row)
+
+    def _note(self, row: Row) -> None:
+        for n in row.leaves:
+            while n.op == "der":
+                n = n.args[0]
+                self.has_derivative.add(n)
+
+    def _variables(self, row: Row) -> list[Expr]:
+        """Highest derivatives that occur in a row, in a fixed order."""
+        found = [
+            n for n in row.leaves
+            if n.op in ("var", "der") and n not in self.has_derivative and base_name(n) in self._unknown
+        ]  # fmt: skip
+        return sorted(found, key=lambda n: (self._position[base_name(n)], n.op))
+
+    def run(self) -> list[Row]:
+        for row in list(self.rows):
+            while row is not None and not self._augment(row):
+                row = self.derivative_of[row]
+        return self.rows
+
+    def _augment(self, start: Row) -> bool:
+        """Match `start` to a highest derivative; where that fails differentiate all rows that compete for one."""
+        reached_from: dict[Expr, Row] = {}
+        queue = [start]
+        for row in queue:
+            for v in self._variables(row):
+                if v in reached_from:
+                    continue
+                reached_from[v] = row
+                if v not in self.row_of:
+                    self._flip(v, reached_from)
+                    return True
+                queue.append(self.row_of[v])
+        self._differentiate_all(queue, list(reached_from))
+        return False
+
+    def _flip(self, v: Expr, reached_from: dict[Expr, Row]) -> None:
+        while v is not None:
+            row = reached_from[v]
+            before = self.variable_of.get(row)
+            self._match(v, row)
+            v = before
+
+    def _match(self, v: Expr, row: Row) -> None:
+        self.row_of[v], self.variable_of[row] = row, v
+
+    def _differentiate_all(self, rows: list[Row], variables: list[Expr]) -> None:
+        for row in rows:
+            if row not in self.derivative_of:
+                new = self._differentiate.row(row)
+                self.derivative_of[row] = new
+                self.rows.append(new)
+        self.has_derivative.update(variables)
+        for row in rows:
+            self._note(self.derivative_of[row])
+        for v in variables:
+            if v in self.row_of:
+                row = self.row_of.pop(v)
+                del self.variable_of[row]
+                self._match(der(v), self.derivative_of[row])

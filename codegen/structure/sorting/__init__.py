@@ -1,0 +1,1 @@
+"""Which equation gives which unknown, and in which order."""

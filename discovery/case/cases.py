@@ -1,0 +1,197 @@
+"""A recording case: one folder with `case.toml` and its CSV recordings, read into SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+import tomllib
+
+import numpy as np
+
+from lacuna.analysis.files import check_file
+from lacuna.analysis.recording.channel import RecordingError, on_one_time
+from lacuna.analysis.recording.formats import read_recorded
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.case.case_keys import KeyProblem, check
+from lacuna.discovery.case.case_model import CaseModel, case_model
+from lacuna.recorded_units import UnitError, to_si
+
+DEFAULT_UNCERTAINTY = 0.05  # believed relative 1-sigma of a parameter that case.toml does not mention
+
+
+class CaseError(Exception):
+    """A case that cannot be read: the message names the file and, where there is one, the column and the line."""
+
+    user_error = True
+
+
+@dataclass(frozen=True)
+class Signal:
+    """One column: what it records and in which unit; `scale` turns the column into SI."""
+
+    column: str
+    role: str  # input | output
+    variable: str
+    unit: str
+    si_unit: str
+    scale: float
+    interpolation: str = "linear"
+    noise_std: float | None = None  # SI; None where case.toml does not give it
+
+
+@dataclass
+class Recording:
+    """One file: `time` (n,) in s and each signal's samples (n,) in SI; missing samples are NaN."""
+
+    name: str
+    time: np.ndarray
+    columns: dict[str, np.ndarray]
+
+    @property
+    def interval(self) -> float:
+        """Median time between samples, s."""
+        return float(np.median(np.diff(self.time)))
+
+    def index(self, time: float) -> int:
+        return int(np.searchsorted(self.time, time))
+
+
+@dataclass(frozen=True)
+class Own:
+    """What holds in one recording only: believed values, their relative sigmas, states at the first sample."""
+
+    parameters: dict[str, float] = field(default_factory=dict)
+    uncertainty: dict[str, float] = field(default_factory=dict)
+    initial: dict[str, float | str] = field(default_factory=dict)
+
+
+@dataclass
+class Case:
+    folder: Path
+    title: str
+    model: str
+    source: str
+    parameters: dict[str, float]
+    uncertainty: dict[str, float]
+    signals: dict[str, Signal]
+    initial: dict[str, float | str] = field(default_factory=dict)
+    fit: list[Recording] = field(default_factory=list)
+    validate: list[Recording] = field(default_factory=list)
+    found: CaseModel | None = None  # where the class `model` is
+    own: dict[str, Own] = field(default_factory=dict)  # what holds in one recording only, by its file
+
+    @property
+    def base(self) -> str:
+        """Full name of the believed class."""
+        return self.found.name if self.found else self.model
+
+    @property
+    def search_path(self) -> list[str] | None:
+        """Where the classes are looked up; None: in this package's library alone."""
+        return list(self.found.search_path) if self.found else None
+
+    def library(self) -> Library:
+        return self.found.library() if self.found else Library()
+
+    @property
+    def inputs(self) -> list[Signal]:
+        return [s for s in self.signals.values() if s.role == "input"]
+
+    @property
+    def outputs(self) -> list[Signal]:
+        return [s for s in self.signals.values() if s.role == "output"]
+
+    @property
+    def label(self) -> str:
+        """The last two parts of the folder, as diagnosis.json names the case."""
+        return "/".join(self.folder.resolve().parts[-2:])
+
+    def sigma(self, name: str, value: float) -> float:
+        """Believed absolute 1-sigma of a parameter around its believed `value`; 0 means exact."""
+        return abs(value) * self.uncertainty.get(name, DEFAULT_UNCERTAINTY)
+
+
+def load(folder: str | Path, libraries: Sequence[str | Path] = ()) -> Case:
+    """Read `folder/case.toml` and its recordings. Raises CaseError, Diagnostic for the model; never reads truth.toml.
+
+    `libraries` are looked up besides the ones that case.toml names.
+    """
+    folder = Path(folder)
+    path = folder / "case.toml"
+    raw = _read(path)
+    signals = {column: _signal(path, column, table) for column, table in raw["signals"].items()}
+    if not any(s.role == "output" for s in signals.values()):
+        raise CaseError(f'{path}: no signal has role = "output", so there is nothing to compare with')
+    names = {key: raw["recordings"][key] for key in ("fit", "validate")}
+    case = Case(
+        folder=folder,
+        title=raw.get("title", folder.name),
+        model=raw["model"],
+        source=raw.get("source", ""),
+        parameters=_floats(raw.get("parameters", {})),
+        uncertainty=_floats(raw.get("uncertainty", {})),
+        signals=signals,
+        initial=dict(raw.get("initial", {})),
+        found=case_model(folder, raw["model"], [*raw.get("libraries", []), *(Path(p).resolve() for p in libraries)]),
+        own=_own(path, raw.get("recording", {}), [*names["fit"], *names["validate"]]),
+    )
+    case.fit = [read_recording(folder / name, signals) for name in names["fit"]]
+    case.validate = [read_recording(folder / name, signals) for name in names["validate"]]
+    return case
+
+
+def _read(path: Path) -> dict:
+    if path.exists():
+        check_file(path, CaseError)
+    try:
+        raw = tomllib.loads(path.read_text(encoding="utf-8"))
+        check(raw)
+    except OSError as error:
+        raise CaseError(f"{path}: cannot be read ({error.strerror})") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, KeyProblem) as error:
+        raise CaseError(f"{path}: {error}") from error
+    return raw
+
+
+def _floats(values: dict) -> dict[str, float]:
+    return {name: float(value) for name, value in values.items()}
+
+
+def _own(path: Path, tables: dict, files: list[str]) -> dict[str, Own]:
+    for name in tables:
+        if name not in files:
+            raise CaseError(f'{path}: [recording."{name}"] is none of the recordings ({", ".join(files)})')
+    return {
+        name: Own(_floats(t.get("parameters", {})), _floats(t.get("uncertainty", {})), dict(t.get("initial", {})))
+        for name, t in tables.items()
+    }
+
+
+def _signal(path: Path, column: str, table: dict) -> Signal:
+    try:
+        scale, si_unit = to_si(table["unit"])
+    except UnitError as error:
+        raise CaseError(f"{path}: [signals.{column}] {error}") from error
+    noise = table.get("noise_std")
+    return Signal(
+        column, table["role"], table.get("variable", column), table["unit"], si_unit, scale,
+        table.get("interpolation", "linear"), None if noise is None else float(noise) * scale,
+    )  # fmt: skip
+
+
+def read_recording(path: Path, signals: dict[str, Signal]) -> Recording:
+    """Read one file: `time` in s and a column for each signal; an empty field is a missing sample. Raises CaseError."""
+    try:
+        recorded = read_recorded(path)
+    except RecordingError as error:
+        raise CaseError(str(error)) from error
+    if recorded.time != "time":
+        raise CaseError(f"{path}: column `time` is missing; is it `{recorded.time}`? Its unit is the second")
+    missing = [column for column in signals if not any(column in (c.head.text, c.name) for c in recorded.channels)]
+    if missing or not recorded.channels:
+        has = ", ".join(c.head.text for c in recorded.channels)
+        raise CaseError(f"{path}: column `{(missing or list(signals))[0]}` is missing (beside time there are {has})")
+    time, columns = on_one_time([recorded[column] for column in signals])
+    scaled = {name: values * signal.scale for (name, signal), values in zip(signals.items(), columns, strict=True)}
+    return Recording(path.name, time.copy(), scaled)

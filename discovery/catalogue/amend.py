@@ -1,0 +1,272 @@
+"""The amended model: a Modelica class that extends the believed one by components of the catalogue.
+
+The same text serves the search (with free values and a tracker) and the answer (with fitted values). Where an element
+has to be put in series or take another's place, the class is extended selectively (Modelica 3.6, section 7.4).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+from lacuna.discovery.catalogue.catalogue import Effect
+from lacuna.discovery.catalogue.places import Device, Line, Part, Shaft, Structure
+from lacuna.discovery.efforts.copied import copied
+from lacuna.discovery.efforts.sites import Site
+
+
+@dataclass(frozen=True)
+class Attachment:
+    """An effect at a place. `values` are parameters that are written into the model (variants, whole numbers)."""
+
+    effect: Effect
+    component: str  # its name in the amended model
+    location: str
+    shaft: Shaft | None = None
+    lines: tuple[Line, ...] = ()
+    part: Part | None = None
+    device: Device | None = None
+    site: Site | None = None
+    variable: str = ""  # of a sensor: the recorded variable
+    signals: tuple[tuple[str, str], ...] = ()  # input of the effect -> variable of the model
+    values: tuple[tuple[str, float], ...] = ()
+    definition: str = ""  # source of the effect's class where it is in no library
+    expression: Callable[[dict[str, float]], str] | None = None  # of an empirical law, in variables of the model
+    form: Callable[[dict[str, float]], str] | None = None  # its name, where it has the form of a known one
+
+    @property
+    def label(self) -> str:
+        extra = "".join(f", {n}={v:g}" for n, v in self.values)
+        signals = "".join(f", {n} from {v}" for n, v in self.signals)
+        return f"{self.effect.identifier} at {self.location} ({self.effect.name}{extra}{signals})"
+
+    def full_name(self, parameter: str) -> str:
+        return f"{self.component}.{parameter}"
+
+    def contains(self, other: Attachment) -> bool:
+        """Whether its law holds the other's, at the same place, as a special case."""
+        return self.effect.identifier in other.effect.nests_in and self.location == other.location
+
+
+@dataclass
+class Amendment:
+    """What the class text is made of; later attachments see the places that earlier ones changed."""
+
+    structure: Structure
+    attachments: list[Attachment] = field(default_factory=list)
+    parameters: dict[str, float] = field(default_factory=dict)  # modified values of the believed model
+    trackers: list[Shaft] = field(default_factory=list)
+    probes: tuple[Shaft | Line, ...] = ()  # places where an input acts as effort
+    inputs: tuple[str, ...] = ()  # declared beside those of the believed model
+
+    def output(self, variable: str) -> str:
+        """The variable that a sensor's reading is compared with: the last sensor effect after it."""
+        for attachment in reversed(self.attachments):
+            if attachment.variable == variable:
+                return f"{attachment.component}.y"
+        return variable
+
+    def text(self, name: str, values: dict[str, float] | None = None, comment: str = "") -> str:
+        """Modelica source of the class; `values` gives parameters of the effects by full name."""
+        writer = _Writer(self, values or {})
+        return writer.write(name, comment)
+
+
+class _Writer:
+    def __init__(self, amendment: Amendment, values: dict[str, float]) -> None:
+        self.amendment, self.values = amendment, values
+        self.left_out: list[str] = []
+        self.declarations: list[str] = []
+        self.equations: list[str] = []
+        self.sums: dict[str, list[str]] = {}  # variable -> terms of its new binding
+        self.sums_at: dict[str, list[str]] = {}  # variable that is added to an equation -> what it is the sum of
+        self.edits: dict[Site, str] = {}  # equation of the believed model -> the variable that is added to it
+
+    def write(self, name: str, comment: str) -> str:
+        for attachment in self.amendment.attachments:
+            getattr(self, f"_{attachment.effect.attaches}")(attachment)
+        for variable, terms in self.sums_at.items():
+            site = next(s for s, v in self.edits.items() if v == variable)
+            self.equations.append(f"{site.instance + '.' if site.instance else ''}{variable} = {' + '.join(terms)};")
+        self._trackers()
+        self._probes()
+        modification = [f"{n}={v:.10g}" for n, v in self.amendment.parameters.items()]
+        modification += [f"{variable}={' + '.join(terms)}" for variable, terms in self.sums.items()]
+        modification += [f"break {item}" for item in self.left_out]
+        self.declarations[:0] = [f"input Real {i};" for i in self.amendment.inputs]
+        base, nested = self.amendment.structure.path, []
+        if self.edits:
+            base, nested = copied(self.amendment.structure.cls, self.edits)
+        inherited = f"extends {base}" + (f"({', '.join(modification)})" if modification else "") + ";"
+        lines = [
+            f'model {name} "{comment or "Believed model with what was found missing"}"',
+            *nested,
+            *_wrapped(inherited),
+        ]
+        definitions = dict.fromkeys(a.definition for a in self.amendment.attachments if a.definition)
+        lines += [f"  {line}" for text in definitions for line in text.split("\n")]
+        lines += [f"  {d}" for d in self.declarations]
+        if self.equations:
+            lines += ["equation", *(f"  {e}" for e in self.equations)]
+        return "\n".join([*lines, f"end {name};", ""])
+
+    def _declare(
+        self, attachment: Attachment, extra: str = "", bound: dict[str, str] | None = None, name: str = ""
+    ) -> None:
+        effect = attachment.effect
+        entries = [extra] if extra else []
+        bound = bound or {}
+        for parameter in effect.parameters:
+            full = attachment.full_name(parameter.name)
+            if parameter.name in bound:
+                entries.append(f"{parameter.name}={bound[parameter.name]}")
+            elif full in self.values:
+                entries.append(f"{parameter.name}={self.values[full]:.10g}")
+            elif parameter.name in dict(attachment.values):
+                entries.append(f"{parameter.name}={dict(attachment.values)[parameter.name]:g}")
+        inside = f"({', '.join(entries)})" if entries else ""
+        self.declarations.append(f'{effect.class_path} {name or attachment.component}{inside} "{effect.title}";')
+
+    def _flange(self, attachment: Attachment) -> None:
+        bound = {}
+        friction = self.amendment.structure.friction_of(attachment.shaft) if attachment.effect.friction else None
+        if friction is not None:
+            self.left_out.append(friction.name)
+            names = [p.name for p in attachment.effect.parameters]
+            bound = {n: v for n, v in _entries(friction.modification).items() if n in names}
+        self._declare(attachment, bound=bound)
+        self.equations.append(f"connect({attachment.component}.flange, {attachment.shaft.flange});")
+        self._signals(attachment)
+
+    def _signals(self, attachment: Attachment) -> None:
+        for name, variable in attachment.signals:
+            self.equations.append(f"{attachment.component}.{name} = {variable};")
+
+    def _phases(self, attachment: Attachment) -> None:
+        first = attachment.component
+        names = [first, *(f"{first}_{line.phase}" for line in attachment.lines[1:])]
+        for k, (name, line) in enumerate(zip(names, attachment.lines, strict=True)):
+            shared = {p.name: attachment.full_name(p.name) for p in attachment.effect.parameters} if k else {}
+            self._declare(attachment, bound=shared, name=name)
+            self._insert(name, line)
+            for total, part in attachment.effect.summed.items():
+                self.equations.append(f"{name}.{total} = {' + '.join(f'{n}.{part}' for n in names)};")
+        self._signals(attachment)
+
+    _line = _star = _phases
+
+    def _phase(self, attachment: Attachment) -> None:
+        self._declare(attachment)
+        self._insert(attachment.component, attachment.lines[0])
+
+    def _insert(self, name: str, line: Line) -> None:
+        """Put pins p, n of component `name` into the line, current positive into the load."""
+        left, right = (line.left, line.right) if line.left.startswith(line.source + ".") else (line.right, line.left)
+        previous = f"connect({left}, {right});"
+        chain = next((e for e in self.equations if e.startswith("connect(") and e.endswith(f", {right});")), None)
+        if chain is not None:  # an earlier effect already sits in this line
+            self.equations.remove(chain)
+            left = chain[len("connect(") : chain.index(",")]
+        elif previous:
+            self.left_out.append(f"connect({line.left}, {line.right})")
+        self.equations += [f"connect({left}, {name}.p);", f"connect({name}.n, {right});"]
+
+    def _replace(self, attachment: Attachment) -> None:
+        part = attachment.part
+        self.left_out.append(part.name)
+        self._declare(attachment, part.modification[1:-1])
+        chained = set(self.equations)
+        for left, right in self.amendment.structure.connections:
+            opened = f"connect({left}, {right})" in self.left_out
+            if part.name in (left.split(".")[0], right.split(".")[0]) and not opened:
+                text = f"connect({left}, {right});"
+                if text not in chained:
+                    self.equations.append(text)
+
+    def _imposed(self, attachment: Attachment) -> None:
+        self._declare(attachment)
+        name, device = attachment.component, attachment.device
+        self.equations += [f"{name}.s = {device.part}.s;", f"{name}.v = {device.part}.v;"]
+        self.sums.setdefault(device.variable, [f"{device.part}.f"]).append(f"{name}.f")
+
+    def _site(self, attachment: Attachment) -> None:
+        """At any place: a port at a node, two in an edge, or a variable that is added to an equation."""
+        site, name = attachment.site, attachment.component
+        self._declare(attachment)
+        if site.kind == "node":
+            self.equations.append(f"connect({name}.port, {site.ends[0]});")
+        elif site.kind == "edge":
+            left, right = site.ends
+            chain = next((e for e in self.equations if e.endswith(f", {right});")), None)
+            if chain is not None:
+                self.equations.remove(chain)
+                left = chain[len("connect(") : chain.index(",")]
+            else:
+                self.left_out.append(f"connect({left}, {right})")
+            self.equations += [f"connect({left}, {name}.a);", f"connect({name}.b, {right});"]
+        else:
+            variable = self.edits.setdefault(site, f"missing_{len(self.edits) + 1}")
+            self.sums_at.setdefault(variable, []).append(f"{name}.effort")
+        self._signals(attachment)
+
+    def _sensor(self, attachment: Attachment) -> None:
+        self._declare(attachment)
+        earlier = replace(
+            self.amendment, attachments=self.amendment.attachments[: self.amendment.attachments.index(attachment)]
+        )
+        self.equations.append(f"{attachment.component}.u = {earlier.output(attachment.variable)};")
+
+    def _probes(self) -> None:
+        for k, place in enumerate(self.amendment.probes):
+            name, effort = f"probe_{k + 1}", probe_name(k)
+            if isinstance(place, Shaft):
+                self.declarations.append(f"Lacuna.Components.Mechanics.TorqueSource {name};")
+                self.equations.append(f"connect({name}.flange, {place.flange});")
+            else:
+                self.declarations.append(f"Lacuna.Components.Electrical.SignalVoltage {name};")
+                self._insert(name, place)
+            unit = "N.m" if isinstance(place, Shaft) else "V"
+            self.declarations.append(f'input Real {effort}(unit="{unit}") "Missing effort";')
+            self.equations.append(f"{name}.u = {effort};")
+
+    def _trackers(self) -> None:
+        for k, shaft in enumerate(self.amendment.trackers):
+            name = tracker_name(k)
+            self.declarations += [
+                f'Lacuna.Effects.Interfaces.Tracker {name} "Draws the shaft towards the recording";',
+                f'input Real {name}_phi(unit="rad") "Recorded angle";',
+                f'input Real {name}_w(unit="rad/s") "Recorded speed";',
+            ]
+            self.equations += [
+                f"connect({name}.flange, {shaft.flange});", f"{name}.phi = {name}_phi;", f"{name}.w = {name}_w;",
+            ]  # fmt: skip
+
+
+def probe_name(k: int) -> str:
+    return f"probe_{k + 1}_effort"
+
+
+def tracker_name(k: int) -> str:
+    return f"tracker_{k + 1}"
+
+
+def _entries(modification: str) -> dict[str, str]:
+    """The plain `name=value` entries of a modification as written."""
+    entries, level, start, inside = [], 0, 0, modification[1:-1]
+    for k, c in enumerate(inside + ","):
+        level += {"(": 1, ")": -1}.get(c, 0)
+        if c == "," and level == 0:
+            entries.append(inside[start:k])
+            start = k + 1
+    return {n.strip(): v.strip() for n, _, v in (e.partition("=") for e in entries) if "(" not in n}
+
+
+def _wrapped(text: str, width: int = 110) -> list[str]:
+    """A clause over several lines, broken after commas."""
+    lines, line = [], " "
+    for piece in text.replace(", ", ",\0").split("\0"):
+        if len(line) + len(piece) > width:
+            lines.append(line)
+            line = "   "
+        line += " " + piece
+    return [*lines, line]

@@ -1,0 +1,71 @@
+"""How sure a finding is, in numbers and words; what it is not told from; how much of the misfit the findings explain.
+
+What the findings leave of the misfit is the share of "none of these": it is always in the race.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from lacuna.discovery.explanation.explanation import Explanation
+from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.naming.search import Finding
+
+CERTAIN = 0.999  # the most that is ever claimed
+NONE = "none of these"
+
+
+def _by_identity(finding: Finding) -> dict[tuple[str, str], float]:
+    total: dict[tuple[str, str], float] = {}
+    for r in finding.naming.ranked:
+        total[r.identity] = total.get(r.identity, 0.0) + r.confidence
+    return total
+
+
+def confidence(finding: Finding, share: float) -> float:
+    """The probability of a finding among all that was tried and what was not: the findings explain `share`."""
+    return min(_by_identity(finding)[finding.ranked.identity] * share, CERTAIN)
+
+
+def odds(finding: Finding, share: float) -> str:
+    """The confidence in words, against what comes nearest among all that was tried."""
+    own = confidence(finding, share)
+    found = _by_identity(finding)
+    rivals = [(found[i] * share, f"{i[0]} at {i[1]}") for i in found if i != finding.ranked.identity]
+    most, name = max([*rivals, (1.0 - share, NONE)])
+    if own >= CERTAIN:
+        return f"more than {CERTAIN / (1 - CERTAIN):.0f} to 1 against the next best, {name}"
+    return f"{own / max(most, 1 - CERTAIN):.2g} to 1 against the next best, {name}"
+
+
+def explained(result: Explanation) -> float:
+    """Share of the misfit above noise, on the recordings fitted, that the findings take away."""
+    before, after = _excess(result.base), _excess(result.final)
+    return float(np.clip(1.0 - after / before, 0.0, 1.0)) if before > 0 else 1.0
+
+
+def _excess(fit: Fit) -> float:
+    """Square sum of the residuals in units of noise, less that of noise."""
+    total = 0.0
+    for name, residuals in fit.residuals.items():
+        for column, noise in fit.noise.items():
+            weight = fit.weights[name][column]
+            total += float(np.sum((np.nan_to_num(residuals[column]) * weight / noise.std) ** 2) - np.sum(weight**2))
+    return total
+
+
+def tie(finding: Finding) -> list[dict[str, str]]:
+    """A finding and what the data does not tell from it."""
+    identities = [finding.ranked.identity, *dict.fromkeys(r.identity for r in finding.naming.rivals(finding.ranked))]
+    return [{"effect": effect, "location": location} for effect, location in identities]
+
+
+def alternatives(finding: Finding, share: float) -> list[dict[str, Any]]:
+    """What else was tried, the likeliest first; and, last, none of it."""
+    ordered = sorted(_by_identity(finding).items(), key=lambda item: -item[1])
+    return [
+        {"effect": effect, "location": location, "confidence": of_all * share}
+        for (effect, location), of_all in ordered if (effect, location) != finding.ranked.identity
+    ][:5] + [{"effect": NONE, "location": "", "confidence": 1.0 - share}]  # fmt: skip

@@ -1,0 +1,256 @@
+"""diagnosis.json: the contract of FORMAT.md, written from an explanation."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from lacuna.discovery.explanation.confidence import alternatives, confidence, explained, odds, tie
+from lacuna.discovery.explanation.explanation import Explanation
+from lacuna.discovery.fit.evidence import whiteness
+from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.fit.least_squares import Free
+from lacuna.discovery.naming.search import Finding
+
+PARTIAL = 0.9  # share of the misfit, below which an explanation is called partial
+
+
+def build(result: Explanation, amended: Path | None) -> dict[str, Any]:
+    """The diagnosis as plain data."""
+    errors = result.errors()
+    diagnosis: dict[str, Any] = {
+        "case": result.case.label, "model": result.case.model, "verdict": result.verdict,
+        "findings": [_finding(result, f, errors) for f in result.findings],
+    }  # fmt: skip
+    if result.before is not None:
+        diagnosis["nrmse"] = _nrmse(result.before, result.after)
+        diagnosis["per_signal"] = {
+            c: {"before": result.before.validate[c], "after": result.after.validate[c], "noise_floor": result.floor[c]}
+            for c in result.floor
+        }
+        diagnosis["parameters"] = _parameters(result, errors)
+    if result.findings:
+        diagnosis["explained"] = explained(result)
+        diagnosis["ties"] = [tie(f) for f in result.findings if f.naming.rivals(f.ranked)]
+    if places := _places(result):
+        diagnosis["places"] = places
+    if amended is not None:
+        diagnosis["amended_model"] = amended.name
+    diagnosis["sentence"] = sentence(result)
+    if result.reason:
+        diagnosis["reason"] = result.reason
+    if result.experiment:
+        diagnosis["experiment"] = result.experiment
+    if result.problems:
+        diagnosis["recordings"] = [p.as_dict() for p in result.problems]
+    diagnosis["seconds"] = {k: round(v, 2) for k, v in result.seconds.items()}
+    return _rounded(diagnosis)
+
+
+def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
+    path = folder / "diagnosis.json"
+    partial = path.with_suffix(".tmp")
+    partial.write_text(json.dumps(build(result, amended), indent=2) + "\n", encoding="utf-8")
+    partial.replace(path)
+    return path
+
+
+def _finding(result: Explanation, finding: Finding, errors: dict[str, float]) -> dict[str, Any]:
+    attachment = finding.ranked.attachment
+    point, share = result.final.point, explained(result)
+    parameters = {}
+    for parameter in attachment.effect.parameters:
+        full = attachment.full_name(parameter.name)
+        value = point.get(full, dict(attachment.values).get(parameter.name))
+        if value is not None and parameter.name != attachment.effect.interval:
+            unit = _unit(result, finding, parameter.name)
+            parameters[parameter.name] = {"value": value, "std": errors.get(full, 0.0), "unit": unit}
+    if attachment.effect.polar:
+        _positive_phase(parameters, attachment.effect.polar[1])
+    law = {"law": law_text(result, finding)} if attachment.expression else {}
+    if form := _form(result, finding):
+        law["form"] = form
+    return {
+        "effect": attachment.effect.identifier,
+        "location": attachment.location,
+        **law,
+        "confidence": confidence(finding, share),
+        "odds": odds(finding, share),
+        "where": _where(result, finding),
+        "parameters": parameters,
+        "alternatives": alternatives(finding, share),
+        "nrmse": _nrmse(finding.before, finding.after),
+    }
+
+
+def _unit(result: Explanation, finding: Finding, name: str) -> str:
+    """A parameter's unit; what a sensor adds to its signal is in the signal's."""
+    attachment = finding.ranked.attachment
+    if attachment.variable and name == "offset":
+        return next(s.si_unit for s in result.case.outputs if s.variable == attachment.variable)
+    return attachment.effect.parameter(name).unit
+
+
+def law_text(result: Explanation, finding: Finding) -> str:
+    """An empirical law with its numbers, in variables of the model."""
+    return finding.ranked.attachment.expression(_own_values(result, finding))
+
+
+def _form(result: Explanation, finding: Finding) -> str:
+    """The name of a law that has the form of a known one; "" where it has none."""
+    form = finding.ranked.attachment.form
+    return form(_own_values(result, finding)) if form else ""
+
+
+def _own_values(result: Explanation, finding: Finding) -> dict[str, float]:
+    prefix = f"{finding.ranked.attachment.component}."
+    return {n.removeprefix(prefix): v for n, v in result.final.point.items() if n.startswith(prefix)}
+
+
+def _positive_phase(parameters: dict[str, dict], name: str) -> None:
+    """Angles as people write them: within (-pi, pi]."""
+    if name in parameters:
+        parameters[name]["value"] = math.remainder(parameters[name]["value"], 2 * math.pi)
+
+
+def _places(result: Explanation) -> list[dict[str, Any]]:
+    """What was open to a finding: places of the equations and sensors, the most telling first."""
+    if result.opened is not None and result.opened.sites:
+        return [{"location": s.location, "kind": s.kind, "explains": s.explains} for s in result.opened.sites]
+    located = result.located.places if result.located else []
+    return [{"location": p.location, "kind": p.kind, "explains": p.explained} for p in located]
+
+
+def _where(result: Explanation, finding: Finding) -> dict[str, Any]:
+    """Where the model without the effect misses most: the regime of most of its misfit, the moments of the largest."""
+    power = {r.name: _misfit(result.base, r.name) for r in result.case.fit}
+    times = []
+    for recording in result.case.fit:
+        width = max(1, len(recording.time) // 25)
+        mean = np.convolve(power[recording.name], np.ones(width) / width, mode="same")
+        k = int(np.argmax(mean))
+        span = recording.time[[max(k - width, 0), min(k + width, len(mean) - 1)]]
+        times.append((float(mean[k]), [float(t) for t in span]))
+    times.sort(reverse=True)
+    variable = _variable(finding)
+    place = {"variable": variable} | _regime(result, variable, power)
+    return place | {"time": [t for _, t in times[:3]], "text": finding.ranked.attachment.effect.signature}
+
+
+def _misfit(base: Fit, recording: str) -> np.ndarray:
+    """Squared residual (n,) of all signals of a recording, each in units of its level."""
+    residuals = base.residuals[recording]
+    return sum((np.nan_to_num(residuals[c]) / (base.noise[c].std * base.level[c])) ** 2 for c in base.noise)
+
+
+def _regime(result: Explanation, variable: str, power: dict[str, np.ndarray]) -> dict[str, list[float]]:
+    """The range of a variable in which four fifths of the misfit lie; empty where the model has no such variable."""
+    machine = result.final.machine
+    if variable not in machine.model.variables:
+        return {}
+    courses = [machine.trajectory(result.final.point, r, [variable])[variable] for r in result.case.fit]
+    values, weight = np.concatenate(courses), np.concatenate([power[r.name] for r in result.case.fit])
+    order = np.argsort(values)
+    share = np.cumsum(weight[order]) / weight.sum()
+    return {"interval": [float(values[order][np.searchsorted(share, s)]) for s in (0.1, 0.9)]}
+
+
+def _variable(finding: Finding) -> str:
+    """The variable that organises the effect's effort."""
+    attachment = finding.ranked.attachment
+    if attachment.variable:
+        return attachment.variable
+    identifier = attachment.effect.identifier
+    if attachment.shaft is not None:
+        along = ("torque.", "load.", "stiffness", "end_stop", "friction.position")
+        return f"{attachment.location}.phi" if identifier.startswith(along) else f"{attachment.location}.w"
+    if attachment.site is not None:
+        used = [v for _, v in attachment.signals if not v.startswith("der(")]
+        return used[0] if used else attachment.location
+    if attachment.device is not None:
+        return f"{attachment.location}.{'s' if identifier in ('stiffness', 'friction.position') else 'v'}"
+    if attachment.lines:
+        return f"{attachment.lines[0].load}.i"
+    return (
+        f"{attachment.part.name}.phi_rel" if identifier in ("backlash", "compliance") else f"{attachment.part.name}.i"
+    )
+
+
+def _nrmse(before: Any, after: Any) -> dict[str, Any]:
+    return {
+        "fit": {"before": before.fit[""], "after": after.fit[""]},
+        "validate": {"before": before.validate[""], "after": after.validate[""]},
+    }
+
+
+def _parameters(result: Explanation, errors: dict[str, float]) -> dict[str, Any]:
+    variables = result.final.machine.model.variables
+    table = {}
+    for f in result.base.estimate.free:
+        if f.name.startswith("start:"):
+            continue
+        unit = variables[f.name.partition("@")[0]].unit or "1"
+        value = result.final.point[f.name]
+        table[f.name] = {
+            "believed": f.centre, "value": value, "std": errors.get(f.name, 0.0), "unit": unit,
+            "outside_belief": _outside(f, value),
+        }  # fmt: skip
+    return table
+
+
+def _outside(f: Free, value: float) -> bool:
+    return bool(f.sigma and abs(value - f.centre) > 3 * f.sigma)
+
+
+def sentence(result: Explanation) -> str:
+    """The verdict as an engineer would say it."""
+    if result.verdict == "missing_physics":
+        parts = [_named(result, f) for f in result.findings]
+        gain = result.before.validate[""] / max(result.after.validate[""], 1e-12)
+        share = explained(result)
+        rest = "" if share >= PARTIAL else f" This is a part of it only: {1 - share:.0%} of the misfit is left."
+        falls = f"with it the error on unseen recordings falls {gain:.2g} times."
+        return f"The model lacks {' and '.join(parts)}; {falls}{rest}"
+    if result.verdict == "parameters":
+        fitted = [f for f in result.base.estimate.free if not f.name.startswith("start:")]
+        names = [f.name for f in fitted if _outside(f, result.final.point[f.name])]
+        return f"Nothing is missing; {', '.join(names)} differ{'s' if len(names) == 1 else ''} from what was believed."
+    if result.verdict == "consistent":
+        left = [w.column for w in whiteness(result.final).values() if not w.passed]
+        more = f", and less than that of {' and '.join(left)}, as of an instrument that drifts" if left else ""
+        return f"The model explains the recordings: what is left is noise{more}."
+    return "These recordings cannot say what is missing: " + (result.reason or "the residual is not noise") + "."
+
+
+def _named(result: Explanation, finding: Finding) -> str:
+    """What a finding is and where; the other places, where the data does not tell."""
+    a = finding.ranked.attachment
+    others = dict.fromkeys(r.attachment.label for r in finding.elsewhere) if finding.tied else {}
+    or_else = f" (or {', '.join(others)}: the data does not tell)" if others else ""
+    if a.expression is not None:
+        form = _form(result, finding)
+        named = f" (the form of {form})" if form else ""
+        return f"a term {law_text(result, finding)} at {a.location}{named}{or_else}"
+    return f"{a.effect.title[0].lower()}{a.effect.title[1:]} at {a.location}{or_else}"
+
+
+def left_over(result: Explanation) -> list[str]:
+    """Signals whose residual is not noise in the end, as sentences."""
+    return [
+        f"{w.column}: block means over {w.block} samples have {w.ratio:.3g} times the power of noise"
+        for w in whiteness(result.final).values() if not w.passed
+    ]  # fmt: skip
+
+
+def _rounded(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {k: _rounded(v) for k, v in value.items()}
+    if isinstance(value, list):
+        return [_rounded(v) for v in value]
+    if isinstance(value, np.floating | float):
+        return float(f"{float(value):.6g}") if math.isfinite(value) else None
+    return value.item() if isinstance(value, np.generic) else value

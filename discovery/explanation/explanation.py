@@ -1,0 +1,73 @@
+"""What is known about a case, filled step by step; the verdict, diagnosis.json and the report are made of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+import time
+
+import numpy as np
+
+from lacuna.discovery.case.cases import Case
+from lacuna.discovery.case.recordings_check import Problem
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.efforts.find import Found
+from lacuna.discovery.explanation.experiments import Experiment
+from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.fit.intervals import standard_errors
+from lacuna.discovery.fit.lead import Lead
+from lacuna.discovery.law.locate import Located
+from lacuna.discovery.naming.judge import Judgement
+from lacuna.discovery.naming.name import Naming
+from lacuna.discovery.naming.search import Finding
+
+
+@dataclass
+class Explanation:
+    """Everything that is known about a case in the end; diagnosis.json and the report are written from it."""
+
+    case: Case
+    problems: list[Problem]
+    verdict: str = "undetermined"
+    reason: str = ""
+    experiment: str = ""
+    trial: Experiment | None = None  # the recording that would separate tied explanations, simulated
+    base: Fit | None = None
+    final: Fit | None = None
+    amendment: Amendment | None = None
+    findings: list[Finding] = field(default_factory=list)
+    namings: list[Naming] = field(default_factory=list)
+    located: Located | None = None
+    opened: Found | None = (
+        None  # every place of the equations, where the catalogue's own did not explain the recordings
+    )
+    before: Judgement | None = None
+    after: Judgement | None = None
+    floor: dict[str, float] = field(default_factory=dict)
+    seconds: dict[str, float] = field(default_factory=dict)
+    lead: Lead = field(default_factory=Lead)  # of fits of this model
+    scatter: dict[str, float] = field(default_factory=dict)  # of each parameter, from dip to dip on rough ground
+    _errors: dict[str, float] | None = None
+
+    def rejudge(self, after: Judgement) -> None:
+        """Take the judgement of all findings together anew."""
+        self.after = after
+        self.findings[-1] = replace(self.findings[-1], after=after)
+
+    def errors(self) -> dict[str, float]:
+        """1-sigma of each parameter of the final fit."""
+        if self._errors is None:
+            errors = standard_errors(self.final, self.lead) if self.final else {}
+            self._errors = {n: float(np.hypot(e, self.scatter.get(n, 0.0))) for n, e in errors.items()}
+        return self._errors
+
+
+class Clock:
+    """Seconds of each step."""
+
+    def __init__(self, seconds: dict[str, float]):
+        self.seconds, self.last = seconds, time.perf_counter()
+
+    def done(self, step: str) -> None:
+        now = time.perf_counter()
+        self.seconds[step] = self.seconds.get(step, 0.0) + now - self.last
+        self.last = now

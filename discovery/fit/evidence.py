@@ -1,0 +1,151 @@
+"""Is a residual noise? And does a richer model pay on recordings it has not seen?"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from lacuna.discovery.case.noise import Noise, is_coarse
+from lacuna.discovery.fit.fit import Fit
+
+BLOCKS = (1, 8, 40, 200)  # samples over which a residual is averaged
+SIGMAS = 5.0
+ROUNDING = 2.5  # allowance for rounding errors of a slow signal, which are alike from sample to sample
+GROWTH = 1.3  # of the power of block means from one block length to the next that colour may still explain
+HALF_STEP = 3**0.5  # of resolution, in units of the standard deviation of rounding
+LEFT = 1.2  # RMS in units of the noise, up to which a model stands for all of the misfit
+ROUGH_SLACK = 0.3  # RMS misfit, in units of the noise, that the end of a fit on rough ground may leave
+FAR = 10.0  # level of a signal, in units of its noise, from which the best hypothesis is taken to have lost its way
+SPREAD = 0.005  # relative spread of an RMS over 20 000 samples of noise: a smaller gain is none
+CLEARLY = 0.8  # times the NRMSE of the signals in their geometric mean, from which a model is better
+TOLERANCE = 0.04  # of the noise level, within which it counts as known
+COLOURED = 5.0  # RMS, in units of the noise as estimated, that coloured noise may have
+TAILS = 2.0  # RMS over what the median says it is, from which a residual is no noise: a misfit at some moments
+
+
+@dataclass(frozen=True)
+class Whiteness:
+    """Mean square of block means over what white noise of the known level gives, and its limit, worst block length."""
+
+    column: str
+    block: int
+    ratio: float
+    limit: float
+
+    @property
+    def passed(self) -> bool:
+        return self.ratio <= self.limit
+
+
+def whiteness(fit: Fit, slack: float = 0.0) -> dict[str, Whiteness]:
+    """For each signal the block length at which its residual is least like noise (chi-square of block means).
+
+    `slack` is the RMS misfit, in units of the noise, that is let pass whatever its shape.
+    """
+    return {c: max((_blocks(fit, c, b, slack) for b in BLOCKS), key=lambda w: w.ratio / w.limit) for c in fit.noise}
+
+
+def _blocks(fit: Fit, column: str, block: int, slack: float = 0.0) -> Whiteness:
+    total, count = 0.0, 0
+    for name, residual in fit.residuals.items():
+        weight = fit.weights[name][column]
+        values = np.nan_to_num(residual[column]) * weight**2 / fit.noise[column].std
+        usable = len(values) // block * block
+        sums = values[:usable].reshape(-1, block).sum(axis=1)
+        power = (weight[:usable] ** 2).reshape(-1, block).sum(axis=1)
+        alive = power > 0.5
+        total += float(np.sum(sums[alive] ** 2 / power[alive]))
+        count += int(alive.sum())
+    count = max(count, 1)
+    noise = fit.noise[column]
+    level = 1.0 + TOLERANCE if noise.given else 1.3
+    colour = ROUNDING if noise.quantum and noise.std < 0.5 * noise.quantum and block > 1 else 1.0
+    limit = colour * level**2 * (1.0 + SIGMAS * np.sqrt(2.0 / count)) + block * slack**2
+    return Whiteness(column, block, total / count, limit)
+
+
+def is_noise(fit: Fit) -> bool:
+    """Whether nothing is left in any signal but noise."""
+    return all(w.passed for w in whiteness(fit).values())
+
+
+def like_noise(fit: Fit) -> bool:
+    """Whether what is left may be coloured noise: of the given level, its memory short, without outbursts.
+
+    The power of block means of coloured noise grows with the block and then stays; that of a misfit goes on growing.
+    """
+    for column, noise in fit.noise.items():
+        sizes = {b: _blocks(fit, column, b) for b in BLOCKS}
+        if sizes[1].ratio > (sizes[1].limit if noise.given else COLOURED**2) or _bursts(fit, column):
+            return False
+        chance = {b: sizes[b].limit / sizes[1].limit for b in BLOCKS}
+        if sizes[200].ratio > GROWTH * chance[200] * max(sizes[40].ratio, 1.0):
+            return False
+        if sizes[40].ratio > 2 * GROWTH * chance[40] * max(sizes[8].ratio, 1.0):
+            return False
+    return True
+
+
+def _bursts(fit: Fit, column: str) -> bool:
+    """Whether the RMS of a residual is that of a few moments: at edges of a current, say, that come too late."""
+    rows = [np.abs(r[column]) for r in fit.residuals.values()]
+    sizes = np.concatenate(rows)
+    sizes = sizes[np.isfinite(sizes)]
+    return float(np.sqrt(np.mean(sizes**2))) > TAILS * 1.4826 * max(float(np.median(sizes)), fit.noise[column].std / 2)
+
+
+def settled(fit: Fit, rough: bool = False) -> bool:
+    """Whether nothing is left to look for: noise, or noise of the level that is given with a colour of its own.
+
+    On `rough` ground a fit ends in one of many dips: a small drift is no sign of anything there.
+    """
+    if all(w.passed for w in whiteness(fit, ROUGH_SLACK if rough else 0.0).values()):
+        return True
+    return all(n.given for n in fit.noise.values()) and like_noise(fit)
+
+
+def holds(unseen: Mapping[str, float], floor: Mapping[str, float], noise: Mapping[str, Noise]) -> bool:
+    """Whether NRMSE on recordings that nothing was fitted to are those of noise: parameters can stand for other physics
+    in the recordings that they are fitted to, but not in others."""
+    return all(unseen[c] < _at_most(n) * floor[c] for c, n in noise.items())
+
+
+def _at_most(noise: Noise) -> float:
+    """RMS that noise may have, in units of its level; where nothing moves, rounding may err by half a step for long."""
+    if not noise.given:
+        return COLOURED
+    return HALF_STEP if is_coarse(noise) else LEFT
+
+
+def nearly_noise(fit: Fit) -> bool:
+    """Whether no signal leaves much more than its noise: what may still be there is too little to be told apart."""
+    return max(fit.level.values()) < LEFT
+
+
+def astray(fit: Fit) -> bool:
+    """Whether far more than noise is left in a signal."""
+    return max(fit.level.values()) > FAR
+
+
+def outside_belief(fit: Fit, sigmas: float = 3.0) -> dict[str, float]:
+    """Parameters that ended beyond `sigmas` believed sigmas, with how many."""
+    result = {}
+    for f, value in zip(fit.estimate.free, fit.estimate.values, strict=True):
+        if f.sigma and abs(value - f.centre) > sigmas * f.sigma:
+            result[f.name] = float((value - f.centre) / f.sigma)
+    return result
+
+
+def pays(before: Mapping[str, float], after: Mapping[str, float], floor: Mapping[str, float]) -> bool:
+    """Whether a model is better on recordings that it has not seen: NRMSE of the case, above what noise could give.
+
+    Or, where that is ruled by one signal which stays as it is, NRMSE of the signals in their geometric mean.
+    """
+    noise = float(np.sqrt(np.mean([floor[c] ** 2 for c in floor])))
+    gap = before[""] - noise
+    if before[""] - after[""] > max(0.02 * gap, SPREAD * before[""]):
+        return True
+    ratios = [max(after[c], floor[c]) / max(before[c], floor[c]) for c in floor]
+    return after[""] < before[""] and float(np.exp(np.mean(np.log(ratios)))) < CLEARLY

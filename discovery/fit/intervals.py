@@ -1,0 +1,105 @@
+"""Standard errors of fitted parameters: noise with its colour, rounding, and rough ground.
+
+Sandwich covariance: each signal's share of the score has the variance that the colour of its residual gives it. The
+error of a signal whose resolution is coarser than its noise is rounding, which is the same wherever the signal comes
+by the same value again; so the fitted outputs are rounded, the levels anywhere, and the variance that this gives the
+score counts where it is the larger. Where events make the sum of squares rough, sensitivities are taken with the
+shafts held near their recorded motion, and what the values move by when they are released is an error too: no
+derivative at the end of such a fit says how far it may be from the best one. So is what the solver's error moves, and
+what the digits that are not written of recorded inputs may have moved.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lacuna.discovery.case.noise import is_coarse, sample_weights
+from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.fit.lead import Lead
+from lacuna.discovery.fit.secants import input_shift, solver_shift, with_secants
+
+UNHELD = 1e-13  # share of the largest eigenvalue, below which a direction is rounding's alone
+PART = 1e-3  # component of such a direction, from which a parameter is part of it
+ROUNDINGS = 32  # places of the levels, over which rounding is averaged
+
+
+def standard_errors(fit: Fit, lead: Lead | None = None) -> dict[str, float]:
+    """1-sigma of each free parameter (in its unit; 0 at a bound); `lead` is how the fit was led.
+
+    Infinite where neither data nor belief tells a direction that the parameter is part of.
+    """
+    held = with_secants(lead.hold_fast(fit) if lead else fit)
+    moved = held.estimate.values - fit.estimate.values
+    variance = np.diag(covariance(held)) + moved**2 + solver_shift(held) ** 2 + input_shift(held) ** 2
+    free = undetermined(held.estimate.normal)
+    return {
+        f.name: 0.0 if fit.estimate.at_bound(f.name) else float("inf") if open_ else float(np.sqrt(max(v, 0.0)))
+        for f, v, open_ in zip(fit.estimate.free, variance, free, strict=True)
+    }
+
+
+def undetermined(normal: np.ndarray) -> np.ndarray:
+    """Which parameters (p,) are part of a direction that the normal matrix (p, p) does not hold."""
+    size = np.sqrt(np.diag(normal))
+    dead = size == 0
+    scaled = normal / np.outer(np.where(dead, 1.0, size), np.where(dead, 1.0, size))
+    values, vectors = np.linalg.eigh(scaled)
+    null = vectors[:, values < UNHELD * max(values.max(initial=0.0), 1e-300)]
+    return dead | np.any(np.abs(null) > PART, axis=1)
+
+
+def covariance(fit: Fit) -> np.ndarray:
+    """Covariance (p, p) of the free parameters in their units, rows of those at a bound zero."""
+    estimate = fit.estimate
+    if not estimate.jacobian:
+        return estimate.covariance(fit.inflation())
+    scales = np.array([0.0 if estimate.at_bound(f.name) else f.scale for f in estimate.free])
+    inside = scales > 0
+    inverse = np.zeros_like(estimate.normal)
+    inverse[np.ix_(inside, inside)] = np.linalg.pinv(estimate.normal[np.ix_(inside, inside)], hermitian=True)
+
+    def sandwich(score: np.ndarray) -> np.ndarray:
+        return inverse @ score @ inverse * np.outer(scales, scales)
+
+    noisy = sandwich(_score_covariance(fit, []))
+    coarse = [c for c in fit.noise if is_coarse(fit.noise[c])]
+    if not coarse:
+        return noisy
+    rounded, as_noise = np.diag(sandwich(_score_covariance(fit, coarse))), np.diag(noisy)
+    larger = np.sqrt(np.maximum(1.0, rounded / np.where(as_noise > 0, as_noise, 1.0)))
+    return noisy * np.outer(larger, larger)
+
+
+def _score_covariance(fit: Fit, coarse: list[str]) -> np.ndarray:
+    """Covariance (p, p) of half the gradient in scaled coordinates: beliefs, and each signal's noise with its colour,
+    or the rounding of those that are `coarse`."""
+    colour = fit.correlation()
+    data = np.zeros_like(fit.estimate.normal)
+    total = np.zeros_like(data)
+    scores = {c: np.zeros((ROUNDINGS, len(data))) for c in coarse}
+    for block, (name, residuals) in zip(fit.estimate.jacobian, fit.residuals.items(), strict=True):
+        lengths = [len(residuals[c]) for c in fit.noise]
+        for column, rows in zip(fit.noise, np.split(block, np.cumsum(lengths)), strict=False):
+            data += rows.T @ rows
+            if column in coarse:
+                scores[column] += _rounding(fit, name, column) @ rows
+            else:
+                total += colour[column] * (rows.T @ rows)
+    total += sum(s.T @ s / ROUNDINGS for s in scores.values())
+    return total + np.maximum(fit.estimate.normal - data, 0.0) * np.eye(len(total))
+
+
+def _rounding(fit: Fit, recording: str, column: str) -> np.ndarray:
+    """Errors (ROUNDINGS, n) that rounding gives a simulated output, weighted so that rows of the Jacobian, which have
+    the weights of the recorded samples, make a score of them."""
+    noise, weights = fit.noise[column], fit.weights[recording][column]
+    measured = next(r.columns[column] for r in fit.machine.case.fit if r.name == recording)
+    levels = (measured - fit.residuals[recording][column]) / noise.quantum
+    result = np.zeros((ROUNDINGS, len(levels)))
+    seen = weights > 0
+    for k in range(ROUNDINGS):
+        place = (k + 0.5) / ROUNDINGS
+        rounded = np.round(levels + place)
+        error = (rounded - place - levels) * noise.quantum / (noise.std * fit.level[column])
+        result[k, seen] = (error * sample_weights(rounded, noise) ** 2)[seen] / weights[seen]
+    return result

@@ -1,0 +1,150 @@
+"""How a fit is led where events make the sum of squares rough.
+
+Trackers hold a shaft near its recorded motion and are released step by step. Where no sensor records a motion, the
+recordings are fitted from their beginning on, a little more each time, so that the simulated motion never runs away
+from what was recorded. Hypotheses are compared on a fit that is held: edges stay where they are, and misfit shows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+from lacuna.discovery.case.cases import Case, Recording
+from lacuna.discovery.case.noise import Noise
+from lacuna.discovery.fit.evidence import nearly_noise
+from lacuna.discovery.fit.fit import Fit, falling_bandwidths, fit
+from lacuna.discovery.fit.least_squares import Free
+from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.objective import Objective
+
+ROUGH = 20  # events a second, from which fits are led
+FAST, HELD = 1, 2  # which of the bandwidths holds the shafts for sensitivities, and while hypotheses are compared
+SHARES = (0.02, 0.04, 0.08, 0.16, 0.3, 0.55, 1.0)  # of the recordings' lengths, fitted one after the other
+LOST = 2.5  # level of a signal, from which the simulated motion is taken to have run away,
+FOLLOWED = 1.5  # unless another signal is below this level: that one's edges are where they were recorded
+BELIEVABLE = 8.0  # sigmas from its believed value, within which a parameter is sought while shafts are held
+EARLY = 0.16  # share on which the motion is still held fast by its beginning
+
+
+@dataclass(frozen=True)
+class Lead:
+    """`bandwidths` (rad/s) of the trackers, falling to 0, or growing shares of the recordings, or neither.
+
+    Hypotheses are compared at the bandwidth of index `held`.
+    """
+
+    bandwidths: tuple[float, ...] = ()
+    grows: bool = False
+    held: int = HELD
+
+    @property
+    def direct(self) -> bool:
+        """Whether fits need no lead."""
+        return not self.bandwidths and not self.grows
+
+    def fit(
+        self, machine: Machine, case: Case, noise: Mapping[str, Noise], free: list[Free], fixed: Mapping[str, float],
+        start: Mapping[str, float] | None = None,
+    ) -> Fit | None:  # fmt: skip
+        """The fit to all of the recordings, led from the beginning."""
+        if self.grows:
+            return _grown(machine, case, noise, free, fixed, start, SHARES)
+        return fit(machine, case.fit, noise, free, fixed, start=start, bandwidths=self.bandwidths or (0.0,))
+
+    def hold(self, base: Fit, like: Fit | None = None) -> Fit:
+        """The fit that hypotheses are compared on; it may be to the first share of the recordings only.
+
+        `like` is a fit that is held already: the share is then the same.
+        """
+        if self.bandwidths:
+            return _tracked(base, self.bandwidths[self.held])
+        most, lost = (1.0, LOST) if like is None else (_share(like.machine.case), float("inf"))
+        return self._begun(base, most, lost) if self.grows else base
+
+    def hold_fast(self, base: Fit) -> Fit:
+        """The fit with the motion held as much as the lead can: where sensitivities are smooth."""
+        if self.bandwidths:
+            return _tracked(base, self.bandwidths[FAST])
+        return self._begun(base, EARLY, float("inf")) if self.grows else base
+
+    def release(self, machine: Machine, case: Case, base: Fit, free: list[Free], held: Fit) -> Fit | None:
+        """The fit to all of `case` by a machine of it, from where a fit that was held has ended."""
+        fixed = {n: v for n, v in held.fixed.items() if not n.startswith("tracker_")}
+        if self.bandwidths:
+            ladder = self.bandwidths[self.held + 1 :]
+            return fit(machine, case.fit, base.noise, free, fixed, start=held.point, bandwidths=ladder)
+        share = _share(held.machine.case)
+        return _grown(machine, case, base.noise, free, fixed, held.point, [s for s in SHARES if s > share] or [1.0])
+
+    def _begun(self, base: Fit, most: float, lost: float) -> Fit:
+        """The fit to the largest share, up to `most`, on which some signal still follows the recorded one; or to the
+        first on which what is missing shows."""
+        case, machine = base.machine.case, base.machine
+        start = {f.name: base.point[f.name] for f in base.estimate.free if not f.sigma}
+        kept = base
+        for share in [s for s in SHARES if s <= most]:
+            short = cut(case, share)
+            here = machine if share == 1.0 else machine.amended(machine.amendment, short)
+            found = fit(here, short.fit, base.noise, base.estimate.free, base.fixed, start=start)
+            if found is None or (kept is not base and _astray(found, lost) and not nearly_noise(kept)):
+                break
+            kept, start = found, found.point
+        return kept
+
+
+def _astray(found: Fit, lost: float) -> bool:
+    return max(found.level.values()) > lost and min(found.level.values()) > FOLLOWED
+
+
+def lead_for(case: Case, machine: Machine, values: Mapping[str, float]) -> Lead:
+    """How fits of this machine have to be led; it tracks what it can."""
+    if machine.events_per_second(values, case.fit[0]) < ROUGH:
+        return Lead()
+    if any(machine.motions()):
+        return Lead(falling_bandwidths(case, machine))
+    return Lead(grows=True)
+
+
+def cut(case: Case, share: float) -> Case:
+    """The case with the first share of each recording that may be fitted."""
+    return case if share == 1.0 else replace(case, fit=[_first(r, share) for r in case.fit])
+
+
+def _first(recording: Recording, share: float) -> Recording:
+    count = max(int(len(recording.time) * share), 16)
+    columns = {n: v[:count] for n, v in recording.columns.items()}
+    return replace(recording, name=f"{recording.name}@{share:g}", time=recording.time[:count], columns=columns)
+
+
+def _share(case: Case) -> float:
+    return float(case.fit[0].name.rpartition("@")[2]) if "@" in case.fit[0].name else 1.0
+
+
+def _grown(
+    machine: Machine, case: Case, noise: Mapping[str, Noise], free: list[Free], fixed: Mapping[str, float],
+    start: Mapping[str, float] | None, shares: tuple[float, ...] | list[float],
+) -> Fit | None:  # fmt: skip
+    found = None
+    for share in shares:
+        found = fit(machine, cut(case, share).fit, noise, free, fixed, start=start)
+        start = found.point if found is not None else start
+    return found
+
+
+def _tracked(base: Fit, bandwidth: float) -> Fit:
+    """The fit with trackers of this bandwidth in place."""
+    machine = base.machine
+    objective = Objective(machine, machine.case.fit, base.noise)
+    objective.track(bandwidth, base.point)
+    fixed, free = base.fixed | objective.stiffness, [_near_belief(f, base.point[f.name]) for f in base.estimate.free]
+    return fit(machine, machine.case.fit, base.noise, free, fixed, start=base.point) or base
+
+
+def _near_belief(free: Free, value: float) -> Free:
+    """A parameter kept to what is believed of it, or to where it is: a shaft that is held follows its recorded motion
+    all the better, the less the machine has to say."""
+    if not free.sigma:
+        return free
+    reach = max(BELIEVABLE * free.sigma, abs(value - free.centre))
+    return replace(free, lower=max(free.lower, free.centre - reach), upper=min(free.upper, free.centre + reach))

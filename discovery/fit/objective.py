@@ -1,0 +1,117 @@
+"""The residuals that a fit makes small: each signal in units of its noise, led by its own level and by trackers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from lacuna.discovery.case.cases import Recording
+from lacuna.discovery.case.noise import Noise, sample_weights
+from lacuna.discovery.catalogue.amend import tracker_name
+from lacuna.discovery.fit.least_squares import Estimate, Problem, solve
+from lacuna.discovery.fit.machine import Machine
+
+STAGES = 10
+WORTH = 1.0  # of the weighted cost, that a stage of a fit has to win for another to follow
+SETTLED = 0.02  # relative change of a signal's level at which weights are taken to have settled
+
+
+class Objective:
+    """Residuals of one machine on some recordings, in units of noise, and the weights that lead a fit."""
+
+    def __init__(self, machine: Machine, recordings: Sequence[Recording], noise: Mapping[str, Noise]):
+        self.machine, self.recordings, self.noise = machine, list(recordings), dict(noise)
+        self.columns = list(noise)
+        self.samples = [{c: sample_weights(r.columns[c], self.noise[c]) for c in self.columns} for r in recordings]
+        self.stiffness: dict[str, float] = {}
+        self._trackers = [tracker_name(k) for k in range(len(machine.amendment.trackers))]
+        self.level = dict.fromkeys([*self.columns, *self._trackers], 1.0)
+        self.torque_scale = dict.fromkeys(self._trackers, 1.0)
+
+    def sections(self) -> list[str]:
+        return self.columns + (self._trackers if self.stiffness else [])
+
+    def __call__(self, values: dict[str, float], piece: int) -> np.ndarray | None:
+        recording = self.recordings[piece]
+        simulated = self.machine.simulate(values | self.stiffness, recording)
+        if simulated is None:
+            return None
+        parts = [
+            np.nan_to_num(recording.columns[c] - simulated[c]) * self.samples[piece][c] / self.noise[c].std
+            for c in self.columns
+        ]
+        if self.stiffness:
+            parts += [simulated[t] / self.torque_scale[t] for t in self._trackers]
+        return np.concatenate(parts)
+
+    def measure(self, parts: list[np.ndarray]) -> dict[str, float]:
+        """RMS of each section over all pieces (unweighted parts)."""
+        names = self.sections()
+        split = [np.split(p, len(names)) for p in parts]
+        squares = [sum(float(s[k] @ s[k]) for s in split) for k in range(len(names))]
+        counts = [
+            sum(
+                float(np.sum(w[n] ** 2)) if n in w else len(r.time)
+                for w, r in zip(self.samples, self.recordings, strict=True)
+            )
+            for n in names
+        ]
+        return {n: float(np.sqrt(s / c)) for n, s, c in zip(names, squares, counts, strict=True)}
+
+    def weights(self, level: Mapping[str, float]) -> list[np.ndarray]:
+        names = self.sections()
+        return [np.concatenate([np.full(len(r.time), 1.0 / level[n]) for n in names]) for r in self.recordings]
+
+    def weighted(self, values: Mapping[str, float], weights: Sequence[np.ndarray]) -> np.ndarray | None:
+        """The residual of all recordings together, weighted; None where one cannot be simulated."""
+        parts = [self(dict(values), k) for k in range(len(self.recordings))]
+        if any(p is None for p in parts):
+            return None
+        return np.concatenate([p * w for p, w in zip(parts, weights, strict=True)])
+
+    def track(self, bandwidth: float, parameters: Mapping[str, float]) -> None:
+        """Set the trackers to a bandwidth (rad/s); zero takes them away."""
+        self.stiffness = {}
+        if not bandwidth:
+            return
+        constants = self.machine.constants(parameters)
+        for name, shaft in zip(self._trackers, self.machine.amendment.trackers, strict=True):
+            inertia = constants[f"{shaft.location}.J"]
+            self.stiffness |= {f"{name}.c": inertia * bandwidth**2, f"{name}.d": 1.4 * inertia * bandwidth}
+            self.torque_scale[name] = inertia * bandwidth
+
+
+def anneal(
+    objective: Objective, problem: Problem, start: np.ndarray, *, stages: int = STAGES, iterations: int = 4,
+    known: Mapping[int, list[np.ndarray]] | None = None,
+) -> tuple[Estimate | None, dict[str, float]]:  # fmt: skip
+    """Alternate weights from the residuals and a few steps of least squares until both have settled.
+
+    `known` are unweighted columns of the Jacobian that may serve at first.
+    """
+    level: dict[str, float] = {}
+    values, best = start, None
+    for _ in range(stages):
+        problem.weights = None
+        here = problem.evaluate(values)
+        if here is None:
+            return best, level
+        new = {n: max(1.0 if n in objective.noise else 1e-6, v) for n, v in objective.measure(here[2]).items()}
+        if best is not None and _settled(level, new, best.converged or bool(objective.stiffness)):
+            break
+        level = new
+        problem.weights = objective.weights(level)
+        weighted = {k: [c * w for c, w in zip(cs, problem.weights, strict=True)] for k, cs in (known or {}).items()}
+        found = solve(problem, values, iterations=iterations, damping=1e-6, tolerance=1e-3, known=weighted)
+        if found is None:
+            return best, level
+        best, values = found, found.values
+        if found.begun - found.cost < WORTH:
+            break
+    return best, level
+
+
+def _settled(before: Mapping[str, float], after: Mapping[str, float], converged: bool) -> bool:
+    """Whether another stage leads nowhere: where `converged` ends in the same levels."""
+    return converged and all(abs(np.log(after[n] / before[n])) < SETTLED for n in after)

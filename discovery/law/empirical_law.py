@@ -1,0 +1,147 @@
+"""Laws that no catalogue holds: sparse sums of terms in the variables at a place, fitted by the error of the outputs.
+
+Every group of terms is screened to first order, as an effort along the fitted trajectory, and those are kept that
+explain recordings (or parts of one) they were not fitted to. The best few become components of a model and are fitted
+like any effect; groups are added while they pay for their parameters and for having been picked among many.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from lacuna.discovery.case.cases import Case
+from lacuna.discovery.catalogue.amend import Amendment, Attachment
+from lacuna.discovery.fit.evidence import is_noise
+from lacuna.discovery.fit.fit import Fit, fit
+from lacuna.discovery.fit.least_squares import Free
+from lacuna.discovery.fit.machine import try_machine
+from lacuna.discovery.law.law import Law, attach, component_of
+from lacuna.discovery.law.law_screen import Effort, Proposal, screened, sites
+from lacuna.discovery.law.law_terms import Group
+from lacuna.discovery.naming.comparison import score
+from lacuna.discovery.naming.screen import Candidate
+
+GROUPS = 3  # that a law may be the sum of
+FITTED = 4  # groups that are fitted in each round
+SIGNIFICANT = 3.0  # standard errors of a coefficient below which it is left out
+
+Progress = Callable[[str], None]
+
+
+def find(
+    case: Case, amendment: Amendment, base: Fit, progress: Progress = lambda text: None, most: int = GROUPS
+) -> Candidate | None:
+    """The best law of up to `most` groups of terms on top of `base`, the fit of `amendment`; None where no term pays.
+
+    Its fit is in the candidate.
+    """
+    best: Proposal | None = None
+    efforts = [Effort(case, base, site) for site in sites(case, base)]
+    while best is None or (len(best.law.groups) < most and not is_noise(best.candidate.fit)):
+        here, law = (base, None) if best is None else (best.candidate.fit, best.law)
+        proposals = screened(case, here, law, efforts, progress)
+        for proposal in proposals[:FITTED]:
+            progress(f"fitting a law at {proposal.law.site.location}")
+            proposal.candidate = fitted_law(case, amendment, base, proposal.law, proposal.start)
+        fitted = [p for p in proposals[:FITTED] if p.candidate is not None]
+        if not fitted:
+            break
+        correlation = min((p.candidate.fit for p in fitted), key=lambda f: f.deviance()).correlation()
+        chosen = min(fitted, key=lambda p: score(p.candidate, base, correlation))
+        before = 0.0 if best is None else score(best.candidate, base, correlation)
+        after = score(chosen.candidate, base, correlation)
+        progress(f"law at {chosen.law.site.location}: {chosen.law.text()}: {after:.1f}")
+        if after > before - 2 * np.log(len(proposals)):  # ln of the squared number of terms that were looked at
+            break
+        best = chosen
+    return None if best is None else simplified(case, amendment, base, best)
+
+
+def fitted_law(
+    case: Case,
+    amendment: Amendment,
+    base: Fit,
+    law: Law,
+    start: dict[str, float],
+    believed: dict[str, float] | None = None,
+) -> Candidate | None:
+    """The law as a component of the amended model, fitted together with the believed parameters."""
+    attachment = attach(law)
+    machine, _ = try_machine(case, replace(amendment, attachments=[*amendment.attachments, attachment]), base.machine)
+    if machine is None:
+        return None
+    free = _free(law, attachment, start)
+    first = (believed or base.point) | {attachment.full_name(n): v for n, v in start.items()}
+    found = fit(machine, case.fit, base.noise, [*base.estimate.free, *free], base.fixed, start=first)
+    return None if found is None else Candidate(attachment, machine, free, start=first, fit=found)
+
+
+def _free(law: Law, attachment: Attachment, start: dict[str, float]) -> list[Free]:
+    """Coefficients of any sign, scaled by the largest of all; shapes within their bounds."""
+    scale = max(abs(start[c]) for c, _, _ in law.numbered()) or 1.0
+    free = [Free(attachment.full_name(c), start[c], max(abs(start[c]), 0.1 * scale)) for c, _, _ in law.numbered()]
+    for name, shape in law.shapes().items():
+        step = 1e-3 if shape.name == "omega" else 1e-2
+        free.append(Free(attachment.full_name(name), start[name], 0.3 * abs(shape.start), shape.lower, shape.upper,
+                         step=step))  # fmt: skip
+    return free
+
+
+def simplified(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> Candidate:
+    """The law without coefficients that may be zero, and with whole exponents and orders where the data allows them."""
+    shorter: list[Proposal] = []
+    for simpler in _simpler(best):
+        simpler.candidate = fitted_law(case, amendment, base, simpler.law, simpler.start, best.candidate.fit.point)
+        shorter += [simpler] if simpler.candidate is not None else []
+    correlation = best.candidate.fit.correlation()
+    chosen = min([best, *shorter], key=lambda p: score(p.candidate, base, correlation))
+    return best.candidate if chosen is best else simplified(case, amendment, base, chosen)
+
+
+def _simpler(proposal: Proposal) -> list[Proposal]:
+    """The law with one thing less that is not needed by its own standard error."""
+    law, fitted = proposal.law, proposal.candidate.fit
+    covariance = fitted.estimate.covariance(fitted.inflation())
+    errors = {f.name: float(np.sqrt(max(covariance[k, k], 0.0))) for k, f in enumerate(fitted.estimate.free)}
+    prefix = f"{component_of(law)}."
+    values = {n.removeprefix(prefix): v for n, v in fitted.point.items() if n.startswith(prefix)}
+    found = []
+    for name, shape in law.shapes().items():
+        near = [s for s in shape.simple if abs(s - values[name]) < SIGNIFICANT * errors[prefix + name] + 0.02 * s]
+        found += [_with_fixed(law, values, name, s) for s in near]
+    numbered = law.numbered()
+    for k, (c, _, _) in enumerate(numbered):
+        if len(numbered) > 1 and abs(values[c]) < SIGNIFICANT * errors[prefix + c]:
+            found.append(_without(law, values, k))
+    return found
+
+
+def _with_fixed(law: Law, values: dict[str, float], name: str, value: float) -> Proposal:
+    """The law with a number in place of a shape parameter."""
+    groups = list(law.groups)
+    k = int(name.rsplit("_", 1)[1]) - 1
+    shape = name.rsplit("_", 1)[0]
+    texts = tuple(text.replace(f"{{{shape}}}", f"{value:.4g}") for text in groups[k].texts)
+    texts = tuple(text.replace("(1*", "(") for text in texts)
+    groups[k] = Group(texts, tuple(s for s in groups[k].shapes if s.name != shape))
+    return Proposal(Law(law.site, tuple(groups)), {n: v for n, v in values.items() if n != name})
+
+
+def _without(law: Law, values: dict[str, float], k: int) -> Proposal:
+    """The law without its term k; groups that lose all terms go too."""
+    groups, start, count, kept = [], {}, 0, 0
+    for n, group in enumerate(law.groups):
+        texts = []
+        for text in group.texts:
+            count += 1
+            if count - 1 != k:
+                kept += 1
+                texts.append(text)
+                start[f"c_{kept}"] = values[f"c_{count}"]
+        if texts:
+            groups.append(Group(tuple(texts), group.shapes))
+            start |= {f"{s.name}_{len(groups)}": values[f"{s.name}_{n + 1}"] for s in group.shapes}
+    return Proposal(Law(law.site, tuple(groups)), start)

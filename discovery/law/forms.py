@@ -1,0 +1,96 @@
+"""Laws that have a name: the form of a term, with the units of what it gives and of what it depends on, says which.
+
+Units tell the domain (Paynter 1961: effort, flow and their integrals); sources of the forms: radiation Stefan 1879,
+natural convection Churchill and Chu 1975, dry friction Coulomb 1785 and Stribeck 1902, drag Newton 1687, leakage
+Hagen-Poiseuille and Torricelli, diode Shockley 1949, relaxation Maxwell 1867.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+import re
+
+from lacuna.discovery.law.law_terms import Variable
+from lacuna.units import parse_unit
+
+NEAR = 0.15  # by which an exponent may differ from that of a form
+
+FORCE, SPEED, PLACE = ("N", "N.m"), ("m/s", "rad/s"), ("m", "rad")
+HEAT, WARMTH, FLOW, LEVEL = ("W",), ("K",), ("m3/s", "kg/s"), ("Pa", "m")
+CURRENT, VOLTAGE = ("A",), ("V",)
+POWER = r"^(?:sign\(\w+\)\*)?abs\(X\)\^({p}|[\d.]+)$"
+ANY = ("",)
+
+
+@dataclass(frozen=True)
+class Form:
+    """A term's text, X its variable, with the exponent that it has to have (0: any), and the units on both sides."""
+
+    name: str
+    text: str
+    gives: tuple[str, ...]
+    of: tuple[str, ...]
+    exponent: float = 0.0
+
+
+FORMS = (
+    Form("radiation", POWER, HEAT, WARMTH, 4.0),
+    Form("convection.natural", POWER, HEAT, WARMTH, 1.25),
+    Form("drag.quadratic", POWER, FORCE, SPEED, 2.0),
+    Form("stiffness.hardening", POWER, FORCE, PLACE, 3.0),
+    Form("leakage.turbulent", POWER, FLOW, LEVEL, 0.5),
+    Form("leakage.laminar", r"^X$", FLOW, LEVEL),
+    Form("heat.loss", r"^X$", HEAT, WARMTH),
+    Form("friction.viscous", r"^X$", FORCE, SPEED),
+    Form("stiffness", r"^X$", FORCE, PLACE),
+    Form("friction.coulomb", r"^tanh\(\S+\*X\)$", FORCE, SPEED),
+    Form("friction.stribeck", r"^tanh\(\S+\*X\)\*exp", FORCE, SPEED),
+    Form("drive.dead_time", r"^tanh\(\S+\*X\)$", VOLTAGE, CURRENT),
+    Form("diode", r"^exp\(\S+\*X\)$", CURRENT, VOLTAGE),
+    Form("torque.cogging", r"^(sin|cos)\(\S+\*X\)$", FORCE, PLACE),
+    Form("relaxation", r"^\(X - lag\(X, ", ANY, ANY),
+    Form("motor.saturation", r"^\(X/\(1 \+ \S+Y\^2\) - X\)$", VOLTAGE, ("A/s",)),
+)
+
+
+Term = tuple[str, Mapping[str, str]]  # text, and the names that its shapes have among the values
+
+
+def form_of(terms: Sequence[Term], variables: Sequence[Variable], gives: str, values: Mapping[str, float]) -> str:
+    """The name of a law of one kind of term (a constant beside it is where its zero lies); "" where it has none.
+
+    `gives` is the unit of the effort.
+    """
+    told = [(text, shapes) for text, shapes in terms if text != "1"]
+    names = {_named(text, variables, gives, {s: values[n] for s, n in shapes.items()}) for text, shapes in told}
+    if "friction.stribeck" in names:
+        return "friction.stribeck"
+    return names.pop() if len(names) == 1 else ""
+
+
+def _named(text: str, variables: Sequence[Variable], gives: str, shapes: Mapping[str, float]) -> str:
+    used = [v for v in variables if f"{v.local}_ref" in text]
+    if not 1 <= len(used) <= 2:
+        return ""
+    first = min(used, key=lambda v: text.index(v.scaled))
+    plain = text
+    for v in used:
+        plain = plain.replace(v.scaled, "X" if v is first else "Y")
+    plain = plain.replace("absX", "abs(X)")
+    for form in FORMS:
+        found = re.match(form.text, plain)
+        if found and _alike(gives, form.gives) and _alike(first.unit, form.of) and _has(form, found, shapes):
+            return form.name
+    return ""
+
+
+def _has(form: Form, found: re.Match, shapes: Mapping[str, float]) -> bool:
+    if not form.exponent:
+        return True
+    exponent = shapes["p"] if found[1] == "{p}" else float(found[1])
+    return abs(exponent - form.exponent) <= NEAR * form.exponent
+
+
+def _alike(unit: str, units: tuple[str, ...]) -> bool:
+    return units == ANY or (bool(unit) and any(parse_unit(unit) == parse_unit(u) for u in units))

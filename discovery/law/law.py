@@ -1,0 +1,161 @@
+"""An empirical law: a sparse sum of terms at a place, and the component of a model that it becomes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+import re
+
+from lacuna.discovery.catalogue.amend import Attachment
+from lacuna.discovery.catalogue.catalogue import Effect, EffectParameter
+from lacuna.discovery.catalogue.places import Device, Line, Shaft
+from lacuna.discovery.efforts import sites
+from lacuna.discovery.efforts.insertion import Lag, component
+from lacuna.discovery.law.forms import form_of
+from lacuna.discovery.law.law_terms import Group, Shape, Variable
+
+
+@dataclass(frozen=True)
+class Site:
+    """A place with the variables that a law there may use and the unit of the effort that it gives."""
+
+    place: Shaft | Line | Device | sites.Site
+    location: str
+    unit: str
+    variables: tuple[Variable, ...]
+
+    @property
+    def sizes(self) -> dict[str, float]:
+        return {v.local: v.size for v in self.variables}
+
+
+@dataclass(frozen=True)
+class Law:
+    """Groups of terms at a site; coefficients are c_1, c_2, ... in the order of the terms."""
+
+    site: Site
+    groups: tuple[Group, ...] = ()
+
+    def numbered(self) -> list[tuple[str, Group, dict[str, str]]]:
+        """(coefficient, group, names of its shapes) of every term's text, in order."""
+        result, count = [], 0
+        for n, group in enumerate(self.groups):
+            shapes = {s.name: f"{s.name}_{n + 1}" for s in group.shapes}
+            for text in group.texts:
+                count += 1
+                result.append((f"c_{count}", text, shapes))
+        return result
+
+    def shapes(self) -> dict[str, Shape]:
+        return {f"{s.name}_{n + 1}": s for n, group in enumerate(self.groups) for s in group.shapes}
+
+    def text(self) -> str:
+        """The right-hand side in the names of the component."""
+        return " + ".join(f"{c}*{text.format(**shapes)}" for c, text, shapes in self.numbered())
+
+    def references(self) -> list[Variable]:
+        return [v for v in self.site.variables if f"{v.local}_ref" in self.text()]
+
+    def expression(self, values: dict[str, float]) -> str:
+        """The law in variables of the model, with its numbers; `values` by the component's own names."""
+        terms = []
+        for c, text, shapes in self.numbered():
+            text = text.format(**{s: f"{values[full]:.4g}" for s, full in shapes.items()})
+            terms.append(f"{values[c]:.4g}*{text}")
+        whole = " + ".join(terms).replace("+ -", "- ")
+        for v in self.site.variables:
+            whole = whole.replace(f"{v.local}_ref", f"{v.size:g}")
+            whole = _renamed(whole, v.local, v.name)
+        return whole
+
+    def form(self, values: dict[str, float]) -> str:
+        """The name of a known form that the law has; "" where it has none."""
+        terms = [(text, shapes) for _, text, shapes in self.numbered()]
+        return form_of(terms, self.site.variables, self.site.unit, values)
+
+
+def component_of(law: Law) -> str:
+    return f"law_{law.site.location.replace('.', '_').replace(':', '_')}"
+
+
+def attach(law: Law) -> Attachment:
+    """The law as an effect of identifier `unknown`, its component's source carried along."""
+    site = law.site
+    parameters = [EffectParameter(c, site.unit, "Coefficient", -1e30, 1e30, 0.0) for c, _, _ in law.numbered()]
+    parameters += [EffectParameter(n, s.unit, "Shape", s.lower, s.upper, s.start) for n, s in law.shapes().items()]
+    component, place = component_of(law), site.place
+    effect = Effect(
+        "unknown", class_name(law), "Empirical law", _ATTACHES[type(place)], tuple(parameters),
+        signature=f"no effect of the catalogue; {site.unit} as {law.text()}",
+    )  # fmt: skip
+    own = _OWN[type(place)]
+    signals = tuple((v.local, v.name) for v in law.references() if v.local not in own)
+    return Attachment(
+        effect, component, site.location,
+        shaft=place if isinstance(place, Shaft) else None,
+        lines=(place,) if isinstance(place, Line) else (),
+        device=place if isinstance(place, Device) else None,
+        site=place if isinstance(place, sites.Site) else None,
+        signals=signals, definition=_source(law, signals), expression=law.expression,
+        form=law.form,
+    )  # fmt: skip
+
+
+_ATTACHES = {Shaft: "flange", Line: "line", Device: "imposed", sites.Site: "site"}
+_OWN = {Shaft: ("angle", "w"), Line: ("i",), Device: ("s", "v"), sites.Site: ()}
+_BASE = {
+    Shaft: ("Lacuna.Effects.Interfaces.FlangeEffect", "tau"),
+    Line: ("Lacuna.Interfaces.TwoPin", "v"),
+    Device: ("Lacuna.Interfaces.ImposedMotion", "f"),
+}
+
+
+def class_name(law: Law) -> str:
+    return "Law" + "".join(part.capitalize() for part in law.site.location.replace(".", "_").split("_"))
+
+
+def _source(law: Law, signals: tuple[tuple[str, str], ...]) -> str:
+    """The component's class, to be nested in the amended model."""
+    if isinstance(law.site.place, sites.Site):
+        return _source_at(law, law.site.place)
+    base, effort = _BASE[type(law.site.place)]
+    lines = [f'model {class_name(law)} "Empirical law"', f"  extends {base};"]
+    units = {v.local: v.unit for v in law.site.variables}
+    for name, _ in signals:
+        lines.append(f'  Lacuna.Interfaces.RealInput {name}(unit="{units[name]}") "Variable of the law";')
+    for c, _, _ in law.numbered():
+        lines.append(f'  parameter Real {c}(unit="{law.site.unit}") = 0 "Coefficient";')
+    for name, shape in law.shapes().items():
+        lines.append(f'  parameter Real {name}(unit="{shape.unit}") = {shape.start:.6g} "Shape";')
+    for v in law.references():
+        lines.append(f'  parameter Real {v.local}_ref(unit="{v.unit}") = {v.size:.6g} "Largest value recorded";')
+    lines += ["equation", f"  {effort} = noEvent({law.text()});", f"end {class_name(law)};"]
+    return "\n".join(lines)
+
+
+def _source_at(law: Law, place: sites.Site) -> str:
+    unit = law.site.unit
+    parameters = [EffectParameter(c, unit, "Coefficient", -1e30, 1e30, 0.0) for c, _, _ in law.numbered()]
+    parameters += [EffectParameter(n, s.unit, "Shape", 0, 0, s.start) for n, s in law.shapes().items()]
+    used = law.references()
+    parameters += [EffectParameter(f"{v.local}_ref", v.unit, "Largest value", 0, 0, v.size) for v in used]
+    signals = [(v.local, v.name, v.unit) for v in used]
+    text, lags = _with_states(law.text())
+    return component(place, class_name(law), "Law", signals, parameters, f"noEvent({text})", unit, lags)
+
+
+def _with_states(text: str) -> tuple[str, list[Lag]]:
+    """A law's text with a variable in the place of each quantity that lags, and what these are."""
+    lags: list[Lag] = []
+
+    def named(found: re.Match) -> str:
+        lag = found["of"], found["time"]
+        number = next((k for k, (_, *known) in enumerate(lags, 1) if tuple(known) == lag), 0) or len(lags) + 1
+        if number > len(lags):
+            lags.append((f"z_{number}", *lag))
+        return f"z_{number}"
+
+    return re.sub(r"\blag\((?P<of>[^,]+), (?P<time>[^,)]+)\)", named, text), lags
+
+
+def _renamed(text: str, local: str, name: str) -> str:
+    return re.sub(rf"(?<![\w.]){local}(?![\w.(])", name, text)

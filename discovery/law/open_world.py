@@ -1,0 +1,90 @@
+"""Where the catalogue's own places do not explain the recordings: every place of the equations, and a law there.
+
+A law found so stands instead of what the catalogue gave where it leaves less, its numbers paid for, and tells
+recordings of the fit set that it was not fitted to better than no law does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.efforts.find import Found, find
+from lacuna.discovery.fit.evidence import like_noise, nearly_noise
+from lacuna.discovery.law.beyond import MARGIN
+from lacuna.discovery.naming.comparison import MIN_GAIN, TIE, Ranked, confidences, held_out_deviance, price, score
+from lacuna.discovery.naming.judge import try_judge
+from lacuna.discovery.naming.name import Naming
+from lacuna.discovery.naming.screen import Candidate
+from lacuna.discovery.naming.search import Finding, Search
+
+Progress = Callable[[str], None]
+
+
+def explain_open(search: Search, unbegun: Search, library: Library, progress: Progress) -> Found | None:
+    """Locate and explain what `unbegun`, the believed model, lacks, unless `search` has explained it in its equations.
+
+    None where that is so, or where fits need shafts held near their motion: those are left to the catalogue.
+    """
+    quiet = nearly_noise(unbegun.fit) and like_noise(unbegun.fit)  # colour alone may also be a misfit of fast motion
+    if not unbegun.lead.direct or unbegun.amendment.trackers or quiet:
+        return None
+    explained = search.settled() or nearly_noise(search.fit)
+    if explained and any(not f.ranked.attachment.variable for f in search.findings):
+        return None
+    found = find(search.case, unbegun.amendment, unbegun.fit, library, progress)
+    if found.laws:
+        _take(search, unbegun, found, progress)
+    return found
+
+
+def _take(search: Search, unbegun: Search, found: Found, progress: Progress) -> None:
+    base, law = unbegun.fit, found.laws[0]
+    correlation = law.fit.correlation()
+    ranked = [Ranked(c, c.fit, score(c, base, correlation)) for c in _one_a_place(found.laws)]
+    gain = ranked[0].score
+    if gain > -MIN_GAIN or (search.findings and not _better(search, unbegun, law, gain, correlation)):
+        return
+    progress("what the law says of recordings left out")
+    if not _tells(unbegun, ranked[0], correlation):
+        return
+    after = try_judge(law.machine, law.fit.point)
+    if after is None:
+        return
+    confidences(ranked)
+    search.findings[:] = [Finding(ranked[0], Naming(ranked, []), unbegun.judgement, after)]
+    search.take([law.attachment], law.fit, after)
+    search.reason = ""
+
+
+def _better(search: Search, unbegun: Search, law: Candidate, gain: float, correlation: dict[str, float]) -> bool:
+    """Whether a law takes the place of findings: of effects in the equations, which have a name and a reason, only
+    where it leaves noise and the evidence is clearly for it; of sensors where it is better."""
+    before = _score_of(search, unbegun, correlation)
+    if all(f.ranked.attachment.variable for f in search.findings):
+        return gain < before - TIE
+    return gain < before - MARGIN and (nearly_noise(law.fit) or like_noise(law.fit))
+
+
+def _one_a_place(laws: list[Candidate]) -> list[Candidate]:
+    best: dict[str, Candidate] = {}
+    for law in laws:
+        best.setdefault(law.attachment.location, law)
+    return list(best.values())
+
+
+def _score_of(search: Search, unbegun: Search, correlation: dict[str, float]) -> float:
+    """Deviance and price of what the search has found, less the believed model's."""
+    base = unbegun.fit
+    added = {f.name for f in search.fit.estimate.free} - {f.name for f in base.estimate.free}
+    return search.fit.deviance(correlation) + price(len(added), base, correlation) - base.deviance(correlation)
+
+
+def _tells(unbegun: Search, ranked: Ranked, correlation: dict[str, float]) -> bool:
+    """Whether a law fitted to some recordings tells the others better than the believed model so fitted does."""
+    if len(unbegun.case.fit) < 2:
+        return True
+    base = unbegun.fit
+    nothing = Candidate(ranked.attachment, base.machine, [], fit=base)
+    without = held_out_deviance(unbegun.case, base, Ranked(nothing, base, 0.0), correlation)
+    return held_out_deviance(unbegun.case, base, ranked, correlation) < without - TIE

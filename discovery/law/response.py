@@ -1,0 +1,87 @@
+"""What a small effort at a place changes in the recorded signals, a hat of effort at a time.
+
+The answer to any other effort is the sum of the answers to its hats (to first order), so that a place is simulated
+once and every course of effort is judged without another simulation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lacuna.discovery.catalogue.amend import probe_name
+from lacuna.discovery.fit.fit import Fit, Objective
+from lacuna.discovery.fit.least_squares import _pool
+from lacuna.discovery.fit.machine import Machine
+from lacuna.runtime import RecordedInput
+
+LINEAR = (1e-3, 0.3)  # of the residual: sizes of an answer that is above rounding and still proportional
+FOLLOWED = 0.5  # of an effort's power, that hats may miss: what is faster would pass for a slow effort
+
+
+@dataclass
+class Response:
+    """`blocks[i]` (rows, hats): change of recording i's residual, in units of noise, for one unit of each hat."""
+
+    nodes: list[np.ndarray]  # times of the hats' peaks in each recording, evenly spaced, s
+    blocks: list[np.ndarray]
+
+    def to(self, effort: Sequence[np.ndarray], times: Sequence[np.ndarray]) -> list[np.ndarray]:
+        """The change for efforts (n,) on the recordings' samples; none for those that are too fast for the hats."""
+        hats = [_hats(n, e, t) for n, e, t in zip(self.nodes, effort, times, strict=True)]
+        followed = [np.interp(t, n, h) for n, h, t in zip(self.nodes, hats, times, strict=True)]
+        missed = sum(float(np.sum((e - f) ** 2)) for e, f in zip(effort, followed, strict=True))
+        if missed > FOLLOWED * sum(float(e @ e) for e in effort):
+            return [np.zeros(len(b)) for b in self.blocks]
+        return [b @ h for b, h in zip(self.blocks, hats, strict=True)]
+
+
+def _hats(nodes: np.ndarray, effort: np.ndarray, time: np.ndarray) -> np.ndarray:
+    """Amounts of the hats that come closest to an effort: its means under each hat."""
+    place = np.clip((time - nodes[0]) / (nodes[1] - nodes[0]), 0.0, len(nodes) - 1.0)
+    left = np.minimum(place.astype(int), len(nodes) - 2)
+    share = place - left
+    total = np.bincount(left, effort * (1 - share), len(nodes)) + np.bincount(left + 1, effort * share, len(nodes))
+    weight = np.bincount(left, 1 - share, len(nodes)) + np.bincount(left + 1, share, len(nodes))
+    return total / np.maximum(weight, 1e-12)
+
+
+def respond(machine: Machine, base: Fit, probe: int, hats: int) -> Response:
+    """Simulate `hats` hats of effort in each fit recording at the machine's probe of that number."""
+    objective = Objective(machine, machine.case.fit, base.noise)
+    recordings = objective.recordings
+    nodes = [np.linspace(r.time[0], r.time[-1], hats) for r in recordings]
+    norm = [np.concatenate([base.level[c] * np.ones(len(r.time)) for c in base.noise]) for r in recordings]
+    still = [_residual(objective, base, i, {}) for i in range(len(recordings))]
+
+    def one(task: tuple[int, int, float]) -> np.ndarray:
+        i, j, amount = task
+        hat = np.zeros(hats)
+        hat[j] = amount
+        moved = _residual(objective, base, i, {probe_name(probe): RecordedInput(nodes[i], hat)})
+        return np.zeros_like(still[i]) if moved is None else (moved - still[i]) / amount
+
+    size = float(np.linalg.norm(still[0] / norm[0]))
+    amount = 1e-4
+    for _ in range(4):
+        answer = amount * float(np.linalg.norm(one((0, hats // 2, amount)) / norm[0]))
+        if LINEAR[0] * size < answer < LINEAR[1] * size:
+            break
+        amount *= min(max(0.03 * size / answer, 1e-4), 1e4) if answer > 0 else 1e4
+    tasks = [(i, j, amount) for i in range(len(recordings)) for j in range(hats)]
+    columns = list(_pool.map(one, tasks))
+    return Response(nodes, [np.column_stack(columns[i * hats : (i + 1) * hats]) for i in range(len(recordings))])
+
+
+def _residual(objective: Objective, base: Fit, piece: int, efforts: dict[str, RecordedInput]) -> np.ndarray | None:
+    recording = objective.recordings[piece]
+    simulated = objective.machine.simulate(base.point, recording, efforts)
+    if simulated is None:
+        return None
+    parts = [
+        np.nan_to_num(recording.columns[c] - simulated[c]) * objective.samples[piece][c] / base.noise[c].std
+        for c in objective.columns
+    ]
+    return np.concatenate(parts)

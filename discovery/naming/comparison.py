@@ -1,0 +1,135 @@
+"""Comparing fitted hypotheses: evidence with a price for complexity, and what they say of recordings left out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+
+from lacuna.discovery.case.cases import Case
+from lacuna.discovery.catalogue.amend import Attachment
+from lacuna.discovery.fit.evidence import nearly_noise
+from lacuna.discovery.fit.fit import Fit, fit, residuals_of
+from lacuna.discovery.fit.least_squares import WORKERS
+from lacuna.discovery.naming.screen import Candidate
+
+MIN_GAIN = 20.0  # drop of the deviance, prices paid, below which nothing is believed missing
+CLOSE = 0.3  # share of the best gain within which hypotheses are cross-validated against each other
+DECIDED = 20.0  # difference of two scores that decides, where the better one leaves noise
+CONTENDERS = 4
+TIE = 8.0  # difference of two scores below which the data does not tell them apart
+COLOUR = 30.0  # samples at most that count as one
+
+Progress = Callable[[str], None]
+
+
+@dataclass
+class Ranked:
+    """A fitted hypothesis. `score` is its deviance and price less the base's: negative is better than nothing."""
+
+    candidate: Candidate
+    fit: Fit
+    score: float
+    confidence: float = 0.0
+
+    @property
+    def attachment(self) -> Attachment:
+        return self.candidate.attachment
+
+    @property
+    def identity(self) -> tuple[str, str]:
+        return self.attachment.effect.identifier, self.attachment.location
+
+    def effect_values(self) -> dict[str, float]:
+        """Value of each of the effect's parameters, by its own name."""
+        point = self.fit.point
+        names = [p.name for p in self.attachment.effect.parameters]
+        values = {n: point[self.attachment.full_name(n)] for n in names if self.attachment.full_name(n) in point}
+        return values | dict(self.attachment.values)
+
+
+def cross_validated(
+    case: Case, base: Fit, ranked: list[Ranked], correlation: dict[str, float], progress: Progress
+) -> list[Ranked]:
+    """Contenders that are close to the best are ranked by recordings of the fit set that each is not fitted to.
+
+    What a contender loses there against the best one is its score; those that tie there keep their order. Where the
+    best one leaves noise nothing is left to fit too well, and the evidence itself decides.
+    """
+    best = ranked[0].score
+    reach = DECIDED if nearly_noise(ranked[0].fit) else CLOSE * abs(best)
+    close = [r for r in ranked if r.score - best < reach][:CONTENDERS]
+    if len(case.fit) < 2 or len({r.identity for r in close}) < 2 or ranked[0].score > -MIN_GAIN:
+        return ranked
+    with ThreadPoolExecutor(WORKERS) as workers:
+        losses = list(workers.map(lambda r: held_out_deviance(case, base, r, correlation), close))
+    losses = [min(loss, *_of_richer(contender, close, losses)) for contender, loss in zip(close, losses, strict=True)]
+    least = min(losses)
+    for contender, loss in zip(close, losses, strict=True):
+        progress(f"left out: {contender.attachment.label}: {loss - least:.1f}")
+        gap = loss - least
+        contender.score = best + gap if gap > TIE else best + min(contender.score - best, TIE)
+    return sorted(ranked, key=lambda r: r.score)
+
+
+def _of_richer(contender: Ranked, close: list[Ranked], losses: list[float]) -> list[float]:
+    """Losses of contenders that contain this one's law and do not pay for what they add to it, infinity at the end.
+
+    Such a one predicts nothing that this one could not: what it wins on a recording left out is luck of the refit.
+    """
+    own = contender.attachment
+    richer = [
+        loss
+        for other, loss in zip(close, losses, strict=True)
+        if other.attachment.contains(own) and other.score >= contender.score
+    ]
+    return [*richer, float("inf")]
+
+
+def held_out_deviance(case: Case, base: Fit, contender: Ranked, correlation: dict[str, float]) -> float:
+    """Deviance of each fit recording under the fit to the others, summed."""
+    total = 0.0
+    candidate = contender.candidate
+    free = [*base.estimate.free, *candidate.free]
+    for recording in case.fit:
+        others = [r for r in case.fit if r is not recording]
+        found = fit(
+            candidate.machine, others, base.noise, free, base.fixed | candidate.fixed, start=contender.fit.point,
+            stages=2, iterations=2,
+        )  # fmt: skip
+        residuals = residuals_of(candidate.machine, [recording], found.point) if found is not None else None
+        if residuals is None:
+            return float("inf")
+        for column, noise in base.noise.items():
+            weight = base.weights[recording.name][column]
+            count = float(np.sum(weight**2)) / correlation[column]
+            square = float(np.sum((weight * np.nan_to_num(residuals[recording.name][column])) ** 2) / np.sum(weight**2))
+            total += count * np.log(max(1.0, square / noise.std**2))
+    return total
+
+
+def best_correlation(candidates: list[Candidate]) -> dict[str, float]:
+    """Samples that count as one in the best fit; few enough that a misfit which drifts over a recording still tells."""
+    found = min((c.fit for c in candidates), key=lambda f: f.deviance()).correlation()
+    return {column: min(samples, COLOUR) for column, samples in found.items()}
+
+
+def price(parameters: int, base: Fit, correlation: dict[str, float]) -> float:
+    """ln n for each parameter of an effect, n independent samples."""
+    informative = sum(count / correlation[c] for c, count in base.counts().items())
+    return parameters * float(np.log(max(informative, 2.0)))
+
+
+def score(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> float:
+    paid = candidate.fit.deviance(correlation) + price(len(candidate.free), base, correlation)
+    return paid - base.deviance(correlation)
+
+
+def confidences(ranked: list[Ranked]) -> None:
+    """Posterior probability of each hypothesis among those tried (equal beliefs before), tempered to admit misfit."""
+    scores = np.array([r.score for r in ranked])
+    weights = np.exp(-np.minimum((scores - scores.min()) / 4.0, 700.0))
+    for r, weight in zip(ranked, weights / weights.sum(), strict=True):
+        r.confidence = float(weight)
