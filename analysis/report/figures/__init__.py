@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 
 from lacuna.analysis.map.rows import Row
 from lacuna.analysis.report.figures import currents, mean_rms, phase_rms, spectra, speed
+from lacuna.analysis.report.figures.data import drawn_data
 from lacuna.analysis.report.figures.style import in_style
 from lacuna.analysis.settings import Settings
 
@@ -27,10 +28,11 @@ FIGURES: dict[str, tuple[str, str, Callable[[Settings, list[Row]], Figure]]] = {
 
 
 def draw_all(settings: Settings, rows: list[Row], folder: Path) -> None:
-    """Write every figure into `folder`, as <stem>.svg and <stem>.png."""
+    """Write every figure into `folder`, as <stem>.svg and <stem>.png, and what it shows as <stem>.csv."""
     for stem, (_, _, draw) in FIGURES.items():
         with in_style():
             figure = draw(settings, rows)
             FigureCanvasAgg(figure)
             figure.savefig(folder / f"{stem}.svg", metadata={"Date": None})
             figure.savefig(folder / f"{stem}.png")
+            (folder / f"{stem}.csv").write_text(drawn_data(figure), encoding="utf-8")

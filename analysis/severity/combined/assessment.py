@@ -11,7 +11,7 @@ from typing import Any
 from lacuna.analysis.files import published_together
 from lacuna.analysis.recording.recordings import Refusal, check_phases, read_recording
 from lacuna.analysis.settings import Band
-from lacuna.analysis.severity.assessment import chain_at, features_of, filtered, sentence
+from lacuna.analysis.severity.assessment import chain_at, features_of, filtered, sentence, write_drawn
 from lacuna.analysis.severity.combined.estimate import JointEstimate, JointEstimator
 from lacuna.analysis.severity.combined.grid import load_grid
 from lacuna.analysis.severity.preparation import START_RATE
@@ -76,5 +76,4 @@ def _write(done: JointAssessment, estimator: JointEstimator, folder: Path, out: 
         (scratch / "assessment.json").write_text(text + "\n", encoding="utf-8")
         with in_style():
             figure = draw_estimate(estimator, done.estimate)
-            for kind in ("svg", "png"):
-                figure.savefig(scratch / f"assessment.{kind}")
+        write_drawn(done, figure, scratch, [folder / "settings.toml"])
