@@ -23,16 +23,16 @@ static inline int mdl_index(const mdl_data *m, double subscript, int size) {
   return 0;
 }"""
 
-_ENTER = """\
+_ENTER = f"""\
 /* A function begins, with about so many bytes on the stack: not below what the stack bears, nor without end. */
-static int mdl_enter(const mdl_data *m, long bytes) {
+static int mdl_enter(const mdl_data *m, long bytes) {{
   mdl_data *own = (mdl_data *)m;
   if (own->stack == 0) own->rounds = 0;
-  if (own->stack + bytes > %d) return !mdl_fail(own, MDL_FAILURE_STACK, -1, (double)own->stack);
-  if (++own->rounds > %d) return !mdl_fail(own, MDL_FAILURE_LOOP, -1, (double)own->rounds);
+  if (own->stack + bytes > {STACK}) return !mdl_fail(own, MDL_FAILURE_STACK, -1, (double)own->stack);
+  if (++own->rounds > {ROUNDS}) return !mdl_fail(own, MDL_FAILURE_LOOP, -1, (double)own->rounds);
   own->stack += bytes;
   return 1;
-}""" % (STACK, ROUNDS)
+}}"""
 
 _SOLVE = """\
 /* Solve a x = b in place (row-major, n x n) by Gaussian elimination with scaled partial pivoting; b becomes x. Where a
