@@ -75,24 +75,27 @@ static int divisions_at(rt_session *s, double t) {
 static rt_status look_for_pole(rt_session *s, int k) {
   double *value = s->division + 2 * k, a = s->t_previous, b = s->t;
   int before = s->division_sign[k];
-  double ordinary = fabs(value[0] / value[1]), divisor = fabs(value[1]), nearest = ordinary;
+  double ordinary = fabs(value[0] / value[1]), divisor = fabs(value[1]), nearest;
   rt_dense_prepare(s);
   if (!divisions_at(s, a)) {
     ordinary = fmax(ordinary, fabs(value[0] / value[1]));
     divisor = fmax(divisor, fabs(value[1]));
   }
+  double at = NAN, numerator = 0;
   for (int i = 0; i < HALVINGS; i++) {
     double middle = 0.5 * (a + b);
     if (divisions_at(s, middle)) break;
     nearest = fabs(value[0] / value[1]);
-    if (isnan(nearest)) return RT_OK; /* 0/0, or a branch that does not hold there */
+    if (isnan(nearest)) break; /* 0/0, or a branch that does not hold there */
     *(sign(value[0] * value[1]) == before ? &a : &b) = middle;
-    if (nearest > pole * ordinary && fabs(value[1]) * shrunk < divisor)
-      return rt_fail(s, RT_DOMAIN, middle, -1, &s->d->equations[s->d->division_equation[k]],
-                     "division by zero: a divisor passes through zero at time %.9g s (numerator %.3g)", middle,
-                     value[0]);
+    if (nearest > pole * ordinary && fabs(value[1]) * shrunk < divisor) {
+      at = middle;
+      numerator = value[0];
+    }
   }
-  return RT_OK;
+  if (isnan(at)) return RT_OK;
+  return rt_fail(s, RT_DOMAIN, at, -1, &s->d->equations[s->d->division_equation[k]],
+                 "division by zero: a divisor passes through zero at time %.9g s (numerator %.3g)", at, numerator);
 }
 
 /* Divisors on their way since the last accepted point; `fresh`: there is none, an event lies between. */

@@ -34,9 +34,7 @@ def reduce_index(model: flat.FlatModel, equations: list[flat.Equation]) -> Syste
     return choose_states(model, rows, names)
 
 
-def _derivatives_at_start(
-    model: flat.FlatModel, rows: list[Row], names: set[str]
-) -> tuple[flat.FlatModel, list[Row]]:
+def _derivatives_at_start(model: flat.FlatModel, rows: list[Row], names: set[str]) -> tuple[flat.FlatModel, list[Row]]:
     """Variables and rows for derivatives that only the initial equations have: the reduction must know of them."""
     known = {n for row in rows for n in row.leaves}
     found: dict[Expr, flat.Equation] = {}
