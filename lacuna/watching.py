@@ -15,6 +15,7 @@ import time
 from typing import TYPE_CHECKING
 
 from lacuna.codegen.library.search_path import MODEL_FOLDER
+from lacuna.drawn import save
 from lacuna.errors import is_user_error, message_of
 
 if TYPE_CHECKING:
@@ -79,7 +80,7 @@ def _follow(
 
 def _svg(figure: Figure) -> str:
     buffer = io.StringIO()
-    figure.savefig(buffer, format="svg")
+    save(figure, buffer, "svg")
     text = buffer.getvalue()
     return text[text.index("<svg") :]
 

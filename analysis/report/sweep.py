@@ -14,6 +14,7 @@ import pyarrow as pa
 from lacuna.analysis.report.figures.style import in_style, new_figure
 from lacuna.analysis.report.page import figure, heading, page, paragraph, table
 from lacuna.analysis.settings import Settings
+from lacuna.drawn import save
 
 SHOWN = 4000  # points of the figure and of its data; beyond, every n-th test (the sequence fills the range evenly)
 
@@ -47,7 +48,7 @@ def _cloud(results: pa.Table, settings: Settings) -> Markup:
         axes.set_xlabel(f"{fault.name}  ({fault.unit})")
         axes.set_ylabel("mean RMS of the phase currents  (mA)")
         buffer = io.StringIO()
-        drawn.savefig(buffer, format="svg", metadata={"Date": None})
+        save(drawn, buffer, "svg")
     data = f"{fault.symbol},rms_mean\n" + "".join(f"{x:.9g},{y:.9g}\n" for x, y in zip(severity, rms, strict=True))
     caption = f"One point a test, {len(severity)} of {len(results)}: what the nuisances do to the reading of the fault."
     return figure(buffer.getvalue(), "Mean RMS over the fault, one point a test", caption, ("sweep.csv", data))

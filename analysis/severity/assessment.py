@@ -18,6 +18,7 @@ from lacuna.analysis.settings import Band, Settings
 from lacuna.analysis.severity.prepared import Prepared
 from lacuna.analysis.severity.severity_table import Estimate
 from lacuna.analysis.spectra.chain import Chain, Features
+from lacuna.drawn import save
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -133,8 +134,8 @@ def write_drawn(done: Any, figure: Figure, out: Path, inputs: list[Path]) -> Non
     from lacuna.analysis.report.figures.style import in_style
 
     with in_style():
-        figure.savefig(out / "assessment.svg", metadata={"Date": None})
-        figure.savefig(out / "assessment.png")
+        for kind in ("svg", "png"):
+            save(figure, out / f"assessment.{kind}", kind)
     svg = (out / "assessment.svg").read_text(encoding="utf-8")
     page = report_html(done, svg, drawn_data(figure), inputs)
     (out / "report.html").write_text(page, encoding="utf-8")

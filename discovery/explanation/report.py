@@ -24,6 +24,7 @@ from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.law.locate import Located
 from lacuna.discovery.naming.judge import Judgement
 from lacuna.discovery.naming.name import Naming
+from lacuna.drawn import save
 
 
 def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
@@ -57,7 +58,7 @@ def _table(header: list[str], rows: list[list[object]]) -> str:
 def _svg(drawn: plt.Figure, title: str) -> str:
     buffer = io.StringIO()
     data = drawn_data(drawn)
-    drawn.savefig(buffer, format="svg", bbox_inches="tight", metadata={"Date": None})
+    save(drawn, buffer, "svg", bbox_inches="tight")
     plt.close(drawn)
     name = re.sub(r"\W+", "-", title).strip("-").lower()
     return figure_of(buffer.getvalue(), title, data=(f"{name}.csv", data))
