@@ -15,8 +15,9 @@ from lacuna.codegen.symbolic.differentiate import Differentiator
 from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, der
 
 
-def reduce_index(model: flat.FlatModel, equations: list[flat.Equation]) -> System:
-    """The index-1 (or 0) system that is equivalent to the continuous equations of `model`."""
+def reduce_index(model: flat.FlatModel, equations: list[flat.Equation], relations: int = 0) -> System:
+    """The index-1 (or 0) system that is equivalent to the continuous equations of `model`, which has so many relations
+    already."""
     names = [
         v.name
         for v in model.variables.values()
@@ -25,7 +26,7 @@ def reduce_index(model: flat.FlatModel, equations: list[flat.Equation]) -> Syste
     rows = [Row(e.lhs, e.rhs, e) for e in equations]
     require_regular(rows, names, model)
     rows = _Pantelides(model, rows, names).run()
-    return choose_states(model, rows, names)
+    return choose_states(model, rows, names, relations)
 
 
 def base_name(n: Expr) -> str:
