@@ -15,7 +15,7 @@ run_ctest = ctest --test-dir $(1) --output-on-failure -j 2 > $(1)/ctest.log && t
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*' ':!:fmi/standard/*')
 
 .PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined prognosis tolerance-study \
-        prove-machines figures wheel vsix examples belts hybrid msl compliance format lint sanitize ctest pytest lock clean
+        prove-machines figures docs wheel vsix examples belts hybrid msl compliance format lint sanitize ctest pytest lock clean
 
 help: ## Print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -85,6 +85,10 @@ tolerance-study: setup ## Justify the map's tolerance, writes docs/tolerance.md
 
 msl: setup ## Every example of the Modelica Standard Library, translated, simulated, compared (long), writes docs/msl.md
 	@$(PYTHON) -m bench.msl --page
+
+docs: setup ## The documentation site, into out/docs/ (a warning or an older number is an error)
+	@NO_MKDOCS_2_WARNING=1 LACUNA_CACHE=$(abspath $(BUILD))/cache $(PYTHON) -m mkdocs --quiet build --site-dir $(abspath $(OUT))/docs
+	@echo "written: $(OUT)/docs/index.html; searchable by: python3 -m http.server -d $(OUT)/docs --bind 127.0.0.1"
 
 wheel: setup ## A wheel and an sdist, into out/dist/
 	@$(PYTHON) -m build --no-isolation --outdir $(OUT)/dist . > $(BUILD)/wheel.log || { cat $(BUILD)/wheel.log; exit 1; }

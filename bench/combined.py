@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 
 from bench.progress import progress_bar
+from bench.report import stamp
 from lacuna.analysis.map.maps import build_map
 from lacuna.analysis.map.plant import ModelPlant
 from lacuna.analysis.settings import load_settings
@@ -37,6 +38,7 @@ def main() -> None:
         with progress_bar(f"tests with {other.name}") as progress:
             studies.append(run_study(plant, grid, alone, arguments.tests, progress))
     write_studies(studies, arguments.docs)
+    stamp(arguments.docs / "combined.md", "make combined")
     print(f"written: {arguments.docs / 'combined.md'}")
 
 

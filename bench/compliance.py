@@ -15,6 +15,7 @@ import re
 
 from bench import isolated
 from bench.msl import first_finding
+from bench.report import stamp
 from lacuna.codegen import cache
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.errors import Diagnostic
@@ -131,6 +132,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     print(table(verdicts, results))
     if chosen.page:
         (ROOT / "docs" / "compliance.md").write_text(page(verdicts, results))
+        stamp(ROOT / "docs" / "compliance.md", "make compliance")
 
 
 if __name__ == "__main__":

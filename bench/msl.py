@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from bench import isolated, msl_page
+from bench.report import stamp
 from bench.trajectories import deviation, read_reference
 from lacuna.codegen.compile import compile_model, translate
 from lacuna.codegen.errors import Diagnostic
@@ -124,6 +125,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if chosen.page:
         goal, further = ({p: names[p] for p in part} for part in (PACKAGES, FURTHER))
         msl_page.write(ROOT / "docs" / "msl.md", goal, further, results)
+        stamp(ROOT / "docs" / "msl.md", "make msl")
     if chosen.names:
         for name, outcome in results.items():
             print(name, *(f"  {k}: {v}" for k, v in outcome.items() if k != "generator"), sep="\n")

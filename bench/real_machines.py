@@ -12,6 +12,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+from bench.report import stamp
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case import cases
 from lacuna.discovery.case.cases import Case, Recording
@@ -126,6 +127,7 @@ def main() -> None:
     page = PAGE.read_text(encoding="utf-8")
     before, rest = page.split(BEGIN)
     PAGE.write_text(f"{before}{BEGIN}\n{table(results)}\n{END}{rest.split(END)[1]}", encoding="utf-8")
+    stamp(PAGE, "make real-machines")
     print(f"written: {PAGE.relative_to(ROOT)} and its figures")
 
 

@@ -7,9 +7,12 @@ import csv
 import json
 from pathlib import Path
 import platform
+import re
 
 from rich.console import Console
 from rich.table import Table
+
+import lacuna
 
 Row = dict[str, object]
 WIDTH = 120  # columns, where the terminal has fewer or there is none
@@ -31,6 +34,12 @@ def _text(value: object) -> str:
     if isinstance(value, float):
         return f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
     return str(value)
+
+
+def stamp(page: Path, command: str) -> None:
+    """Say in the first lines of a written page of docs/ which command wrote it, and of which version."""
+    text = re.sub(r"\A---\n.*?\n---\n", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+    page.write_text(f"---\ncommand: {command}\nversion: {lacuna.__version__}\n---\n{text}", encoding="utf-8")
 
 
 def write_csv(path: Path, rows: Sequence[Row]) -> None:

@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 
 from bench.progress import progress_bar
+from bench.report import stamp
 from lacuna.analysis.map.maps import build_map
 from lacuna.analysis.map.plant import ModelPlant
 from lacuna.analysis.report.robustness import write_study
@@ -38,6 +39,7 @@ def main() -> None:
         for stranger in settings.raw.get("strangers", [])
     ]
     write_study(settings, results, strangers, arguments.docs)
+    stamp(arguments.docs / "robustness.md", "make robustness")
     print(f"written: {arguments.docs / 'robustness.md'}")
 
 

@@ -6,7 +6,7 @@ forms of the model, at two steps that must agree with each other first.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 import os
@@ -15,6 +15,7 @@ import time
 
 import numpy as np
 
+from bench.report import stamp
 from lacuna import runtime
 from lacuna.analysis.settings import Settings, load_settings
 from lacuna.analysis.spectra.chain import Chain
@@ -153,11 +154,13 @@ def draw(found: Findings, path: Path) -> None:
         pyplot.close(figure)
 
 
-def main(write: Callable[[str], object] = (ROOT / "docs" / "tolerance.md").write_text) -> None:
+def main() -> None:
     found = measure([round(0.02 * k, 2) for k in range(26)])
     draw(found, ROOT / "docs" / "figures" / "tolerance.svg")
     text = page(found)
-    write(text)
+    target = ROOT / "docs" / "tolerance.md"
+    target.write_text(text, encoding="utf-8")
+    stamp(target, "make tolerance-study")
     print(text)
 
 

@@ -15,7 +15,7 @@ from lacuna.cli.answer import Answer, answered
 def examples(
     folder: Annotated[Path, typer.Argument(help="Where to put them")] = Path("lacuna-examples"),
 ) -> Answer:
-    """Copy three ready examples: a small model, a case with something missing, a recorded pre-flight test."""
+    """Copy a small model, a case with something missing, a recorded pre-flight test, and the package of all models."""
     copied = lacuna.copy_examples(folder)
     return Answer({"folders": [str(path) for path in copied]}, [], list(copied))
 

@@ -108,14 +108,18 @@ def _conclude_from_findings(result: Explanation) -> None:
         result.verdict = "missing_physics"
 
 
+def _efforts(result: Explanation) -> list[float]:
+    """What an unknown effort at each place of the equations explains."""
+    return [s.gain for s in result.opened.sites if s.place is not None] if result.opened else []
+
+
 def _equations_may_be_wrong(result: Explanation) -> bool:
     """Whether a sensor would be accused though places in the equations explain as much, or could not be tried."""
-    found = result.opened
-    if found is None or not found.sites:
+    efforts = _efforts(result)
+    if not efforts:
         return not result.amendment.structure.open
-    efforts = [s.gain for s in found.sites if s.place is not None]
-    sensors = [s.gain for s in found.sites if s.place is None]
-    return bool(efforts) and max(efforts) > max(sensors) - INDIFFERENT
+    sensors = [s.gain for s in result.opened.sites if s.place is None]
+    return max(efforts) > max(sensors) - INDIFFERENT
 
 
 def _withdraw(result: Explanation, best: Ranked) -> None:
@@ -123,13 +127,19 @@ def _withdraw(result: Explanation, best: Ranked) -> None:
     result.verdict = "undetermined"
     result.reason = f"{best.attachment.label} fits best, but " + (
         f"an effort at {_first_place(result)} explains as much, for which no law was found"
-        if result.opened and result.opened.sites
-        else f"no place in the equations of {result.case.model} was open to this search"
-        + (f" ({result.opened.reason})" if result.opened and result.opened.reason else "")
-        + ": it may as well be physics"
+        if _efforts(result)
+        else f"no place in the equations of {result.case.model} was open to this search{_why_closed(result)}: "
+        "it may as well be physics"
     )
     result.experiment = "record the same motion with the quantities that are not recorded now"
     _believe_again(result)
+
+
+def _why_closed(result: Explanation) -> str:
+    if result.opened is None:
+        return ""
+    reasons = [result.opened.reason] if result.opened.reason else [f"{at}: {why}" for at, why in result.opened.closed]
+    return f" ({reasons[0]})" if reasons else ""
 
 
 def _believe_again(result: Explanation) -> None:

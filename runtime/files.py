@@ -152,5 +152,20 @@ def read_csv(path: str | Path) -> tuple[dict[str, np.ndarray], dict]:
     if table.size and table.shape[1] != len(header):
         raise SimulationError(f"{path}: {len(header)} names for {table.shape[1]} columns")
     columns = table.T if table.size else np.empty((len(header), 0))
+    return dict(zip(header, columns, strict=True)), read_metadata(path)
+
+
+def read_metadata(path: Path) -> dict:
+    """What the .meta.json beside `path` says; {} where there is none, or where it is not one of ours.
+
+    Raises SimulationError where it is damaged.
+    """
     meta = meta_path(path)
-    return dict(zip(header, columns, strict=True)), json.loads(meta.read_text("utf-8")) if meta.exists() else {}
+    if not meta.exists():
+        return {}
+    try:
+        said = json.loads(meta.read_text(encoding="utf-8"))
+    except ValueError as error:
+        raise SimulationError(f"{meta}: {error}") from error
+    ours = isinstance(said, dict) and said.get("format") == FORMAT and isinstance(said.get("columns"), dict)
+    return said if ours else {}

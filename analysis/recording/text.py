@@ -7,6 +7,7 @@ field is a missing sample, and anything else ends with file, line and column.
 from __future__ import annotations
 
 import codecs
+from collections.abc import Sequence
 import csv
 from dataclasses import dataclass
 import io
@@ -17,6 +18,8 @@ import re
 import numpy as np
 
 from lacuna.analysis.recording.channel import Recorded, RecordingError, from_table, on_one_time
+from lacuna.runtime.errors import SimulationError
+from lacuna.runtime.files import read_metadata
 
 _SEPARATORS = (",", ";", "\t", "|")
 _SAMPLE = 200  # lines that decide the dialect
@@ -51,8 +54,19 @@ class TextTable:
 def read(path: Path) -> Recorded:
     """The channels of a text table, one of whose columns is time. Raises RecordingError."""
     table = read_text(path)
+    units = tuple(own or beside for own, beside in zip(table.units, _units_beside(path, table.header), strict=True))
     above = [f"{table.skipped} lines above the header were passed over"] if table.skipped else []
-    return from_table(path, table.header, table.units, table.values, above)
+    return from_table(path, table.header, units, table.values, above)
+
+
+def _units_beside(path: Path, header: Sequence[str]) -> Sequence[str]:
+    """Units of columns as the .meta.json of a simulated result says them; "" where there is no such file."""
+    try:
+        columns = read_metadata(path).get("columns", {})
+    except SimulationError as error:
+        raise RecordingError(str(error)) from None
+    said = (columns.get(name) for name in header)
+    return [str(column.get("unit", "")) if isinstance(column, dict) else "" for column in said]
 
 
 def read_text(path: Path) -> TextTable:

@@ -13,6 +13,7 @@ import numpy as np
 from bench.prognosis import bounds, page, study
 from bench.prognosis.fleet import Part, Readings, part
 from bench.prognosis.truth import KNOWN, UNKNOWN
+from bench.report import stamp
 import lacuna
 from lacuna.analysis.files import load_arrays
 from lacuna.analysis.map.maps import build_map
@@ -63,6 +64,7 @@ def main() -> None:
     text = measured(parts, past, arguments.seed)
     arguments.docs.mkdir(parents=True, exist_ok=True)
     (arguments.docs / "prognosis.md").write_text(text, encoding="utf-8")
+    stamp(arguments.docs / "prognosis.md", "make prognosis")
     print(f"written: {arguments.docs / 'prognosis.md'}")
 
 

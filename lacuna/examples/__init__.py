@@ -1,4 +1,4 @@
-"""Three examples to begin with: a small model, a case with something missing, a recorded pre-flight test.
+"""Examples to begin with: a small model, a case with something missing, a recorded pre-flight test; and the equations.
 
 The recordings are simulated, with noise, by `make examples`.
 """
@@ -10,6 +10,7 @@ import shutil
 
 HERE = Path(__file__).parent
 NAMES = ("first-model", "missing-physics", "preflight")
+LIBRARY = "Lacuna"  # the package of all models, to be edited: `-L FOLDER/Lacuna` uses the copy
 
 
 class ExamplesError(Exception):
@@ -19,12 +20,17 @@ class ExamplesError(Exception):
 
 
 def copy_examples(folder: str | Path) -> list[Path]:
-    """Copy the examples into `folder`, which is made, and return the folder of each. Nothing is overwritten.
+    """Copy the examples and the package Lacuna into `folder`, which is made, and return the folder of each.
+    Nothing is overwritten.
 
     Raises ExamplesError where one of them is there already.
     """
+    from lacuna.codegen.library.search_path import MODEL_FOLDER
+
     folder = Path(folder)
-    there = [folder / name for name in NAMES if (folder / name).exists()]
+    sources = {folder / name: HERE / name for name in NAMES} | {folder / LIBRARY: MODEL_FOLDER}
+    there = [target for target in sources if target.exists()]
     if there:
         raise ExamplesError(f"{there[0]} is there already; choose another folder")
-    return [Path(shutil.copytree(HERE / name, folder / name)) for name in NAMES]
+    only_models = shutil.ignore_patterns("README.md")  # which is of our tree
+    return [Path(shutil.copytree(source, target, ignore=only_models)) for target, source in sources.items()]

@@ -183,3 +183,23 @@ def test_unequal_vectors_are_refused(tmp_path: Path) -> None:
     savemat(tmp_path / "u.mat", {"time": np.arange(5.0), "a": np.arange(4.0)})
     with pytest.raises(RecordingError, match="differ in length: time 5, a 4"):
         read_recorded(tmp_path / "u.mat")
+
+
+def simulated(path: Path) -> Path:
+    path.write_text("time,w\n0,1\n1,2\n")
+    path.with_suffix(".meta.json").write_text(
+        '{"format": "lacuna-result-1", "columns": {"w": {"unit": "rad/s"}, "time": 7}}'
+    )
+    return path
+
+
+def test_units_of_a_simulated_result_come_from_the_file_beside_it(tmp_path: Path) -> None:
+    (speed,) = read_recorded(simulated(tmp_path / "run.csv")).channels
+    assert (speed.name, speed.unit) == ("w", "rad/s")
+
+
+def test_a_damaged_file_of_units_is_refused_by_name(tmp_path: Path) -> None:
+    path = simulated(tmp_path / "run.csv")
+    path.with_suffix(".meta.json").write_text('{"format": ')
+    with pytest.raises(RecordingError, match=r"run\.meta\.json"):
+        read_recorded(path)

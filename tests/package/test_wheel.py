@@ -5,9 +5,9 @@ Needs the package index, as the set-up of a checkout does. What it installs come
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -17,7 +17,7 @@ import zipfile
 import pytest
 
 ROOT = Path(__file__).parents[2]
-OWN = Path("lacuna")
+README = (ROOT / "README.md").read_text(encoding="utf-8")
 # One xdist worker builds once for all tests of this file.
 pytestmark = [pytest.mark.xdist_group("wheel"), pytest.mark.timeout(900)]  # the set-up counts in the first test's time
 
@@ -129,15 +129,27 @@ def test_a_missing_extra_is_named_in_one_line(empty: Path, place: Path, command:
     assert "Traceback" not in said
 
 
-def test_every_command_runs_from_another_folder(whole: Path, place: Path) -> None:
-    lacuna = whole / "lacuna"
-    run(lacuna, "examples", "Beispiele", cwd=place)
-    run(lacuna, "simulate", "Beispiele/first-model/Winch.mo", "-u", "u=12", "--plot", cwd=place)
-    run(lacuna, "maps", "--prepare", "--out", "Karte", cwd=place)
-    assert json.loads((place / "Karte" / "summary.json").read_text(encoding="utf-8"))
-    said = run(lacuna, "assess", "Beispiele/preflight/test.csv", "--map", "Karte", cwd=place)
-    assert "moderate mode" in said  # the test was made at 22 %
-    said = run(lacuna, "explain", "Beispiele/missing-physics", cwd=place)
-    assert "dry friction" in said
-    run(lacuna, "sweep", "--points", "4", "--chunk", "2", "--out", "Streuung", cwd=place)
+def edited_as_the_tour_says(folder: Path) -> None:
+    old, new = re.search(r"```diff\n-(.*)\n\+(.*)\n```", README).groups()
+    file = folder / "lacuna-examples/Lacuna/Components/Drives/StarWinding.mo"
+    text = file.read_text(encoding="utf-8")
+    assert text.count(old) == 1
+    file.write_text(text.replace(old, new), encoding="utf-8")
+
+
+def test_the_readmes_ten_minutes_typed_from_the_wheel(whole: Path, place: Path) -> None:
+    said = {}
+    for line in re.findall(r"^    (lacuna [^#\n]*)", README, re.MULTILINE):
+        command = shlex.split(line)
+        if command[1:3] == ["maps", "-L"]:
+            edited_as_the_tour_says(place)
+        said[command[1]] = run(whole / command[0], *command[1:], cwd=place)
+    assert set(said) == {"examples", "simulate", "maps", "compile", "assess", "explain", "case"}
+    assert "moderate mode" in said["assess"]  # the test was made at 22 %
+    assert "dry friction" in said["explain"]
+    assert (place / "my-case/case.toml").is_file()
+
+
+def test_a_sweep_runs_from_another_folder(whole: Path, place: Path) -> None:
+    run(whole / "lacuna", "sweep", "--points", "4", "--chunk", "2", "--out", "Streuung", cwd=place)
     assert (place / "Streuung" / "results.parquet").exists()

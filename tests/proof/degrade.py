@@ -12,6 +12,7 @@ from dataclasses import replace
 import os
 from pathlib import Path
 
+import lacuna
 from tests.proof.__main__ import EXPLAIN
 from tests.proof.case import Case, noise_std
 from tests.proof.generate import build, judge
@@ -90,7 +91,12 @@ def _page(words: dict[tuple[str, str], str], seed: int, version: str) -> str:
     count = Counter(words.values())
     wrong = sum("**" in w for w in words.values())
     return (
-        f"""# How the diagnosis degrades
+        f"""---
+command: make degrade
+version: {lacuna.__version__}
+state: {version}
+---
+# How the diagnosis degrades
 
 Written by `make degrade` (seed {seed}) of the tool's version `{version}` (a hash of its code and models). The same
 recordings with more noise, cut short, and without the current.

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+import lacuna
 from tests.proof.score import (
     CONCEALED,
     NULL,
@@ -161,7 +162,12 @@ def page(tool: Sequence[Score], usual: Sequence[Score], seed: int, all_cases: in
     """docs/proof.md as text; `version` is the hash of the tool's code and models that made the diagnoses."""
     effects = {e for s in tool if s.kind in ("effect", "two") for e in s.effects}
     counts = _table(("cases", "with"), [(str(sum(s.kind == k for s in tool)), text) for k, text in KINDS.items()])
-    return f"""# The proof: cases that nobody tuned
+    return f"""---
+command: make prove
+version: {lacuna.__version__}
+state: {version}
+---
+# The proof: cases that nobody tuned
 
 Written by `python -m tests.proof --seed {seed}` of the tool's version `{version}` (a hash of its code and models): what
 has changed since is not in these figures. An independent simulator (`tests/proof/`, no code shared with the generator

@@ -19,7 +19,7 @@ from lacuna.codegen.structure.constants import is_parametric
 from lacuna.codegen.structure.index.dynamic_states import Group, Selection
 from lacuna.codegen.structure.index.pivots import Elimination, Pivot, base_of, text_of
 from lacuna.codegen.structure.nominal import infer, told
-from lacuna.codegen.structure.system import DeclaredValues, DefinedValues, Row, System
+from lacuna.codegen.structure.system import DeclaredValues, DefinedValues, GenericValues, Row, System
 from lacuna.codegen.symbolic.differentiate import partial
 from lacuna.codegen.symbolic.expr import ONE, Expr, add, const, der, maximum, mul, relation, var
 from lacuna.codegen.symbolic.rewrite import Rewriter, all_statements
@@ -32,10 +32,7 @@ def choose_states(model: flat.FlatModel, rows: list[Row], names: list[str], rela
     """Select dummy derivatives among `rows` and return the system in the remaining states. `relations`: how many the
     model has, which those of a dynamic choice are counted from."""
     variables = _variables(rows, names)
-    try:
-        choice = _Choice(model, variables, DeclaredValues(model)).of(rows)
-    except Diagnostic:
-        choice = _Choice(model, variables, DefinedValues(model, rows)).of(rows)
+    choice = _first_choice(model, rows, variables)
     model = replace(model, asserts=[*model.asserts, *choice.watches])
     system = _system(model, rows, names, variables, choice, [])
     if not choice.groups:
@@ -46,6 +43,16 @@ def choose_states(model: flat.FlatModel, rows: list[Row], names: list[str], rela
     more = {name: v for s in selections for name, v in s.variables.items()}
     model = replace(model, variables=model.variables | more, algorithms=[*model.algorithms, *algorithms])
     return _system(model, rows, names, variables, choice, selections)
+
+
+def _first_choice(model: flat.FlatModel, rows: list[Row], variables: dict[Expr, int]) -> _Choice:
+    """At the start values as far as they tell; else at those of their neighbourhood."""
+    for values in (DeclaredValues(model), DefinedValues(model, rows)):
+        try:
+            return _Choice(model, variables, values).of(rows)
+        except Diagnostic:
+            continue
+    return _Choice(model, variables, GenericValues(model, rows)).of(rows)
 
 
 def _system(

@@ -10,17 +10,19 @@ from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.aliases import STATE_SELECT
 from lacuna.codegen.structure.constants import is_parametric
-from lacuna.codegen.structure.system import DeclaredValues, Row
+from lacuna.codegen.structure.system import DeclaredValues, GenericValues, Row
 from lacuna.codegen.symbolic.differentiate import partial
 from lacuna.codegen.symbolic.expr import Expr
 
 PIVOT = 1e-6  # smallest pivot accepted, relative to the largest entry of its equation
+ROUNDING = 1e-10  # of the largest number that entered a sum: at generic values what is smaller is a zero
 
 
 @dataclass
 class Entry:
     value: float
     varies: bool  # with the states; else with parameters only
+    summed: float = 0.0  # the largest number that entered the value
 
 
 @dataclass
@@ -48,6 +50,7 @@ class Elimination:
             scale = max((abs(e.value) for e in line.values()), default=0.0) or 1.0
             for e in line.values():
                 e.value /= scale
+                e.summed = abs(e.value)
         self._users: list[set[int]] = [set() for _ in candidates]
         for r, line in enumerate(self._matrix):
             for c in line:
@@ -58,6 +61,9 @@ class Elimination:
         slope = partial(row.residual, v)
         value = self._values(slope)
         return Entry(1.0 if value is None else float(value), not is_parametric(slope, self._model.variables))
+
+    def _is_pivot(self, e: Entry) -> bool:
+        return abs(e.value) > (ROUNDING * e.summed if isinstance(self._values, GenericValues) else PIVOT)
 
     def run(self, steady_first: bool = False) -> dict[Row, Pivot]:
         """For each row one of the candidates, with a regular Jacobian at the start values. `steady_first`: pivots that
@@ -71,7 +77,7 @@ class Elimination:
             return late, self._strength[c], -abs(self._matrix[r][c].value), -c, r
 
         matrix, chosen = self._matrix, {}
-        queue = [key(r, c) for r, line in enumerate(matrix) for c, e in line.items() if abs(e.value) > PIVOT]
+        queue = [key(r, c) for r, line in enumerate(matrix) for c, e in line.items() if self._is_pivot(e)]
         heapq.heapify(queue)
         while queue:
             found = heapq.heappop(queue)
@@ -94,9 +100,10 @@ class Elimination:
         for k, a in self._matrix[r].items():
             before = line.get(k, Entry(0.0, False))
             varies = before.varies or head.varies or pivot.varies or a.varies
-            line[k] = Entry(before.value - head.value / pivot.value * a.value, varies)
+            share = head.value / pivot.value * a.value
+            line[k] = Entry(before.value - share, varies, max(before.summed, abs(share)))
             self._users[k].add(other)
-            if abs(line[k].value) > PIVOT:
+            if self._is_pivot(line[k]):
                 changed.append(k)
         return changed
 
