@@ -90,6 +90,7 @@ enum {
 };
 
 typedef struct rt_sensitivities rt_sensitivities; /* sensitivity.h */
+typedef struct rt_delays rt_delays;               /* delay.c */
 
 struct rt_session {
   const rt_model *model;
@@ -148,6 +149,7 @@ struct rt_session {
   double *division;           /* [2 n_divisions] numerators and divisors */
   signed char *division_sign; /* [n_divisions] of their products when they were last looked at; 0 not known */
   rt_recorder recorder;
+  rt_delays *delays;               /* NULL: the model has none */
   rt_sensitivities *sensitivities; /* NULL: none are asked for */
   int (*interrupted)(double time); /* asked now and then; NULL: never */
   long looks;
