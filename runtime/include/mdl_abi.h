@@ -28,7 +28,8 @@ typedef enum {
   MDL_FAILURE_DOMAIN,    /* argument outside a function's domain: sqrt, log, asin, division by zero ... */
   MDL_FAILURE_ASSERT,    /* assert(..., level = error) violated; `equation` indexes `asserts` */
   MDL_FAILURE_BOUND,     /* a parameter outside its min/max; `variable` says which */
-  MDL_FAILURE_LOOP       /* a while loop in a function ran too long */
+  MDL_FAILURE_LOOP,      /* a function ran too long: loops and calls inside each other */
+  MDL_FAILURE_STACK      /* functions called each other too deep, or hold arrays too large for the stack */
 } mdl_failure_kind;
 
 typedef struct {
@@ -58,6 +59,8 @@ typedef struct mdl_data {
   mdl_failure failure;
   double start_time; /* of the run; parameters may depend on it */
   double homotopy;   /* in initial_system(): 1 what homotopy() actually is, 0 what it is simplified to */
+  long stack;        /* bytes of the stack that functions of the model now hold, about; 0 outside of them */
+  long rounds;       /* loops' rounds and calls since the outermost function was entered */
 } mdl_data;
 
 typedef enum {

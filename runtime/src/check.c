@@ -48,8 +48,21 @@ static rt_status check_guards(rt_session *s) {
   return RT_OK;
 }
 
+/* An Integer that grew beyond what is exact, as by overflow in other tools. */
+static rt_status check_integers(rt_session *s) {
+  for (int i = 0; i < s->d->n_d; i++) {
+    if (!(fabs(s->data.d[i]) > RT_LARGEST_INTEGER)) continue;
+    int row = rt_find_row(s, MDL_DISCRETE, i);
+    if (row >= 0 && s->d->variables[row].type == MDL_INTEGER)
+      return rt_fail(s, RT_DOMAIN, s->t, row, NULL,
+                     "at time %.9g s the Integer %s is %.17g: beyond 2^53 not all are told apart", s->t,
+                     s->d->variables[row].name, s->data.d[i]);
+  }
+  return RT_OK;
+}
+
 static rt_status check_discrete(rt_session *s) {
-  if (rt_finite(s->d->n_d, s->data.d)) return RT_OK;
+  if (rt_finite(s->d->n_d, s->data.d)) return check_integers(s);
   int i = 0;
   while (isfinite(s->data.d[i]))
     i++;

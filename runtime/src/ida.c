@@ -97,7 +97,7 @@ static bool create_linear_solver(rt_session *s, rt_ida *m) {
     m->solver = m->matrix ? SUNLinSol_KLU(m->y, m->matrix, m->context) : NULL;
   } else {
     m->matrix = SUNDenseMatrix(n, n, m->context);
-    m->solver = m->matrix ? SUNLinSol_Dense(m->y, m->matrix, m->context) : NULL;
+    m->solver = m->matrix ? rt_dense_solver_new((int)n, m->context) : NULL;
   }
   return m->solver && IDASetLinearSolver(m->ida, m->solver, m->matrix) == IDA_SUCCESS &&
          IDASetJacFn(m->ida, jacobian) == IDA_SUCCESS;

@@ -107,6 +107,11 @@ rt_session *rt_session_new(const rt_model *model, const rt_options *options, cha
     snprintf(message, size, "solver %s needs a step (s) greater than zero", method->name);
     return NULL;
   }
+  if (options->rtol >= 1) {
+    snprintf(message, size, "a relative tolerance of %.9g keeps no digit: give one below 1, such as 1e-6",
+             options->rtol);
+    return NULL;
+  }
   rt_session *s = calloc(1, sizeof *s);
   if (!s) return NULL;
   s->model = model;
@@ -162,6 +167,9 @@ rt_status rt_session_parameters(rt_session *s, int n, const int *variables, cons
     if (!v || v->storage != MDL_PARAMETER || !v->settable) return refuse(s, "not a parameter that may be set");
     if (!(values[i] >= v->min && values[i] <= v->max))
       return rt_fail_bound(s, 0, variables[i], values[i], v->min, v->max);
+    if (!rt_has_type(v, values[i]))
+      return rt_fail(s, RT_ARGUMENT, 0, variables[i], NULL, "parameter %s cannot be %.17g: it is %s", v->name,
+                     values[i], v->type == MDL_BOOLEAN ? "Boolean (0 or 1)" : "of whole numbers up to 2^53");
     s->p_run[v->index] = v->sign * values[i];
   }
   return RT_OK;

@@ -169,6 +169,14 @@ static inline double rt_max(double a, double b) {
   return a > b ? a : b;
 }
 
+#define RT_LARGEST_INTEGER 9007199254740992.0 /* beyond, a double would round an Integer unseen */
+
+/* A value that a variable of this type can have, finite for sure. */
+static inline bool rt_has_type(const mdl_variable *v, double value) {
+  return isfinite(value) && (v->type == MDL_REAL || (value == floor(value) && fabs(value) <= RT_LARGEST_INTEGER &&
+                                                     (v->type == MDL_INTEGER || value == 0 || value == 1)));
+}
+
 static inline bool rt_finite(int n, const double *a) {
   double sum = 0;
   for (int i = 0; i < n; i++)
