@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 10
+#define MDL_ABI_VERSION 11
 
 typedef enum {
   MDL_FAILURE_NONE = 0,

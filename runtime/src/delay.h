@@ -4,6 +4,8 @@
 
 #include "session.h"
 
+typedef struct rt_delays rt_delays;
+
 bool rt_delays_create(rt_session *s);
 void rt_delays_free(rt_session *s);
 rt_status rt_delays_begin(rt_session *s); /* of a run */

@@ -90,7 +90,6 @@ enum {
 };
 
 typedef struct rt_sensitivities rt_sensitivities; /* sensitivity.h */
-typedef struct rt_delays rt_delays;               /* delay.c */
 
 struct rt_session {
   const rt_model *model;
@@ -149,7 +148,7 @@ struct rt_session {
   double *division;           /* [2 n_divisions] numerators and divisors */
   signed char *division_sign; /* [n_divisions] of their products when they were last looked at; 0 not known */
   rt_recorder recorder;
-  rt_delays *delays;               /* NULL: the model has none */
+  struct rt_delays *delays;        /* delay.c; NULL: the model has none */
   rt_sensitivities *sensitivities; /* NULL: none are asked for */
   int (*interrupted)(double time); /* asked now and then; NULL: never */
   long looks;
@@ -285,7 +284,6 @@ void rt_start_patience(rt_session *s);
 /* events.c */
 rt_status rt_event(rt_session *s);
 rt_status rt_iterate_event(rt_session *s);
-
 /* initialise.c */
 rt_status rt_initialise(rt_session *s);
 
