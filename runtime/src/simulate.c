@@ -3,6 +3,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "delay.h"
 #include "looks.h"
 #include "sensitivity.h"
 
@@ -125,9 +126,11 @@ static rt_status move_on(rt_session *s) {
 /* A step or a piece of one, up to the next event: what happens there is in s->pending. */
 rt_status rt_advance(rt_session *s) {
   rt_status status = look_up(s);
+  if (!status) status = rt_delays_leave(s);
   if (!status) status = move_on(s);
   if (!status) status = rt_find_state_event(s);
   if (!status) status = rt_tangent_follow(s);
+  if (!status) status = rt_delays_follow(s);
   if (!status) status = rt_check_asserts(s);
   if (!status) status = rt_check_point(s, false);
   if (status) return status;
@@ -140,6 +143,7 @@ rt_status rt_advance(rt_session *s) {
 rt_status rt_happen(rt_session *s) {
   if (!s->pending) return RT_OK;
   rt_status status = rt_event(s);
+  rt_delays_event(s);
   s->pending = 0;
   return status ? status : rt_check_point(s, true);
 }
