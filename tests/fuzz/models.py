@@ -1,4 +1,4 @@
-"""Models grown to be run: well posed more often than not, with states, relations, functions, discrete variables, resets.
+"""Models grown to be run: well posed more often than not, with states, relations, functions, discretes, resets.
 
 Three solvers that share nothing but the model (multistep implicit, explicit and linearly implicit one-step) must agree,
 or say that they could not: python -m tests.fuzz --seconds 600.
