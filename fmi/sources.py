@@ -19,6 +19,7 @@ _OTHERS = {
     "ida_tangent.c",
     "ida.h",
     "vector.c",
+    "dense_solver.c",
     "vector.h",
     "sundials_compat.h",
 }  # of the runtime: what needs SUNDIALS

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 10
+#define MDL_ABI_VERSION 11
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
@@ -202,6 +202,13 @@ typedef struct mdl_descriptor {
    * that is not affine. */
   int n_phases, curved_guards;
   int (*phases)(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *phase);
+
+  /* delay(e, T): input `delay_input[k]` is what value[k] was seconds[k] ago. `delays` gives e at a complete point,
+   * `delay_times` the times T, which only parameters decide. */
+  int n_delay;
+  const int *delay_input; /* [n_delay] */
+  int (*delay_times)(const mdl_data *m, double *seconds);
+  int (*delays)(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *value);
 } mdl_descriptor;
 
 typedef const mdl_descriptor *(*mdl_descriptor_fn)(void);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "delay.h"
 #include "sensitivity.h"
 
 /* With RT_OWN_METHODS the runtime is ours alone, without SUNDIALS: what an FMU carries as source. */
@@ -87,7 +88,8 @@ static bool allocate_session(rt_session *s) {
   s->inputs = calloc((size_t)s->d->n_u + 1, sizeof *s->inputs);
   s->clock.next = calloc((size_t)s->d->n_sample + 1, sizeof *s->clock.next);
   s->initial_index = calloc((size_t)s->d->n_x + 1, sizeof *s->initial_index);
-  return s->inputs && s->clock.next && s->initial_index && allocate_numbers(s) && allocate_flags(s);
+  return s->inputs && s->clock.next && s->initial_index && allocate_numbers(s) && allocate_flags(s) &&
+         rt_delays_create(s);
 }
 
 static void declared_parameters(rt_session *s) {
@@ -135,6 +137,7 @@ rt_session *rt_session_new(const rt_model *model, const rt_options *options, cha
 void rt_session_free(rt_session *s) {
   if (!s) return;
   rt_sensitivities_free(s);
+  rt_delays_free(s);
   if (s->memory) s->method->destroy(s->memory);
   free(s->inputs);
   free(s->clock.next);

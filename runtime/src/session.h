@@ -148,6 +148,7 @@ struct rt_session {
   double *division;           /* [2 n_divisions] numerators and divisors */
   signed char *division_sign; /* [n_divisions] of their products when they were last looked at; 0 not known */
   rt_recorder recorder;
+  struct rt_delays *delays;        /* delay.c; NULL: the model has none */
   rt_sensitivities *sensitivities; /* NULL: none are asked for */
   int (*interrupted)(double time); /* asked now and then; NULL: never */
   long looks;
@@ -283,7 +284,6 @@ void rt_start_patience(rt_session *s);
 /* events.c */
 rt_status rt_event(rt_session *s);
 rt_status rt_iterate_event(rt_session *s);
-
 /* initialise.c */
 rt_status rt_initialise(rt_session *s);
 
