@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from lacuna.progress import Progress
     from lacuna.results import IncompleteRun, Result
     from lacuna.verification import Verification, record_making, verify
+    from lacuna.watching import watch
 
 _HOMES = {
     "campaigns": ("Sweep", "sweep"),
@@ -54,6 +55,7 @@ _HOMES = {
     "prognosis": ("Prognosis", "forecast"),
     "results": ("IncompleteRun", "Result"),
     "verification": ("Verification", "record_making", "verify"),
+    "watching": ("watch",),
 }
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 
@@ -113,6 +115,7 @@ __all__ = [
     "serve_editor",
     "sweep",
     "verify",
+    "watch",
 ]
 
 
