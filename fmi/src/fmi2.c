@@ -185,24 +185,39 @@ fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time) {
   return status(fmu_set_time(c, time));
 }
 
+static bool counts(fmu *f, size_t n, int wanted) {
+  return n == (size_t)wanted || fmu_refuse(f, "%zu values where there are %d", n, wanted);
+}
+
 fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t n) {
-  return status(fmu_set_states(c, n, x));
+  fmu *f = c;
+  return status(counts(f, n, f->session->d->n_x) && fmu_set_states(f, x));
 }
 
 fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real xdot[], size_t n) {
-  return status(fmu_derivatives(c, n, xdot));
+  fmu *f = c;
+  if (!counts(f, n, f->session->d->n_x) || !fmu_refresh(f)) return fmi2Error;
+  memcpy(xdot, f->session->data.xdot, n * sizeof *xdot);
+  return fmi2OK;
 }
 
 fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real z[], size_t n) {
-  return status(fmu_indicators(c, n, z));
+  return status(counts(c, n, ((fmu *)c)->n_indicators) && fmu_indicators(c, z));
 }
 
 fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t n) {
-  return status(fmu_states(c, n, x));
+  fmu *f = c;
+  if (!counts(f, n, f->session->d->n_x) || !fmu_refresh(f)) return fmi2Error;
+  memcpy(x, f->session->data.x, n * sizeof *x);
+  return fmi2OK;
 }
 
 fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real nominals[], size_t n) {
-  return status(fmu_nominals(c, n, nominals));
+  fmu *f = c;
+  if (!counts(f, n, f->session->d->n_x) || !fmu_refresh(f)) return fmi2Error;
+  for (size_t i = 0; i < n; i++)
+    nominals[i] = fmu_nominal(f, (int)i);
+  return fmi2OK;
 }
 
 fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference references[], size_t n,

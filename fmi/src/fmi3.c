@@ -175,24 +175,39 @@ fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time) {
   return status(fmu_set_time(instance, time));
 }
 
+static bool counts(fmu *f, size_t n, int wanted) {
+  return n == (size_t)wanted || fmu_refuse(f, "%zu values where there are %d", n, wanted);
+}
+
 fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 x[], size_t n) {
-  return status(fmu_set_states(instance, n, x));
+  fmu *f = instance;
+  return status(counts(f, n, f->session->d->n_x) && fmu_set_states(f, x));
 }
 
 fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 xdot[], size_t n) {
-  return status(fmu_derivatives(instance, n, xdot));
+  fmu *f = instance;
+  if (!counts(f, n, f->session->d->n_x) || !fmu_refresh(f)) return fmi3Error;
+  memcpy(xdot, f->session->data.xdot, n * sizeof *xdot);
+  return fmi3OK;
 }
 
 fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 z[], size_t n) {
-  return status(fmu_indicators(instance, n, z));
+  return status(counts(instance, n, ((fmu *)instance)->n_indicators) && fmu_indicators(instance, z));
 }
 
 fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 x[], size_t n) {
-  return status(fmu_states(instance, n, x));
+  fmu *f = instance;
+  if (!counts(f, n, f->session->d->n_x) || !fmu_refresh(f)) return fmi3Error;
+  memcpy(x, f->session->data.x, n * sizeof *x);
+  return fmi3OK;
 }
 
 fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 nominals[], size_t n) {
-  return status(fmu_nominals(instance, n, nominals));
+  fmu *f = instance;
+  if (!counts(f, n, f->session->d->n_x) || !fmu_refresh(f)) return fmi3Error;
+  for (size_t i = 0; i < n; i++)
+    nominals[i] = fmu_nominal(f, (int)i);
+  return fmi3OK;
 }
 
 fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *n) {

@@ -75,14 +75,11 @@ bool fmu_directional(fmu *f, size_t n_unknowns, const unsigned *unknowns, size_t
 bool fmu_enter_event(fmu *f);
 bool fmu_happen(fmu *f, fmu_news *news);
 bool fmu_set_time(fmu *f, double time);
-/* Of the continuous states and the indicators; all refuse a count that is not theirs. */
-bool fmu_set_states(fmu *f, size_t n, const double *x);
-bool fmu_states(fmu *f, size_t n, double *x);
-bool fmu_derivatives(fmu *f, size_t n, double *xdot);
-bool fmu_nominals(fmu *f, size_t n, double *nominals);
-bool fmu_indicators(fmu *f, size_t n, double *z);
+bool fmu_set_states(fmu *f, const double *x);
+bool fmu_indicators(fmu *f, double *z);
 bool fmu_completed_step(fmu *f, bool *event, bool *terminate);
 bool fmu_leave_event(fmu *f);
+double fmu_nominal(const fmu *f, int state);
 
 /* fmu_step.c: co-simulation. `event`: stopped before an event that the importer is to let happen. */
 bool fmu_step(fmu *f, double from, double size, bool may_stop, bool *event);
