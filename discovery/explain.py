@@ -26,9 +26,9 @@ from lacuna.discovery.fit.evidence import (
     settled,
     whiteness,
 )
-from lacuna.discovery.fit.foretold import foretold
 from lacuna.discovery.fit.time_limit import within
 from lacuna.discovery.naming.comparison import Ranked
+from lacuna.discovery.naming.foretold import foretold
 from lacuna.discovery.naming.judge import judge_file
 from lacuna.discovery.steps import add_findings, add_fit, add_location, add_scatter, opened
 
@@ -136,10 +136,13 @@ def _efforts(result: Explanation) -> list[float]:
 
 
 def _equations_may_be_wrong(result: Explanation) -> bool:
-    """Whether a sensor would be accused though places in the equations explain as much, or could not be tried."""
+    """Whether a sensor would be accused though places in the equations explain as much, or could not be tried, or
+    though far more than noise is left."""
     efforts = _efforts(result)
     if not efforts:
         return not result.amendment.structure.open
+    if astray(result.final):
+        return True
     sensors = [s.gain for s in result.opened.sites if s.place is None]
     return max(efforts) > max(sensors) - INDIFFERENT
 
@@ -148,7 +151,9 @@ def _withdraw(result: Explanation, best: Ranked) -> None:
     """A sensor is not accused where nothing else could be: the believed model stands, and the reason says so."""
     result.verdict = "undetermined"
     result.reason = f"{best.attachment.label} fits best, but " + (
-        f"an effort at {_first_place(result)} explains as much, for which no law was found"
+        "leaves far more than noise, and no law was found in the equations"
+        if _efforts(result) and astray(result.final)
+        else f"an effort at {_first_place(result)} explains as much, for which no law was found"
         if _efforts(result)
         else f"no place in the equations of {result.case.model} was open to this search{_why_closed(result)}: "
         "it may as well be physics"

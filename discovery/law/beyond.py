@@ -11,10 +11,10 @@ from dataclasses import replace
 
 from lacuna.discovery.fit.evidence import like_noise, nearly_noise, pays
 from lacuna.discovery.fit.fit import Fit, carried
-from lacuna.discovery.fit.left_out import left_out
 from lacuna.discovery.law.empirical_law import GROUPS, find
 from lacuna.discovery.naming.comparison import MIN_GAIN, Ranked, price, score
 from lacuna.discovery.naming.judge import try_judge
+from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Naming
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.discovery.naming.search import Finding, Search

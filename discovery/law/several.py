@@ -14,9 +14,9 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.find import find
 from lacuna.discovery.fit.evidence import nearly_noise, pays
 from lacuna.discovery.fit.fit import Fit, linearised
-from lacuna.discovery.fit.left_out import left_out
 from lacuna.discovery.naming.comparison import MIN_GAIN, Ranked, score
 from lacuna.discovery.naming.judge import Judgement, try_judge
+from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Naming
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.discovery.naming.search import MAX_FINDINGS, Finding, Search

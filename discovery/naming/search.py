@@ -19,11 +19,11 @@ from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.fit.evidence import astray, holds, nearly_noise, pays, settled
 from lacuna.discovery.fit.fit import Fit, carried, fit, linearised
 from lacuna.discovery.fit.lead import Lead
-from lacuna.discovery.fit.left_out import left_out
 from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.objective import STAGES
 from lacuna.discovery.naming.comparison import CLOSE, MIN_GAIN, TIE, Ranked, confidences, price, score
 from lacuna.discovery.naming.judge import Judgement, try_judge
+from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Naming, compete, rank, screen_all
 from lacuna.discovery.naming.screen import Candidate
 

@@ -8,7 +8,7 @@ import pytest
 from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.least_squares import Estimate, Free
-from lacuna.discovery.fit.left_out import STRETCHES, left_out_residuals
+from lacuna.discovery.naming.left_out import STRETCHES, left_out_residuals
 
 NOISE, LEVEL = Noise(0.1, 0.0, True), 3.0
 BELIEF = Free("b", 2.0, 0.5, sigma=0.5)

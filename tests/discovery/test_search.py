@@ -17,12 +17,12 @@ from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.explain import explain
 from lacuna.discovery.fit.fit import Fit, fit
 from lacuna.discovery.fit.lead import Lead
-from lacuna.discovery.fit.left_out import left_out
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.time_limit import TimeUp
 from lacuna.discovery.naming import search as searching
 from lacuna.discovery.naming.comparison import Ranked
 from lacuna.discovery.naming.judge import judge, noise_floor
+from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Naming
 from lacuna.discovery.naming.race import _enriched, best_starts, first_round, in_the_race
 from lacuna.discovery.naming.restarts import _shared
