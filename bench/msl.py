@@ -72,8 +72,9 @@ def measure(name: str, folder: Path, units: str) -> dict[str, object]:
     wanted = [n for n in reference.signals if n not in missing] if reference else None
     recorded = [n for n in wanted if model.variables[n].kind != "parameter"] if reference else []
     try:
-        session = Session(model, outputs=recorded, output_times=reference.grid if reference else None, events=False)
-        result = session.run()
+        grid = reference.grid if reference else None
+        session = Session(model, outputs=recorded, output_times=grid, events=False)
+        result = session.run(stop=max(model.stop_time, reference.time[-1]) if reference else None)
     except SimulationError as error:
         return {"status": "failed", "message": str(error)}
     if not result.complete:

@@ -10,7 +10,8 @@ HEAD = """# The Modelica Standard Library, as it is
 
 Written by `make msl`: every example of these packages of version 4.1.0, unmodified, at default settings. *Right* means:
 every signal that the library's own list of comparison signals names is within 1e-3 of its range of the trajectory that
-the library's maintainers publish, outside a band of one output interval round the times at which that signal jumps.
+the library's maintainers publish, outside a band of one output interval round the times at which that signal jumps, the
+rounding of times written with eight digits aside.
 About half of the examples have such a trajectory here; the others can only be seen to run.
 
 | package | examples | translated | simulated | with a reference | right |

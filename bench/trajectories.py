@@ -18,10 +18,20 @@ class Reference:
 
     time: np.ndarray
     signals: dict[str, np.ndarray]
+    digits: int  # significant ones that times are written with
 
     @property
     def grid(self) -> np.ndarray:
-        return np.unique(self.time)
+        """Every time, and both ends of what it may stand for where it is that of an event."""
+        events = self.time[np.flatnonzero(np.diff(self.time) == 0)]
+        off = self.rounding(events)
+        around = np.clip(np.concatenate([events - off, events + off]), self.time[0], self.time[-1])
+        return np.unique(np.concatenate([self.time, around]))
+
+    def rounding(self, time: np.ndarray) -> np.ndarray:
+        """By how much `time` may have been rounded when it was written (s)."""
+        size = np.floor(np.log10(np.abs(time), out=np.zeros_like(time), where=time != 0))
+        return np.where(time != 0, 0.5 * 10.0 ** (size + 1 - self.digits), 0.0)
 
 
 def read_reference(path: Path) -> Reference:
@@ -29,8 +39,10 @@ def read_reference(path: Path) -> Reference:
     with path.open(newline="") as file:
         rows = csv.reader(file)
         names = next(rows)
-        table = np.array([[float(x) for x in row] for row in rows])
-    return Reference(table[:, 0], {name: table[:, k] for k, name in enumerate(names) if k})
+        written = list(rows)
+    table = np.array([[float(x) for x in row] for row in written])
+    digits = max(len(row[0].lower().split("e")[0].replace(".", "").lstrip("0")) for row in written)
+    return Reference(table[:, 0], {name: table[:, k] for k, name in enumerate(names) if k}, digits)
 
 
 def scale_of(values: np.ndarray) -> float:
@@ -43,7 +55,8 @@ def deviation(reference: Reference, name: str, time: np.ndarray, values: np.ndar
     """The largest |values - reference| in units of the signal's range, outside a band of one output interval round
     each time at which the reference of this signal jumps. Infinite where a value is no number or rows are missing.
 
-    `time` increases strictly and lies on the reference's grid.
+    `time` increases strictly and lies on the reference's grid. A time that was rounded when it was written stands for
+    all that it may have been: the reference may have any value that the signal has there.
     """
     wanted = reference.signals[name]
     scale = scale_of(wanted)
@@ -54,8 +67,10 @@ def deviation(reference: Reference, name: str, time: np.ndarray, values: np.ndar
     interval = float(np.median(np.diff(grid)))
     at_event = np.flatnonzero(np.diff(reference.time) == 0)
     jumps = reference.time[at_event[np.abs(wanted[at_event + 1] - wanted[at_event]) > JUMP * scale]]
-    found = np.interp(grid, time, values)
+    off = reference.rounding(grid)
+    around = [np.interp(grid + part * off, time, values) for part in (-1, 0, 1)]
     outside = np.ones(len(grid), dtype=bool)
     for at in jumps:
         outside &= np.abs(grid - at) > interval * 1.001
-    return float(np.max(np.abs(found - expected)[outside] / scale, initial=0.0))
+    nearest = np.clip(expected, np.min(around, axis=0), np.max(around, axis=0))
+    return float(np.max(np.abs(nearest - expected)[outside] / scale, initial=0.0))

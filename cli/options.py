@@ -9,6 +9,7 @@ import typer
 
 import lacuna
 from lacuna.cli.complete import inputs_of, models, parameters_of, variables_of
+from lacuna.texts import decimal, file_name
 
 MODEL_HELP = "Qualified name (Lacuna.Actuators.X or Actuators.X), a .mo file, or the folder of a package"
 
@@ -89,13 +90,13 @@ def number(name: str, text: str) -> float:
     """A real number, or true/false as 1/0."""
     words = {"true": 1.0, "false": 0.0}
     try:
-        return words[text.lower()] if text.lower() in words else float(text)
+        return words[text.lower()] if text.lower() in words else decimal(text)
     except ValueError:
-        raise lacuna.UserError(f"{name}={text}: '{text}' is neither a number nor true/false") from None
+        raise lacuna.UserError(f"{name}={text}: '{text}' is neither a finite number nor true/false") from None
 
 
 def default_folder(kind: str, name: str) -> Path:
     """out/KIND/NAME, where the last part of a class's name or the stem of a file stands for it."""
     name = name.rpartition(":")[2] or name
-    stem = Path(name).stem if name.endswith(".mo") else Path(name).name.rsplit(".", 1)[-1]
-    return Path("out") / kind / (stem or Path(name).resolve().name)
+    stem = Path(name).stem if name.endswith(".mo") else Path(name).name
+    return Path("out") / kind / file_name(stem or Path(name).resolve().name)

@@ -23,6 +23,7 @@ from lacuna.cli.options import (
     inputs,
     parameters,
 )
+from lacuna.texts import file_name
 
 Solver = Literal["ida", "dopri5", "rodas4", "rk4", "euler"]
 Format = Literal["csv", "parquet", "mat"]
@@ -70,7 +71,7 @@ def simulate(
         locate_events=locate_events, interval=interval, outputs=signal, event_rows=event_rows,
     )  # fmt: skip
     folder = out or default_folder("simulate", class_name or model)
-    written = result.save(folder / f"{result.model.rsplit('.', 1)[-1]}.{format}")
+    written = result.save(folder / f"{file_name(result.model)}.{format}")
     written += result.save_plot(written[0].with_suffix(".svg"), *(signal or [])) if plot else []
     return Answer(_data(result), [_table(result, solver)], written, loaded.warnings, failure)
 

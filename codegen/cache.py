@@ -16,15 +16,16 @@ import os
 from pathlib import Path
 import shutil
 import stat
-import subprocess
 import tempfile
 
+from lacuna.children import run
 from lacuna.codegen import flat
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.emit.text.c_text import SourceNames
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.library.search_path import names_in, split_name
 from lacuna.codegen.library.search_path import search_path as default_path
+import lacuna.texts
 import lacuna.units
 
 COMPILER = (
@@ -60,7 +61,7 @@ def _digest(*parts: str | bytes) -> str:
 def generator_version() -> str:
     """Digest of the generator's own source, the ABI and the compiler's command: any change makes all models new."""
     headers = [INCLUDE / "mdl_abi.h", INCLUDE / "mdl_tangent.h"]
-    files = [*sorted(_HERE.rglob("*.py")), Path(lacuna.units.__file__), *headers]
+    files = [*sorted(_HERE.rglob("*.py")), Path(lacuna.units.__file__), Path(lacuna.texts.__file__), *headers]
     return _digest(" ".join(COMPILER), *(f.read_bytes() for f in files))
 
 
@@ -228,7 +229,7 @@ def compile_c(c_file: Path, output: Path) -> None:
     """Run the compiler on a generated file. Raises CompilerError with its first messages."""
     command = [*COMPILER, f"-I{INCLUDE}", "-o", str(output), str(c_file), "-lm"]
     try:
-        result = subprocess.run(command, capture_output=True, text=True, check=False)
+        result = run(command)
     except FileNotFoundError:
         raise CompilerError("no C compiler: install one that is called as `cc` (Debian: apt install gcc)") from None
     if result.returncode:

@@ -12,12 +12,13 @@ import time
 from typing import TypeVar
 
 from lacuna.codegen import cache, flat
-from lacuna.codegen.dae import events, homotopy, hybrid
+from lacuna.codegen.dae import events, hybrid
 from lacuna.codegen.dae.discrete_starts import discrete_starts
 from lacuna.codegen.dae.divisions import divisions
 from lacuna.codegen.dae.free_parameters import free_parameters
 from lacuna.codegen.dae.guards import guard_shapes
 from lacuna.codegen.dae.initial import initial_system
+from lacuna.codegen.dae.operators import delays, homotopy
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.relations import Relation
 from lacuna.codegen.dae.storage import Storage
@@ -82,6 +83,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     declared = report.run("initial system", free_parameters, declared)
     aliases = report.run("aliases", eliminate_aliases, declared)
     split = report.run("initial system", homotopy.split, aliases.model)
+    split, delayed = report.run("hybrid", delays.split, split)
     frozen = report.run("hybrid", hybrid.analyse, split)
     model = report.run("initial system", discrete_starts, frozen.model)
     continuous, discrete = report.run("hybrid", events.split, model)
@@ -101,7 +103,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     report.warnings += [*declared.warnings, *initial.warnings]
     return Prepared(
         declared, aliases.representative, system, Storage(system), relations, frozen.samples, steps, explicit,
-        residual, matrix, initial, sizes, quotients, shapes,
+        residual, matrix, initial, sizes, quotients, shapes, delayed,
     )  # fmt: skip
 
 

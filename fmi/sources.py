@@ -6,9 +6,9 @@ import contextlib
 import hashlib
 from pathlib import Path
 import re
-import subprocess
 import tempfile
 
+from lacuna.children import run
 from lacuna.codegen.cache import Cache, CompilerError, compiler
 from lacuna.fmi.errors import FmuError
 
@@ -19,6 +19,7 @@ _OTHERS = {
     "ida_tangent.c",
     "ida.h",
     "vector.c",
+    "dense_solver.c",
     "vector.h",
     "sundials_compat.h",
 }  # of the runtime: what needs SUNDIALS
@@ -89,7 +90,7 @@ def _common(folder: Path, files: list[str]) -> list[Path]:
 
 def _run(*command: str | Path, folder: Path) -> None:
     try:
-        done = subprocess.run([str(part) for part in command], cwd=folder, capture_output=True, text=True, check=False)
+        done = run(command, folder)
     except FileNotFoundError:
         raise CompilerError("no C compiler: install one that is called as `cc` (Debian: apt install gcc)") from None
     if done.returncode:

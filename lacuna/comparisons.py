@@ -15,6 +15,7 @@ from lacuna.inputs import Input, as_inputs
 from lacuna.models import POINTS, Model, load
 from lacuna.notebook import page, paragraph, table
 from lacuna.progress import Progress, silent
+from lacuna.texts import file_name
 
 if TYPE_CHECKING:
     from lacuna.analysis.comparison.scenarios import Scenario
@@ -121,7 +122,7 @@ def _own(
     end = stop or model.stop_time
     interval = model.interval or end / 1000
     tried = tuple(steps or [interval / k for k in (1, 2, 4)])
-    short, shown = model.name.rsplit(".", 1)[-1], tuple(model.states)[:4]
+    short, shown = file_name(model.name), tuple(model.states)[:4]
     return Scenario(
         short, model.name, name, end, interval, tried, shown, dict(parameters), as_inputs(inputs),
         reference_rtol=OWN_REFERENCE,

@@ -10,6 +10,8 @@ from pathlib import Path
 from matplotlib.figure import Figure
 import numpy as np
 
+from lacuna.drawn import save
+
 MOST_SIGNALS = 8  # more lines than this in one panel tell a reader nothing
 MOST_PANELS = 6
 
@@ -19,7 +21,7 @@ class Drawing(Figure):
 
     def _repr_svg_(self) -> str:
         buffer = io.StringIO()
-        self.savefig(buffer, format="svg")
+        save(self, buffer, "svg")
         return buffer.getvalue()
 
 
@@ -72,5 +74,5 @@ def write(figure: Figure, path: Path) -> Path:
     """As SVG; complete or not there."""
     path.parent.mkdir(parents=True, exist_ok=True)
     partial = path.with_suffix(".part")
-    figure.savefig(partial, format="svg")
+    save(figure, partial, "svg")
     return partial.replace(path)

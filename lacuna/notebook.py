@@ -36,5 +36,7 @@ def text(value: object) -> str:
 def drawing(figure: Figure) -> str:
     """A figure as SVG inside the page."""
     buffer = io.StringIO()
-    figure.savefig(buffer, format="svg")
+    from lacuna.drawn import save
+
+    save(figure, buffer, "svg")
     return buffer.getvalue().partition("<svg")[1] + buffer.getvalue().partition("<svg")[2]

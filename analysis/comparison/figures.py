@@ -11,6 +11,7 @@ import numpy as np
 
 from lacuna.analysis.comparison.study import LaneResult, Study
 from lacuna.analysis.report.figures.style import INK, in_style, new_figure
+from lacuna.drawn import save
 
 COLOURS = {
     "ida": "#0072B2", "dopri5": "#009E73", "rodas4": "#CC79A7", "rk4": "#D55E00",
@@ -36,8 +37,8 @@ def draw_all(study: Study, units: Mapping[str, str], folder: Path) -> list[str]:
             figure = draw(study, units)
             FigureCanvasAgg(figure)
             stems.append(f"{study.scenario.name}_{kind}")
-            figure.savefig(folder / f"{stems[-1]}.svg", metadata={"Date": None})
-            figure.savefig(folder / f"{stems[-1]}.png")
+            for form in ("svg", "png"):
+                save(figure, folder / f"{stems[-1]}.{form}", form)
     return stems
 
 

@@ -18,6 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from lacuna.analysis.errors import AnalysisError
+from lacuna.texts import decimal
 
 UNITS = ("cycles", "hours")
 EVENTS = ("", "replaced")
@@ -165,13 +166,10 @@ class _Reader:
         if text == "" or text.lower() == "nan":
             return math.nan
         try:
-            value = float(text)
+            return decimal(text)
         except ValueError:
             point = "; a decimal point is wanted" if "," in text else ""
-            raise self.error(f"{name} is {text!r}, not a number{point}") from None
-        if not math.isfinite(value) or "_" in text:
-            raise self.error(f"{name} is {text}, not a finite number")
-        return value
+            raise self.error(f"{name} is {text!r}, not a finite number{point}") from None
 
     def event(self) -> bool:
         event = self.text("event")

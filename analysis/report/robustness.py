@@ -9,6 +9,7 @@ import numpy as np
 
 from lacuna.analysis.settings import Settings
 from lacuna.analysis.severity.robustness import Rate, Results, error_shares, rate, roc
+from lacuna.drawn import save
 
 PAGE = """# Robustness of the severity estimate
 
@@ -78,7 +79,7 @@ def write_study(settings: Settings, results: Results, strangers: Strangers, docs
 
     with published_together(docs / "figures") as scratch, in_style():
         figure = draw(settings, results)
-        figure.savefig(scratch / "robustness.svg", metadata={"Date": None})
+        save(figure, scratch / "robustness.svg", "svg")
     with published_together(docs) as scratch:
         (scratch / "robustness.md").write_text(page(settings, results, strangers), encoding="utf-8")
 

@@ -18,6 +18,7 @@ from lacuna.analysis.settings import Band, Settings
 from lacuna.analysis.severity.prepared import Prepared
 from lacuna.analysis.severity.severity_table import Estimate
 from lacuna.analysis.spectra.chain import Chain, Features
+from lacuna.drawn import save
 
 
 @dataclass(frozen=True)
@@ -121,4 +122,4 @@ def _write(done: Assessment, settings: Settings, folder: Path, features: Feature
         with in_style():
             figure = draw(settings, folder / "map.csv", features, done.estimate)
             for kind in ("svg", "png"):
-                figure.savefig(scratch / f"assessment.{kind}")
+                save(figure, scratch / f"assessment.{kind}", kind)

@@ -1,8 +1,8 @@
 """Parameters with fixed = false: what the initial equations determine (Modelica 3.6, 8.6).
 
     p = e, e of parameters and time p is a dependent parameter (time being that of the start)
-    p = e, any other                p is discrete and takes its value at the start
-    p in an implicit equation       p is a Real that does not move, der(p) = 0, an unknown of the initial system
+    p = e, any other                p is discrete and takes its value at the start, if no other initial equation has p
+    p in any other equation         p is a Real that does not move, der(p) = 0, an unknown of the initial system
 
 A parameter that depends on one of the latter two follows it, as a discrete or a continuous variable.
 """
@@ -73,7 +73,8 @@ def _is_known(e: Expr, variables: dict[str, flat.Variable], free: set[str]) -> b
 def _converted(variables: dict[str, flat.Variable], initial: list[flat.Equation], name: str) -> list[flat.Equation]:
     """`name` as a variable, with the equation that it needs while it does not move."""
     v = variables[name]
-    if any(n == name for eq in initial for n, _ in _definitions(eq)):
+    users = [eq for eq in initial if var(name, v.type) in leaves(eq.lhs) | leaves(eq.rhs)]
+    if (len(users) == 1 or v.type != REAL) and any(n == name for eq in users for n, _ in _definitions(eq)):
         variables[name] = replace(v, variability=flat.DISCRETE)
         return []
     if v.type != REAL:

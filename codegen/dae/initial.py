@@ -8,13 +8,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from lacuna.codegen import flat
-from lacuna.codegen.dae.homotopy import rows_at_start
+from lacuna.codegen.dae.operators.homotopy import rows_at_start
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.causal import Assignment, Step, causalise, unknowns_of
 from lacuna.codegen.structure.sorting.matching import Matching
 from lacuna.codegen.structure.sorting.tearing import Tearing
 from lacuna.codegen.structure.system import Row, System
-from lacuna.codegen.symbolic.expr import Expr, const, var
+from lacuna.codegen.symbolic.expr import Expr, const, neg, sub, var
 
 
 @dataclass
@@ -30,7 +30,7 @@ def initial_system(system: System, equations: list[flat.Equation], tearing: Tear
     """Rows for every state, derivative and algebraic variable, in the order in which they are solved."""
     unknowns = [*map(var, system.states), *system.unknowns]
     column = {u: k for k, u in enumerate(unknowns)}
-    rows = [*rows_at_start(system), *(Row(e.lhs, e.rhs, e) for e in equations)]
+    rows = [*rows_at_start(system), *_distinct(equations)]
     matching = Matching([_columns(r, column) for r in rows], len(unknowns))
     unmatched = matching.match_all()
     if unmatched:
@@ -48,6 +48,17 @@ def initial_system(system: System, equations: list[flat.Equation], tearing: Tear
         if own & set(unknowns_of(s))
     )  # fmt: skip
     return InitialSystem(steps, trivial, _warnings(system, assumed))
+
+
+def _distinct(equations: list[flat.Equation]) -> list[Row]:
+    """Rows of the initial equations; of those that say the same, as ends of two joined lines may do, the first."""
+    rows: dict[Expr, Row] = {}
+    for e in equations:
+        same = [sub(e.lhs, e.rhs), sub(e.rhs, e.lhs)]
+        same += [sub(neg(e.lhs), neg(e.rhs)), sub(neg(e.rhs), neg(e.lhs))]
+        if rows.keys().isdisjoint(same):
+            rows[same[0]] = Row(e.lhs, e.rhs, e)
+    return list(rows.values())
 
 
 def _columns(row: Row, column: dict[Expr, int]) -> list[int]:

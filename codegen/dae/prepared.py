@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from lacuna.codegen import flat
 from lacuna.codegen.dae.divisions import Quotient
 from lacuna.codegen.dae.events import EventStep
 from lacuna.codegen.dae.guards import GuardShapes
 from lacuna.codegen.dae.initial import InitialSystem
+from lacuna.codegen.dae.operators.delays import Delay
 from lacuna.codegen.dae.relations import Relation
 from lacuna.codegen.dae.storage import Storage
 from lacuna.codegen.structure.causal import Step
@@ -34,6 +35,7 @@ class Prepared:
     nominals: dict[Expr, Size]  # sizes of variables and derivatives
     divisions: list[Quotient]
     guards: GuardShapes
+    delays: list[Delay] = field(default_factory=list)
     hash: str = ""
 
     @property

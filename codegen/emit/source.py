@@ -18,6 +18,7 @@ from lacuna.codegen.emit.functions.user_functions import calls, user_functions
 from lacuna.codegen.emit.text.c_text import SourceNames, c_comment, c_string
 from lacuna.codegen.emit.text.expression import number
 from lacuna.codegen.emit.text.names import Names
+from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.causal import expressions_of
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.symbolic.rewrite import expressions
@@ -26,12 +27,16 @@ _CALLBACKS = (
     "starts", "parameters", "samples", "initial_system", "rhs", "residual", "jacobian", "roots", "time_relations",
     "next_time_event", "event", "check", "nominals", "divisions",
 )  # fmt: skip
-_COUNTED = ("variables", "equations", "asserts", "messages", "z", "computed", "divisions")
+_DELAYS = {"delays": "mdl_delays", "delay_times": "mdl_delay_times", "delay_input": "mdl_delay_input"}
+_COUNTED = ("variables", "equations", "asserts", "messages", "z", "computed", "divisions", "delay")
 
 
 def generate(prepared: Prepared, sensitivities: bool = False) -> str:
     """The C source of a prepared model, with its derivatives on request; the same bytes for the same model."""
     model, storage = prepared.model, prepared.storage
+    if sensitivities and prepared.delays:
+        hint = "vary parameters by finite differences of runs"
+        raise Diagnostic("R091", "sensitivities of a model with delay() are outside the subset", model.span, hint)
     equations = EquationTable([row.source for row in prepared.system.rows])
     names = Names(model.variables)
     tables = Tables(prepared, equations)
@@ -45,7 +50,7 @@ def generate(prepared: Prepared, sensitivities: bool = False) -> str:
         large.residual() or continuous.residual(), large.jacobian() or continuous.jacobian(),
         large.roots() or continuous.roots(), discrete.time_relations(), discrete.next_time_event(), discrete.event(),
         large.check() or continuous.check(), checks.nominals(), checks.divisions(),
-        *filter(None, [checks.phases()]),
+        *filter(None, [checks.phases()]), *checks.delays(),
     ]  # fmt: skip
     everything = expressions_of_model(prepared)
     tangents = Tangents(prepared, names, equations, tables.rows()) if sensitivities else None
@@ -78,6 +83,7 @@ def expressions_of_model(prepared: Prepared) -> list[Expr]:
     for step in prepared.events:
         roots += [step.value] if isinstance(step, DiscreteEquation) else expressions(
             [step] if isinstance(step, flat.When) else step.statements)  # fmt: skip
+    roots += [d.seconds for d in prepared.delays]
     roots += [*prepared.guards.phases, *(a.condition for a in model.asserts)]
     roots += [e for v in model.variables.values() for e in (v.binding, v.start, v.min, v.max) if e is not None]
     return roots
@@ -120,9 +126,10 @@ def _arrays(tables: Tables, checks: Checks, messages: list[str]) -> tuple[list[s
         "first": ("int mdl_equation_first", first),
         "equation_variables": ("int mdl_equation_variables", variables),
         "divisions": ("int mdl_division_equation", divided),
+        "delay": ("int mdl_delay_input", checks.delay_inputs()),
     }
     arrays = [tables.array(declaration, rows) for declaration, rows in contents.values()]
-    counts = {f"n_{key}": len(contents[key][1]) for key in _COUNTED}
+    counts = {f"n_{key}": len(contents[key][1]) for key in _COUNTED if contents[key][1] or key != "delay"}
     counts["n_shown"] = len(variables)
     counts["n_rel"], counts["jac_nnz"] = len(contents["relations"][1]), len(contents["rowidx"][1])
     return arrays, counts
@@ -156,6 +163,7 @@ def _descriptor(prepared: Prepared, counts: dict[str, int], tangents: bool) -> s
         "division_equation": _pointer("mdl_division_equation", counts["n_divisions"]),
         **{name: f"mdl_{name}" for name in _CALLBACKS},
         **_guards(prepared),
+        **(_DELAYS if prepared.delays else {}),
         **({"tangents": "&mdl_model_tangents"} if tangents else {}),
     }
     rows = "\n".join(f"  .{key} = {value}," for key, value in fields.items())

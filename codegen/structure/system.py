@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from zlib import crc32
 
 from lacuna.codegen import flat
 from lacuna.codegen.symbolic.evaluate import evaluate
-from lacuna.codegen.symbolic.expr import REAL, Expr, der, sub, var
+from lacuna.codegen.symbolic.expr import REAL, Expr, der, sub, to_text, var
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import Rewriter
 
@@ -119,3 +120,25 @@ class DefinedValues(DeclaredValues):
             self._memo[name] = 0.0  # ends a cycle
             self._memo[name] = self(self._definitions[name])
         return super().variable(name)
+
+
+class GenericValues(DefinedValues):
+    """As defined, but no two variables lie where it happens to suit: where start values make constraints degenerate
+    (a circuit without current, an angle of zero), those of the neighbourhood tell what the constraints determine.
+
+    Each variable is moved by a fixed share of its own size, derivatives too. The shares are in [1/4, 3/4] and drawn by
+    name, so that equal models give equal choices.
+    """
+
+    def variable(self, name: str) -> float | int | bool | None:
+        v, value = self._model.variables[name], super().variable(name)
+        if v.type != REAL or v.variability != flat.CONTINUOUS or value is None:
+            return value
+        return value + (abs(value) or (v.nominal and self(v.nominal)) or 1.0) * _share(name)
+
+    def _leaf(self, n: Expr) -> float | int | bool | None:
+        return _share(to_text(n)) if n.op == "der" else super()._leaf(n)
+
+
+def _share(name: str) -> float:
+    return 0.25 + crc32(name.encode()) / 2**33

@@ -196,6 +196,8 @@ class _Check:
             return self._solve(e.args[0], unit * SECOND, inference)
         if e.op in ("neg", "noEvent", "smooth", "pre"):
             return self._solve(e.args[-1], unit, inference)
+        if e.op == "delay":
+            return self._solve(e.args[0], unit, inference)
         if e.op in ("+", "-", "if", "min", "max"):
             parts = e.args[1:] if e.op == "if" else e.args
             solved = [self._solve(a, unit, inference) for a in parts]

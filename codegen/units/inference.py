@@ -78,6 +78,10 @@ class UnitInference:
             return UNKNOWN
         if op == "call":
             return self._call(e)
+        if op == "delay":
+            for a in e.args[1:]:
+                self.require(a, SECOND, "delay takes a time")
+            return self.of(e.args[0])
         for a in e.args[:-1]:
             self.of(a)
         return self.of(e.args[-1]) if e.args and e.type != BOOLEAN else self._all(e.args)

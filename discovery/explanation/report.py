@@ -22,6 +22,7 @@ from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.law.locate import Located
 from lacuna.discovery.naming.judge import Judgement
 from lacuna.discovery.naming.name import Naming
+from lacuna.drawn import save
 
 
 def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
@@ -54,7 +55,7 @@ def _table(header: list[str], rows: list[list[object]]) -> str:
 
 def _svg(drawn: plt.Figure, title: str) -> str:
     buffer = io.StringIO()
-    drawn.savefig(buffer, format="svg", bbox_inches="tight")
+    save(drawn, buffer, "svg", bbox_inches="tight")
     plt.close(drawn)
     return figure_of(buffer.getvalue(), title)
 

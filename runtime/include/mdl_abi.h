@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 9
+#define MDL_ABI_VERSION 11
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
@@ -28,7 +28,8 @@ typedef enum {
   MDL_FAILURE_DOMAIN,    /* argument outside a function's domain: sqrt, log, asin, division by zero ... */
   MDL_FAILURE_ASSERT,    /* assert(..., level = error) violated; `equation` indexes `asserts` */
   MDL_FAILURE_BOUND,     /* a parameter outside its min/max; `variable` says which */
-  MDL_FAILURE_LOOP       /* a while loop in a function ran too long */
+  MDL_FAILURE_LOOP,      /* a function ran too long: loops and calls inside each other */
+  MDL_FAILURE_STACK      /* functions called each other too deep, or hold arrays too large for the stack */
 } mdl_failure_kind;
 
 typedef struct {
@@ -58,6 +59,8 @@ typedef struct mdl_data {
   mdl_failure failure;
   double start_time; /* of the run; parameters may depend on it */
   double homotopy;   /* in initial_system(): 1 what homotopy() actually is, 0 what it is simplified to */
+  long stack;        /* bytes of the stack that functions of the model now hold, about; 0 outside of them */
+  long rounds;       /* loops' rounds and calls since the outermost function was entered */
 } mdl_data;
 
 typedef enum {
@@ -199,6 +202,13 @@ typedef struct mdl_descriptor {
    * that is not affine. */
   int n_phases, curved_guards;
   int (*phases)(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *phase);
+
+  /* delay(e, T): input `delay_input[k]` is what value[k] was seconds[k] ago. `delays` gives e at a complete point,
+   * `delay_times` the times T, which only parameters decide. */
+  int n_delay;
+  const int *delay_input; /* [n_delay] */
+  int (*delay_times)(const mdl_data *m, double *seconds);
+  int (*delays)(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *value);
 } mdl_descriptor;
 
 typedef const mdl_descriptor *(*mdl_descriptor_fn)(void);

@@ -7,8 +7,9 @@
 
 #include "session.h"
 
-enum { HALVINGS = 45 };         /* of a step, to find where a divisor is zero */
-static const double pole = 1e6; /* growth of a quotient on the way there that tells a pole from 0/0 */
+enum { HALVINGS = 45 };           /* of a step, to find where a divisor is zero */
+static const double pole = 1e6;   /* growth of a quotient on the way there that tells a pole from 0/0 */
+static const double shrunk = 1e3; /* by what a divisor does so at least, or the quotient grows with its numerator */
 
 /* The first equation that gives no finite number, as failure; false where all do. */
 bool rt_blame(rt_session *s, mdl_storage storage, const double *xdot, const double *v) {
@@ -47,8 +48,21 @@ static rt_status check_guards(rt_session *s) {
   return RT_OK;
 }
 
+/* An Integer that grew beyond what is exact, as by overflow in other tools. */
+static rt_status check_integers(rt_session *s) {
+  for (int i = 0; i < s->d->n_d; i++) {
+    if (!(fabs(s->data.d[i]) > RT_LARGEST_INTEGER)) continue;
+    int row = rt_find_row(s, MDL_DISCRETE, i);
+    if (row >= 0 && s->d->variables[row].type == MDL_INTEGER)
+      return rt_fail(s, RT_DOMAIN, s->t, row, NULL,
+                     "at time %.9g s the Integer %s is %.17g: beyond 2^53 not all are told apart", s->t,
+                     s->d->variables[row].name, s->data.d[i]);
+  }
+  return RT_OK;
+}
+
 static rt_status check_discrete(rt_session *s) {
-  if (rt_finite(s->d->n_d, s->data.d)) return RT_OK;
+  if (rt_finite(s->d->n_d, s->data.d)) return check_integers(s);
   int i = 0;
   while (isfinite(s->data.d[i]))
     i++;
@@ -70,24 +84,31 @@ static int divisions_at(rt_session *s, double t) {
 }
 
 /* The divisor of division k has changed its sign against the numerator's in the last step: it is a pole where the
- * quotient grows without bound on the way there. */
+ * quotient grows without bound on the way there, beyond what it is at both ends, as its divisor vanishes. */
 static rt_status look_for_pole(rt_session *s, int k) {
   double *value = s->division + 2 * k, a = s->t_previous, b = s->t;
   int before = s->division_sign[k];
-  double ordinary = fabs(value[0] / value[1]), nearest = ordinary;
+  double ordinary = fabs(value[0] / value[1]), divisor = fabs(value[1]), nearest;
   rt_dense_prepare(s);
+  if (!divisions_at(s, a)) {
+    ordinary = fmax(ordinary, fabs(value[0] / value[1]));
+    divisor = fmax(divisor, fabs(value[1]));
+  }
+  double at = NAN, numerator = 0;
   for (int i = 0; i < HALVINGS; i++) {
     double middle = 0.5 * (a + b);
     if (divisions_at(s, middle)) break;
     nearest = fabs(value[0] / value[1]);
-    if (isnan(nearest)) return RT_OK; /* 0/0, or a branch that does not hold there */
+    if (isnan(nearest)) break; /* 0/0, or a branch that does not hold there */
     *(sign(value[0] * value[1]) == before ? &a : &b) = middle;
-    if (nearest > pole * ordinary)
-      return rt_fail(s, RT_DOMAIN, middle, -1, &s->d->equations[s->d->division_equation[k]],
-                     "division by zero: a divisor passes through zero at time %.9g s (numerator %.3g)", middle,
-                     value[0]);
+    if (nearest > pole * ordinary && fabs(value[1]) * shrunk < divisor) {
+      at = middle;
+      numerator = value[0];
+    }
   }
-  return RT_OK;
+  if (isnan(at)) return RT_OK;
+  return rt_fail(s, RT_DOMAIN, at, -1, &s->d->equations[s->d->division_equation[k]],
+                 "division by zero: a divisor passes through zero at time %.9g s (numerator %.3g)", at, numerator);
 }
 
 /* Divisors on their way since the last accepted point; `fresh`: there is none, an event lies between. */

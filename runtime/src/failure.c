@@ -44,7 +44,9 @@ static const char *describe(mdl_failure_kind kind) {
   case MDL_FAILURE_BOUND:
     return "parameter outside its bounds";
   case MDL_FAILURE_LOOP:
-    return "a loop in a function ran too long";
+    return "a function ran too long";
+  case MDL_FAILURE_STACK:
+    return "functions called each other too deep, or their arrays are too large";
   case MDL_FAILURE_NONE:
     break;
   }
@@ -56,6 +58,8 @@ static rt_status status_of(mdl_failure_kind kind) {
   case MDL_FAILURE_NONFINITE:
     return RT_NONFINITE;
   case MDL_FAILURE_DOMAIN:
+  case MDL_FAILURE_LOOP:
+  case MDL_FAILURE_STACK:
     return RT_DOMAIN;
   case MDL_FAILURE_ASSERT:
     return RT_ASSERT;

@@ -12,6 +12,12 @@
 enum { MAX_ERROR_FAILS = 25 }; /* in one step: each divides it by four, and a first step may be far too long */
 enum { DENSE_LIMIT = 10 };     /* unknowns up to which a dense matrix is faster than KLU */
 
+/* What IDA may recover from by a shorter step. */
+static int not_finite(rt_session *s, int row, double value) {
+  s->data.failure = (mdl_failure){MDL_FAILURE_NONFINITE, s->d->residual_equation[row], -1, value, 0};
+  return 1;
+}
+
 static int residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user) {
   rt_session *s = user;
   rt_inputs_at(s, t);
@@ -25,8 +31,13 @@ static int residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *us
   int row = 0;
   while (row < n - 1 && isfinite(values[row]))
     row++;
-  s->data.failure = (mdl_failure){MDL_FAILURE_NONFINITE, s->d->residual_equation[row], -1, values[row], 0};
-  return 1;
+  return not_finite(s, row, values[row]);
+}
+
+static int check_jacobian(rt_session *s, const double *values) {
+  for (int k = 0; k < s->d->jac_nnz; k++)
+    if (!isfinite(values[k])) return not_finite(s, s->d->jac_rowidx[k], values[k]);
+  return 0;
 }
 
 static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix matrix, void *user,
@@ -38,6 +49,7 @@ static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Ve
   double *values = m->values;
   rt_inputs_at(s, t);
   int status = rt_jacobian(s, t, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), cj, values);
+  if (!status) status = check_jacobian(s, values);
   if (status) return status;
   int n = d->n_x + d->n_z;
   if (SUNMatGetID(matrix) == SUNMATRIX_SPARSE) {
@@ -97,7 +109,7 @@ static bool create_linear_solver(rt_session *s, rt_ida *m) {
     m->solver = m->matrix ? SUNLinSol_KLU(m->y, m->matrix, m->context) : NULL;
   } else {
     m->matrix = SUNDenseMatrix(n, n, m->context);
-    m->solver = m->matrix ? SUNLinSol_Dense(m->y, m->matrix, m->context) : NULL;
+    m->solver = m->matrix ? rt_dense_solver_new((int)n, m->context) : NULL;
   }
   return m->solver && IDASetLinearSolver(m->ida, m->solver, m->matrix) == IDA_SUCCESS &&
          IDASetJacFn(m->ida, jacobian) == IDA_SUCCESS;
@@ -224,7 +236,6 @@ static bool has_jumped(const rt_session *s, const double *z) {
 static rt_status step(rt_session *s, void *p, double limit) {
   rt_ida *m = p;
   sunrealtype t = s->t;
-  s->data.failure.kind = MDL_FAILURE_NONE;
   IDASetStopTime(m->ida, limit);
   int flag = IDASolve(m->ida, limit, &t, m->y, m->yp, IDA_ONE_STEP);
   if (flag < 0) return fail(s, m, flag);

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "delay.h"
 #include "sensitivity.h"
 
 enum { MAX_ITERATIONS = 50 };
@@ -117,6 +118,7 @@ static rt_status solve_initial_equations(rt_session *s) {
   for (int i = 0; i < MAX_ITERATIONS; i++) {
     rt_inputs_at(s, s->t);
     if (solve_initial_system(s)) return fail_initialisation(s);
+    if (rt_delays_start(s)) return fail_initialisation(s);
     if (rt_tangent_initial(s, true)) return s->failure.status;
     for (int k = 0; k < s->n_initial; k++)
       m->x[s->initial_index[k]] = s->initial_value[k];
@@ -156,6 +158,7 @@ rt_status rt_initialise(rt_session *s) {
   if (!status) status = rt_clock_begin(s);
   if (status) return status;
   rt_inputs_reset(s);
+  if ((status = rt_delays_begin(s))) return status;
   rt_inputs_begin(s, s->start);
   if ((status = solve_initial_equations(s))) return status;
   return first_events(s);

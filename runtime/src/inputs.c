@@ -4,7 +4,7 @@
  * on a jump sees the value before it; rt_inputs_begin then moves on to the value after it. */
 #include <math.h>
 
-#include "session.h"
+#include "delay.h"
 
 static int sample_at(const rt_input *in, int guess, double t) {
   int k = guess;
@@ -32,6 +32,7 @@ void rt_inputs_reset(rt_session *s) {
 void rt_inputs_begin(rt_session *s, double t) {
   for (int i = 0; i < s->d->n_u; i++)
     if (s->inputs[i].n) s->inputs[i].cursor = sample_at(&s->inputs[i], s->inputs[i].cursor, t + s->clock.tolerance);
+  rt_delays_pass(s, t);
   s->input_time = NAN;
 }
 
@@ -41,6 +42,7 @@ void rt_inputs_at(rt_session *s, double t) {
     rt_input *in = &s->inputs[i];
     if (in->n) s->data.u[i] = in->interpolation == RT_HOLD ? in->values[in->cursor] : linear(in, t);
   }
+  rt_delays_at(s, t);
   s->input_time = t;
 }
 
@@ -83,12 +85,12 @@ double rt_inputs_next_break(rt_session *s) {
     in->ahead = k;
     if (k < in->n) next = rt_min(next, in->time[k]);
   }
-  return next;
+  return rt_min(next, rt_delays_limit(s));
 }
 
 /* The jumps that are due at the present time and, for a multistep method, the kinks. */
 int rt_inputs_due(rt_session *s) {
-  int pending = 0;
+  int pending = rt_delays_due(s);
   double now = s->t + s->clock.tolerance;
   for (int i = 0; i < s->d->n_u; i++) {
     rt_input *in = &s->inputs[i];

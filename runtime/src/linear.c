@@ -1,4 +1,5 @@
-/* Small dense linear systems: LU decomposition with partial pivoting (Golub & Van Loan, Matrix Computations, 3.4). */
+/* Small dense linear systems: LU decomposition with partial pivoting (Golub & Van Loan, Matrix Computations, 3.4). The
+ * diagonal is kept as its inverses: a solution costs no division. */
 #include <math.h>
 
 #include "session.h"
@@ -20,8 +21,9 @@ int rt_lu_factor(int n, double *a, int *pivot) {
     if (p != k)
       for (int j = 0; j < n; j++)
         swap(&a[j * n + k], &a[j * n + p]);
+    double inverse = a[k * n + k] = 1 / a[k * n + k];
     for (int i = k + 1; i < n; i++)
-      a[k * n + i] /= a[k * n + k];
+      a[k * n + i] *= inverse;
     for (int j = k + 1; j < n; j++) {
       double factor = a[j * n + k];
       if (factor != 0)
@@ -39,7 +41,7 @@ void rt_lu_solve(int n, const double *a, const int *pivot, double *b) {
     for (int i = k + 1; i < n; i++)
       b[i] -= a[k * n + i] * b[k];
   for (int k = n - 1; k >= 0; k--) {
-    b[k] /= a[k * n + k];
+    b[k] *= a[k * n + k];
     for (int i = 0; i < k; i++)
       b[i] -= a[k * n + i] * b[k];
   }

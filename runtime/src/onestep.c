@@ -140,7 +140,6 @@ rt_status rt_onestep_step(rt_session *s, void *memory, double limit) {
   bool adaptive = !(s->options.step > 0), rejected = false;
   double remaining = limit - s->t, h = choose(s, o, remaining);
   load(s, o);
-  s->data.failure.kind = MDL_FAILURE_NONE;
   for (;;) {
     int status = o->scheme->attempt(s, o, h);
     if (!status) status = rt_check_finite(s, o->f1);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "delay.h"
 #include "sensitivity.h"
 
 /* With RT_OWN_METHODS the runtime is ours alone, without SUNDIALS: what an FMU carries as source. */
@@ -87,7 +88,8 @@ static bool allocate_session(rt_session *s) {
   s->inputs = calloc((size_t)s->d->n_u + 1, sizeof *s->inputs);
   s->clock.next = calloc((size_t)s->d->n_sample + 1, sizeof *s->clock.next);
   s->initial_index = calloc((size_t)s->d->n_x + 1, sizeof *s->initial_index);
-  return s->inputs && s->clock.next && s->initial_index && allocate_numbers(s) && allocate_flags(s);
+  return s->inputs && s->clock.next && s->initial_index && allocate_numbers(s) && allocate_flags(s) &&
+         rt_delays_create(s);
 }
 
 static void declared_parameters(rt_session *s) {
@@ -103,6 +105,11 @@ rt_session *rt_session_new(const rt_model *model, const rt_options *options, cha
   }
   if (method->needs_step && !(options->step > 0)) {
     snprintf(message, size, "solver %s needs a step (s) greater than zero", method->name);
+    return NULL;
+  }
+  if (options->rtol >= 1) {
+    snprintf(message, size, "a relative tolerance of %.9g keeps no digit: give one below 1, such as 1e-6",
+             options->rtol);
     return NULL;
   }
   rt_session *s = calloc(1, sizeof *s);
@@ -130,6 +137,7 @@ rt_session *rt_session_new(const rt_model *model, const rt_options *options, cha
 void rt_session_free(rt_session *s) {
   if (!s) return;
   rt_sensitivities_free(s);
+  rt_delays_free(s);
   if (s->memory) s->method->destroy(s->memory);
   free(s->inputs);
   free(s->clock.next);
@@ -159,6 +167,9 @@ rt_status rt_session_parameters(rt_session *s, int n, const int *variables, cons
     if (!v || v->storage != MDL_PARAMETER || !v->settable) return refuse(s, "not a parameter that may be set");
     if (!(values[i] >= v->min && values[i] <= v->max))
       return rt_fail_bound(s, 0, variables[i], values[i], v->min, v->max);
+    if (!rt_has_type(v, values[i]))
+      return rt_fail(s, RT_ARGUMENT, 0, variables[i], NULL, "parameter %s cannot be %.17g: it is %s", v->name,
+                     values[i], v->type == MDL_BOOLEAN ? "Boolean (0 or 1)" : "of whole numbers up to 2^53");
     s->p_run[v->index] = v->sign * values[i];
   }
   return RT_OK;

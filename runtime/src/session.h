@@ -148,6 +148,7 @@ struct rt_session {
   double *division;           /* [2 n_divisions] numerators and divisors */
   signed char *division_sign; /* [n_divisions] of their products when they were last looked at; 0 not known */
   rt_recorder recorder;
+  struct rt_delays *delays;        /* delay.c; NULL: the model has none */
   rt_sensitivities *sensitivities; /* NULL: none are asked for */
   int (*interrupted)(double time); /* asked now and then; NULL: never */
   long looks;
@@ -165,6 +166,14 @@ static inline double rt_min(double a, double b) {
 }
 static inline double rt_max(double a, double b) {
   return a > b ? a : b;
+}
+
+#define RT_LARGEST_INTEGER 9007199254740992.0 /* beyond, a double would round an Integer unseen */
+
+/* A value that a variable of this type can have, finite for sure. */
+static inline bool rt_has_type(const mdl_variable *v, double value) {
+  return isfinite(value) && (v->type == MDL_REAL || (value == floor(value) && fabs(value) <= RT_LARGEST_INTEGER &&
+                                                     (v->type == MDL_INTEGER || value == 0 || value == 1)));
 }
 
 static inline bool rt_finite(int n, const double *a) {
@@ -275,7 +284,6 @@ void rt_start_patience(rt_session *s);
 /* events.c */
 rt_status rt_event(rt_session *s);
 rt_status rt_iterate_event(rt_session *s);
-
 /* initialise.c */
 rt_status rt_initialise(rt_session *s);
 

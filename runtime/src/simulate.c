@@ -3,6 +3,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "delay.h"
 #include "looks.h"
 #include "sensitivity.h"
 
@@ -92,6 +93,8 @@ static rt_status step(rt_session *s) {
     return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "more than %ld steps up to time %.9g s", s->options.max_steps,
                    s->t);
   s->dense.valid = false;
+  if (!s->tiny_steps)
+    s->data.failure.kind = MDL_FAILURE_NONE; /* while steps vanish, what made them short is their cause */
   if (s->recorder.needs_rhs) memcpy(s->recorder.v, s->data.v, (size_t)s->d->n_v * sizeof *s->data.v);
   if (s->sensitivities) s->sensitivities->dense.valid = false;
   rt_looks_start(s);
@@ -123,9 +126,11 @@ static rt_status move_on(rt_session *s) {
 /* A step or a piece of one, up to the next event: what happens there is in s->pending. */
 rt_status rt_advance(rt_session *s) {
   rt_status status = look_up(s);
+  if (!status) status = rt_delays_leave(s);
   if (!status) status = move_on(s);
   if (!status) status = rt_find_state_event(s);
   if (!status) status = rt_tangent_follow(s);
+  if (!status) status = rt_delays_follow(s);
   if (!status) status = rt_check_asserts(s);
   if (!status) status = rt_check_point(s, false);
   if (status) return status;
@@ -138,6 +143,7 @@ rt_status rt_advance(rt_session *s) {
 rt_status rt_happen(rt_session *s) {
   if (!s->pending) return RT_OK;
   rt_status status = rt_event(s);
+  rt_delays_event(s);
   s->pending = 0;
   return status ? status : rt_check_point(s, true);
 }

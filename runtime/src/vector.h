@@ -1,4 +1,4 @@
-/* Vectors for IDA, see vector.c. */
+/* Vectors and linear solver for IDA, see vector.c and dense_solver.c. */
 #ifndef RT_VECTOR_H
 #define RT_VECTOR_H
 
@@ -6,5 +6,8 @@
 
 /* n zeros; NULL without memory. Clones of it have the same operations. */
 N_Vector rt_vector_new(long n, SUNContext context);
+
+/* A solver for dense n x n matrices, see dense_solver.c; NULL without memory. */
+SUNLinearSolver rt_dense_solver_new(int n, SUNContext context);
 
 #endif

@@ -141,6 +141,26 @@ TEST(Monitor, TakesAnyAngle) {
   }
 }
 
+// The squares of such currents are beyond what a double holds.
+TEST(Monitor, ARecordWhoseFeaturesAreNotFiniteIsNotValid) {
+  Monitor monitor({1, 100, 50, 10, 64, 100, 1, 0.1, 0});
+  for (const double current : {1e200, 1e-3}) {
+    while (!monitor.push({&current, 1}, not_measured))
+      ;
+    EXPECT_EQ(monitor.features().valid, current < 1);
+  }
+}
+
+// As a table with a right checksum may ask for.
+TEST(Monitor, SpeedIsNeverTakenAfterATimeThatNeverComes) {
+  Monitor monitor({1, 100, 50, 10, 64, 1e300, 1, 0.1, 1e300});
+  const double current = 1;
+  double angle = 0;
+  while (!monitor.push({&current, 1}, angle += 1))
+    ;
+  EXPECT_EQ(monitor.features().speed.turns, 0);
+}
+
 TEST(Monitor, RefusesAnImpossibleConfiguration) {
   EXPECT_THROW(Monitor({0, 100, 50, 10, 64, 100, 1, 0.1, 0}), std::invalid_argument);
   EXPECT_THROW(Monitor({1, 100, 200, 10, 256, 100, 1, 0.1, 0}), std::invalid_argument);

@@ -64,3 +64,7 @@ TEST(Recording, SaysWhatIsWrongAndWhere) {
   EXPECT_NE(message_of("time,\"i[1,2]\"\n0,1\nnan,1\n").find("line 3: time"), std::string::npos);
   EXPECT_NE(message_of("time,\"i[1,2]\"\n0,1\n0.1,1\n").find("ends after 2 samples"), std::string::npos);
 }
+
+TEST(Recording, RefusesTwoColumnsOfOneName) {
+  EXPECT_NE(message_of("time,\"i[1,2]\",\"i[1,2]\"\n0,1,5\n0.1,2,6\n0.2,3,7\n").find("two columns"), std::string::npos);
+}

@@ -58,6 +58,7 @@ TEST(Toml, RefusesTheRestWithItsLine) {
   }
   EXPECT_THROW(Document("a = 1\na = 2"), lacuna::Error);
   EXPECT_THROW(Document("[t]\n[t]"), lacuna::Error);
+  EXPECT_THROW(Document("a = " + std::string(1000000, '[')), lacuna::Error);
 }
 
 TEST(Settings, OfThePaper) {

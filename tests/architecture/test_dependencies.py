@@ -27,8 +27,18 @@ PYTHON_MAY_IMPORT = {
     "tests/proof": set(),
 }
 PROJECT = {*STAGES, "lacuna", "cli", "bench", "tests"}
-# What every stage may know of the package: its name, where its libraries are, what an extra brings, units of measure.
-FACE = {"lacuna", "lacuna.native", "lacuna.extras", "lacuna.units", "lacuna.recorded_units"}
+# What every stage may know of the package: its name, where its libraries are, what an extra brings, units of measure,
+# what becomes of texts, figures as files, programs that end with us.
+FACE = {
+    "lacuna",
+    "lacuna.native",
+    "lacuna.extras",
+    "lacuna.units",
+    "lacuna.recorded_units",
+    "lacuna.texts",
+    "lacuna.drawn",
+    "lacuna.children",
+}
 
 C_MAY_INCLUDE = {
     "runtime": ("runtime", ("idas/", "nvector/", "sunmatrix/", "sunlinsol/", "sundials/")),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ctypes
-from ctypes import CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_int, c_ubyte, c_void_p
+from ctypes import CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_int, c_long, c_ubyte, c_void_p
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +23,8 @@ class Data(Structure):
         *((name, POINTER(c_ubyte)) for name in ("rel", "tick", "when")),
         *((name, c_int) for name in ("initial", "terminal", "reinitialised", "terminated")),
         ("failure", Failure),
+        *((name, c_double) for name in ("start_time", "homotopy")),
+        *((name, c_long) for name in ("stack", "rounds")),
     ]
 
 

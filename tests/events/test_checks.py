@@ -65,9 +65,10 @@ def test_overflow(tmp_path: Path) -> None:
     assert "variable y (value inf)" in str(failure)
 
 
-@pytest.mark.parametrize("y", ["sin(x)/x", "(1 - cos(x))/x", "if x > 0 then c/x else 0", "c/(1 + x^2)", "x/sqrt(x^2)"])
+@pytest.mark.parametrize("y", ["sin(x)/x", "(1 - cos(x))/x", "if x > 0 then c/x else 0", "c/(1 + x^2)", "x/sqrt(x^2)",
+                               "x/(2 + abs(x))"])  # fmt: skip
 def test_what_only_looks_like_a_pole_passes(tmp_path: Path, y: str) -> None:
-    """0/0 that has a limit, a branch that does not hold there, a sum of squares."""
+    """0/0 that has a limit, a branch that does not hold there, a sum of squares, a numerator of zero at an event."""
     result = simulated(tmp_path, POLE.replace("c/x", y), solver="dopri5", interval=0.03, events=False)
     assert result.complete or "if x" in y, result.failure
 

@@ -1,8 +1,9 @@
 // code: R091
-// line: 7
-// hint: first-order lags
+// line: 8
+// hint: parameter
 model M
   Real x;
+  Real T = 1 + time;
 equation
-  x = delay(time, 1);
+  x = delay(time, T, 9);
 end M;

@@ -151,6 +151,10 @@ template <class M> struct Generated {
                                      nullptr,
                                      0,
                                      0,
+                                     nullptr,
+                                     0,
+                                     nullptr,
+                                     nullptr,
                                      nullptr};
     return &d;
   }

@@ -85,7 +85,8 @@ MeanSpeed WholeTurns::mean_speed(double period) const {
 
 std::size_t first_sample_after(double after, double period) {
   // A time that is a sample's own, but for rounding, is not later than that sample.
-  return static_cast<std::size_t>(std::floor(after / period + 1e-9)) + 1;
+  const double last = std::floor(after / period + 1e-9);
+  return last < 1e15 ? static_cast<std::size_t>(last) + 1 : std::numeric_limits<std::size_t>::max(); // never
 }
 
 MeanSpeed mean_speed(std::span<const double> angle, double period, double after) {

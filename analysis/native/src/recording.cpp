@@ -73,9 +73,12 @@ private:
   std::size_t number_ = 1;
 };
 
+/// The place of a column; an Error where two are called so.
 std::optional<std::size_t> position(const std::vector<std::string> &header, const std::string &name) {
   const auto found = std::find(header.begin(), header.end(), name);
   if (found == header.end()) return std::nullopt;
+  if (std::find(found + 1, header.end(), name) != header.end())
+    throw Error("recording: two columns are called '" + name + "'");
   return static_cast<std::size_t>(found - header.begin());
 }
 

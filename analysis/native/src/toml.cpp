@@ -10,6 +10,8 @@ namespace lacuna::toml {
 
 namespace {
 
+constexpr int deepest = 16; // arrays inside each other; settings need one
+
 /// Reads one line of a document; `number` is for messages.
 class Line {
 public:
@@ -54,11 +56,11 @@ public:
     return take(n);
   }
 
-  Value value() {
+  Value value(int depth = 0) {
     if (accept("true")) return {true};
     if (accept("false")) return {false};
     if (accept("\"")) return {string_tail()};
-    if (accept("[")) return {array_tail()};
+    if (accept("[")) return {array_tail(depth + 1)};
     return {number()};
   }
 
@@ -78,11 +80,12 @@ private:
     return text;
   }
 
-  Value::Array array_tail() {
+  Value::Array array_tail(int depth) {
     Value::Array items;
+    if (depth > deepest) refuse("arrays are nested more than " + std::to_string(deepest) + " deep");
     if (accept("]")) return items;
     do
-      items.push_back(value());
+      items.push_back(value(depth));
     while (accept(","));
     expect("]");
     return items;

@@ -23,6 +23,7 @@ from lacuna.analysis.prognosis.pages.telling import counted_verdicts, forecast_j
 from lacuna.analysis.prognosis.series import last_error, series_of
 from lacuna.analysis.prognosis.verdict import FORECAST
 from lacuna.analysis.report.page import figure, heading, page, table
+from lacuna.drawn import save
 
 DRAWN = 40  # actuators that get a figure; of more, those at greatest risk
 
@@ -40,11 +41,11 @@ def publish(said: Sequence[Forecast], bank: Bank, out: Path, risk: float, versio
             drawn = new_figure()
             draw(drawn.add_subplot(), f, *curves(f, bank))
             name = re.sub(r"[^\w.-]", "_", f"{f.history.actuator}_{f.history.fault}".rstrip("_"))
-            drawn.axes[0].set_title(f.history.actuator.replace("$", r"\$"))
-            drawn.savefig(scratch / f"{name}.png")
+            drawn.axes[0].set_title(f.history.actuator)
+            save(drawn, scratch / f"{name}.png", "png")
             drawn.axes[0].set_title("")  # the page has the name, escaped
             picture = io.StringIO()
-            drawn.savefig(picture, format="svg", metadata=dict.fromkeys(("Date", "Creator", "Format", "Type")))
+            save(drawn, picture, "svg")
             parts.append(_part(f, picture.getvalue(), risk))
         shown = f"{len(first)} of {len(said)} shown, those at greatest risk first." if len(said) > DRAWN else ""
         limits = ", ".join(f"{n} from {v:g}" for n, v in zip(said[0].limits.names, said[0].limits.values, strict=True))

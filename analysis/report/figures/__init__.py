@@ -15,6 +15,7 @@ from lacuna.analysis.map.rows import Row
 from lacuna.analysis.report.figures import currents, mean_rms, phase_rms, spectra, speed
 from lacuna.analysis.report.figures.style import in_style
 from lacuna.analysis.settings import Settings
+from lacuna.drawn import save
 
 # File stem: (title in the report, what to see there, function that draws it).
 FIGURES: dict[str, tuple[str, str, Callable[[Settings, list[Row]], Figure]]] = {
@@ -32,5 +33,5 @@ def draw_all(settings: Settings, rows: list[Row], folder: Path) -> None:
         with in_style():
             figure = draw(settings, rows)
             FigureCanvasAgg(figure)
-            figure.savefig(folder / f"{stem}.svg", metadata={"Date": None})
-            figure.savefig(folder / f"{stem}.png")
+            for kind in ("svg", "png"):
+                save(figure, folder / f"{stem}.{kind}", kind)

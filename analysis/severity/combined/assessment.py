@@ -16,6 +16,7 @@ from lacuna.analysis.severity.combined.estimate import JointEstimate, JointEstim
 from lacuna.analysis.severity.combined.grid import load_grid
 from lacuna.analysis.severity.preparation import START_RATE
 from lacuna.analysis.spectra.chain import signature
+from lacuna.drawn import save
 
 
 @dataclass(frozen=True)
@@ -77,4 +78,4 @@ def _write(done: JointAssessment, estimator: JointEstimator, folder: Path, out: 
         with in_style():
             figure = draw_estimate(estimator, done.estimate)
             for kind in ("svg", "png"):
-                figure.savefig(scratch / f"assessment.{kind}")
+                save(figure, scratch / f"assessment.{kind}", kind)

@@ -8,6 +8,7 @@ import numpy as np
 
 from lacuna.analysis.severity.combined.study import Study
 from lacuna.analysis.severity.robustness import rate
+from lacuna.drawn import save
 
 PAGE = """# Two faults at once
 
@@ -56,7 +57,7 @@ def write_studies(studies: list[Study], docs: Path) -> None:
     with published_together(docs / "figures") as scratch, in_style():
         for study in studies:
             figure = draw_limits(study)
-            figure.savefig(scratch / f"combined_{study.grid.other.symbol}.svg", metadata={"Date": None})
+            save(figure, scratch / f"combined_{study.grid.other.symbol}.svg", "svg")
     with published_together(docs) as scratch:
         (scratch / "combined.md").write_text(page(studies), encoding="utf-8")
 

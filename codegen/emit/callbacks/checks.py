@@ -24,6 +24,8 @@ NOMINALS = "static int mdl_nominals(mdl_data *m, double *nominal)"
 _POINT = "mdl_data *m, double t, const double *x, const double *xdot, const double *v"
 DIVISIONS = f"static int mdl_divisions({_POINT}, double *value)"
 PHASES = f"static int mdl_phases({_POINT}, double *phase)"
+DELAYS = f"static int mdl_delays({_POINT}, double *value)"
+DELAY_TIMES = "static int mdl_delay_times(const mdl_data *m, double *seconds)"
 SMALL = 50  # rows up to which each is a line of its own
 MAX_SHOWN = 8  # variables whose values a message shows
 
@@ -92,6 +94,19 @@ class Checks:
         """Nothing where there are none."""
         rows = [(f"phase[{k}]", e, "") for k, e in enumerate(self.prepared.guards.phases)]
         return self._write(PHASES, rows, self.prepared.storage.point) if rows else ""
+
+    def delays(self) -> list[str]:
+        """What is delayed and by how long; nothing where nothing is."""
+        if not self.prepared.delays:
+            return []
+        times = Body(self.names, self.prepared.storage.frozen)
+        for k, d in enumerate(self.prepared.delays):
+            times.line(f"seconds[{k}] = {times.value(d.seconds)};")
+        rows = [(f"value[{k}]", var(d.past), "") for k, d in enumerate(self.prepared.delays)]
+        return [function(DELAY_TIMES, times), self._write(DELAYS, rows, self.prepared.storage.point)]
+
+    def delay_inputs(self) -> list[str]:
+        return [str(self.prepared.storage.slot(d.input).index) for d in self.prepared.delays]
 
     def _write(self, signature: str, rows: list[tuple[str, Expr, str]], access: Access) -> str:
         """A callback that stores the value of each row (place, value, comment)."""

@@ -52,9 +52,10 @@ class Tables:
         target = self._p.aliases.get(v.name, (v.name, 1))[0]
         final = self._p.model.variables[target]
         start = self._number(self._values.variable(target), 0.0)
+        least, most = (1.0, float(len(v.enumeration))) if v.enumeration else (float("-inf"), float("inf"))
         limits = [
             number(self._number(self._values(e) if e is not None and not self._moves(e) else None, default))
-            for e, default in ((v.min, float("-inf")), (v.max, float("inf")), (v.nominal, 0.0))
+            for e, default in ((v.min, least), (v.max, most), (v.nominal, 0.0))
         ]
         fields = [
             c_string(v.name), c_string(v.unit), c_string(v.description), self._place(v.span),

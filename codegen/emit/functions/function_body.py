@@ -16,9 +16,12 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr, const, is_const
 from lacuna.codegen.symbolic.function_tangent import by_name
 from lacuna.codegen.symbolic.leaves import leaves
-from lacuna.codegen.symbolic.rewrite import expressions
+from lacuna.codegen.symbolic.rewrite import all_statements, expressions
 
-LOOP_LIMIT = 10_000_000
+ROUNDS = 10_000_000  # of all loops and calls inside one call from an equation: a tenth of a second
+STACK = 1 << 21  # bytes: a quarter of what a thread has on Linux, since _FRAME is a guess
+_FRAME = 512  # bytes of a call beside its locals: return address, saved registers, temporaries
+_LARGE = 4096  # bytes that no chain of functions without recursion makes dangerous
 
 
 class FunctionBody:
@@ -28,18 +31,22 @@ class FunctionBody:
         functions: dict[str, flat.Function],
         names: Names,
         assert_index: Callable[[flat.Assert], int],
+        recursive: bool,
     ):
         self._assert_index = assert_index
+        self._frame = _FRAME + 8 * sum(math.prod(shape) for shape in f.shapes.values())
+        self._guarded = recursive or self._frame > _LARGE or any(map(_loops, all_statements(f.body)))
         self._f, self._functions, self._tables = f, functions, names
         self._names = Names(f.shapes)
         self._lines: list[str] = []
         self._depth = 1
         self._lowered: dict[Expr, Expr] = {}
-        self._counter = 0
 
     def write(self) -> str:
         f = self._f
         read = {leaf.value for e in (*f.defaults.values(), *expressions(f.body)) for leaf in leaves(e)}
+        if self._guarded:
+            self._line(f"if (!mdl_enter(m, {self._frame})) {{ {self._refuse()} }}")
         for name in f.shapes:
             if name not in f.inputs:
                 self._declare(name)
@@ -76,7 +83,7 @@ class FunctionBody:
 
     def _leave(self) -> str:
         """Statements that hand over the results and return."""
-        f, parts = self._f, []
+        f, parts = self._f, [f"((mdl_data *)m)->stack -= {self._frame};"] if self._guarded else []
         for n in by_pointer(f):
             c_name, shape = self.c_name(n), f.shapes[n]
             if shape:
@@ -89,12 +96,18 @@ class FunctionBody:
             parts.append("return;")
         return " ".join(parts)
 
+    def _refuse(self) -> str:
+        """Statements that return NaN without having begun."""
+        f = self._f
+        parts = [f"if ({self.c_name(n)}_out) {{ *{self.c_name(n)}_out = {_nothing(f, n)}; }}" for n in by_pointer(f)]
+        return " ".join([*parts, f"return {_nothing(f, f.outputs[0])};" if returns_value(f) else "return;"])
+
     def _fail(self, kind: str, index: int = -1) -> str:
         """Note a failure and return NaN everywhere."""
         parts = [f"(void)mdl_fail((mdl_data *)m, MDL_FAILURE_{kind}, {index}, 0.0);"]
         for n in self._f.outputs:
             target = self.c_name(n) + ("[0]" if self._f.shapes[n] else "")
-            parts.append(f"{target} = {'0' if c_type(self._f, n) == 'int' else 'NAN'};")
+            parts.append(f"{target} = {_nothing(self._f, n)};")
         return " ".join([*parts, self._leave()])
 
     # -- statements -------------------------------------------------------------------------------------------
@@ -115,6 +128,9 @@ class FunctionBody:
         self._depth -= 1
         self._line("}")
 
+    def _round(self) -> str:
+        return f"if (++((mdl_data *)m)->rounds > {ROUNDS}) {{ {self._fail('LOOP')} }}"
+
     def _statement(self, s: flat.Statement) -> None:
         match s:
             case flat.Assign():
@@ -130,11 +146,7 @@ class FunctionBody:
                     self._block("else" if condition is TRUE else f"{word} ({self._text(condition)})", body)
                     word = "else if"
             case flat.While():
-                self._counter += 1
-                guard = f"rounds{self._counter}"
-                self._line(f"long {guard} = 0;")
-                self._block(f"while ({self._text(s.condition)})", s.body, f"if (++{guard} > {LOOP_LIMIT}) "
-                            f"{{ {self._fail('LOOP')} }}")  # fmt: skip
+                self._block(f"while ({self._text(s.condition)})", s.body, self._round())
             case flat.For():
                 self._for(s)
             case flat.Native():
@@ -186,7 +198,7 @@ class FunctionBody:
             test = f"{i} {'<=' if s.step.value > 0 else '>='} {last}"
         else:
             test = f"({step}) > 0.0 ? {i} <= {last} : {i} >= {last}"
-        self._block(f"for (double {i} = {first}; {test}; {i} += {step})", s.body)
+        self._block(f"for (double {i} = {first}; {test}; {i} += {step})", s.body, self._round())
         if kept:
             self._depth -= 1
             self._line("}")
@@ -240,6 +252,15 @@ class FunctionBody:
         same = [tuple(i.value for i in e.args[1:]) if e.op == "call" and e.args[0] is first.args[0] else None
                 for e in n.args]  # fmt: skip
         return self.c_name(name) if same == list(every) else None
+
+
+def _loops(s: flat.Statement) -> bool:
+    return isinstance(s, flat.For | flat.While)
+
+
+def _nothing(f: flat.Function, name: str) -> str:
+    """What a result is where the function failed."""
+    return "0" if c_type(f, name) == "int" else "NAN"
 
 
 def declarations(f: flat.Function, names: Names) -> tuple[list[str], list[str]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from lacuna.codegen.emit.functions.function_body import ROUNDS, STACK
 from lacuna.codegen.emit.functions.newton import NEWTON
 from lacuna.codegen.emit.functions.random_numbers import NATIVE, WORDS
 from lacuna.codegen.emit.text.expression import HELPERS
@@ -21,6 +22,17 @@ static inline int mdl_index(const mdl_data *m, double subscript, int size) {
   (void)mdl_fail((mdl_data *)m, MDL_FAILURE_DOMAIN, -1, subscript);
   return 0;
 }"""
+
+_ENTER = f"""\
+/* A function begins, with about so many bytes on the stack: not below what the stack bears, nor without end. */
+static int mdl_enter(const mdl_data *m, long bytes) {{
+  mdl_data *own = (mdl_data *)m;
+  if (own->stack == 0) own->rounds = 0;
+  if (own->stack + bytes > {STACK}) return !mdl_fail(own, MDL_FAILURE_STACK, -1, (double)own->stack);
+  if (++own->rounds > {ROUNDS}) return !mdl_fail(own, MDL_FAILURE_LOOP, -1, (double)own->rounds);
+  own->stack += bytes;
+  return 1;
+}}"""
 
 _SOLVE = """\
 /* Solve a x = b in place (row-major, n x n) by Gaussian elimination with scaled partial pivoting; b becomes x. Where a
@@ -139,6 +151,7 @@ _HELPERS = {
     **HELPERS,
     "mdl_fail": _FAIL,
     "mdl_index": _INDEX,
+    "mdl_enter": _ENTER,
     "mdl_solve": _SOLVE,
     "mdl_factor": _FACTOR,
     "mdl_substitute": _SUBSTITUTE,
@@ -150,6 +163,6 @@ _HELPERS = {
 
 def helpers(code: str) -> str:
     """The helpers that `code` calls."""
-    code += _INDEX if "mdl_index" in code else ""
+    code += "".join(text for name, text in (("mdl_index", _INDEX), ("mdl_enter", _ENTER)) if name in code)
     code += "".join(text for name, text in NATIVE.items() if name in code)
     return "\n\n".join(text for name, text in _HELPERS.items() if re.search(rf"\b{name}\b", code))

@@ -28,21 +28,25 @@ def user_functions(
     row of an assert in the model's table."""
     written: dict[str, str] = {}
     values: dict[str, str] = {}
+    begun: list[flat.Function] = []
 
     def visit(name: str, as_value: bool) -> None:
         f = by_name(functions, name)
         if name not in written:
             written[name] = ""
+            begun.append(f)
             for inner, inner_value in _calls_of(f):
                 visit(inner, inner_value)
             del written[name]
-            written[name] = FunctionBody(f, functions, names, assert_index).write()
+            written[name] = FunctionBody(f, functions, names, assert_index, _is_recursive(f, functions)).write()
         if as_value and not returns_value(f) and name not in values:
             values[name] = _first_result(f)
 
     for name in called:
         visit(name, True)
-    return "\n\n".join([*written.values(), *values.values()])
+    bodies = [*written.values(), *values.values()]
+    ahead = [_prototype(body) for body in bodies] if any(_is_recursive(f, functions) for f in begun) else []
+    return "\n\n".join([*(["\n".join(ahead)] if ahead else []), *bodies])
 
 
 def calls(roots: Iterable[Expr]) -> list[str]:
@@ -57,6 +61,22 @@ def _calls_of(f: flat.Function) -> list[tuple[str, bool]]:
     inside = [e for e in (*f.defaults.values(), *expressions(f.body)) if e not in whole]
     inside += [a for call in whole for a in call.args]
     return [(str(call.value), False) for call in whole] + [(name, True) for name in calls(inside)]
+
+
+def _prototype(body: str) -> str:
+    """The declaration of a function that is called before it is defined."""
+    return next(line for line in body.splitlines() if line.startswith("static ")).removesuffix(" {") + ";"
+
+
+def _is_recursive(f: flat.Function, functions: dict[str, flat.Function]) -> bool:
+    """Whether calls lead from the function to itself."""
+    waiting, seen = [name for name, _ in _calls_of(f)], set[str]()
+    while waiting:
+        name = waiting.pop()
+        if name not in seen:
+            seen.add(name)
+            waiting += [inner for inner, _ in _calls_of(by_name(functions, name))]
+    return f.name in seen
 
 
 def _first_result(f: flat.Function) -> str:

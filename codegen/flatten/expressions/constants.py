@@ -75,6 +75,9 @@ def _value_of(name: str, context: Context, span: Span, what: str) -> Expr:
         if value is None:
             raise Diagnostic("F023", f"{what} needs a value of {name}", leaf.span, "give it one: = ...")
         result = evaluate(value, context, leaf.span, name)
+        if leaf.primitive != ex.REAL and result.type != leaf.primitive:
+            raise Diagnostic("R024", f"{name} is {leaf.primitive}, its value {result.type}", leaf.span,
+                             f"give it a {leaf.primitive}")  # fmt: skip
     finally:
         context.evaluating.pop()
     context.constants[name] = result

@@ -16,14 +16,13 @@ from lacuna.codegen.flatten.functions.code import is_done
 from lacuna.codegen.flatten.functions.declared import call_function
 from lacuna.codegen.flatten.names.scope import Scope, enumeration, find_class, own_or_inherited
 from lacuna.codegen.flatten.names.unknown import visible_classes
-from lacuna.codegen.flatten.names.values import FunctionValue, Value, elementwise, shape_of
+from lacuna.codegen.flatten.names.values import FunctionValue, Value, elementwise, scalars, shape_of
 from lacuna.codegen.library.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
 
 _OUTSIDE = {
-    "delay": "model the transport, for example by a chain of first-order lags",
     "spatialDistribution": "divide the length into elements",
     "Clock": "use when sample(start, interval) then",
     "previous": "use pre(x) inside when sample(...)",
@@ -85,6 +84,9 @@ def _take(e: ast.Call, count: int) -> list[ast.Expression]:
 def _der(e: ast.Call, scope: Scope) -> Value:
     (written,) = _take(e, 1)
     value = lower(written, scope)
+    if any(n.op == "delay" for item in scalars(value) if isinstance(item, Expr) for n in ex.walk(item)):
+        hint = "delay the derivative: delay(der(x), T)"
+        raise Diagnostic("R054", "the derivative of a delay", e.span, hint)
     return elementwise(lambda x: time_derivative(x, scope, e.span), [value], e.span, "der")
 
 
@@ -150,7 +152,7 @@ def _by_name(e: ast.Call, names: tuple[str, ...]) -> list[ast.Expression]:
 
 
 def _homotopy(e: ast.Call, scope: Scope) -> Value:
-    """A choice that `dae.homotopy` takes apart; the simplified expression must fit the actual one."""
+    """A choice that `dae.operators.homotopy` takes apart; the simplified expression must fit the actual one."""
     actual, simplified = (lower(a, scope) for a in _by_name(e, ("actual", "simplified")))
     if shape_of(actual) != shape_of(simplified):
         raise Diagnostic("R042", "homotopy of two sizes", e.span, "both expressions need the same size")
@@ -182,6 +184,25 @@ def _instance_name(e: ast.Call, scope: Scope) -> Value:
         raise Diagnostic("R054", "getInstanceName in a function", e.span, "hand the name over as an argument")
     top = scope.context.model.rpartition(".")[2]
     return f"{top}.{scope.instance.name}" if scope.instance.name else top
+
+
+def _delay(e: ast.Call, scope: Scope) -> Value:
+    """What an expression was some time ago; where no time passes, it itself (3.7.4.1)."""
+    if scope.in_function:
+        raise Diagnostic("R054", "delay in a function", e.span, "give what is delayed as an argument")
+    if e.named or len(e.args) not in (2, 3):
+        raise Diagnostic("R050", "delay takes an expression, a time and the longest time", e.span, "delay(e, T, Tmax)")
+    seconds, *longest = (lower_scalar(a, scope, REAL) for a in e.args[1:])
+    longest = longest or [seconds]
+    if not is_parameter(seconds, scope.context):
+        hint = "give delayTime as a parameter"
+        raise Diagnostic("R091", "a delay by a time that varies is outside the subset", e.args[1].span, hint)
+
+    def build(x: Expr) -> Expr:
+        passes = x.op == "const" or is_parameter(x, scope.context) or ex.is_const(seconds, 0)
+        return x if passes else ex.special("delay", x, seconds, *longest, type=REAL)
+
+    return elementwise(build, [lower(e.args[0], scope)], e.span, "delay")
 
 
 def _sample(e: ast.Call, scope: Scope) -> Value:
@@ -228,5 +249,5 @@ OPERATORS: dict[str, Handler] = {
     "der": _der, "pre": _pre, "edge": _edge, "change": _change, "noEvent": _no_event, "smooth": _smooth,
     "sample": _sample, "initial": _phase("initial"), "terminal": _phase("terminal"), "String": text_of,
     "Integer": _integer_of, "size": _size, "homotopy": _homotopy, "semiLinear": _semi_linear,
-    "getInstanceName": _instance_name,
+    "getInstanceName": _instance_name, "delay": _delay,
 }  # fmt: skip

@@ -16,22 +16,20 @@ from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.aliases import STATE_SELECT
 from lacuna.codegen.structure.constants import is_parametric
-from lacuna.codegen.structure.system import DeclaredValues, DefinedValues, Row, System
+from lacuna.codegen.structure.system import DeclaredValues, DefinedValues, GenericValues, Row, System
 from lacuna.codegen.symbolic.differentiate import partial
 from lacuna.codegen.symbolic.expr import Expr, add, const, der, mul, relation, var
 from lacuna.codegen.symbolic.rewrite import Rewriter, all_statements
 
 PIVOT = 1e-6  # smallest pivot accepted, relative to the largest entry of its equation
+ROUNDING = 1e-10  # of the largest number that entered a sum: at generic values what is smaller is a zero
 WATCHED = 0.1  # smallest pivot tolerated during a run, relative to those of the states that it stands beside
 
 
 def choose_states(model: flat.FlatModel, rows: list[Row], names: list[str]) -> System:
     """Select dummy derivatives among `rows` and return the system in the remaining states."""
     variables = _variables(rows, names)
-    try:
-        dummies, watches = _choose_dummies(model, rows, variables, DeclaredValues(model))
-    except Diagnostic:
-        dummies, watches = _choose_dummies(model, rows, variables, DefinedValues(model, rows))
+    dummies, watches = _first_choice(model, rows, variables)
     model = replace(model, asserts=[*model.asserts, *watches])
     replacement, model, extra = _rename(model, variables, dummies)
     rewriter = Rewriter(replacement.get)
@@ -51,6 +49,18 @@ def choose_states(model: flat.FlatModel, rows: list[Row], names: list[str]) -> S
         [text_of(d) for d in variables if d in dummies],
         rewriter,
     )
+
+
+def _first_choice(
+    model: flat.FlatModel, rows: list[Row], variables: dict[Expr, int]
+) -> tuple[set[Expr], list[flat.Assert]]:
+    """Dummies and watches at the start values as far as they tell; else at those of their neighbourhood."""
+    for values in (DeclaredValues(model), DefinedValues(model, rows)):
+        try:
+            return _choose_dummies(model, rows, variables, values)
+        except Diagnostic:
+            continue
+    return _choose_dummies(model, rows, variables, GenericValues(model, rows))
 
 
 def text_of(n: Expr) -> str:
@@ -130,6 +140,8 @@ def _pivots(
     """For each row one of the candidates, with a regular Jacobian at the start values (Gaussian elimination)."""
     column = {v: k for k, v in enumerate(candidates)}
     matrix = [_scaled({column[n]: _entry(row, n, values) for n in row.leaves if n in column}) for row in rows]
+    summed = [{c: abs(a) for c, a in line.items()} for line in matrix]  # the largest number that entered each entry
+    generic = isinstance(values, GenericValues)
     users: list[set[int]] = [set() for _ in candidates]
     for r, line in enumerate(matrix):
         for c in line:
@@ -140,7 +152,10 @@ def _pivots(
         """Sorts first: the weakest candidate, of those the largest pivot, of those the last declared."""
         return keys[c], -abs(matrix[r][c]), -c, r
 
-    queue = [entry(r, c) for r, line in enumerate(matrix) for c in line if abs(line[c]) > PIVOT]
+    def is_pivot(r: int, c: int) -> bool:
+        return abs(matrix[r][c]) > (ROUNDING * summed[r][c] if generic else PIVOT)
+
+    queue = [entry(r, c) for r, line in enumerate(matrix) for c in line if is_pivot(r, c)]
     heapq.heapify(queue)
     chosen: dict[Row, Expr] = {}
     while queue:
@@ -154,8 +169,9 @@ def _pivots(
             factor = matrix[other].pop(c) / pivot
             for k, a in matrix[r].items():
                 matrix[other][k] = matrix[other].get(k, 0.0) - factor * a
+                summed[other][k] = max(summed[other].get(k, 0.0), abs(factor * a))
                 users[k].add(other)
-                if abs(matrix[other][k]) > PIVOT:
+                if is_pivot(other, k):
                     heapq.heappush(queue, entry(other, k))
     if len(chosen) < len(rows):
         _refuse(rows, candidates)

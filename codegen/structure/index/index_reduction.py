@@ -6,13 +6,16 @@ C. Pantelides, The consistent initialization of differential-algebraic systems, 
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.index.dummy_derivatives import choose_states
 from lacuna.codegen.structure.sorting.singular import require_regular
 from lacuna.codegen.structure.system import Row, System
 from lacuna.codegen.symbolic.differentiate import Differentiator
-from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, der
+from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, der, to_text, var
+from lacuna.codegen.symbolic.leaves import leaves
 
 
 def reduce_index(model: flat.FlatModel, equations: list[flat.Equation]) -> System:
@@ -24,8 +27,27 @@ def reduce_index(model: flat.FlatModel, equations: list[flat.Equation]) -> Syste
     ]
     rows = [Row(e.lhs, e.rhs, e) for e in equations]
     require_regular(rows, names, model)
+    model, started = _derivatives_at_start(model, rows, set(names))
+    names += [str(row.lhs.value) for row in started]
+    rows += started
     rows = _Pantelides(model, rows, names).run()
     return choose_states(model, rows, names)
+
+
+def _derivatives_at_start(model: flat.FlatModel, rows: list[Row], names: set[str]) -> tuple[flat.FlatModel, list[Row]]:
+    """Variables and rows for derivatives that only the initial equations have: the reduction must know of them."""
+    known = {n for row in rows for n in row.leaves}
+    found: dict[Expr, flat.Equation] = {}
+    for eq in model.initial_equations:
+        for n in sorted(leaves(eq.lhs) | leaves(eq.rhs), key=to_text):
+            if n.op == "der" and n not in known and base_name(n) in names:
+                found.setdefault(n, eq)
+    variables, started = dict(model.variables), []
+    for n, eq in found.items():
+        name = f"start of {to_text(n)}"
+        variables[name] = flat.Variable(name, eq.span, description="a derivative that an initial equation has")
+        started.append(Row(var(name), n, flat.Equation(var(name), n, eq.span, eq.origin, f"{name} = {to_text(n)}")))
+    return replace(model, variables=variables), started
 
 
 def base_name(n: Expr) -> str:

@@ -65,7 +65,8 @@ def _checkout(folder: Path, gain: int) -> Path:
     shutil.copytree(ROOT / "codegen", package / "codegen", ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copytree(ROOT / "runtime" / "include", package / "runtime" / "include")
     (package / "__init__.py").touch()
-    shutil.copy(ROOT / "lacuna" / "units.py", package)
+    for needed in ("units.py", "texts.py", "children.py"):
+        shutil.copy(ROOT / "lacuna" / needed, package)
     (package / "model").mkdir()
     (package / "model" / "package.mo").write_text("package Lacuna\nend Lacuna;\n")
     (package / "model" / "Decay.mo").write_text(f"within Lacuna;\n{MODEL.replace('k = 2', f'k = {gain}')}")

@@ -45,3 +45,37 @@ def test_a_model_without_variables_runs(tmp_path: Path) -> None:
     result = simulated(tmp_path, "model Nothing\nend Nothing;\n")
     assert result.complete
     assert result.time[-1] == 1.0
+
+
+def test_a_derivative_that_only_an_initial_equation_has(tmp_path: Path) -> None:
+    """q = x + y has no equation of its own for der(q): der(q) = der(x) + der(y) = 0 at the start gives x = 3 y."""
+    text = """model Only
+  Real x, y(start=1, fixed=true), q;
+initial equation
+  der(q) = 0;
+equation
+  der(x) = -x;
+  der(y) = 3*y;
+  q = x + y;
+end Only;
+"""
+    result = simulated(tmp_path, text, stop=0.1)
+    assert result["x"][0] == pytest.approx(3, rel=1e-9)
+    assert result["q"][0] == pytest.approx(4, rel=1e-9)
+
+
+def test_a_free_parameter_in_several_initial_equations(tmp_path: Path) -> None:
+    """p = x and p + x = 3: both are 1.5, though p = x alone would give p the value of a state that is not known."""
+    text = """model Several
+  parameter Real p(fixed=false);
+  Real x;
+initial equation
+  x = p;
+  0 = 3 - p - x;
+equation
+  der(x) = -x;
+end Several;
+"""
+    result = simulated(tmp_path, text, stop=0.1)
+    assert result["x"][0] == pytest.approx(1.5, rel=1e-9)
+    assert result["p"][-1] == pytest.approx(1.5, rel=1e-9)

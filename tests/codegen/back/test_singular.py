@@ -38,8 +38,8 @@ CASES = {
     ),
     "constraint without a regular pivot": (
         "S005", 5, "do not determine any of them at the start values",
-        "model Pivot\n  Real x(start=0); Real y(start=0); Real f;\nequation\n  der(x) = f;\n  x^2 + y^2 = 1;\n"
-        "  der(y) = x*f;\nend Pivot;",
+        "model Pivot\n  Real x; Real y; Real f; Real g;\nequation\n  der(x) = f; der(y) = g;\n"
+        "  x^2 + x*y = 1; 2*x^2 + 2*x*y = 2;\nend Pivot;",
     ),
     "discrete equation without an unknown": (
         "S010", 4, "no discrete variable is left",

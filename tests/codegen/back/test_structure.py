@@ -12,6 +12,7 @@ from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.structure.causal import LinearBlock, NonlinearBlock
 from lacuna.codegen.symbolic.expr import to_text
 from tests.codegen.generated import Generated, write_model
+from tests.events.models import simulated
 
 
 @pytest.fixture
@@ -179,3 +180,19 @@ def test_ladder_whose_recursion_would_blow_up_is_solved_whole(tmp_path: Path) ->
     model = Generated(write_model(tmp_path, text), tmp_path)
     v = model.rhs(0.0, np.array([1.0]))[1][:5]
     np.testing.assert_allclose(v[1:] / v[:-1], (3 - np.sqrt(5)) / 2, rtol=1e-12)
+
+
+def test_constraints_that_are_degenerate_at_the_start_values_are_read_in_their_neighbourhood(tmp_path: Path) -> None:
+    """i = phi r, r (2 + phi) = 1 with all start values zero: phi = 2 t/(1 - t), so that der(phi) = 2/(1 - t)^2."""
+    text = """model Chain
+  Real i, phi, r, g, u;
+equation
+  i = time;
+  i = phi*r;
+  r*g = 1;
+  g = 2 + phi;
+  u = der(phi);
+end Chain;
+"""
+    result = simulated(tmp_path, text, stop=0.5, interval=0.1, events=False)
+    assert result["u"] == pytest.approx(2 / (1 - result.time) ** 2, rel=1e-6)

@@ -89,6 +89,7 @@ void Monitor::finish_record() noexcept {
     const double rms = std::sqrt(channels_[c].sum_of_squares / static_cast<double>(setup_.samples));
     features_.channels[c] = channel_features(rms, amplitude, rule);
     features_.rms_mean += rms / static_cast<double>(channels_.size());
+    features_.valid = features_.valid && std::isfinite(rms) && std::isfinite(*std::ranges::max_element(amplitude));
   }
   const MeanSpeed unknown{0, std::numeric_limits<double>::quiet_NaN()};
   features_.speed = has_angle_ ? turns_.mean_speed(1 / setup_.sampling_rate) : unknown;

@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 from functools import lru_cache
 import hashlib
-import math
 from pathlib import Path
 
 from lacuna.codegen.errors import Diagnostic, Span
@@ -13,6 +12,7 @@ from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.values import Array, Value
 from lacuna.codegen.library.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
+from lacuna.texts import decimal
 
 CSV_COLUMN = "csvColumn"
 _URI = "modelica://"
@@ -73,6 +73,8 @@ def csv_column(text: str, path: Path, column: str, span: Span) -> Array:
     if column not in heading:
         hint = did_you_mean(column, heading, f"it has {', '.join(heading)}")
         raise Diagnostic("F041", f"{path.name} has no column {column}", span, hint)
+    if heading.count(column) > 1:
+        raise Diagnostic("F041", f"{path.name} has several columns {column}", span, "give each a name of its own")
     at = heading.index(column)
     numbers: list[float] = []
     for number, row in enumerate(rows[1:], 2):
@@ -81,7 +83,7 @@ def csv_column(text: str, path: Path, column: str, span: Span) -> Array:
         if wrong:
             message = f"{path.name}, data line {number}, column {column}: {found!r} {wrong}"
             raise Diagnostic("F041", message, span, "correct the file")
-        numbers.append(float(found))
+        numbers.append(decimal(found))
     if not numbers:
         raise Diagnostic("F041", f"{path.name} has a heading and no data", span, "add lines of numbers")
     return Array((len(numbers),), tuple(map(ex.const, numbers)))
@@ -90,9 +92,7 @@ def csv_column(text: str, path: Path, column: str, span: Span) -> Array:
 def _objection(found: str, before: list[float]) -> str | None:
     """What is wrong with a field that should be a number, and greater than the one `before` it, if any."""
     try:
-        value = float(found)
+        value = decimal(found)
     except ValueError:
-        return "is no number"
-    if not math.isfinite(value):
         return "is no finite number"
     return f"does not come after {before[0]:g}" if before and value <= before[0] else None

@@ -7,6 +7,8 @@ import math
 from pathlib import Path
 import re
 
+from lacuna.texts import decimal
+
 _HEAD = re.compile(r"\s*(?:double|float)\s+(\S+?)\s*\(\s*(\d+)\s*,\s*(\d+)\s*\)\s*(?:#.*)?$")
 _SEPARATORS = re.compile(r"[\s,;]+")
 MAX_NUMBERS = 2_000_000
@@ -65,7 +67,7 @@ def _numbers(lines: list[str], name: str, rows: int, columns: int) -> list[list[
 
 def _number(word: str, name: str) -> float:
     try:
-        return float(word)
+        return decimal(word)
     except ValueError:
         raise FileError(f"the table {name} holds {word!r}, which is no number") from None
 

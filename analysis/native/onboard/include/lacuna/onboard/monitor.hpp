@@ -17,7 +17,7 @@ struct RecordFeatures {
   std::array<ChannelFeatures, max_channels> channels; ///< the first `Configuration::channels` of them
   double rms_mean;
   MeanSpeed speed; ///< no turns where no angle was given
-  bool valid;      ///< false: a sample of the record was not a finite number, and nothing else here counts
+  bool valid;      ///< false: a sample, or a feature, is not a finite number, and nothing else here counts
 };
 
 class Monitor {

@@ -1,0 +1,1 @@
+"""Operators that the passes take apart: homotopy, delay."""

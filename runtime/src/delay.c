@@ -1,0 +1,242 @@
+/* delay(e, T) = e at T seconds ago: an input of the model whose samples the run writes itself.
+ *
+ * The past of e is kept in pieces, one a step, each a polynomial through the values at its Chebyshev-Lobatto points
+ * (J.-P. Berrut, L. N. Trefethen, Barycentric Lagrange interpolation, SIAM Review 46 (2004) 501-517). No step is longer
+ * than the shortest T, so that it looks into what is known. Where e jumped or bent, its delay does so T later: an
+ * event. As with recorded inputs, the end of a step that lands on a jump sees the value before it. */
+#include "delay.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { NODES = 5, MANY = 4096 };
+static const double node[NODES] = {0, 0.14644660940672624, 0.5, 0.85355339059327376, 1};
+static const double weight[NODES] = {0.5, -1, 1, -1, 0.5};
+
+typedef struct {
+  double begin, length; /* s */
+  double value[NODES];
+  bool jump, kink; /* against the piece before */
+} piece;
+
+/* `cursor` is the piece that is looked into from the start of the present step on, -1 before the start of the run;
+ * nothing before piece `ahead` that jumps or bends is still to come. */
+typedef struct {
+  piece *pieces;
+  int n, capacity, cursor, ahead;
+  double before, size; /* value up to the start; largest one so far */
+} history;
+
+struct rt_delays {
+  int n;
+  bool fresh; /* an event lies between the last piece and the next */
+  history *past;
+  double *seconds, *left, *right, *at_node; /* [n], and [n * NODES] */
+};
+
+bool rt_delays_create(rt_session *s) {
+  int n = s->d->n_delay;
+  if (!n) return true;
+  rt_delays *d = s->delays = calloc(1, sizeof *d);
+  if (!d) return false;
+  d->n = n;
+  d->past = calloc((size_t)n, sizeof *d->past);
+  d->seconds = calloc((size_t)n * (3 + NODES), sizeof *d->seconds);
+  if (!d->past || !d->seconds) return false;
+  d->left = d->seconds + n;
+  d->right = d->left + n;
+  d->at_node = d->right + n;
+  return true;
+}
+
+void rt_delays_free(rt_session *s) {
+  rt_delays *d = s->delays;
+  if (!d) return;
+  for (int k = 0; d->past && k < d->n; k++)
+    free(d->past[k].pieces);
+  free(d->past);
+  free(d->seconds);
+  free(d);
+}
+
+rt_status rt_delays_begin(rt_session *s) {
+  rt_delays *d = s->delays;
+  if (!d) return RT_OK;
+  if (s->sensitivities)
+    return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "sensitivities of a model with delay() are not computed");
+  if (s->d->delay_times(&s->data, d->seconds)) return rt_fail_model(s, s->start, "computing delays");
+  d->fresh = true;
+  for (int k = 0; k < d->n; k++) {
+    d->past[k].n = d->past[k].ahead = 0;
+    d->past[k].cursor = -1;
+    if (!(d->seconds[k] >= 16 * rt_time_resolution(s)) || d->seconds[k] < s->options.step)
+      return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL,
+                     "delay() number %d is by %.9g s, which is no time or less than a step", k + 1, d->seconds[k]);
+  }
+  return RT_OK;
+}
+
+static int values_at(rt_session *s, double t, const double *x, const double *xdot, const double *v, double *value) {
+  return s->d->delays(&s->data, t, x, xdot, v, value);
+}
+
+/* Up to the start everything was as it is there. */
+int rt_delays_start(rt_session *s) {
+  rt_delays *d = s->delays;
+  if (!d) return 0;
+  int status = values_at(s, s->t, s->data.x, s->data.xdot, s->data.v, d->left);
+  for (int k = 0; k < d->n; k++) {
+    d->past[k].before = s->data.u[s->d->delay_input[k]] = d->left[k];
+    d->past[k].size = fabs(d->left[k]);
+  }
+  return status;
+}
+
+static double inside(const piece *p, double t) {
+  double theta = rt_min(1, rt_max(0, (t - p->begin) / p->length)), above = 0, below = 0;
+  for (int i = 0; i < NODES; i++) {
+    double off = theta - node[i];
+    if (off == 0) return p->value[i];
+    above += weight[i] / off * (p->value[i] - p->value[0]);
+    below += weight[i] / off;
+  }
+  return p->value[0] + above / below;
+}
+
+/* Per second, at the first or the last point of a piece. */
+static double slope(const piece *p, int at) {
+  double sum = 0;
+  for (int i = 0; i < NODES; i++)
+    if (i != at) sum += weight[i] / weight[at] / (node[at] - node[i]) * (p->value[i] - p->value[at]);
+  return sum / p->length;
+}
+
+/* The piece that holds t, not beyond a jump. */
+static int reached(const history *h, double t) {
+  int k = h->cursor;
+  while (k + 1 < h->n && h->pieces[k + 1].begin < t && !h->pieces[k + 1].jump)
+    k++;
+  return k;
+}
+
+void rt_delays_at(rt_session *s, double t) {
+  rt_delays *d = s->delays;
+  for (int k = 0; d && k < d->n; k++) {
+    const history *h = &d->past[k];
+    int at = reached(h, t - d->seconds[k]);
+    s->data.u[s->d->delay_input[k]] = at < 0 ? h->before : inside(&h->pieces[at], t - d->seconds[k]);
+  }
+}
+
+/* An event at t: what has been reached by then holds from now on. */
+void rt_delays_pass(rt_session *s, double t) {
+  rt_delays *d = s->delays;
+  for (int k = 0; d && k < d->n; k++) {
+    history *h = &d->past[k];
+    while (h->cursor + 1 < h->n && h->pieces[h->cursor + 1].begin + d->seconds[k] <= t + s->clock.tolerance)
+      h->cursor++;
+  }
+}
+
+/* What no step may pass: the end of what is known, and the next instant at which a delay jumps or bends. */
+double rt_delays_limit(rt_session *s) {
+  rt_delays *d = s->delays;
+  double limit = INFINITY, now = s->t + s->clock.tolerance;
+  for (int k = 0; d && k < d->n; k++) {
+    history *h = &d->past[k];
+    const piece *p = h->pieces;
+    while (h->ahead < h->n && (p[h->ahead].begin + d->seconds[k] <= now || !(p[h->ahead].jump || p[h->ahead].kink)))
+      h->ahead++;
+    if (h->ahead < h->n) limit = rt_min(limit, p[h->ahead].begin + d->seconds[k]);
+    limit = rt_min(limit, s->t + d->seconds[k]);
+  }
+  return limit;
+}
+
+int rt_delays_due(rt_session *s) {
+  rt_delays *d = s->delays;
+  int pending = 0;
+  for (int k = 0; d && k < d->n; k++) {
+    const history *h = &d->past[k];
+    for (int i = h->cursor + 1; i < h->n; i++) {
+      double off = h->pieces[i].begin + d->seconds[k] - s->t;
+      if (off > s->clock.tolerance) break;
+      if (h->pieces[i].jump) pending |= RT_PENDING_JUMP;
+      if (h->pieces[i].kink && s->method->multistep && off >= -s->clock.tolerance) pending |= RT_PENDING_KINK;
+    }
+  }
+  return pending;
+}
+
+/* A step begins: what e is there, after any event. Pieces that no step looks into any more are forgotten. */
+rt_status rt_delays_leave(rt_session *s) {
+  rt_delays *d = s->delays;
+  if (!d) return RT_OK;
+  for (int k = 0; k < d->n; k++) {
+    history *h = &d->past[k];
+    h->cursor = reached(h, s->t - d->seconds[k]);
+    if (h->cursor < MANY || h->cursor < h->n / 2) continue;
+    h->n -= h->cursor;
+    h->ahead = h->ahead > h->cursor ? h->ahead - h->cursor : 0;
+    memmove(h->pieces, h->pieces + h->cursor, (size_t)h->n * sizeof *h->pieces);
+    h->cursor = 0;
+  }
+  if (!values_at(s, s->t, s->data.x, s->data.xdot, s->data.v, d->left)) return RT_OK;
+  return rt_fail_model(s, s->t, "keeping what is delayed");
+}
+
+/* Whether the newest piece jumps or bends against the one before, by more than the tolerance resolves. */
+static void compare_ends(const rt_session *s, history *h, bool fresh) {
+  piece *p = &h->pieces[h->n - 1];
+  const piece *last = h->n > 1 ? p - 1 : NULL;
+  double visible = 1e-3 * s->options.rtol * h->size;
+  p->jump = fabs(p->value[0] - (last ? last->value[NODES - 1] : h->before)) > visible;
+  double turn = slope(p, 0) - (last ? slope(last, NODES - 1) : 0);
+  double span = last ? rt_max(p->length, last->length) : p->length;
+  p->kink = fresh && !p->jump && fabs(turn) * span > s->options.rtol * h->size;
+}
+
+static bool append(rt_session *s, int k) {
+  rt_delays *d = s->delays;
+  history *h = &d->past[k];
+  if (h->n == h->capacity) {
+    int capacity = h->capacity ? 2 * h->capacity : 64;
+    piece *larger = realloc(h->pieces, (size_t)capacity * sizeof *larger);
+    if (!larger) return false;
+    h->pieces = larger;
+    h->capacity = capacity;
+  }
+  piece *p = &h->pieces[h->n++];
+  *p = (piece){.begin = s->t_previous, .length = s->t - s->t_previous};
+  for (int i = 0; i < NODES; i++) {
+    p->value[i] = d->at_node[i * d->n + k];
+    h->size = rt_max(h->size, fabs(p->value[i]));
+  }
+  compare_ends(s, h, d->fresh);
+  return true;
+}
+
+/* The step from t_previous to t is done. */
+rt_status rt_delays_follow(rt_session *s) {
+  rt_delays *d = s->delays;
+  if (!d || !(s->t > s->t_previous)) return RT_OK;
+  memcpy(d->at_node, d->left, (size_t)d->n * sizeof *d->left);
+  memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
+  int status = values_at(s, s->t, s->data.x, s->data.xdot, s->data.v, d->at_node + (NODES - 1) * d->n);
+  for (int i = NODES - 2; i > 0 && !status; i--) {
+    double t = s->t_previous + node[i] * (s->t - s->t_previous);
+    rt_dense_point(s, t, false, s->x_trial);
+    status = rt_rhs(s, t, s->x_trial, s->xdot_trial, s->v_trial);
+    if (!status) status = values_at(s, t, s->x_trial, s->xdot_trial, s->v_trial, d->at_node + i * d->n);
+  }
+  if (status) return rt_fail_model(s, s->t, "keeping what is delayed");
+  rt_inputs_at(s, s->t);
+  for (int k = 0; k < d->n; k++)
+    if (!append(s, k)) return rt_fail(s, RT_MEMORY, s->t, -1, NULL, "out of memory for what is delayed");
+  d->fresh = false;
+  return RT_OK;
+}
+
+void rt_delays_event(rt_session *s) {
+  if (s->delays) s->delays->fresh = true;
+}

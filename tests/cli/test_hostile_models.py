@@ -1,0 +1,112 @@
+"""What a stranger's model may do: run for long within limits, name things as it likes; never more than that."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from lacuna.cli.main import app
+
+RECURSIVE = """model M
+  function f
+    input Real n;
+    output Real y;
+  algorithm
+    {body}
+  end f;
+  function g
+    input Real n;
+    output Real y;
+  algorithm
+    y := f(n - 1);
+  end g;
+  Real z = f({argument});
+end M;
+"""
+BOUND = "model M parameter {kind} k = {value}; Real x = {use}; end M;"
+CSV_COLUMN = 'function csvColumn input String f; input String c; output Real v[:]; external "builtin"; end csvColumn; '
+
+
+def simulated(folder: Path, text: str, *options: str) -> tuple[int, str]:
+    """Exit status and what was said."""
+    model = folder / "model.mo"
+    model.write_text(text, encoding="utf-8")
+    result = CliRunner().invoke(app, ["simulate", str(model), "--out", str(folder / "out"), *options])
+    return result.exit_code, result.output
+
+
+@pytest.mark.parametrize(
+    ("body", "argument", "reason"),
+    [
+        ("y := if n <= 0 then 0 else 1 + f(n - 1);", "1e7 + time", "too deep"),
+        ("y := if n <= 0 then 0 else 1 + g(n);", "1e7 + time", "too deep"),
+        ("y := f(n);", "time", "too deep"),
+        ("y := if n < 2 then n else f(n - 1) + f(n - 2);", "60 + floor(time)", "ran too long"),
+        ("y := 0; " + "for i in 1:1000 loop " * 4 + "y := y + n;" + " end for;" * 4, "time", "ran too long"),
+    ],
+)
+def test_a_function_ends(tmp_path: Path, body: str, argument: str, reason: str) -> None:
+    status, said = simulated(tmp_path, RECURSIVE.format(body=body, argument=argument))
+    assert (status, reason in said) == (1, True), said
+
+
+def test_functions_that_call_each_other_give_their_value(tmp_path: Path) -> None:
+    text = RECURSIVE.format(body="y := if n <= 0 then 0 else 1 + g(n);", argument="20 + floor(time)")
+    assert simulated(tmp_path, text)[0] == 0
+    assert (tmp_path / "out" / "M.csv").read_text().splitlines()[1].split(",")[1] == "20"
+
+
+def test_an_integer_beyond_what_is_exact_ends_the_run(tmp_path: Path) -> None:
+    text = "model M Integer i(start=1, fixed=true); equation when sample(0, 0.01) then i = pre(i)*10; end when; end M;"
+    status, said = simulated(tmp_path, text)
+    assert (status, "2^53" in said) == (1, True), said
+
+
+@pytest.mark.parametrize(
+    ("kind", "value", "use", "given"),
+    [
+        ("Real", "1", "k*time", "1_0"),
+        ("Real", "1", "k*time", "nan"),
+        ("Real", "1", "k*time", "inf"),
+        ("Real", "1", "k*time", "١٢"),
+        ("Integer", "1", "k*time", "1.5"),
+        ("Integer", "1", "k*time", "1e30"),
+        ("Integer", "1", "sum(fill(time, k))", "1.5"),
+        ("Boolean", "true", "if k then time else 0", "7"),
+        ("E", "E.a", "if k == E.a then time else 0", "7"),
+    ],
+)
+def test_a_parameter_takes_values_of_its_type_only(tmp_path: Path, kind: str, value: str, use: str, given: str) -> None:
+    text = BOUND.format(kind=kind, value=value, use=use).replace("model M", "model M type E = enumeration(a, b);", 1)
+    status, said = simulated(tmp_path, text, "-p", f"k={given}")
+    assert status == 1, said
+    assert simulated(tmp_path, text)[0] == 0
+
+
+def test_a_tolerance_that_keeps_no_digit_is_refused(tmp_path: Path) -> None:
+    status, said = simulated(
+        tmp_path, "model M Real x(start=1, fixed=true); equation der(x) = -x; end M;", "--rtol", "2"
+    )
+    assert (status, "keeps no digit" in said) == (1, True)
+
+
+def test_no_name_leads_out_of_the_folder(tmp_path: Path) -> None:
+    name = "'../../" + "a" * 300 + "'"
+    assert simulated(tmp_path, f"model {name} Real x = time; end {name};")[0] == 0
+    assert {p.name for p in tmp_path.iterdir()} == {"model.mo", "out"}
+
+
+def test_names_are_no_formulas_in_a_figure(tmp_path: Path) -> None:
+    status, said = simulated(tmp_path, "model M Real '$x_{$' = time; end M;", "--plot")
+    assert status == 0, said
+    assert "$x_{$" in (tmp_path / "out" / "M.svg").read_text()
+
+
+@pytest.mark.parametrize("rows", ["time,x,x\n0,1,2\n1,2,3\n", "time,x\n0,1\n1,1_0\n", "time,x\n0,1\n1,١\n"])
+def test_a_column_of_data_is_what_it_says(tmp_path: Path, rows: str) -> None:
+    (tmp_path / "data.csv").write_text(rows, encoding="utf-8")
+    text = f'model M {CSV_COLUMN} parameter Real v[:] = csvColumn("data.csv", "x"); Real x = v[1]*time; end M;'
+    status, said = simulated(tmp_path, text)
+    assert (status, "F041" in said) == (1, True), said

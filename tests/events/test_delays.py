@@ -1,0 +1,72 @@
+"""delay(e, T) against closed forms: the method of steps, echoes of jumps; and what is refused."""
+
+from __future__ import annotations
+
+from math import factorial
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lacuna.codegen.errors import Diagnostic
+from tests.events.models import compiled, simulated
+
+STEPS = {"rk4": {"step": 1e-3}, "euler": {"step": 1e-4}}
+ERROR = {"euler": 2e-3}  # of a method of first order with that step; the others are held to their tolerance
+LAG = """model Lag
+  parameter Real T = 0.25;
+  Real x(start=1, fixed=true);
+equation
+  der(x) = -delay(x, T);
+end Lag;
+"""
+ECHO = """model Echo
+  Real u = if time > 0.1 then 1 else 0;
+  Real y = delay(u + 0.5*delay(u, 0.2), 0.3);
+  Real x(start=0, fixed=true);
+equation
+  der(x) = y;
+end Echo;
+"""
+
+
+def lag(time: np.ndarray, delay: float) -> np.ndarray:
+    """x' = -x(t - T), x = 1 up to the start: sum over k of (-1)^k (t - (k-1) T)^k/k! while t > (k-1) T."""
+    terms = [(-1) ** k * np.maximum(time - (k - 1) * delay, 0.0 if k else 1.0) ** k / factorial(k) for k in range(12)]
+    return sum(terms)
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4", "rk4", "euler"])
+def test_method_of_steps(tmp_path: Path, solver: str) -> None:
+    tolerance = {} if solver in STEPS else {"rtol": 1e-8}
+    result = simulated(tmp_path, LAG, solver=solver, stop=2.0, interval=0.05, **tolerance, **STEPS.get(solver, {}))
+    assert result.complete, result.failure
+    grid = ~result.event
+    assert result["x"][grid] == pytest.approx(lag(result.time[grid], 0.25), abs=ERROR.get(solver, 1e-6))
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+def test_a_jump_comes_back_as_an_event(tmp_path: Path, solver: str) -> None:
+    """y jumps by 1 at 0.4 s and by 0.5 at 0.6 s, so that x(1) = 0.6 + 0.2: no step has smeared a jump."""
+    result = simulated(tmp_path, ECHO, solver=solver, rtol=1e-9)
+    assert result["x"][-1] == pytest.approx(0.8, abs=1e-8)
+    assert result.counters["input_jumps"] >= 2
+
+
+def test_a_shorter_delay_than_a_step_of_the_solver_limits_it(tmp_path: Path) -> None:
+    text = LAG.replace("-delay(x, T)", "delay(cos(time), T)").replace("0.25", "1e-3")
+    result = simulated(tmp_path, text)
+    assert result.counters["steps"] >= 1000
+    assert result["x"][-1] == pytest.approx(1 + 1e-3 + np.sin(1 - 1e-3), rel=1e-6)
+
+
+def test_the_longest_time_is_kept_to(tmp_path: Path) -> None:
+    failure = simulated(tmp_path, LAG.replace("delay(x, T)", "delay(x, T, 0.1)")).failure
+    assert "delayTime is longer than delayMax" in str(failure)
+    negative = simulated(tmp_path, LAG.replace("0.25", "-0.25")).failure
+    assert "delay() number 1 is by -0.25 s" in str(negative)
+
+
+def test_no_sensitivities_through_a_delay(tmp_path: Path) -> None:
+    with pytest.raises(Diagnostic, match="sensitivities of a model with delay"):
+        compiled(tmp_path, LAG, sensitivities=True)
