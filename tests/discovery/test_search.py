@@ -173,7 +173,7 @@ def test_two_effects_that_pay_only_together_are_found(tmp_path: Path, monkeypatc
         "friction.coulomb",
         "load.gravity",
     ]
-    assert search.findings[0].after.validate[""] > 2 * max(floor.values())
+    assert search.findings[0].after.validate[""] > 2 * max(noise_floor(case, case.validate, base.noise).values())
 
 
 @pytest.mark.parametrize(("unseen", "exchanged"), [(1.0, True), (2.0, False)])
