@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from lacuna.prognosis import Prognosis, forecast
     from lacuna.progress import Progress
     from lacuna.results import IncompleteRun, Result
+    from lacuna.watching import watch
 
 _HOMES = {
     "campaigns": ("Sweep", "sweep"),
@@ -52,6 +53,7 @@ _HOMES = {
     "degradation": ("degradation_laws",),
     "prognosis": ("Prognosis", "forecast"),
     "results": ("IncompleteRun", "Result"),
+    "watching": ("watch",),
 }
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 
@@ -108,6 +110,7 @@ __all__ = [
     "remember",
     "serve_editor",
     "sweep",
+    "watch",
 ]
 
 

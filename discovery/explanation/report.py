@@ -5,6 +5,7 @@ from __future__ import annotations
 from html import escape
 import io
 from pathlib import Path
+import re
 
 from markupsafe import Markup
 import matplotlib
@@ -13,6 +14,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+from lacuna.analysis.report.figures.data import drawn_data
 from lacuna.analysis.report.page import figure as figure_of
 from lacuna.analysis.report.page import page, table
 from lacuna.discovery.case.cases import Case
@@ -55,9 +57,11 @@ def _table(header: list[str], rows: list[list[object]]) -> str:
 
 def _svg(drawn: plt.Figure, title: str) -> str:
     buffer = io.StringIO()
+    data = drawn_data(drawn)
     save(drawn, buffer, "svg", bbox_inches="tight")
     plt.close(drawn)
-    return figure_of(buffer.getvalue(), title)
+    name = re.sub(r"\W+", "-", title).strip("-").lower()
+    return figure_of(buffer.getvalue(), title, data=(f"{name}.csv", data))
 
 
 def _problems(result: Explanation) -> list[str]:
