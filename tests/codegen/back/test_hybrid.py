@@ -336,3 +336,20 @@ def test_friction_element_that_is_braked_hard_sticks(simulate, solver: str) -> N
     assert np.max(np.abs(r["v"][stuck])) < 1e-9
     assert np.all(r["mode"][stuck] == 0)
     assert r["v"][-1] > 0.1
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_sample_in_an_equation_holds_at_its_instants_only(simulate, solver: str) -> None:
+    """y is 1 at eleven instants, which have no length: x = time."""
+    text = """model Ticks
+  Real x(start = 0, fixed = true); Real y; discrete Real n(start = 0, fixed = true);
+equation
+  y = if sample(0, 0.1) then 1 else 0;
+  der(x) = 1 + y;
+  when sample(0, 0.1) then n = pre(n) + y; end when;
+end Ticks;
+"""
+    r = simulate(text, 1.04, solver)
+    assert r["x"][-1] == pytest.approx(1.04, rel=1e-9)
+    assert r["n"][-1] == 11
+    assert set(r["y"]) == {0.0}
