@@ -12,6 +12,8 @@ PYTEST := LACUNA_CACHE=$(abspath $(BUILD))/cache $(PYTHON) -m pytest -q -n 2 --d
 # Silent but for ctest's closing lines; where a test fails, everything it printed.
 run_ctest = ctest --test-dir $(1) --output-on-failure -j 2 > $(1)/ctest.log && tail -n 3 $(1)/ctest.log \
   || { cat $(1)/ctest.log; exit 1; }
+FUZZ_SECONDS ?= 180
+FUZZ_TARGETS := stream table recording inputs
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*' ':!:fmi/standard/*')
 
 .PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined prognosis tolerance-study \
@@ -132,8 +134,14 @@ sanitize: $(BUILD)/.debian
 	@ninja -C $(BUILD)/sanitize --quiet | sed '/no work to do/d'
 	@$(call run_ctest,$(BUILD)/sanitize)
 
-fuzz: setup ## [FUZZ_SECONDS=180] random and mutated models through the parser, for a traceback
-	@$(PYTHON) -m tests.codegen.fuzz --seconds $(or $(FUZZ_SECONDS),180)
+fuzz: setup ## [FUZZ_SECONDS=180] each of: models through the parser, systems by three solvers, libFuzzer's targets (clang)
+	@$(PYTHON) -m tests.codegen.fuzz --seconds $(FUZZ_SECONDS)
+	@$(PYTHON) -m tests.fuzz --seconds $(FUZZ_SECONDS)
+	@cmake -S . -B $(BUILD)/fuzz -G Ninja -C tests/fuzz/clang.cmake > $(BUILD)/fuzz.log 2>&1 || { cat $(BUILD)/fuzz.log; exit 1; }
+	@ninja -C $(BUILD)/fuzz --quiet $(FUZZ_TARGETS:%=fuzz_%)
+	@for target in $(FUZZ_TARGETS); do mkdir -p $(OUT)/fuzz/$$target; (cd $(OUT)/fuzz/$$target && mkdir -p found && \
+	  $(abspath $(BUILD))/fuzz/bin/fuzz_$$target -max_total_time=$(FUZZ_SECONDS) -timeout=10 -max_len=4096 found \
+	  $(abspath tests/fuzz/corpus)/$$target > log 2>&1 && grep Done log || { tail -40 log; exit 1; }); done
 
 belts: setup ## Stick and slip against closed forms: 200 machines, rtol 1e-4 to 1e-10, all adaptive solvers
 	@$(PYTHON) -m tests.events belts

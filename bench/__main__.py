@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from bench import campaign, diagnosis, growth, maps, race, report, scenarios, sensitivities
+from bench import campaign, diagnosis, growth, maps, race, report, scenarios, sensitivities, watching
 
 Section = Callable[[int], Sequence[report.Row]]
 
@@ -41,6 +41,7 @@ SECTIONS: dict[str, tuple[str, Section]] = {
         "Ladders and chains of 100 to 10 000 states: translation, compiler, IDA beside a program by hand",
         growth.growth,
     ),
+    "watching": ("From the save of an equation to the new figure", watching.from_save_to_figure),
     "diagnosis": ("Practice cases explained, seconds", diagnosis.split),
 }
 

@@ -46,10 +46,12 @@ def answered(command: Callable[..., Answer]) -> Callable[..., None]:
     """A command that prints its answer, with options --json and --quiet; LACUNA_DEBUG=1 shows tracebacks, too."""
 
     @functools.wraps(command)
-    def run(*args: Any, json: bool = False, quiet: bool = False, **kwargs: Any) -> None:
+    def run(*args: Any, context: typer.Context, json: bool = False, quiet: bool = False, **kwargs: Any) -> None:
         token = _silent.set(json or quiet)
         try:
-            _print(command(*args, **kwargs), json, quiet)
+            answer = command(*args, **kwargs)
+            lacuna.record_making([str(context.info_name), *_words(context)], answer.written)
+            _print(answer, json, quiet)
         except KeyboardInterrupt:
             typer.echo("interrupted", err=True)
             raise typer.Exit(130) from None
@@ -62,15 +64,34 @@ def answered(command: Callable[..., Answer]) -> Callable[..., None]:
         finally:
             _silent.reset(token)
 
-    hints = get_type_hints(command, include_extras=True) | _EVERYWHERE | {"return": None}
+    hints = get_type_hints(command, include_extras=True) | _EVERYWHERE | {"context": typer.Context, "return": None}
     own = [p.replace(annotation=hints[n]) for n, p in inspect.signature(command).parameters.items()]
     more = [
         inspect.Parameter(n, inspect.Parameter.KEYWORD_ONLY, default=False, annotation=a)
         for n, a in _EVERYWHERE.items()
     ]
+    more.append(inspect.Parameter("context", inspect.Parameter.KEYWORD_ONLY, annotation=typer.Context))
     run.__signature__ = inspect.Signature([*own, *more])  # type: ignore[attr-defined]
     run.__annotations__ = hints
     return run
+
+
+def _words(context: typer.Context) -> list[str]:
+    """What was typed after the command's name, without --out and what only decides the printing."""
+    given, arguments = [], []
+    for parameter in context.command.params:
+        name, value = parameter.name or "", context.params.get(parameter.name or "")
+        source = context.get_parameter_source(name)
+        if source is None or source.name != "COMMANDLINE" or name in ("out", *_EVERYWHERE):
+            continue
+        for one in value if isinstance(value, list | tuple) else [value]:
+            if parameter.param_type_name == "argument":
+                arguments.append(str(one))
+            elif getattr(parameter, "is_flag", False):
+                given.append(parameter.opts[0] if one else parameter.secondary_opts[0])
+            else:
+                given += [parameter.opts[0], str(one)]
+    return [*arguments, *given]
 
 
 def _unexpected(error: Exception) -> NoReturn:

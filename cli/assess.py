@@ -34,7 +34,7 @@ def assess(
     """Say how far the fault has gone, with its interval and band, by the map of the actuator; or two faults.
 
     A recording that the map does not cover (too short, saturated, swapped phases, another command or actuator) is
-    refused with the reason. Writes assessment.json and a figure of the features on the map.
+    refused with the reason. Writes assessment.json, a figure of the features on the map, and report.html.
     """
     folder = out or Path("out/assess") / recording.stem
     done = lacuna.assess(recording, map, columns=current, unfiltered=unfiltered, out=folder)

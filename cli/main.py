@@ -24,6 +24,7 @@ from lacuna.cli import (
     simulate,
     steps,
     sweep,
+    verify,
 )
 
 app = typer.Typer(
@@ -75,6 +76,7 @@ app.command("fmu", rich_help_panel=MODELS)(fmu.fmu)
 app.command("format", rich_help_panel=MODELS)(editor.format)
 app.command("lsp", rich_help_panel=MODELS)(editor.lsp)
 app.add_typer(list.app, name="list", rich_help_panel=MODELS)
+app.command("verify", rich_help_panel=MODELS)(verify.verify)
 app.command("examples", rich_help_panel=MODELS)(examples.examples)
 app.command("maps", rich_help_panel=FAULTS)(maps.maps)
 app.command("sweep", rich_help_panel=FAULTS)(sweep.sweep)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from rich.table import Table
 import typer
@@ -12,6 +13,7 @@ import lacuna
 from lacuna.cli.answer import Answer, answered, progress
 from lacuna.cli.complete import models
 from lacuna.cli.options import ClassName, Libraries
+from lacuna.cli.watch import Port, Watch, watched
 
 
 @answered
@@ -31,6 +33,8 @@ def maps(
     combined: Annotated[
         str | None, typer.Option("--with", help="Map over two faults: one of those that the settings combine")
     ] = None,
+    watch: Watch = False,
+    port: Port = 0,
 ) -> Answer:
     """Simulate a pre-flight test at every severity of a fault and write the map, its figures and a report.
 
@@ -40,21 +44,34 @@ def maps(
     With --with friction, a map of two faults at once for `lacuna assess`, into out/maps/paper-with-friction.
     """
     libraries = library or []
+    asked: dict[str, Any] = {
+        "class_name": class_name,
+        "libraries": libraries,
+        "settings": settings,
+        "out": out,
+        "jobs": jobs,
+    }
+    if watch:
+        return watched(partial(_drawn, model, asked), model or "operating map", [*libraries, *_file(settings)], port)
     with progress() as tell:
         if combined:
-            both = lacuna.combined_maps(
-                combined, model, class_name=class_name, libraries=libraries, settings=settings, out=out, jobs=jobs,
-                progress=tell,
-            )  # fmt: skip
+            both = lacuna.combined_maps(combined, model, **asked, progress=tell)
             return Answer({"first": both.first, "second": both.second}, [both.sentence], [both.folder])
-        done = lacuna.maps(
-            model, class_name=class_name, libraries=libraries, settings=settings, out=out, jobs=jobs, fresh=fresh,
-            figures=figures, prepare=prepare, progress=tell,
-        )  # fmt: skip
+        done = lacuna.maps(model, **asked, fresh=fresh, figures=figures, prepare=prepare, progress=tell)
     split = ", ".join(f"{name.replace('_cpu', ' (all cores)')} {s:.2f} s" for name, s in done.seconds.items())
     data = {"title": done.title, "severities": done.severities.tolist(),
             "features": {n: done[n].tolist() for n in done.features}, "comparison": done.comparison}  # fmt: skip
     return Answer(data, [*_comparison(done), f"{len(done)} severities: {split}"], [done.folder])
+
+
+def _drawn(model: str | None, asked: dict[str, Any]) -> Any:
+    """The RMS of the phase currents over the fault, of the map as it is now."""
+    done = lacuna.maps(model, **asked, figures=False)
+    return done.plot(*(name for name in done.features if name.startswith("rms")))
+
+
+def _file(path: Path | None) -> list[Path]:
+    return [] if path is None else [path]
 
 
 def _comparison(done: lacuna.OperatingMap) -> list[Table]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -23,6 +24,7 @@ from lacuna.cli.options import (
     inputs,
     parameters,
 )
+from lacuna.cli.watch import Port, Watch, watched
 from lacuna.texts import file_name
 
 Solver = Literal["ida", "dopri5", "rodas4", "rk4", "euler"]
@@ -55,6 +57,8 @@ def simulate(
     format: Annotated[Format, typer.Option(help="csv; parquet: large results; mat: MATLAB and Modelica tools")] = "csv",
     out: Annotated[Path | None, typer.Option(help="Folder for the result; default: out/simulate/MODEL")] = None,
     plot: Annotated[bool, typer.Option("--plot", help="Draw the recorded signals as SVG beside the file")] = False,
+    watch: Watch = False,
+    port: Port = 0,
 ) -> Answer:
     """Simulate MODEL and write its trajectories with a .meta.json beside them.
 
@@ -63,17 +67,26 @@ def simulate(
 
     [bold]Example[/bold]: lacuna simulate Actuators.EccentricBldc -p zeta=0.3 --signal rotor.w --plot
     """
-    loaded = lacuna.load(
-        model, class_name=class_name, libraries=library or [], parameters=parameters(parameter), units=units
-    )
-    result, failure = _run(
-        loaded, solver=solver, inputs=inputs(input, hold), start=start, stop=stop, rtol=rtol, atol=atol, step=step,
-        locate_events=locate_events, interval=interval, outputs=signal, event_rows=event_rows,
-    )  # fmt: skip
+    loading: dict[str, Any] = {
+        "class_name": class_name, "libraries": library or [], "parameters": parameters(parameter), "units": units
+    }  # fmt: skip
+    running: dict[str, Any] = {
+        "solver": solver, "inputs": inputs(input, hold), "start": start, "stop": stop, "rtol": rtol, "atol": atol,
+        "step": step, "locate_events": locate_events, "interval": interval, "outputs": signal, "event_rows": event_rows,
+    }  # fmt: skip
+    if watch:
+        return watched(partial(_drawn, model, loading, running), model, library or [], port)
+    loaded = lacuna.load(model, **loading)
+    result, failure = _run(loaded, **running)
     folder = out or default_folder("simulate", class_name or model)
     written = result.save(folder / f"{file_name(result.model)}.{format}")
     written += result.save_plot(written[0].with_suffix(".svg"), *(signal or [])) if plot else []
     return Answer(_data(result), [_table(result, solver)], written, loaded.warnings, failure)
+
+
+def _drawn(model: str, loading: dict[str, Any], running: dict[str, Any]) -> Any:
+    """The figure of a run of the model as it is now."""
+    return lacuna.load(model, **loading).simulate(**running).plot(*(running["outputs"] or []))
 
 
 def _run(model: lacuna.Model, **settings: Any) -> tuple[lacuna.Result, str]:

@@ -80,7 +80,7 @@ def _parameters(found: lacuna.Explanation) -> Table:
     table = Table("parameter", "believed", "fitted", "± (95 %)", "unit", "")
     for name, p in found.parameters.items():
         flag = "outside belief" if p["outside_belief"] else ""
-        table.add_row(name, f"{p['believed']:.5g}", f"{p['value']:.5g}", f"{2 * p['std']:.2g}", p["unit"], flag)
+        table.add_row(name, f"{p['believed']:.5g}", f"{p['value']:.5g}", found.half_width(name), p["unit"], flag)
     return table
 
 

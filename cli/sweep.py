@@ -42,4 +42,4 @@ def sweep(
             scheduler=scheduler, chunk=chunk, out=out, progress=tell,
         )  # fmt: skip
     data = {"tests": len(done), "failed": len(done.failures), "columns": done.names}
-    return Answer(data, [f"{len(done)} tests, {len(done.failures)} failed"], [done.path])
+    return Answer(data, [f"{len(done)} tests, {len(done.failures)} failed"], [done.path, done.report])

@@ -87,9 +87,10 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     frozen = report.run("hybrid", hybrid.analyse, split)
     model = report.run("initial system", discrete_starts, frozen.model)
     continuous, discrete = report.run("hybrid", events.split, model)
-    system = report.run("index reduction", reduce_index, model, continuous)
+    system = report.run("index reduction", reduce_index, model, continuous, len(frozen.relations))
     system = report.run("aliases", precompute, system)
     relations = report.run("hybrid", hybrid.rename, frozen.relations, system.renamed)
+    relations += [Relation(s.left, s.right, s.source, text=s.text) for s in system.switches]
     steps = report.run("hybrid", events.order, system.model, discrete, system.renamed)
     tearing = Tearing(DeclaredValues(system.model))
     explicit = report.run("matching, BLT, tearing", causalise, system.rows, system.unknowns, tearing)

@@ -7,6 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 import time
 
+import numpy as np
+
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.values import is_parameter
@@ -20,11 +22,13 @@ from lacuna.discovery.fit.evidence import (
     like_noise,
     nearly_noise,
     outside_belief,
+    pays,
     settled,
     whiteness,
 )
 from lacuna.discovery.fit.time_limit import within
 from lacuna.discovery.naming.comparison import Ranked
+from lacuna.discovery.naming.foretold import foretold
 from lacuna.discovery.naming.judge import judge_file
 from lacuna.discovery.steps import add_findings, add_fit, add_location, add_scatter, opened
 
@@ -68,13 +72,23 @@ def _conclude(result: Explanation) -> None:
         return
     left = [w for w in whiteness(result.final).values() if not w.passed]
     worst = max(left, key=lambda w: w.ratio / w.limit).column if left and not _quiet(result) else ""
-    if worst or not holds(result.after.validate, _attained(result), result.final.noise):
+    if worst or not _holds(result):
         result.verdict = "undetermined"
         where = f"the residual of {worst}" if worst else "what is left of the recordings that were not fitted to"
         result.reason = result.reason or f"{where} is not noise, and no effect of the catalogue explains it"
         result.experiment = "record the same motion with the quantities that are not recorded now"
     else:
         result.verdict = "parameters" if outside_belief(result.base) else "consistent"
+
+
+def _holds(result: Explanation) -> bool:
+    """Whether the fitted model tells unseen recordings as well as its noise lets it, or its uncertain parameters."""
+    attained, noise = _attained(result), result.final.noise
+    if holds(result.after.validate, attained, noise):
+        return True
+    spread = foretold(result.final, result.case.validate)
+    within = {c: float(np.hypot(attained[c], spread[c])) for c in attained}
+    return holds(result.after.validate, within, noise)
 
 
 def _attained(result: Explanation) -> dict[str, float]:
@@ -87,6 +101,14 @@ def _conclude_from_findings(result: Explanation) -> None:
     first = result.findings[0]
     if _accuses_sensors(result) and _equations_may_be_wrong(result):
         _withdraw(result, first.ranked)
+        return
+    if not pays(result.before.validate, result.after.validate, result.floor):
+        result.verdict = "undetermined"
+        result.reason = (
+            f"{first.ranked.attachment.label} explains the recordings that it was fitted to, but does not hold on "
+            "those that only judge"
+        )
+        result.experiment = experiment_for(first.ranked, first.naming.ranked[1:])
         return
     taken = 1.0 - result.after.validate[""] / result.before.validate[""]
     if taken < LEAST_TAKEN and astray(result.final):
@@ -114,10 +136,13 @@ def _efforts(result: Explanation) -> list[float]:
 
 
 def _equations_may_be_wrong(result: Explanation) -> bool:
-    """Whether a sensor would be accused though places in the equations explain as much, or could not be tried."""
+    """Whether a sensor would be accused though places in the equations explain as much, or could not be tried, or
+    though far more than noise is left."""
     efforts = _efforts(result)
     if not efforts:
         return not result.amendment.structure.open
+    if astray(result.final):
+        return True
     sensors = [s.gain for s in result.opened.sites if s.place is None]
     return max(efforts) > max(sensors) - INDIFFERENT
 
@@ -126,7 +151,9 @@ def _withdraw(result: Explanation, best: Ranked) -> None:
     """A sensor is not accused where nothing else could be: the believed model stands, and the reason says so."""
     result.verdict = "undetermined"
     result.reason = f"{best.attachment.label} fits best, but " + (
-        f"an effort at {_first_place(result)} explains as much, for which no law was found"
+        "leaves far more than noise, and no law was found in the equations"
+        if _efforts(result) and astray(result.final)
+        else f"an effort at {_first_place(result)} explains as much, for which no law was found"
         if _efforts(result)
         else f"no place in the equations of {result.case.model} was open to this search{_why_closed(result)}: "
         "it may as well be physics"

@@ -177,8 +177,9 @@ def _let_go(search: Search, direct: Search) -> Search:
 
 
 def _search(result: Explanation, effects: list[catalogue.Effect]) -> Search:
+    floor = noise_floor(result.case, result.case.fit, result.base.noise)
     return Search(
-        result.case, effects, result.lead, result.floor, result.amendment, result.final, result.after,
+        result.case, effects, result.lead, floor, result.amendment, result.final, result.after,
         result.findings, result.namings,
     )  # fmt: skip
 

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from lacuna.prognosis import Prognosis, forecast
     from lacuna.progress import Progress
     from lacuna.results import IncompleteRun, Result
+    from lacuna.verification import Verification, record_making, verify
+    from lacuna.watching import watch
 
 _HOMES = {
     "campaigns": ("Sweep", "sweep"),
@@ -52,6 +54,8 @@ _HOMES = {
     "degradation": ("degradation_laws",),
     "prognosis": ("Prognosis", "forecast"),
     "results": ("IncompleteRun", "Result"),
+    "verification": ("Verification", "record_making", "verify"),
+    "watching": ("watch",),
 }
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 
@@ -77,6 +81,7 @@ __all__ = [
     "Sweep",
     "UserError",
     "Verdict",
+    "Verification",
     "assess",
     "check",
     "combined_maps",
@@ -103,11 +108,14 @@ __all__ = [
     "nearest",
     "new_case",
     "open_case",
+    "record_making",
     "recorded",
     "refresh",
     "remember",
     "serve_editor",
     "sweep",
+    "verify",
+    "watch",
 ]
 
 

@@ -31,6 +31,11 @@ class Sweep:
         self.table: pa.Table = pq.read_table(path)
 
     @property
+    def report(self) -> Path:
+        """The page beside the results."""
+        return self.path.with_name("report.html")
+
+    @property
     def names(self) -> list[str]:
         return list(self.table.column_names)
 
@@ -89,12 +94,14 @@ def sweep(
     `actuator` is a model as `load` takes it, by default that of the settings' tests; `scheduler` the address of a Dask
     scheduler, by default this machine; `chunk` the tests a task. It goes on where it stopped, whatever was lost, from
     what is in `out` (default: out/sweeps/NAME of the settings). Raises AnalysisError where the settings or the
-    scheduler cannot be used. Needs the extra `distributed`.
+    scheduler cannot be used. results.parquet and report.html are written to `out`. Needs the extras `distributed` and
+    `maps`.
     """
     from lacuna.analysis.campaign.points import sobol_points
     from lacuna.analysis.campaign.run import run_campaign
     from lacuna.analysis.campaign.work import Work
     from lacuna.analysis.map.plant import ModelPlant
+    from lacuna.analysis.report import sweep as report
     from lacuna.analysis.settings import PAPER, load_settings
 
     chosen = load_settings(settings or PAPER)
@@ -103,4 +110,6 @@ def sweep(
     work = Work(compiled.name, Path(compiled.path).read_bytes(), compiled.hash, chosen.text, solver)
     folder = Path(out) if out else Path("out/sweeps") / chosen.path.stem
     tell = counted(f"sweep of {compiled.name}", progress)
-    return Sweep(run_campaign(work, design, folder, scheduler=scheduler, chunk=chunk, progress=tell))
+    results = run_campaign(work, design, folder, scheduler=scheduler, chunk=chunk, progress=tell)
+    report.write(results, compiled.name, chosen)
+    return Sweep(results)

@@ -65,8 +65,13 @@ class Explanation:
         """NRMSE of all signals together, "fit" and "validate", each "before" and "after"."""
         return dict(self.diagnosis.get("nrmse", {}))
 
+    def half_width(self, parameter: str) -> str:
+        """Of the 95 % interval of a believed parameter; of one that the data says nothing of, that it is not known."""
+        std = self.parameters[parameter]["std"]
+        return "not determined" if std is None else f"{2 * std:.2g}"
+
     def _repr_html_(self) -> str:
-        fitted = [(n, p["believed"], p["value"], 2 * p["std"], p["unit"]) for n, p in self.parameters.items()]
+        fitted = [(n, p["believed"], p["value"], self.half_width(n), p["unit"]) for n, p in self.parameters.items()]
         parts = [paragraph(self.sentence)]
         parts += [table(self.ranked, self.ranking)] if self.ranking else []
         misfits = [

@@ -246,9 +246,9 @@ def assess(
     both.
 
     `recording` is a CSV or MAT file: time first, SI units, phase currents in `columns` (in the map's order; default:
-    the map's own names), `unfiltered` where they did not pass the map's filters. With `out`, assessment.json and a
-    figure are written there. Raises Refusal with the reason where the map does not cover the recording. Needs the
-    extra `maps`.
+    the map's own names), `unfiltered` where they did not pass the map's filters. With `out`, assessment.json, a
+    figure and report.html are written there. Raises Refusal with the reason where the map does not cover the
+    recording. Needs the extra `maps`.
     """
     from lacuna.analysis.severity.assessment import assess as one
     from lacuna.analysis.severity.combined.assessment import assess_both

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 import numpy as np
 
 from lacuna.analysis.comparison.study import LaneResult, Study
+from lacuna.analysis.report.figures.data import drawn_data
 from lacuna.analysis.report.figures.style import INK, in_style, new_figure
 from lacuna.drawn import save
 
@@ -30,7 +31,7 @@ CAPTIONS = {
 
 
 def draw_all(study: Study, units: Mapping[str, str], folder: Path) -> list[str]:
-    """Write <scenario>_<figure>.svg and .png into `folder`; the stems written, in order."""
+    """Write <scenario>_<figure>.svg, .png and .csv into `folder`; the stems written, in order."""
     stems = []
     for kind, draw in {"overlay": overlay, "difference": difference, "work_precision": work_precision}.items():
         with in_style():
@@ -39,6 +40,7 @@ def draw_all(study: Study, units: Mapping[str, str], folder: Path) -> list[str]:
             stems.append(f"{study.scenario.name}_{kind}")
             for form in ("svg", "png"):
                 save(figure, folder / f"{stems[-1]}.{form}", form)
+            (folder / f"{stems[-1]}.csv").write_text(drawn_data(figure), encoding="utf-8")
     return stems
 
 

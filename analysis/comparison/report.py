@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Sequence
 from html import escape
 from pathlib import Path
@@ -13,7 +12,7 @@ import numpy as np
 
 from lacuna.analysis.comparison.figures import CAPTIONS
 from lacuna.analysis.comparison.study import LaneResult, Study
-from lacuna.analysis.report.page import page
+from lacuna.analysis.report.page import figure_in, page
 from lacuna.analysis.report.page import table as _table
 
 _TEMPLATE = Path(__file__).with_name("report.html.in")
@@ -121,8 +120,4 @@ def _lane_row(result: LaneResult) -> list[str]:
 
 
 def _image(stem: str, kind: str, folder: Path) -> str:
-    data = base64.b64encode((folder / f"{stem}.png").read_bytes()).decode()
-    caption = escape(CAPTIONS[kind])
-    return (
-        f'<figure><img alt="{caption}" src="data:image/png;base64,{data}"><figcaption>{caption}</figcaption></figure>'
-    )
+    return figure_in(folder, stem, CAPTIONS[kind].partition(".")[0], CAPTIONS[kind])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 from html import escape
 from pathlib import Path
 from string import Template
@@ -14,7 +13,7 @@ from lacuna.analysis.map.plant import Plant, SourceEquation
 from lacuna.analysis.map.rows import Row
 from lacuna.analysis.report.figures import FIGURES
 from lacuna.analysis.report.figures.style import BAND_FILL, BAND_INK
-from lacuna.analysis.report.page import page
+from lacuna.analysis.report.page import figure_in, page
 from lacuna.analysis.report.page import table as page_table
 from lacuna.analysis.settings import Fault, Settings
 
@@ -61,7 +60,6 @@ def _body(plant: Plant, settings: Settings, rows: list[Row], summary: dict[str, 
         figures="\n".join(_figure(stem, folder) for stem in FIGURES),
         solver=escape(settings.solver.upper()),
         tolerances=f"{settings.relative_tolerance:g} relative, {settings.absolute_tolerance:g} absolute",
-        seconds=_seconds(summary["seconds"], summary["jobs"]),
         counters=_counters(summary["counters"], len(rows)),
         equations=_equations(plant.equations),
         settings=escape(settings.text),
@@ -116,11 +114,7 @@ def _bands(bands: list[dict[str, Any]], fault: Fault) -> str:
 
 def _figure(stem: str, folder: Path) -> str:
     title, caption, _ = FIGURES[stem]
-    data = base64.b64encode((folder / f"{stem}.svg").read_bytes()).decode()
-    return (
-        f'<figure><img alt="{escape(title)}" src="data:image/svg+xml;base64,{data}">'
-        f"<figcaption>{escape(caption)}</figcaption></figure>"
-    )
+    return figure_in(folder, stem, title, caption)
 
 
 def _sections(settings: Settings) -> str:
@@ -140,17 +134,6 @@ def _peak_rule(settings: Settings) -> str:
     rule = settings.raw["first_peak"]
     share = 100 * rule["threshold"]
     return f"the first local maximum above {rule['above']:g} Hz that exceeds {share:g} % of the largest line"
-
-
-def _seconds(seconds: dict[str, Any], jobs: int) -> str:
-    passes = [[f"model: {escape(name)}", f"{value:.3f} s"] for name, value in seconds["passes"].items()]
-    passes = passes or [["model: translated earlier, taken from the cache", "0 s"]]
-    work = [
-        [f"sweep over all severities, {jobs} threads", f"{seconds['sweep']:.2f} s"],
-        ["in it, added over threads: simulation", f"{seconds['simulate_cpu']:.2f} s"],
-        ["in it, added over threads: analysis", f"{seconds['analyse_cpu']:.2f} s"],
-    ]
-    return _table(["step", "time"], passes + work)
 
 
 def _counters(counters: dict[str, int], runs: int) -> str:

@@ -6,12 +6,15 @@ template unless it is Markup.
 
 from __future__ import annotations
 
+import base64
 from collections.abc import Iterable, Sequence
 from datetime import UTC, datetime
+import gzip
 import hashlib
 import os
 from pathlib import Path
 import re
+import shlex
 import sys
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
@@ -20,6 +23,8 @@ from markupsafe import Markup, escape
 import lacuna
 
 _HERE = Path(__file__).parent
+LONG = 200_000  # bytes of a figure's data: a page of many figures is still to be sent by mail
+_ASIDE = ("--out", "-o", "--jobs", "--scheduler", "--chunk", "--watch", "--port")
 _SETTING = Environment(loader=FileSystemLoader(_HERE), autoescape=True, undefined=StrictUndefined, trim_blocks=True)
 
 
@@ -37,15 +42,29 @@ def page(
     files = [(path.name, hashlib.sha256(path.read_bytes()).hexdigest()) for path in inputs if path.is_file()]
     return _SETTING.get_template("page.html").render(
         title=title, body=body, verdict=verdict, action=action, files=files, notes=notes,
+        script=Markup((_HERE / "page.js").read_text(encoding="utf-8")),
         style=Markup((_HERE / "page.css").read_text(encoding="utf-8")), version=lacuna.__version__,
-        command=" ".join([Path(sys.argv[0]).name, *sys.argv[1:]]), made=_now().strftime("%Y-%m-%d %H:%M UTC"),
+        command=_command(sys.argv), made=_made(),
     )  # fmt: skip
 
 
-def _now() -> datetime:
-    """Now, or the instant that SOURCE_DATE_EPOCH says, so that a page can be made again to the same bytes."""
+def _command(words: Sequence[str]) -> str:
+    """What was typed, without where the answer goes and what does the work: neither changes what a page says."""
+    if Path(words[0]).name != "lacuna":
+        return "import lacuna"
+    kept, skip = ["lacuna"], False
+    for word in words[1:]:
+        name = word.split("=", 1)[0]
+        if not skip and name not in _ASIDE:
+            kept.append(word)
+        skip = not skip and name in _ASIDE and "=" not in word
+    return shlex.join(kept)
+
+
+def _made() -> str:
+    """The instant that SOURCE_DATE_EPOCH says; without it none, so that equal inputs give equal pages."""
     epoch = os.environ.get("SOURCE_DATE_EPOCH", "")
-    return datetime.fromtimestamp(int(epoch), UTC) if epoch.isdigit() else datetime.now(UTC)
+    return datetime.fromtimestamp(int(epoch), UTC).strftime(", %Y-%m-%d %H:%M UTC") if epoch.isdigit() else ""
 
 
 def table(header: Sequence[object], rows: Iterable[Sequence[object]], numbers: range = range(1, 99)) -> Markup:
@@ -75,14 +94,24 @@ def figure(svg: str, title: str, caption: str = "", data: tuple[str, str] | None
     drawn = re.sub(r"<svg([^>]*)>", rf'<svg\1 role="img" aria-labelledby="{name}t {name}d">{head}', drawn, count=1)
     link = _download(*data) if data else Markup("")
     below = Markup("<figcaption>{} {}</figcaption>").format(caption, link) if caption or data else Markup("")
-    return Markup("<figure>{}{}</figure>").format(Markup(drawn), below)
+    return Markup('<figure><div class="wide" tabindex="0" role="region" aria-label="{}">{}</div>{}</figure>').format(
+        title, Markup(drawn), below
+    )
+
+
+def figure_in(folder: Path, stem: str, title: str, caption: str = "") -> Markup:
+    """The figure that lies in `folder` as <stem>.svg, with its data <stem>.csv."""
+    svg, data = ((folder / f"{stem}.{kind}").read_text(encoding="utf-8") for kind in ("svg", "csv"))
+    return figure(svg, title, caption, (f"{stem}.csv", data))
 
 
 def _download(name: str, text: str) -> Markup:
-    import base64
-
-    coded = base64.b64encode(text.encode()).decode()
-    return Markup('<a download="{}" href="data:text/csv;base64,{}">the data as CSV</a>').format(name, coded)
+    """A link that holds the file itself, packed where it is long."""
+    raw, kind = text.encode(), "text/csv"
+    if len(raw) > LONG:
+        raw, kind, name = gzip.compress(raw, mtime=0), "application/gzip", f"{name}.gz"
+    link = Markup('<a download="{}" href="data:{};base64,{}">the data as CSV</a>')
+    return link.format(name, kind, base64.b64encode(raw).decode())
 
 
 def heading(text: str) -> Markup:

@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 import json
 from pathlib import Path
 import re
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,6 +19,9 @@ from lacuna.analysis.severity.prepared import Prepared
 from lacuna.analysis.severity.severity_table import Estimate
 from lacuna.analysis.spectra.chain import Chain, Features
 from lacuna.drawn import save
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True)
@@ -39,7 +42,7 @@ def assess(
     columns: Sequence[str] | None = None,
     unfiltered: bool = False,
 ) -> Assessment:
-    """Severity of one recorded test by the map in `map_folder`; with `out`, also assessment.json and a figure there.
+    """Severity of one recorded test by the map in `map_folder`; with `out`, also its files there.
 
     `columns` name the phase currents in the map's order. `unfiltered`: they were recorded before the filters that the
     map's currents passed, which are then applied here. Raises Refusal (an AnalysisError) where the map does not cover
@@ -121,5 +124,18 @@ def _write(done: Assessment, settings: Settings, folder: Path, features: Feature
         )
         with in_style():
             figure = draw(settings, folder / "map.csv", features, done.estimate)
-            for kind in ("svg", "png"):
-                save(figure, scratch / f"assessment.{kind}", kind)
+        write_drawn(done, figure, scratch, [folder / "settings.toml", folder / "map.csv"])
+
+
+def write_drawn(done: Any, figure: Figure, out: Path, inputs: list[Path]) -> None:
+    """The figure of an assessment, and the page that shows it; `inputs` decided it, beside the recording."""
+    from lacuna.analysis.report.assessment import report_html
+    from lacuna.analysis.report.figures.data import drawn_data
+    from lacuna.analysis.report.figures.style import in_style
+
+    with in_style():
+        for kind in ("svg", "png"):
+            save(figure, out / f"assessment.{kind}", kind)
+    svg = (out / "assessment.svg").read_text(encoding="utf-8")
+    page = report_html(done, svg, drawn_data(figure), inputs)
+    (out / "report.html").write_text(page, encoding="utf-8")

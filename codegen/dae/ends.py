@@ -7,12 +7,13 @@ a branch. So
 * in the branch of a relation what its guard promises is kept inside the function: sqrt(max(x, 0)). A function that
   has no value where the branch does hold keeps none;
 * abs, min and max in an argument are taken as they are, without events, and so is sign(x) beside sqrt(abs(x)): the
-  flow through an orifice is one law, and where it comes to rest there is no corner to stop at.
+  flow through an orifice is one law, and where it comes to rest there is no corner to stop at. The same law solved
+  for the pressure, q abs(q) = dp, has no corner either: were abs(q) a branch there, it would have no solution beyond.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from lacuna.codegen import flat
@@ -33,11 +34,15 @@ def is_call(n: Expr, name: str) -> bool:
     return n.op == "call" and n.value == name
 
 
-def without_corner(product: Expr) -> Expr | None:
-    """sign(x) beside a factor such as sqrt(abs(x)) without an event; None where the product is no such law."""
+def without_corner(product: Expr, is_algebraic: Callable[[Expr], bool]) -> Expr | None:
+    """sign(x) beside a factor such as sqrt(abs(x)), and abs(x) beside an algebraic x, without an event; None where the
+    product is no such law."""
     factors = list(_factors(product))
     rooted = {inner.args[0] for f in factors if ends(f) for inner in walk(f.args[0]) if is_call(inner, "abs")}
     signs = {f: node("noEvent", (f,)) for f in factors if is_call(f, "sign") and f.args[0] in rooted}
+    if product.op == "*":
+        own = {f for f in factors if is_algebraic(f)}
+        signs |= {f: node("noEvent", (f,)) for f in factors if is_call(f, "abs") and f.args[0] in own}
     return transform(product, signs.get, {}) if signs else None
 
 

@@ -19,7 +19,6 @@ from dataclasses import dataclass, field, replace
 from lacuna.codegen import flat
 from lacuna.codegen.dae.ends import ends, is_call, keep_promises, without_corner
 from lacuna.codegen.dae.relations import Relation, canonical, complement, within
-from lacuna.codegen.errors import Span
 from lacuna.codegen.symbolic.affine import affine
 from lacuna.codegen.symbolic.expr import (  # fmt: skip
     BOOLEAN,
@@ -64,7 +63,7 @@ class Hybrid:
 
 def analyse(model: flat.FlatModel) -> Hybrid:
     """Freeze relations and lower the event-generating operators of `model`."""
-    freezer = _Freezer(model.variables, model.span)
+    freezer = _Freezer(model)
     equations = [freezer.equation(e) for e in keep_promises(model.equations)]
     whens = [freezer.when(w) for w in model.whens]
     algorithms = [freezer.algorithm(a) for a in model.algorithms]
@@ -94,13 +93,15 @@ def strip(e: Expr) -> Expr:
 
 
 class _Freezer:
-    def __init__(self, variables: dict[str, flat.Variable], span: Span):
-        self.variables = dict(variables)
+    def __init__(self, model: flat.FlatModel):
+        self.variables = dict(model.variables)
+        used = (n for e in model.equations for n in leaves(e.lhs) | leaves(e.rhs))
+        self._differentiated = {str(n.args[0].value) for n in used if n.op == "der" and n.args[0].op == "var"}
         self.relations: list[Relation] = []
         self.samples: list[tuple[Expr, Expr]] = []
         self.new_equations: list[flat.Equation] = []
         self.generating = True  # False: relations known already are frozen, others are evaluated where they stand
-        self._source = flat.Equation(ZERO, ZERO, span)
+        self._source = flat.Equation(ZERO, ZERO, model.span)
         self._memo: dict[Expr, Expr] = {}
         self._numbers: dict[tuple[Expr, Expr], int] = {}
         self._ticks: dict[Expr, int] = {}
@@ -166,6 +167,10 @@ class _Freezer:
             return v.type == REAL and v.variability == flat.CONTINUOUS
         return n.op in ("der", "time")
 
+    def _is_algebraic(self, n: Expr) -> bool:
+        """A continuous variable that no equation has the derivative of: the integrator does not carry it."""
+        return n.op == "var" and self._is_continuous(n) and str(n.value) not in self._differentiated
+
     def _rule(self, n: Expr) -> Expr | None:
         if n.op in ("noEvent", "smooth"):
             return strip(n)
@@ -183,7 +188,7 @@ class _Freezer:
             return self._relation(left, right, positive, str(n) if positive else str(complement(n)))
         if ends(n):
             return rebuild(n, tuple(transform(a, self._under_root, {}) for a in n.args))
-        if n.op in ("*", "/") and (law := without_corner(n)) is not None:
+        if n.op in ("*", "/") and (law := without_corner(n, self._is_algebraic)) is not None:
             return self.freeze(law)
         if n.op in ("min", "max") and self._continuous(n):
             a, b = map(self.freeze, n.args)

@@ -84,8 +84,9 @@ def _assume_starts(
 ) -> list[str]:
     assumed = []
     if len(rows) < len(unknowns):
-        given = sorted(system.states, key=lambda n: system.model.variables[n].start is None)
-        for name in (*given, *system.algebraics):
+        states = [*(n for n in system.states if n not in system.dynamic), *system.preferred]
+        given = sorted(states, key=lambda n: system.model.variables[n].start is None)
+        for name in dict.fromkeys((*given, *system.algebraics)):
             if len(rows) < len(unknowns) and matching.add_row([column[var(name)]]):
                 rows.append(_start_row(system, name))
                 assumed.append(name)

@@ -137,6 +137,13 @@ def unknowns_of(step: Step) -> list[Expr]:
     return [*step.tears, *(a.unknown for a in step.assignments)]
 
 
+def rows_of(step: Step) -> list[Row]:
+    """The equations that a step solves."""
+    if isinstance(step, Assignment | Division):
+        return [step.row]
+    return [*step.residuals, *(a.row for a in step.assignments)]
+
+
 def expressions_of(step: Step) -> list[Expr]:
     """Everything that a step computes."""
     match step:

@@ -89,7 +89,7 @@ def _definition(
         if unknown.op == "var":
             v = variables[str(unknown.value)]
             local = v.variability == flat.CONTINUOUS and v.causality != "input" and v.name not in differentiated
-            if local and is_parametric(value, variables):
+            if local and is_parametric(value, variables) and not any(n.op == "sample" for n in walk(value)):
                 return v.name, value
     return None, eq.rhs
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import reduce
 from operator import or_
 
-from lacuna.codegen.structure.causal import LinearBlock, Step, unknowns_of
+from lacuna.codegen.structure.causal import LinearBlock, Step, rows_of, unknowns_of
 from lacuna.codegen.structure.reach import Reach, Users, users_of
 from lacuna.codegen.structure.sorting.tearing import Assignment, Tearing, Torn
 from lacuna.codegen.structure.system import Row, System
@@ -28,12 +28,14 @@ class ResidualForm:
 
 def residual_form(system: System, explicit: Sequence[Step], tearing: Tearing) -> ResidualForm:
     """Derivatives that equal a state (speeds) are taken from it everywhere but in the equation that says so. Where the
-    sequence would amplify rounding, unknowns of linear blocks of the explicit form are left to the integrator whole."""
+    sequence would amplify rounding, unknowns of linear blocks of the explicit form are left to the integrator whole.
+    What no derivative depends on is none of its business: outputs and guards are computed by the explicit form."""
     states = set(system.states)
-    speeds = dict(filter(None, (_speed(row, states) for row in system.rows)))
-    rows = [row if _speed(row, states) else _with_speeds(row, speeds) for row in system.rows]
+    own, unknowns = _of_derivatives(system, explicit)
+    speeds = dict(filter(None, (_speed(row, states) for row in own)))
+    rows = [row if _speed(row, states) else _with_speeds(row, speeds) for row in own]
     rough = [d for d in system.derivatives if d not in speeds]
-    algebraics = [var(n) for n in system.algebraics]
+    algebraics = [v for n in system.algebraics if (v := var(n)) in unknowns]
     orders = (tearing.tear(rows, algebraics, rough, values_first=first) for first in (False, True))
     torn = min(orders, key=lambda torn: nonzeros(torn, system))
     if tearing.amplifies(torn, map(var, system.states)):
@@ -41,6 +43,19 @@ def residual_form(system: System, explicit: Sequence[Step], tearing: Tearing) ->
         torn = tearing.tear(rows, algebraics, rough, [u for block in blocks for u in block if u.op == "var"])
     used = needed(torn.assignments, (row.leaves for row in torn.residuals))
     return ResidualForm(used, torn.tears, torn.residuals)
+
+
+def _of_derivatives(system: System, explicit: Sequence[Step]) -> tuple[list[Row], set[Expr]]:
+    """The rows, in their order, that derivatives of states follow from, and their unknowns."""
+    wanted, rows, unknowns = set(system.derivatives), set(), set()
+    for step in reversed(explicit):
+        if wanted.isdisjoint(unknowns_of(step)):
+            continue
+        own = rows_of(step)
+        rows.update(own)
+        unknowns.update(unknowns_of(step))
+        wanted.update(*(row.leaves for row in own))
+    return [row for row in system.rows if row in rows], unknowns
 
 
 def nonzeros(torn: Torn, system: System) -> int:

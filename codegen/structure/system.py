@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from zlib import crc32
 
@@ -40,6 +40,19 @@ class Row:
         return text if not order else f"{'d' * order}/{'dt' * order} of  {text}"
 
 
+@dataclass(frozen=True)
+class Switch:
+    """left > right where the choice of states is made anew, which the algorithms of the model do."""
+
+    left: Expr
+    right: Expr
+    source: flat.Equation
+    text: str
+
+    def rewritten(self, rewriter: Rewriter) -> Switch:
+        return replace(self, left=rewriter.expression(self.left), right=rewriter.expression(self.right))
+
+
 @dataclass
 class System:
     """A square system in derivatives of the states and in algebraic variables (an index-reduced DAE)."""
@@ -50,6 +63,9 @@ class System:
     algebraics: list[str]
     dummies: list[str]  # algebraic variables that were derivatives before
     renamed: Rewriter  # from the derivatives of the flat model to the derivatives and variables of this system
+    switches: list[Switch] = field(default_factory=list)  # of dynamic choices of states
+    dynamic: list[str] = field(default_factory=list)  # states that stand now for this, now for that variable
+    preferred: list[str] = field(default_factory=list)  # and for these at the start
 
     @cached_property
     def derivatives(self) -> list[Expr]:

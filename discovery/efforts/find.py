@@ -44,8 +44,15 @@ class Found:
     reason: str = ""  # why nothing could be located
 
 
-def find(case: Case, amendment: Amendment, base: Fit, library: Library, progress: Progress) -> Found:
-    """Locate what `base`, the fit of `amendment`, lacks, and fit laws there."""
+def find(
+    case: Case,
+    amendment: Amendment,
+    base: Fit,
+    library: Library,
+    progress: Progress,
+    admitted: Callable[[str], bool] = lambda location: True,
+) -> Found:
+    """Locate what `base`, the fit of `amendment`, lacks, and fit laws there: at places whose location is `admitted`."""
     progress("opening every place of the equations")
     try:
         door = opened(case, amendment, library, [f.name for f in base.estimate.free if _is_common(f.name)])
@@ -54,7 +61,7 @@ def find(case: Case, amendment: Amendment, base: Fit, library: Library, progress
         found = Found(locator.ranked(), door.closed)
     except (NotNumeric, SimulationError, np.linalg.LinAlgError) as reason:
         return Found(reason=str(reason))
-    efforts = [s for s in found.sites if s.place is not None and s.gain > 0]
+    efforts = [s for s in found.sites if s.place is not None and s.gain > 0 and admitted(s.location)]
     for site in efforts[:PLACES]:
         enough = bool(found.laws) and nearly_noise(found.laws[0].fit)
         if efforts[0].gain - site.gain > INDIFFERENT and (enough or site.gain < WORTH * efforts[0].gain):

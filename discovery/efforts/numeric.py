@@ -61,9 +61,22 @@ class Evaluator:
 
 
 def table(rows: list[Mapping[int, Expr]], columns: int, value: Callable[[Expr], Value], samples: int) -> np.ndarray:
-    """(samples, rows, columns) of expressions given by row and column; zero elsewhere."""
+    """(samples, rows, columns) of expressions given by row and column; zero elsewhere.
+
+    A slope that is infinite at single samples (a root where its argument is zero) is that of the sample beside it."""
     result = np.zeros((samples, len(rows), columns))
-    for i, row in enumerate(rows):
-        for j, e in row.items():
-            result[:, i, j] = value(e)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        for i, row in enumerate(rows):
+            for j, e in row.items():
+                result[:, i, j] = _finite(np.broadcast_to(value(e), samples))
     return result
+
+
+def _finite(course: np.ndarray) -> np.ndarray:
+    good = np.flatnonzero(np.isfinite(course))
+    if len(good) == len(course):
+        return course
+    if not len(good):
+        raise NotNumeric("a derivative is infinite along the whole recording")
+    after = np.minimum(np.searchsorted(good, np.arange(len(course))), len(good) - 1)
+    return course[good[after]]

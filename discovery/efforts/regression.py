@@ -19,6 +19,7 @@ from lacuna.discovery.law.law_terms import Group
 
 DISCREPANCIES = (0.3, 0.03)  # of the located effort's size, that a law may leave
 NEAR = 5.0  # believed sigmas, within which parameters are looked for
+FURTHER = 2.0  # times as far as beside an effort of any course, that a law may leave them
 DEPENDENT = 1e-6  # share of a column that is left beside the others, below which it is none of its own
 
 
@@ -36,6 +37,7 @@ class Regression:
         self.groups: list[Group] = []
         self.metrics = [_Metric(self.thin, guided.latent, share) for share in DISCREPANCIES]
         self.rows = len(self.metrics[0].target)
+        self.driven = np.abs(guided.mean)
 
     def add(self, groups: list[Group]) -> range:
         """Take groups in; their numbers."""
@@ -75,9 +77,10 @@ class Regression:
 
     def plausible(self, chosen: tuple[int, ...]) -> bool:
         """Whether the parameters stay near what is believed of them. To first order anything can be had by parameters
-        that no machine has: a term of the balance taken away whole, its inertia with it."""
+        that no machine has: a term of the balance taken away whole, its inertia with it. Where an effort of any
+        course at this place leaves them further off (what else is missing drives them), a law may as well."""
         metric = self._best_metric(chosen)
-        return bool(np.all(np.abs(metric.parameters(chosen)) < NEAR))
+        return bool(np.all(np.abs(metric.parameters(chosen)) < np.maximum(NEAR, FURTHER * self.driven)))
 
 
 class _Metric:

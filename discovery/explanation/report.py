@@ -5,6 +5,7 @@ from __future__ import annotations
 from html import escape
 import io
 from pathlib import Path
+import re
 
 from markupsafe import Markup
 import matplotlib
@@ -13,6 +14,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+from lacuna.analysis.report.figures.data import drawn_data
 from lacuna.analysis.report.page import figure as figure_of
 from lacuna.analysis.report.page import page, table
 from lacuna.discovery.case.cases import Case
@@ -55,9 +57,11 @@ def _table(header: list[str], rows: list[list[object]]) -> str:
 
 def _svg(drawn: plt.Figure, title: str) -> str:
     buffer = io.StringIO()
+    data = drawn_data(drawn)
     save(drawn, buffer, "svg", bbox_inches="tight")
     plt.close(drawn)
-    return figure_of(buffer.getvalue(), title)
+    name = re.sub(r"\W+", "-", title).strip("-").lower()
+    return figure_of(buffer.getvalue(), title, data=(f"{name}.csv", data))
 
 
 def _problems(result: Explanation) -> list[str]:
@@ -169,7 +173,7 @@ def _findings(result: Explanation) -> list[str]:
     rows = []
     for f in build(result, None)["findings"]:
         values = ", ".join(
-            f"{n} = {p['value']:.5g} &plusmn; {1.96 * p['std']:.2g} {p['unit']}" for n, p in f["parameters"].items()
+            f"{n} = {p['value']:.5g} {_within(p['std'])} {p['unit']}" for n, p in f["parameters"].items()
         )
         said = f"{escape(f['location'])}, confidence {f['confidence']:.2f}: {values}. {escape(f['where']['text'])}"
         rows.append(f"<li><b>{escape(f['effect'])}</b> at {said}.</li>")
@@ -205,12 +209,16 @@ def _leaves(fit: Fit) -> str:
     return f"{fit.level[worst]:.2f} x noise in {worst}"
 
 
+def _within(std: float | None) -> str:
+    """The half width of a 95 % interval; a direction that the data says nothing of has no end."""
+    return "(not determined)" if std is None or not np.isfinite(std) else f"\u00b1 {1.96 * std:.2g}"
+
+
 def _parameters(result: Explanation) -> list[str]:
     rows, refitted = [], result.base.point
     for name, p in build(result, None)["parameters"].items():
         flag = "outside belief" if p["outside_belief"] else ""
-        interval = f"\u00b1 {1.96 * p['std']:.2g}"
-        rows.append([name, p["believed"], refitted[name], p["value"], interval, p["unit"], flag])
+        rows.append([name, p["believed"], refitted[name], p["value"], _within(p["std"]), p["unit"], flag])
     return [
         "<h2>Parameters</h2>",
         _table(["parameter", "believed", "refitted before", "after", "95 %", "unit", ""], rows),

@@ -14,6 +14,7 @@ from lacuna.discovery.fit.fit import Fit, carried
 from lacuna.discovery.law.empirical_law import GROUPS, find
 from lacuna.discovery.naming.comparison import MIN_GAIN, Ranked, price, score
 from lacuna.discovery.naming.judge import try_judge
+from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Naming
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.discovery.naming.search import Finding, Search
@@ -56,7 +57,7 @@ def _beside(search: Search, progress: Progress) -> None:
     ranked = _ranked(candidate, start)
     polished = search.polished(ranked, search.fit)
     after = try_judge(polished.machine, polished.point) if polished is not None else None
-    if after is not None and pays(search.judgement.validate, after.validate, search.floor):
+    if after is not None and _tells(search, search.fit, polished):
         ranked.fit = polished
         search.findings.append(Finding(ranked, Naming([ranked], []), search.judgement, after))
         search.take([*search.amendment.attachments, candidate.attachment], polished, after)
@@ -74,13 +75,17 @@ def _instead(search: Search, unbegun: Search, held: Fit, law: Candidate) -> bool
     ranked = _ranked(law, held)
     polished = unbegun.polished(ranked, unbegun.fit)
     after = try_judge(polished.machine, polished.point) if polished is not None else None
-    if after is None or not pays(unbegun.judgement.validate, after.validate, search.floor):
+    if after is None or not _tells(search, unbegun.fit, polished):
         return False
     ranked.fit = polished
     search.findings[:] = [Finding(ranked, Naming([ranked, *_others(search)], []), unbegun.judgement, after)]
     search.take([law.attachment], polished, after)
     search.reason = ""
     return True
+
+
+def _tells(search: Search, before: Fit, after: Fit) -> bool:
+    return pays(left_out(search.case, before), left_out(search.case, after), search.floor)
 
 
 def _found(search: Search, unbegun: Search, held: Fit, correlation: dict[str, float]) -> float:

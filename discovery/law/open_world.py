@@ -12,6 +12,7 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.efforts.find import Found, find
 from lacuna.discovery.fit.evidence import like_noise, nearly_noise
 from lacuna.discovery.law.beyond import MARGIN
+from lacuna.discovery.law.several import go_on
 from lacuna.discovery.naming.comparison import MIN_GAIN, TIE, Ranked, confidences, held_out_deviance, price, score
 from lacuna.discovery.naming.judge import try_judge
 from lacuna.discovery.naming.name import Naming
@@ -33,28 +34,29 @@ def explain_open(search: Search, unbegun: Search, library: Library, progress: Pr
     if explained and any(not f.ranked.attachment.variable for f in search.findings):
         return None
     found = find(search.case, unbegun.amendment, unbegun.fit, library, progress)
-    if found.laws:
-        _take(search, unbegun, found, progress)
+    if found.laws and _take(search, unbegun, found, progress):
+        go_on(search, library, progress)
     return found
 
 
-def _take(search: Search, unbegun: Search, found: Found, progress: Progress) -> None:
+def _take(search: Search, unbegun: Search, found: Found, progress: Progress) -> bool:
     base, law = unbegun.fit, found.laws[0]
     correlation = law.fit.correlation()
     ranked = [Ranked(c, c.fit, score(c, base, correlation)) for c in _one_a_place(found.laws)]
     gain = ranked[0].score
     if gain > -MIN_GAIN or (search.findings and not _better(search, unbegun, law, gain, correlation)):
-        return
+        return False
     progress("what the law says of recordings left out")
     if not _tells(unbegun, ranked[0], correlation):
-        return
+        return False
     after = try_judge(law.machine, law.fit.point)
     if after is None:
-        return
+        return False
     confidences(ranked)
     search.findings[:] = [Finding(ranked[0], Naming(ranked, []), unbegun.judgement, after)]
     search.take([law.attachment], law.fit, after)
     search.reason = ""
+    return True
 
 
 def _better(search: Search, unbegun: Search, law: Candidate, gain: float, correlation: dict[str, float]) -> bool:

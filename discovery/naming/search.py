@@ -23,6 +23,7 @@ from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.objective import STAGES
 from lacuna.discovery.naming.comparison import CLOSE, MIN_GAIN, TIE, Ranked, confidences, price, score
 from lacuna.discovery.naming.judge import Judgement, try_judge
+from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Naming, compete, rank, screen_all
 from lacuna.discovery.naming.screen import Candidate
 
@@ -65,7 +66,7 @@ class Search:
     case: Case
     effects: list[Effect]
     lead: Lead
-    floor: dict[str, float]
+    floor: dict[str, float]  # NRMSE that noise alone gives each output of the fit recordings
     amendment: Amendment
     fit: Fit
     judgement: Judgement
@@ -88,8 +89,8 @@ class Search:
 
     def settled(self) -> bool:
         """Whether nothing is left to look for."""
-        unseen = holds(self.judgement.validate, self.floor, self.fit.noise)
-        return unseen and settled(self.fit, rough=not self.lead.direct)
+        told = holds(left_out(self.case, self.fit), self.floor, self.fit.noise)
+        return told and settled(self.fit, rough=not self.lead.direct)
 
     def lost(self) -> bool:
         """Whether fits that nothing has led leave so much that the search has to begin anew."""
@@ -110,7 +111,7 @@ class Search:
         return any(self._accept(r, self.polished(r, self.fit), naming, progress) for r in simpler)
 
     def _accept(self, ranked: Ranked, polished: Fit | None, naming: Naming, progress: Progress) -> bool:
-        """Go on with a hypothesis if it pays on unseen recordings, alone or with a second one."""
+        """Go on with a hypothesis if it pays on recordings left out, alone or with a second one."""
         if polished is None:
             return False
         self.reason = _does_not_pay(ranked)
@@ -173,7 +174,11 @@ class Search:
             self.take(self.amendment.attachments, found, after)
 
     def _better(self, other: Search) -> bool:
-        return pays(self.judgement.validate, other.judgement.validate, self.floor)
+        """Whether the fit of `other` tells recordings left out better than this one."""
+        return pays(left_out(self.case, self.fit), left_out(self.case, other.fit), self.floor)
+
+    def _tells_better_than(self, other: Fit) -> bool:
+        return pays(left_out(self.case, other), left_out(self.case, self.fit), self.floor)
 
     def _add_another(self, progress: Progress) -> bool:
         """A second effect beside a first one that does not pay alone: hidden together, each may need the other."""
@@ -201,7 +206,7 @@ class Search:
 
     def _reconsider(self, k: int, progress: Progress) -> None:
         """Name finding k anew, given the others: exchange it where a rival is better by more than a tie, or a simpler
-        law of the same kind is no worse, unless the present one is better on what has not been seen."""
+        law of the same kind is no worse, unless the present one tells recordings left out better."""
         finding = self.findings[k]
         progress(f"reconsidering {finding.ranked.attachment.label}")
         others = [a for a in self.amendment.attachments if a is not finding.ranked.attachment]
@@ -226,7 +231,7 @@ class Search:
         if polished.deviance(naming.correlation) - saved > self.fit.deviance(naming.correlation) + TIE:
             return
         after = try_judge(polished.machine, polished.point)
-        if after is not None and not pays(after.validate, self.judgement.validate, self.floor):
+        if after is not None and not self._tells_better_than(polished):
             progress(f"{best.attachment.label} instead of {finding.ranked.attachment.label}")
             best.fit = polished
             self.findings[k] = replace(finding, ranked=best, naming=naming)
@@ -244,7 +249,7 @@ class Search:
             if found is None or found.deviance(correlation) > self.fit.deviance(correlation) + paid:
                 continue
             after = try_judge(found.machine, found.point)
-            if after is not None and not pays(after.validate, self.judgement.validate, self.floor):
+            if after is not None and not self._tells_better_than(found):
                 progress(f"{finding.ranked.attachment.label} is not needed")
                 self.findings.remove(finding)
                 self.take(attachments, found, after)
@@ -285,4 +290,4 @@ class Search:
 
 
 def _does_not_pay(ranked: Ranked) -> str:
-    return f"{ranked.attachment.label} fits better but does not pay on the validation recordings"
+    return f"{ranked.attachment.label} fits better but does not tell recordings left out"

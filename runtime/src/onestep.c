@@ -158,7 +158,7 @@ rt_status rt_onestep_step(rt_session *s, void *memory, double limit) {
     rejected = true;
     h *= status == 0 && isfinite(square) ? rt_max(least_cut, 0.9 * pow(square, -0.5 / o->scheme->order)) : 0.25;
     o->h_next = h;
-    if (!(h >= rt_smallest_step(s))) return rt_fail_collapse(s, h, "the error test fails");
+    if (!(h > 0 && h >= rt_smallest_step(s))) return rt_fail_collapse(s, h, "the error test fails");
   }
 }
 

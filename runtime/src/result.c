@@ -47,24 +47,28 @@ bool rt_result_reserve(rt_result *r, size_t rows) {
   return done;
 }
 
-bool rt_result_log(rt_result *r, double time, int kind, int index, int direction) {
+void rt_result_log(rt_result *r, double time, int kind, int index, int direction) {
   if (r->n_events == r->events_capacity) {
     size_t capacity = r->events_capacity ? 2 * r->events_capacity : 64;
-    if (!grow(&r->events, capacity * sizeof *r->events)) return false;
+    if (!grow(&r->events, capacity * sizeof *r->events)) {
+      r->lost = true;
+      return;
+    }
     r->events_capacity = capacity;
   }
   r->events[r->n_events++] = (rt_event_entry){.time = time, .kind = kind, .index = index, .direction = direction};
-  return true;
 }
 
-bool rt_result_flag(rt_result *r, double time, rt_flag_kind kind, int relation, int other) {
+void rt_result_flag(rt_result *r, double time, rt_flag_kind kind, int relation, int other) {
   if (r->n_flags == r->flags_capacity) {
     size_t capacity = r->flags_capacity ? 2 * r->flags_capacity : 16;
-    if (!grow(&r->flags, capacity * sizeof *r->flags)) return false;
+    if (!grow(&r->flags, capacity * sizeof *r->flags)) {
+      r->lost = true;
+      return;
+    }
     r->flags_capacity = capacity;
   }
   r->flags[r->n_flags++] = (rt_flag){.time = time, .kind = kind, .relation = relation, .other = other};
-  return true;
 }
 
 const rt_failure *rt_result_failure(const rt_result *r) {

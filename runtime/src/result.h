@@ -22,10 +22,11 @@ struct rt_result {
   double *margins;     /* [n_sensitivities] */
   size_t n_flags, flags_capacity;
   rt_flag *flags;
+  bool lost; /* an event or a flag that there was no memory for */
 };
 rt_result *rt_result_new(int columns, int sensitivities, int parameters, size_t capacity);
 bool rt_result_reserve(rt_result *r, size_t rows);
-bool rt_result_log(rt_result *r, double time, int kind, int index, int direction);
-bool rt_result_flag(rt_result *r, double time, rt_flag_kind kind, int relation, int other);
+void rt_result_log(rt_result *r, double time, int kind, int index, int direction);
+void rt_result_flag(rt_result *r, double time, rt_flag_kind kind, int relation, int other);
 
 #endif

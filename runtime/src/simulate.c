@@ -75,6 +75,9 @@ rt_status rt_begin(rt_session *s) {
   if (!(s->stop > s->start) || !isfinite(s->start) || !isfinite(s->stop))
     return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "stop time %.9g s is not later than start time %.9g s", s->stop,
                    s->start);
+  double span = s->stop - s->start; /* its steps must be numbers of full precision */
+  if (!(span > DBL_MIN / DBL_EPSILON && isfinite(span)))
+    return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "a run of %.9g s is beyond what can be computed with", span);
   rt_status status = check_settings(s);
   if (!status) status = rt_initialise(s);
   if (status) return status;
@@ -156,6 +159,8 @@ static rt_status finish(rt_session *s, rt_status status) {
     status = rt_iterate_event(s);
   }
   if (!status) status = rt_record_grid(s, true);
+  if (!status && s->result->lost)
+    status = rt_fail(s, RT_MEMORY, s->t, -1, NULL, "out of memory: the log of events is not complete");
   memcpy(s->result->parameters, s->data.p, (size_t)s->d->n_p * sizeof *s->data.p);
   if (s->sensitivities)
     memcpy(s->result->margins, s->sensitivities->margin, (size_t)s->sensitivities->n * sizeof(double));

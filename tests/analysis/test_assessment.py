@@ -61,6 +61,7 @@ def test_files_of_an_assessment(tmp_path, map_folder):
         "assessment.json",
         "assessment.svg",
         "assessment.png",
+        "report.html",
     }
     content = json.loads((tmp_path / "out" / "assessment.json").read_text())
     assert content["estimate"]["severity"] == done.estimate.severity

@@ -29,7 +29,7 @@ def test_files_of_a_map(tmp_path, coarse):
     built = build_map(ReferencePlant(), coarse, tmp_path / "map", progress=lambda *call: calls.append(call))
     names = {path.name for path in (tmp_path / "map").iterdir()}
     stems = {"fig4_phase_rms", "fig5_mean_rms", "fig6_speed", "fig7_currents", "spectra"}
-    figures = {f"{stem}.{kind}" for stem in stems for kind in ("svg", "png")}
+    figures = {f"{stem}.{kind}" for stem in stems for kind in ("svg", "png", "csv")}
     assert names == figures | {"map.csv", "summary.json", "settings.toml", "report.html", "rows"}
     assert calls[0] == (0, 6) and calls[-1] == (6, 6)
     assert built.seconds["analyse_cpu"] > 0
@@ -63,8 +63,8 @@ def test_summary_sets_published_beside_reproduced(tmp_path, coarse):
 def test_report_stands_alone(tmp_path, coarse):
     build_map(ReferencePlant(), coarse, tmp_path / "map")
     report = (tmp_path / "map" / "report.html").read_text()
-    assert re.findall(r"(?:src|href)=[\"'](?!data:)[^\"']*", report) == []
-    assert report.count("data:image/svg+xml;base64,") == 5
+    assert re.findall(r"(?:src|href)=[\"'](?!data:|#)[^\"']*", report) == []
+    assert report.count("<figure>") == report.count("<svg") == 5
     assert "a consistent set" in report and "16.0 mA" in report
     assert "J*a = tau &lt; 0 &amp; b" in report
     assert "$" not in re.sub(r"base64,[^\"]*", "", report)

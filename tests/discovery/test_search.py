@@ -21,7 +21,8 @@ from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.time_limit import TimeUp
 from lacuna.discovery.naming import search as searching
 from lacuna.discovery.naming.comparison import Ranked
-from lacuna.discovery.naming.judge import Judgement, judge, noise_floor
+from lacuna.discovery.naming.judge import judge, noise_floor
+from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Naming
 from lacuna.discovery.naming.race import _enriched, best_starts, first_round, in_the_race
 from lacuna.discovery.naming.restarts import _shared
@@ -53,15 +54,10 @@ def both_laws(case: Case) -> tuple[Fit, list[Ranked]]:
     return base, [Ranked(stribeck, stribeck.fit, -3000.0, 1.0), Ranked(coulomb, coulomb.fit, -2900.0, 0.0)]
 
 
-def judge_as(monkeypatch: pytest.MonkeyPatch, unseen: Callable[[Machine, dict[str, float]], dict[str, float]]) -> None:
-    """Let the search see these NRMSE on unseen recordings, made of the machine and its own."""
-    real = searching.try_judge
-
-    def judged(machine: Machine, point: dict[str, float]) -> Judgement:
-        result = real(machine, point)
-        return replace(result, validate=unseen(machine, result.validate))
-
-    monkeypatch.setattr(searching, "try_judge", judged)
+def tell_as(monkeypatch: pytest.MonkeyPatch, told: Callable[[Machine, dict[str, float]], dict[str, float]]) -> None:
+    """Let the search see these NRMSE of recordings left out, made of the machine and its own."""
+    real = searching.left_out
+    monkeypatch.setattr(searching, "left_out", lambda case, fit: told(fit.machine, real(case, fit)))
 
 
 def candidate(case: Case, name: str, promise: float) -> Candidate:
@@ -167,7 +163,7 @@ def test_two_effects_that_pay_only_together_are_found(tmp_path: Path, monkeypatc
     case = load(conceal(tmp_path, BELIEVED, **both))
     structure = read(Library(), case.model)
     base, lead = fit_believed(case, Machine(case, Amendment(structure)))
-    floor = noise_floor(case, case.validate, base.noise)
+    floor = noise_floor(case, case.fit, base.noise)
     monkeypatch.setattr(searching, "pays", lambda before, after, _: all(after[c] < 1.2 * floor[c] for c in floor))
     effects = [e for e in read_catalogue(Library()) if e.name in ("CoulombFriction", "GravityLoad", "QuadraticDrag")]
     before = judge(base.machine, base.point)
@@ -177,11 +173,11 @@ def test_two_effects_that_pay_only_together_are_found(tmp_path: Path, monkeypatc
         "friction.coulomb",
         "load.gravity",
     ]
-    assert search.findings[0].after.validate[""] > 2 * max(floor.values())
+    assert search.findings[0].after.validate[""] > 2 * max(noise_floor(case, case.validate, base.noise).values())
 
 
 @pytest.mark.parametrize(("unseen", "exchanged"), [(1.0, True), (2.0, False)])
-def test_a_finding_gives_way_to_the_simpler_law_unless_that_is_worse_on_what_was_not_seen(
+def test_a_finding_gives_way_to_the_simpler_law_unless_that_tells_less_of_what_is_left_out(
     friction_case: Path, monkeypatch: pytest.MonkeyPatch, unseen: float, exchanged: bool
 ) -> None:
     """Both laws leave the same, so that the simpler one wins by its price but does not pay over the richer one."""
@@ -194,7 +190,10 @@ def test_a_finding_gives_way_to_the_simpler_law_unless_that_is_worse_on_what_was
     search = Search(
         case, read_catalogue(Library()), Lead(), floor, stribeck.machine.amendment, stribeck.fit, judged, [finding]
     )
-    judge_as(monkeypatch, lambda _, own: {c: unseen * v for c, v in own.items()})
+    tell_as(
+        monkeypatch,
+        lambda machine, own: own if machine is stribeck.machine else {c: unseen * v for c, v in own.items()},
+    )
     search._reconsider(0, lambda text: None)
     assert (search.findings[0].ranked.identity == ("friction.coulomb", "shaft")) == exchanged
 
@@ -234,7 +233,8 @@ def test_a_law_that_does_not_pay_gives_way_to_the_simpler_one_it_contains(
     monkeypatch.setattr(searching, "rank", lambda *args, **options: Naming(ranked, []))
     before = judge(base.machine, base.point)
     stribeck = ranked[0].fit.machine
-    judge_as(monkeypatch, lambda machine, own: before.validate if machine is stribeck else own)
+    unfound = left_out(case, base)
+    tell_as(monkeypatch, lambda machine, own: unfound if machine is stribeck else own)
     floor = noise_floor(case, case.validate, base.noise)
     search = Search(case, [], Lead(), floor, base.machine.amendment, base, before)
     assert search.add(lambda text: None)

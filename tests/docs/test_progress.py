@@ -14,7 +14,7 @@ IMMEDIATE = {
     "check", "copy_examples", "default_settings", "degradation_laws", "dump", "export_fmu", "export_history",
     "format_model", "is_user_error",
     "list_effects", "list_models", "list_solvers", "load", "message_of", "nearest", "open_case", "recorded",
-    "serve_editor",
+    "serve_editor", "watch",
 }  # fmt: skip
 MODEL = """model Tank
   input Real u(unit="m3/s", start=0);

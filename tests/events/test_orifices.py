@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from lacuna import runtime
-from tests.events.models import compiled
+from tests.events.models import compiled, simulated
 
 LAWS = {
     "sign and abs": "q = sign(d)*sqrt(abs(d))",
@@ -70,3 +71,22 @@ end Both;"""
     assert [e.time for e in result.event_log if e.direction] == pytest.approx([0.5] * len(result.event_log), abs=1e-9)
     assert result.event_log
     assert result["friction"][-1] == -0.1
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+@pytest.mark.parametrize("unit", [1.0, 2.0**-30])
+def test_pressure_by_flow_passes_through_zero(tmp_path: Path, solver: str, unit: float) -> None:
+    """q abs(q) = cos(t): the volume returns to V(pi/2) = Gamma(3/4) sqrt(pi) / (2 Gamma(5/4)) times what each half turn
+    gives and takes; at zero q has an infinite slope, where a step of h is wrong by h^1.5."""
+    text = f"""model Orifice
+  Real q(start = {unit!r}), dp, V(start = 0, fixed = true);
+equation
+  dp = {unit!r}^2*cos(time); q*abs(q) = dp; der(V) = q;
+end Orifice;
+"""
+    r = simulated(tmp_path, text, solver=solver, stop=4.5 * np.pi, rtol=1e-7, interval=np.pi / 4, events=False)
+    assert r.complete, r.failure
+    quarter = math.gamma(0.75) * math.sqrt(math.pi) / (2 * math.gamma(1.25))
+    exact = np.array([quarter, -quarter, quarter, -quarter, quarter])
+    np.testing.assert_allclose(r["V"][2::4] / unit, exact, atol=2e-5)
+    np.testing.assert_allclose(r["q"] * abs(r["q"]), r["dp"], atol=1e-9 * unit**2)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+import re
 import shutil
 from typing import Any
 
@@ -12,7 +13,10 @@ import pytest
 
 import lacuna
 from lacuna.analysis.map.maps import build_map
+from lacuna.analysis.severity.preparation import prepare_assessment
 from tests.analysis.plants import ReferencePlant, paper_settings
+from tests.analysis.reference import simulate
+from tests.analysis.test_assessment import COLUMNS, write
 
 ROOT = Path(__file__).parents[2]
 CHROMIUM = shutil.which("chromium")
@@ -20,6 +24,8 @@ if CHROMIUM is None:
     pytest.skip("Chromium is not installed", allow_module_level=True)
 playwright = pytest.importorskip("playwright.sync_api", reason="Playwright is not installed")
 axe = pytest.importorskip("axe_playwright_python.sync_playwright", reason="axe-playwright-python is not installed")
+
+pytestmark = pytest.mark.xdist_group("pages")  # they are made once
 
 WIDTHS = (380, 820, 1600)
 VANISHED = 1  # px: rounding of a length
@@ -33,7 +39,12 @@ HISTORY = "actuator,cycles,severity,low,high,event\n" + "".join(
 def pages(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     """Every kind of report that does not take minutes to make."""
     folder = tmp_path_factory.mktemp("pages")
-    build_map(ReferencePlant(), paper_settings(folder, COARSE), folder / "map")
+    settings = paper_settings(folder, *COARSE)
+    plant = ReferencePlant()
+    prepare_assessment(plant, settings, build_map(plant, settings, folder / "map"))
+    recorded = write(folder / "<test>.csv", simulate(0.2)[:3])
+    lacuna.assess(recorded, folder / "map", columns=COLUMNS, out=folder / "assess")
+    lacuna.sweep(points=4, out=folder / "sweep")
     model = folder / "Small.mo"
     model.write_text(
         'model Small\n  Real x(start=1, fixed=true);\n  parameter Real k(unit="1/s") = 1;\nequation\n'
@@ -47,11 +58,13 @@ def pages(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     examples = {path.name: path for path in lacuna.copy_examples(folder / "examples")}
     case = lacuna.open_case(examples["missing-physics"])
     case.judge(ROOT / "model/Benches/DcServo.mo", out=folder / "judge")
-    return {name: folder / name / "report.html" for name in ("map", "compare", "forecast", "judge")}
+    lacuna.explain(examples["missing-physics"], out=folder / "explain", limit=8)  # it says what it knows by then
+    lacuna.fleet(folder / "history.csv", out=folder / "fleet")
+    return {name: folder / name / ("fleet.html" if name == "fleet" else "report.html") for name in NAMES}
 
 
-COARSE = ("step = 0.01", "step = 0.1")
-NAMES = ("map", "compare", "forecast", "judge")
+COARSE = [("step = 0.01", "step = 0.1"), ("conditions = 7", "conditions = 3"), ("every = 10", "every = 1")]
+NAMES = ("map", "assess", "sweep", "compare", "forecast", "fleet", "explain", "judge")
 
 
 @pytest.fixture(scope="module")
@@ -111,6 +124,54 @@ def test_the_verdict_comes_first_and_the_page_says_where_it_comes_from(pages: di
     text = pages[name].read_text(encoding="utf-8")
     body = text[text.index("<main>") :]
     if name != "judge":
-        assert body.index('class="verdict"') < body.index("<table")
+        assert body.index('class="verdict"') < min(body.index("<figure"), (body + "<table").index("<table"))
     assert f"Lacuna {lacuna.__version__}" in text and "Made by <code>" in text
     assert "prefers-color-scheme: dark" in text and "@media print" in text
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if name != "compare"])  # which tells how long runs took
+def test_a_page_says_nothing_of_the_instant_or_the_place_where_it_was_made(pages: dict[str, Path], name: str) -> None:
+    text = pages[name].read_text(encoding="utf-8")
+    assert str(pages[name].parents[1]) not in text
+    assert not re.search(r"\b20\d\d-\d\d-\d\d\b", text)
+
+
+def test_a_figure_is_enlarged_by_dragging_and_whole_again_by_its_button(pages: dict[str, Path], browser: Any) -> None:
+    page = browser.new_page(viewport={"width": 1200, "height": 900})
+    page.goto(pages["explain"].as_uri())
+    svg = page.locator("figure svg").first
+    svg.scroll_into_view_if_needed()
+    whole, box = svg.get_attribute("viewBox"), svg.bounding_box()
+    page.mouse.move(box["x"] + 0.25 * box["width"], box["y"] + 0.25 * box["height"])
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
+    page.mouse.up()
+    left, top, width, height = map(float, svg.get_attribute("viewBox").split())
+    of = [float(x) for x in whole.split()]
+    shares = [left / of[2], top / of[3], width / of[2], height / of[3]]
+    assert shares == pytest.approx([0.25] * 4, abs=0.01)
+    assert svg.bounding_box()["height"] == pytest.approx(box["height"], abs=1)  # the page does not jump
+    page.get_by_role("button", name="whole figure").first.click()
+    assert svg.get_attribute("viewBox") == whole
+    page.close()
+
+
+def test_equal_inputs_give_equal_bytes(pages: dict[str, Path], tmp_path: Path) -> None:
+    root = pages["map"].parents[1]
+    build_map(ReferencePlant(), paper_settings(tmp_path, *COARSE), tmp_path / "map", jobs=1)
+    lacuna.assess(root / "<test>.csv", root / "map", columns=COLUMNS, out=tmp_path / "assess")
+    lacuna.forecast(root / "history.csv", out=tmp_path / "forecast")
+    lacuna.fleet(root / "history.csv", out=tmp_path / "fleet")
+    lacuna.sweep(points=4, out=tmp_path / "sweep", chunk=1)
+    for name in ("map", "assess", "forecast", "fleet", "sweep"):
+        again = tmp_path / name / pages[name].name
+        assert again.read_bytes() == pages[name].read_bytes(), name
+
+
+def test_every_figure_has_a_title_and_words_and_its_data(pages: dict[str, Path]) -> None:
+    for name in NAMES:
+        figures = re.findall(r"<figure.*?</figure>", pages[name].read_text(encoding="utf-8"), re.DOTALL)
+        assert figures, name
+        for figure in figures:
+            assert re.search(r"<svg[^>]*role=\"img\"", figure) and "<title" in figure and "<desc" in figure, name
+            assert "download=" in figure, (name, re.search(r"<title[^>]*>([^<]*)", figure)[1])

@@ -180,7 +180,7 @@ Estimate SeverityTable::estimate(std::span<const double> signature, double rms_m
           misfit,
           by_mean_rms(rms_mean),
           band_of(mean),
-          misfit <= misfit_limit_};
+          misfit <= misfit_limit_ && std::isfinite(mean) && std::isfinite(half)};
 }
 
 /// The largest severity whose mean RMS, made monotonous, does not exceed the measured one: near zero severity the

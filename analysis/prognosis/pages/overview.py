@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import csv
 from html import escape
+import io
 
 from markupsafe import Markup
 import pyarrow as pa
@@ -32,9 +34,30 @@ def overview(table: pa.Table, limit: str, title: str = "Fleet") -> str:
         early=verdicts.count("too_early"), steady=verdicts.count("steady"),
     )  # fmt: skip
     drawn = _drawing(first)
-    picture = figure(drawn, "Use that remains, by actuator") if drawn else Markup("")
+    picture = figure(drawn, "Use that remains, by actuator", data=("fleet.csv", _data(first))) if drawn else Markup("")
     verdict = f"{now} of {len(table)} actuators are to be removed now."
     return page(title, counts + picture, verdict=verdict, notes=["The whole table is in fleet.parquet."])
+
+
+def _data(rows: list[dict]) -> str:
+    """What the drawing shows, as CSV."""
+    names = (
+        "actuator",
+        "fault",
+        "severity",
+        "median",
+        "low80",
+        "high80",
+        "low95",
+        "high95",
+        "at",
+        "advised_last_test",
+        "unit",
+    )
+    text = io.StringIO()
+    lines = csv.writer(text, lineterminator="\n")
+    lines.writerows([names, *([row[name] for name in names] for row in rows)])
+    return text.getvalue()
 
 
 def _drawing(rows: list[dict]) -> str:

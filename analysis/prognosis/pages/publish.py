@@ -30,6 +30,7 @@ DRAWN = 40  # actuators that get a figure; of more, those at greatest risk
 
 def publish(said: Sequence[Forecast], bank: Bank, out: Path, risk: float, version: str) -> None:
     """Write forecast.json, report.html and figures into `out`, together or not at all."""
+    from lacuna.analysis.report.figures.data import drawn_data
     from lacuna.analysis.report.figures.style import in_style, new_figure
 
     first = sorted(said, key=urgency)[:DRAWN]
@@ -46,7 +47,7 @@ def publish(said: Sequence[Forecast], bank: Bank, out: Path, risk: float, versio
             drawn.axes[0].set_title("")  # the page has the name, escaped
             picture = io.StringIO()
             save(drawn, picture, "svg")
-            parts.append(_part(f, picture.getvalue(), risk))
+            parts.append(_part(f, picture.getvalue(), (f"{name}.csv", drawn_data(drawn)), risk))
         shown = f"{len(first)} of {len(said)} shown, those at greatest risk first." if len(said) > DRAWN else ""
         limits = ", ".join(f"{n} from {v:g}" for n, v in zip(said[0].limits.names, said[0].limits.values, strict=True))
         notes = ["Intervals are of remaining use; the fan shows when each severity is reached.", f"Limits: {limits}."]
@@ -57,9 +58,13 @@ def publish(said: Sequence[Forecast], bank: Bank, out: Path, risk: float, versio
         (scratch / "report.html").write_text(whole, encoding="utf-8")
 
 
-def _part(f: Forecast, svg: str, risk: float) -> Markup:
+def _part(f: Forecast, svg: str, data: tuple[str, str], risk: float) -> Markup:
     said = sentence(f, risk)
-    parts = [heading(said), *(Markup("<p class=warn>{}</p>").format(w) for w in f.warnings), figure(svg, said)]
+    parts = [
+        heading(said),
+        *(Markup("<p class=warn>{}</p>").format(w) for w in f.warnings),
+        figure(svg, said, data=data),
+    ]
     if f.verdict == FORECAST:
         header = ["limit", "97.5 % later than", "90 %", "median", "10 %", "2.5 %"]
         rows = [[name, *map(_cell, row)] for name, row in zip(f.limits.names, f.quantiles, strict=True)]

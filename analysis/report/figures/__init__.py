@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 
 from lacuna.analysis.map.rows import Row
 from lacuna.analysis.report.figures import currents, mean_rms, phase_rms, spectra, speed
+from lacuna.analysis.report.figures.data import drawn_data
 from lacuna.analysis.report.figures.style import in_style
 from lacuna.analysis.settings import Settings
 from lacuna.drawn import save
@@ -28,10 +29,11 @@ FIGURES: dict[str, tuple[str, str, Callable[[Settings, list[Row]], Figure]]] = {
 
 
 def draw_all(settings: Settings, rows: list[Row], folder: Path) -> None:
-    """Write every figure into `folder`, as <stem>.svg and <stem>.png."""
+    """Write every figure into `folder`, as <stem>.svg and <stem>.png, and what it shows as <stem>.csv."""
     for stem, (_, _, draw) in FIGURES.items():
         with in_style():
             figure = draw(settings, rows)
             FigureCanvasAgg(figure)
             for kind in ("svg", "png"):
                 save(figure, folder / f"{stem}.{kind}", kind)
+            (folder / f"{stem}.csv").write_text(drawn_data(figure), encoding="utf-8")

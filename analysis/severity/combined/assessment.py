@@ -11,12 +11,11 @@ from typing import Any
 from lacuna.analysis.files import published_together
 from lacuna.analysis.recording.recordings import Refusal, check_phases, read_recording
 from lacuna.analysis.settings import Band
-from lacuna.analysis.severity.assessment import chain_at, features_of, filtered, sentence
+from lacuna.analysis.severity.assessment import chain_at, features_of, filtered, sentence, write_drawn
 from lacuna.analysis.severity.combined.estimate import JointEstimate, JointEstimator
 from lacuna.analysis.severity.combined.grid import load_grid
 from lacuna.analysis.severity.preparation import START_RATE
 from lacuna.analysis.spectra.chain import signature
-from lacuna.drawn import save
 
 
 @dataclass(frozen=True)
@@ -77,5 +76,4 @@ def _write(done: JointAssessment, estimator: JointEstimator, folder: Path, out: 
         (scratch / "assessment.json").write_text(text + "\n", encoding="utf-8")
         with in_style():
             figure = draw_estimate(estimator, done.estimate)
-            for kind in ("svg", "png"):
-                save(figure, scratch / f"assessment.{kind}", kind)
+        write_drawn(done, figure, scratch, [folder / "settings.toml"])

@@ -1,45 +1,80 @@
-"""Static choice of states: for every equation that was differentiated one derivative becomes algebraic.
+"""Which derivatives become algebraic: for every equation that was differentiated one.
 
 S. Mattsson, G. Soderlind, Index reduction in DAEs using dummy derivatives, SIAM J. Sci. Comput. 14 (1993) 677-692.
-The pivots are evaluated at the start values, so the choice holds as long as they stay away from zero: where a pivot
-varies an assert watches it, and the structure report names the choice. Among good pivots stateSelect decides, then the
-order of derivative.
+The pivots are evaluated at the start values. Among good pivots stateSelect decides, then the order of derivative. The
+choice holds for the whole run where the pivots do not vary, or can be chosen so; else `dynamic_states` makes it anew
+where it gets bad, or, where nothing else may be the state, an assert watches the pivot.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from functools import reduce
-import heapq
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.aliases import STATE_SELECT
 from lacuna.codegen.structure.constants import is_parametric
+from lacuna.codegen.structure.index.dynamic_states import Group, Selection
+from lacuna.codegen.structure.index.pivots import Elimination, Pivot, base_of, text_of
+from lacuna.codegen.structure.nominal import infer, told
 from lacuna.codegen.structure.system import DeclaredValues, DefinedValues, GenericValues, Row, System
 from lacuna.codegen.symbolic.differentiate import partial
-from lacuna.codegen.symbolic.expr import Expr, add, const, der, mul, relation, var
+from lacuna.codegen.symbolic.expr import ONE, Expr, add, const, der, maximum, mul, relation, var
 from lacuna.codegen.symbolic.rewrite import Rewriter, all_statements
+from lacuna.codegen.symbolic.union_find import UnionFind
 
-PIVOT = 1e-6  # smallest pivot accepted, relative to the largest entry of its equation
-ROUNDING = 1e-10  # of the largest number that entered a sum: at generic values what is smaller is a zero
 WATCHED = 0.1  # smallest pivot tolerated during a run, relative to those of the states that it stands beside
 
 
-def choose_states(model: flat.FlatModel, rows: list[Row], names: list[str]) -> System:
-    """Select dummy derivatives among `rows` and return the system in the remaining states."""
+def choose_states(model: flat.FlatModel, rows: list[Row], names: list[str], relations: int) -> System:
+    """Select dummy derivatives among `rows` and return the system in the remaining states. `relations`: how many the
+    model has, which those of a dynamic choice are counted from."""
     variables = _variables(rows, names)
-    dummies, watches = _first_choice(model, rows, variables)
-    model = replace(model, asserts=[*model.asserts, *watches])
-    replacement, model, extra = _rename(model, variables, dummies)
+    choice = _first_choice(model, rows, variables)
+    model = replace(model, asserts=[*model.asserts, *choice.watches])
+    system = _system(model, rows, names, variables, choice, [])
+    if not choice.groups:
+        return system
+    sizes = _sizes(system, choice.groups)
+    selections = [Selection(k + 1, g, model, sizes) for k, g in enumerate(choice.groups)]
+    algorithms = [s.algorithm(relations + k) for k, s in enumerate(selections)]
+    more = {name: v for s in selections for name, v in s.variables.items()}
+    model = replace(model, variables=model.variables | more, algorithms=[*model.algorithms, *algorithms])
+    return _system(model, rows, names, variables, choice, selections)
+
+
+def _first_choice(model: flat.FlatModel, rows: list[Row], variables: dict[Expr, int]) -> _Choice:
+    """At the start values as far as they tell; else at those of their neighbourhood."""
+    for values in (DeclaredValues(model), DefinedValues(model, rows)):
+        try:
+            return _Choice(model, variables, values).of(rows)
+        except Diagnostic:
+            continue
+    return _Choice(model, variables, GenericValues(model, rows)).of(rows)
+
+
+def _system(
+    model: flat.FlatModel, rows: list[Row], names: list[str], variables: dict[Expr, int], choice: _Choice,
+    selections: list[Selection],
+) -> System:  # fmt: skip
+    """With the states of `selections` in place of those that were chosen for the start."""
+    free = {d for g in choice.groups for d in g.free} if selections else set()
+    dummies = choice.dummies | free
+    replacement, model, extra = _rename(model, variables, dummies, free)
     rewriter = Rewriter(replacement.get)
     new_rows: dict[Row, Row] = {}
     for row in rows:
         integral = new_rows[row.integral] if row.integral else None
         new_rows[row] = Row(rewriter.expression(row.lhs), rewriter.expression(row.rhs), row.source, integral)
+    for s in selections:
+        extra += [Row(rewriter.expression(r.lhs), rewriter.expression(r.rhs), r.source) for r in s.rows()]
     states = [str(s.value) for v in variables if der(v) in variables and der(v) not in dummies
               for s in [replacement.get(v, v)]]  # fmt: skip
-    all_names = [*names, *(str(n.value) for n in replacement.values() if n.op == "var")]
+    states += [name for s in selections for name in s.states]
+    own = (n for s in selections for n, v in s.variables.items() if v.variability == flat.CONTINUOUS)
+    all_names = dict.fromkeys([*names, *(str(n.value) for n in replacement.values() if n.op == "var"), *own])
     state_set = set(states)
     return System(
         rewriter.model(model),
@@ -48,23 +83,25 @@ def choose_states(model: flat.FlatModel, rows: list[Row], names: list[str]) -> S
         [n for n in all_names if n not in state_set],
         [text_of(d) for d in variables if d in dummies],
         rewriter,
+        [s.switch().rewritten(rewriter) for s in selections],
+        [name for s in selections for name in s.states],
+        [str(rewriter.expression(d.args[0]).value) for s in selections for d in s.group.selected],
     )
 
 
-def _first_choice(
-    model: flat.FlatModel, rows: list[Row], variables: dict[Expr, int]
-) -> tuple[set[Expr], list[flat.Assert]]:
-    """Dummies and watches at the start values as far as they tell; else at those of their neighbourhood."""
-    for values in (DeclaredValues(model), DefinedValues(model, rows)):
-        try:
-            return _choose_dummies(model, rows, variables, values)
-        except Diagnostic:
-            continue
-    return _choose_dummies(model, rows, variables, GenericValues(model, rows))
-
-
-def text_of(n: Expr) -> str:
-    return f"der({text_of(n.args[0])})" if n.op == "der" else str(n.value)
+def _sizes(system: System, groups: Sequence[Group]) -> dict[Expr, Expr]:
+    """Nominal values of the candidates, one for all of a group that have one unit: none is the better state because it
+    starts at zero. Where nothing is known it is 1 in the unit."""
+    known, found = infer(system, []), {}
+    for g in groups:
+        by_unit: dict[tuple[str, int], list[Expr]] = {}
+        for d in (*g.free, *g.others):
+            base, order = base_of(d), text_of(d).count("der(")
+            by_unit.setdefault((system.model.variables[str(base.value)].unit, order), []).append(d.args[0])
+        for candidates in by_unit.values():
+            sizes = [told(known[n]) for q in candidates if (n := system.renamed.expression(q)) in known]
+            found |= dict.fromkeys(candidates, reduce(maximum, dict.fromkeys(sizes)) if sizes else ONE)
+    return found
 
 
 def _variables(rows: list[Row], names: list[str]) -> dict[Expr, int]:
@@ -73,10 +110,8 @@ def _variables(rows: list[Row], names: list[str]) -> dict[Expr, int]:
     for row in rows:
         for n in row.leaves:
             if n.op == "der":
-                base, order = n, 0
-                while base.op == "der":
-                    base, order = base.args[0], order + 1
-                highest[str(base.value)] = max(order, highest.get(str(base.value), 0))
+                name, order = str(base_of(n).value), text_of(n).count("der(")
+                highest[name] = max(order, highest.get(name, 0))
     found: dict[Expr, int] = {}
     for name in names:
         n = var(name)
@@ -87,40 +122,89 @@ def _variables(rows: list[Row], names: list[str]) -> dict[Expr, int]:
     return found
 
 
-def _choose_dummies(
-    model: flat.FlatModel, rows: list[Row], variables: dict[Expr, int], values: DeclaredValues
-) -> tuple[set[Expr], list[flat.Assert]]:
-    differentiated = {row.integral for row in rows if row.integral}
-    constraints = [row for row in rows if row.integral and row not in differentiated]
-    candidates = [v for v in variables if variables[v] and der(v) not in variables]
-    dummies: set[Expr] = set()
-    watches: list[flat.Assert] = []
-    reset = _reinitialised(model)
-    while constraints:
-        pivots = _pivots(model, constraints, candidates, variables, values, reset)
-        chosen = set(pivots.values())
-        dummies.update(chosen)
-        watches += _watches(pivots, [v for v in candidates if v not in chosen], model)
-        candidates = [v.args[0] for v in variables if v in chosen and variables[v] > 1]
-        constraints = [row.integral for row in constraints if row.integral.integral]
-    return dummies, watches
+@dataclass
+class _Choice:
+    """Derivatives that become algebraic, asserts that watch pivots, and groups whose states are chosen in the run."""
 
+    model: flat.FlatModel
+    variables: dict[Expr, int]
+    values: DeclaredValues
+    dummies: set[Expr] = field(default_factory=set)
+    watches: list[flat.Assert] = field(default_factory=list)
+    groups: list[Group] = field(default_factory=list)
 
-def _watches(pivots: dict[Row, Expr], states: list[Expr], model: flat.FlatModel) -> list[flat.Assert]:
-    """Asserts that the pivots which vary stay large enough beside those of the derivatives of states."""
-    found = []
-    position = {v: k for k, v in enumerate(states)}
-    for row, dummy in pivots.items():
+    def of(self, rows: list[Row]) -> _Choice:
+        """From the highest derivatives down: what stands for a constraint's derivative may do so for its integral."""
+        self._reset = _reinitialised(self.model)
+        differentiated = {row.integral for row in rows if row.integral}
+        constraints = [row for row in rows if row.integral and row not in differentiated]
+        candidates = [v for v in self.variables if self.variables[v] and der(v) not in self.variables]
+        while constraints:
+            chosen = self._level(constraints, candidates)
+            candidates = [v.args[0] for v in self.variables if v in chosen and self.variables[v] > 1]
+            constraints = [row.integral for row in constraints if row.integral.integral]
+        return self
+
+    def _level(self, rows: list[Row], candidates: list[Expr]) -> set[Expr]:
+        """Derivatives of one level that are algebraic, at least for some time."""
+        pivots = Elimination(self.model, rows, candidates, self.values, self._strength).run()
+        if len(pivots) < len(candidates) and any(p.varies for p in pivots.values()):
+            pivots = Elimination(self.model, rows, candidates, self.values, self._strength).run(steady_first=True)
+        varying = [row for row in rows if pivots[row].varies]
+        chosen = {p.column for p in pivots.values()}
+        self.dummies |= chosen
+        for group in self._groups(rows, varying, pivots, candidates):
+            self.groups.append(group)
+            chosen |= set(group.free)
+            varying = [row for row in varying if row not in group.rows]
+        for row in varying:
+            self._watch(row, pivots[row].column, [v for v in candidates if v in row.leaves and v not in chosen])
+        return chosen
+
+    def _groups(
+        self, rows: list[Row], varying: list[Row], pivots: dict[Row, Pivot], candidates: list[Expr]
+    ) -> list[Group]:
+        """The constraints that hang together with one of `varying`, where there is a choice."""
+        parts, position = UnionFind(), {v: k for k, v in enumerate(candidates)}
+        for row in rows:
+            for v in row.leaves:
+                if v in position:
+                    parts.join(row, v)
+        found = []
+        for root in dict.fromkeys(parts.find(row) for row in varying):
+            own = [row for row in rows if parts.find(row) == root]
+            columns = [v for v in candidates if v in parts.parent and parts.find(v) == root]
+            determined = {pivots[row].column: pivots[row].varies for row in own}
+            selected = [v for v in columns if v not in determined and not self._is_fixed(v)]
+            free = [v for v in columns if v in selected or (determined.get(v) and not self._is_never(v))]
+            if selected and len(free) > len(selected):
+                others = [v for v in columns if v in determined and v not in free]
+                found.append(Group(own, free, others, selected))
+        return found
+
+    def _is_fixed(self, v: Expr) -> bool:
+        base = self.model.variables[str(base_of(v).value)]
+        return base.name in self._reset or base.state_select == "always"
+
+    def _is_never(self, v: Expr) -> bool:
+        return self.model.variables[str(base_of(v).value)].state_select == "never"
+
+    def _watch(self, row: Row, dummy: Expr, beside: list[Expr]) -> None:
+        """An assert that a pivot which varies stays large enough beside those of the derivatives of states."""
         pivot = partial(row.residual, dummy)
-        beside = sorted((v for v in row.leaves if v in position), key=position.__getitem__)
-        if is_parametric(pivot, model.variables) or not beside:
-            continue
+        if is_parametric(pivot, self.model.variables) or not beside:
+            return
         squares = [mul(slope, slope) for slope in (partial(row.residual, v) for v in beside)]
         condition = relation(">=", mul(pivot, pivot), mul(const(WATCHED**2), reduce(add, squares)))
         names = ", ".join(text_of(v.args[0]) for v in beside)
         message = f"{names} cannot be the state here: write stateSelect=StateSelect.prefer for {text_of(dummy.args[0])}"
-        found.append(flat.Assert(condition, f"{message} ({row.source.text})", row.source.span))
-    return found
+        self.watches.append(flat.Assert(condition, f"{message} ({row.source.text})", row.source.span))
+
+    def _strength(self, derivative: Expr) -> tuple:
+        """Derivatives with the smallest become dummies first."""
+        v = self.model.variables[str(base_of(derivative).value)]
+        fixed = v.fixed is not None and v.fixed.op == "const" and bool(v.fixed.value)
+        return v.name in self._reset, STATE_SELECT.index(v.state_select), -self.variables[derivative], fixed
 
 
 def _reinitialised(model: flat.FlatModel) -> set[str]:
@@ -129,88 +213,11 @@ def _reinitialised(model: flat.FlatModel) -> set[str]:
             if isinstance(s, flat.Reinit)}  # fmt: skip
 
 
-def _pivots(
-    model: flat.FlatModel,
-    rows: list[Row],
-    candidates: list[Expr],
-    variables: dict[Expr, int],
-    values: DeclaredValues,
-    reset: set[str],
-) -> dict[Row, Expr]:
-    """For each row one of the candidates, with a regular Jacobian at the start values (Gaussian elimination)."""
-    column = {v: k for k, v in enumerate(candidates)}
-    matrix = [_scaled({column[n]: _entry(row, n, values) for n in row.leaves if n in column}) for row in rows]
-    summed = [{c: abs(a) for c, a in line.items()} for line in matrix]  # the largest number that entered each entry
-    generic = isinstance(values, GenericValues)
-    users: list[set[int]] = [set() for _ in candidates]
-    for r, line in enumerate(matrix):
-        for c in line:
-            users[c].add(r)
-    keys = [_keep(model, v, variables[v], reset) for v in candidates]
-
-    def entry(r: int, c: int) -> tuple:
-        """Sorts first: the weakest candidate, of those the largest pivot, of those the last declared."""
-        return keys[c], -abs(matrix[r][c]), -c, r
-
-    def is_pivot(r: int, c: int) -> bool:
-        return abs(matrix[r][c]) > (ROUNDING * summed[r][c] if generic else PIVOT)
-
-    queue = [entry(r, c) for r, line in enumerate(matrix) for c in line if is_pivot(r, c)]
-    heapq.heapify(queue)
-    chosen: dict[Row, Expr] = {}
-    while queue:
-        found = heapq.heappop(queue)
-        c, r = -found[2], found[3]
-        if rows[r] in chosen or c not in matrix[r] or entry(r, c) != found:
-            continue  # eliminated, or another number by now
-        chosen[rows[r]] = candidates[c]
-        pivot = matrix[r].pop(c)
-        for other in sorted(o for o in users[c] if rows[o] not in chosen):
-            factor = matrix[other].pop(c) / pivot
-            for k, a in matrix[r].items():
-                matrix[other][k] = matrix[other].get(k, 0.0) - factor * a
-                summed[other][k] = max(summed[other].get(k, 0.0), abs(factor * a))
-                users[k].add(other)
-                if is_pivot(other, k):
-                    heapq.heappush(queue, entry(other, k))
-    if len(chosen) < len(rows):
-        _refuse(rows, candidates)
-    return chosen
-
-
-def _scaled(line: dict[int, float]) -> dict[int, float]:
-    scale = max(map(abs, line.values()), default=0.0) or 1.0
-    return {c: a / scale for c, a in line.items()}
-
-
-def _entry(row: Row, v: Expr, values: DeclaredValues) -> float:
-    value = values(partial(row.residual, v))
-    return 1.0 if value is None else float(value)
-
-
-def _keep(model: flat.FlatModel, derivative: Expr, order: int, reset: set[str]) -> tuple:
-    """Derivatives with the smallest key become dummies first."""
-    base = derivative
-    while base.op == "der":
-        base = base.args[0]
-    v = model.variables[str(base.value)]
-    fixed = v.fixed is not None and v.fixed.op == "const" and bool(v.fixed.value)
-    return v.name in reset, STATE_SELECT.index(v.state_select), -order, fixed
-
-
-def _refuse(rows: list[Row], candidates: list[Expr]) -> None:
-    raise Diagnostic(
-        "S005", "these constraints between states do not determine any of them at the start values",
-        rows[0].source.span, "give start values at which the constraint is regular: "
-        + ", ".join(text_of(c.args[0]) for c in candidates),
-        [(row.source.span, row.text) for row in rows],
-    )  # fmt: skip
-
-
 def _rename(
-    model: flat.FlatModel, variables: dict[Expr, int], dummies: set[Expr]
+    model: flat.FlatModel, variables: dict[Expr, int], dummies: set[Expr], free: set[Expr]
 ) -> tuple[dict[Expr, Expr], flat.FlatModel, list[Row]]:
-    """Derivatives that are dummies or states themselves become variables named "der(x)"."""
+    """Derivatives that are dummies or states themselves, or become states (the integrals of `free`), become variables
+    named "der(x)"."""
     replacement: dict[Expr, Expr] = {}
     extra: list[Row] = []
     declared = dict(model.variables)
@@ -218,23 +225,17 @@ def _rename(
         if not order:
             continue
         inner = replacement.get(n.args[0], n.args[0])
-        is_state = der(n) in variables and der(n) not in dummies
+        is_state = der(n) in variables and (der(n) not in dummies or der(n) in free)
         if n not in dummies and not is_state:
             if inner is not n.args[0]:
                 replacement[n] = der(inner)
             continue
         name = text_of(n)
         replacement[n] = var(name)
-        base = model.variables[str(_base(n).value)]
+        base = model.variables[str(base_of(n).value)]
         unit = f"{base.unit}/s{order if order > 1 else ''}" if base.unit else ""
         declared[name] = flat.Variable(name, base.span, unit=unit, description=f"derivative of {base.name}")
         if n not in dummies:
             source = flat.Equation(der(inner), var(name), base.span, "", f"{text_of(der(inner))} = {name}")
             extra.append(Row(der(inner), var(name), source))
     return replacement, replace(model, variables=declared), extra
-
-
-def _base(n: Expr) -> Expr:
-    while n.op == "der":
-        n = n.args[0]
-    return n

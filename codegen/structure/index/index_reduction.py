@@ -18,8 +18,9 @@ from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, der, to_text, var
 from lacuna.codegen.symbolic.leaves import leaves
 
 
-def reduce_index(model: flat.FlatModel, equations: list[flat.Equation]) -> System:
-    """The index-1 (or 0) system that is equivalent to the continuous equations of `model`."""
+def reduce_index(model: flat.FlatModel, equations: list[flat.Equation], relations: int = 0) -> System:
+    """The index-1 (or 0) system that is equivalent to the continuous equations of `model`, which has so many relations
+    already."""
     names = [
         v.name
         for v in model.variables.values()
@@ -31,7 +32,7 @@ def reduce_index(model: flat.FlatModel, equations: list[flat.Equation]) -> Syste
     names += [str(row.lhs.value) for row in started]
     rows += started
     rows = _Pantelides(model, rows, names).run()
-    return choose_states(model, rows, names)
+    return choose_states(model, rows, names, relations)
 
 
 def _derivatives_at_start(model: flat.FlatModel, rows: list[Row], names: set[str]) -> tuple[flat.FlatModel, list[Row]]:

@@ -316,8 +316,10 @@ def test_index_three_pendulum_swings_with_the_right_state(simulate, solver: str)
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_a_choice_of_states_that_ceases_to_hold_ends_the_run(tmp_path: Path, solver: str) -> None:
-    """At rest at x = 0.8 the other coordinate looks like a good state; at the bottom it is none."""
-    text = PENDULUM.replace(", fixed = true", "")
+    """The height has to be the state, and at the bottom it is none."""
+    always = ", stateSelect = StateSelect.always)"
+    text = PENDULUM.replace(", fixed = true", "").replace("-0.6)", "-0.6" + always)
+    text = text.replace('Real vy(unit = "m/s")', 'Real vy(unit = "m/s"' + always)
     compiled = compile_model(write_model(tmp_path, text), cache_directory=str(tmp_path))
     r = runtime.simulate(runtime.Model(compiled.path), solver=solver, stop=3.0, rtol=1e-9, atol=1e-11)
     assert not r.complete
@@ -334,3 +336,20 @@ def test_friction_element_that_is_braked_hard_sticks(simulate, solver: str) -> N
     assert np.max(np.abs(r["v"][stuck])) < 1e-9
     assert np.all(r["mode"][stuck] == 0)
     assert r["v"][-1] > 0.1
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_sample_in_an_equation_holds_at_its_instants_only(simulate, solver: str) -> None:
+    """y is 1 at eleven instants, which have no length: x = time."""
+    text = """model Ticks
+  Real x(start = 0, fixed = true); Real y; discrete Real n(start = 0, fixed = true);
+equation
+  y = if sample(0, 0.1) then 1 else 0;
+  der(x) = 1 + y;
+  when sample(0, 0.1) then n = pre(n) + y; end when;
+end Ticks;
+"""
+    r = simulate(text, 1.04, solver)
+    assert r["x"][-1] == pytest.approx(1.04, rel=1e-9)
+    assert r["n"][-1] == 11
+    assert set(r["y"]) == {0.0}

@@ -70,9 +70,24 @@ end Pendulum;
 """
 
 
-def test_pendulum_keeps_the_states_with_good_pivots(prepare) -> None:
+def test_pendulum_starts_with_the_states_that_have_good_pivots(prepare) -> None:
     p = prepare(PENDULUM)
-    assert p.system.states == ["y", "vy"]  # at x = 1 the constraint determines x
+    assert p.system.preferred == ["vy", "y"]  # at x = 1 the constraint determines x
+    assert p.system.states == p.system.dynamic == ["$state1[1]", "$state2[1]"]
+    assert {"der(x)", "der(vx)", "der(der(x))", "der(y)", "der(vy)"} <= set(p.system.dummies)
+    assert sum(row.integral is not None for row in p.system.rows) == 4
+    assert (2, 2) in blocks(p, NonlinearBlock)  # x and y from the state
+
+
+def test_pendulum_keeps_the_states_that_it_must_have(prepare) -> None:
+    always = ", stateSelect=StateSelect.always)"
+    p = prepare(
+        PENDULUM.replace("y(start=0.1, fixed=true)", "y(start=0.1, fixed=true" + always).replace(
+            "vy(start=0, fixed=true)", "vy(start=0, fixed=true" + always
+        )
+    )
+    assert p.system.states == ["y", "vy"]
+    assert len(p.system.model.asserts) == 1  # which ends the run where the other coordinate is none
     assert {"der(x)", "der(vx)", "der(der(x))"} <= set(p.system.dummies)
     assert sum(row.integral is not None for row in p.system.rows) == 4
     assert blocks(p, NonlinearBlock) == [(1, 1)]  # x from y

@@ -1,0 +1,76 @@
+"""report.html of a sweep: how many tests ran, what failed and why, and the mean RMS over the fault of every test."""
+
+from __future__ import annotations
+
+from collections import Counter
+import io
+from pathlib import Path
+
+from markupsafe import Markup
+from matplotlib.figure import Figure
+import numpy as np
+import pyarrow as pa
+
+from lacuna.analysis.report.figures.style import in_style, new_figure
+from lacuna.analysis.report.page import figure, heading, page, paragraph, table
+from lacuna.analysis.settings import Settings
+from lacuna.drawn import save
+
+SHOWN = 4000  # points of the figure and of its data; beyond, every n-th test (the sequence fills the range evenly)
+
+
+def report_html(results: pa.Table, model: str, settings: Settings) -> str:
+    """The page, of a table as `run_campaign` gives it."""
+    failures = Counter(text for text in results["failure"].to_pylist() if text is not None)
+    failed = sum(failures.values())
+    body = [_cloud(results, settings), heading("What was drawn"), _ranges(results, settings)]
+    if failures:
+        body += [heading("What failed"), table(("why", "tests"), failures.most_common())]
+    body += [paragraph("results.parquet has one row a test: parameters, features, and why a test failed.")]
+    verdict = f"{len(results) - failed} of {len(results)} tests of {model} were simulated and analysed."
+    action = f"see below why {failed} are missing" if failed else ""
+    notes = [f"Settings: {settings.path.name}"]
+    return page(f"Sweep: {model}", Markup("\n").join(body), verdict=verdict, action=action, notes=notes)
+
+
+def _column(results: pa.Table, name: str) -> np.ndarray:
+    return np.asarray(results[name].to_numpy(), dtype=float)
+
+
+def _cloud(results: pa.Table, settings: Settings) -> Markup:
+    fault = settings.fault
+    every = slice(None, None, -(-len(results) // SHOWN))
+    severity, rms = (_column(results, name)[every] for name in (fault.symbol, "rms_mean"))
+    with in_style():
+        drawn: Figure = new_figure()
+        axes = drawn.subplots()
+        axes.plot(fault.scale * severity, 1e3 * rms, ".", markersize=9 if severity.size < 200 else 3)
+        axes.set_xlabel(f"{fault.name}  ({fault.unit})")
+        axes.set_ylabel("mean RMS of the phase currents  (mA)")
+        buffer = io.StringIO()
+        save(drawn, buffer, "svg")
+    data = f"{fault.symbol},rms_mean\n" + "".join(f"{x:.9g},{y:.9g}\n" for x, y in zip(severity, rms, strict=True))
+    caption = f"One point a test, {len(severity)} of {len(results)}: what the nuisances do to the reading of the fault."
+    return figure(buffer.getvalue(), "Mean RMS over the fault, one point a test", caption, ("sweep.csv", data))
+
+
+def _ranges(results: pa.Table, settings: Settings) -> Markup:
+    names = [name for name in results.column_names if name != "failure" and results[name].type == pa.float64()]
+    rows = []
+    for name in names:
+        values = _column(results, name)
+        values = values[np.isfinite(values)]
+        if values.size:
+            rows.append((name, *(f"{v:.5g}" for v in (values.min(), np.median(values), values.max()))))
+    return table(("column, SI units", "least", "median", "greatest"), rows)
+
+
+def write(results: Path, model: str, settings: Settings) -> Path:
+    """Write the page beside results.parquet."""
+    import pyarrow.parquet as pq
+
+    path = results.with_name("report.html")
+    partial = path.with_suffix(".partial")
+    partial.write_text(report_html(pq.read_table(results), model, settings), encoding="utf-8")
+    partial.replace(path)
+    return path

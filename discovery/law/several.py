@@ -1,0 +1,96 @@
+"""More than one law: places of the equations are searched again with the laws found so far in the model.
+
+The first of two laws stands for both as well as it can, at its own place. So once a further one is found at another
+place, each earlier one is found anew given the others, and exchanged where that is better.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.efforts.find import find
+from lacuna.discovery.fit.evidence import nearly_noise, pays
+from lacuna.discovery.fit.fit import Fit, linearised
+from lacuna.discovery.naming.comparison import MIN_GAIN, Ranked, score
+from lacuna.discovery.naming.judge import Judgement, try_judge
+from lacuna.discovery.naming.left_out import left_out
+from lacuna.discovery.naming.name import Naming
+from lacuna.discovery.naming.screen import Candidate
+from lacuna.discovery.naming.search import MAX_FINDINGS, Finding, Search
+
+Progress = Callable[[str], None]
+
+
+def go_on(search: Search, library: Library, progress: Progress) -> None:
+    """Add laws at other places while the model leaves more than noise and they pay; find earlier ones anew."""
+    while len(search.findings) < MAX_FINDINGS and not nearly_noise(search.fit):
+        progress("looking for a law at another place")
+        law = _best(search, search.amendment, search.fit, library, progress, _elsewhere(search.amendment))
+        if law is None or not _pays(search, search.fit, law):
+            return
+        after = try_judge(law.machine, law.fit.point)
+        if after is None:
+            return
+        search.findings.append(_finding(law, search.fit, search.judgement, after))
+        search.take([*search.amendment.attachments, law.attachment], law.fit, after)
+        for k in range(len(search.findings) - 1):
+            _find_anew(search, k, library, progress)
+
+
+def _find_anew(search: Search, k: int, library: Library, progress: Progress) -> None:
+    """Find law k anew, given the others: taken where deviance and price fall."""
+    old = search.findings[k].ranked
+    progress(f"looking again at {old.attachment.location}")
+    amendment = replace(
+        search.amendment, attachments=[a for a in search.amendment.attachments if a is not old.attachment]
+    )
+    base = without(search.fit, old, amendment)
+    if base is None:
+        return
+    law = _best(search, amendment, base, library, progress, lambda location: location == old.attachment.location)
+    if law is None:
+        return
+    correlation = law.fit.correlation()
+    present = score(replace(old.candidate, fit=search.fit), base, correlation)
+    after = try_judge(law.machine, law.fit.point)
+    if after is None or score(law, base, correlation) >= present:
+        return
+    search.findings[k] = _finding(law, base, search.findings[k].before, after)
+    search.take([*amendment.attachments, law.attachment], law.fit, after)
+
+
+def _elsewhere(amendment: Amendment) -> Callable[[str], bool]:
+    taken = {a.location for a in amendment.attachments}
+    return lambda location: location not in taken
+
+
+def without(found: Fit, ranked: Ranked, amendment: Amendment) -> Fit | None:
+    """The model of `amendment`, which lacks this effect, with all else left where it is."""
+    prefix = f"{ranked.attachment.component}."
+    free = [f for f in found.estimate.free if not f.name.startswith(prefix)]
+    fixed = {n: v for n, v in found.fixed.items() if not n.startswith(prefix)}
+    machine = found.machine.amended(amendment)
+    return linearised(machine, machine.case.fit, found.noise, free, fixed, found.point)
+
+
+def _best(
+    search: Search, amendment: Amendment, base: Fit, library: Library, progress: Progress,
+    admitted: Callable[[str], bool],
+) -> Candidate | None:  # fmt: skip
+    found = find(search.case, amendment, base, library, progress, admitted)
+    return found.laws[0] if found.laws else None
+
+
+def _pays(search: Search, before: Fit, law: Candidate) -> bool:
+    """Whether a law pays for its numbers, and tells recordings left out better than the model without it."""
+    if score(law, before, law.fit.correlation()) > -MIN_GAIN:
+        return False
+    return pays(left_out(search.case, before), left_out(search.case, law.fit), search.floor)
+
+
+def _finding(law: Candidate, base: Fit, before: Judgement, after: Judgement) -> Finding:
+    ranked = Ranked(law, law.fit, score(law, base, law.fit.correlation()), 1.0)
+    return Finding(ranked, Naming([ranked], []), before, after)

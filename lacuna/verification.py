@@ -1,0 +1,128 @@
+"""Is a result what its command makes of its inputs? How it was made stands beside it; `verify` makes it again."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+import hashlib
+from importlib.metadata import version
+import json
+import os
+from pathlib import Path
+import sys
+import tempfile
+from typing import Any
+
+from lacuna.children import run
+from lacuna.errors import UserError
+
+MADE_BY = "made-by.json"
+FORMAT = "lacuna-made-by-1"
+VERIFIABLE = ("simulate", "maps", "sweep", "assess", "forecast", "explain")
+
+
+@dataclass(frozen=True)
+class Verification:
+    """`differs` names the files that are not what the command makes now, `checked` all that were looked at."""
+
+    command: tuple[str, ...]
+    checked: tuple[str, ...]
+    differs: tuple[str, ...]
+
+    @property
+    def same(self) -> bool:
+        return not self.differs
+
+
+def record_making(command: Sequence[str], written: Sequence[Path]) -> None:
+    """Write beside the results of a command how they were made: its words without --out, and the digests of the files
+    and folders among them. `written` are files in one folder, or that folder."""
+    if command[0] not in VERIFIABLE or not written:
+        return
+    folder = written[0] if written[0].is_dir() else written[0].parent
+    stems = {path.stem for path in written if path.is_file()}
+    files = [path for path in _results_in(folder) if not stems or path.name.partition(".")[0] in stems]
+    inputs = {word: _digest(Path(word), folder) for word in command[1:] if Path(word).exists()}
+    made = {
+        "format": FORMAT, "version": version("lacuna"), "command": list(command), "inputs": inputs,
+        "files": sorted(path.relative_to(folder).as_posix() for path in files),
+    }  # fmt: skip
+    partial = folder / f".{MADE_BY}.{os.getpid()}"
+    partial.write_text(json.dumps(made, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    partial.replace(folder / MADE_BY)
+
+
+def _results_in(folder: Path) -> list[Path]:
+    """What a command left in its folder, without what it keeps for itself: hidden files, caches of rows and parts."""
+    kept = {"rows", "parts"}
+    found = (path for path in folder.rglob("*") if path.is_file() and path.name != MADE_BY)
+    return [p for p in found if not any(n.startswith(".") or n in kept for n in p.relative_to(folder).parts)]
+
+
+def verify(folder: str | Path) -> Verification:
+    """Give the command that made the results in `folder` again, and compare.
+
+    Every file is compared byte by byte, but for pages (.html), which say when and by which words they were made, and
+    for entries `seconds` of JSON. Run it where the command was given: its words may name files relatively. Raises
+    UserError where the folder does not say how it was made, an input has changed, or the command fails.
+    """
+    folder = Path(folder)
+    made = _made_by(folder)
+    for word, digest in made["inputs"].items():
+        if not Path(word).exists() or _digest(Path(word), folder) != digest:
+            raise UserError(f"{word} is not what the results in {folder} were made from: it is gone or has changed")
+    with tempfile.TemporaryDirectory() as scratch:
+        again = Path(scratch) / folder.resolve().name
+        done = run([sys.executable, "-m", "lacuna.cli.main", *made["command"], "--out", again])
+        if not again.is_dir():
+            raise UserError(f"the command of {folder} fails now: {done.stderr.strip()[:500]}")
+        checked = [name for name in made["files"] if not name.endswith(".html")]
+        differs = [name for name in checked if _content(folder / name) != _content(again / name)]
+    return Verification(tuple(made["command"]), tuple(checked), tuple(differs))
+
+
+def _made_by(folder: Path) -> dict[str, Any]:
+    path = folder / MADE_BY
+    try:
+        made = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise UserError(f"{folder} does not say how it was made: there is no {MADE_BY}") from None
+    except ValueError as error:
+        raise UserError(f"{path} is damaged: {error}") from None
+    try:
+        words, files, inputs = made["command"], made["files"], made["inputs"]
+        sound = made["format"] == FORMAT and words[0] in VERIFIABLE and isinstance(inputs, dict)
+        sound = sound and all(isinstance(word, str) for word in (*words, *files)) and "--out" not in words
+    except (KeyError, IndexError, TypeError):
+        sound = False
+    if not sound or any(".." in Path(name).parts or Path(name).is_absolute() for name in files):
+        raise UserError(f"{path} is not of this version, or damaged")
+    return dict(made)
+
+
+def _digest(path: Path, results: Path) -> str:
+    """Of a file, or of all files below a folder with their names, those in `results` apart."""
+    digest, apart = hashlib.sha256(), results.resolve()
+    files = sorted(p for p in path.rglob("*") if p.is_file() and not p.resolve().is_relative_to(apart))
+    for file in files if path.is_dir() else [path]:
+        digest.update(file.relative_to(path).as_posix().encode() + b"\0")
+        with file.open("rb") as content:
+            digest.update(hashlib.file_digest(content, "sha256").digest())
+    return digest.hexdigest()
+
+
+def _content(path: Path) -> object:
+    if not path.is_file():
+        return None
+    if path.suffix == ".json":
+        try:
+            return _without_seconds(json.loads(path.read_text(encoding="utf-8")))
+        except ValueError:
+            return b""
+    return path.read_bytes()
+
+
+def _without_seconds(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _without_seconds(v) for key, v in value.items() if key != "seconds"}
+    return [_without_seconds(v) for v in value] if isinstance(value, list) else value

@@ -1,0 +1,90 @@
+"""Results are equal byte for byte over runs, hash seeds, threads and folders; `lacuna verify` says so, or not."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+import shutil
+import subprocess
+import sys
+
+import pytest
+from typer.testing import CliRunner
+
+from lacuna.cli.main import app
+from lacuna.verification import MADE_BY
+
+MODEL = """model Decay
+  parameter Real k = 1;
+  Real x(start=1, fixed=true);
+  Real late = if x < 0.5 then 1 else 0;
+equation
+  der(x) = -k*x;
+end Decay;
+"""
+HISTORY = "actuator,cycles,severity,low,high,event\n" + "".join(
+    f"left,{n},{0.02 + 6e-5 * n:.5f},{0.015 + 6e-5 * n:.5f},{0.025 + 6e-5 * n:.5f},\n" for n in range(100, 3500, 100)
+)
+SIMULATE = ("simulate", "Decay.mo", "-p", "k=2", "--plot", "--event-rows")
+FORECAST = ("forecast", "history.csv")
+
+
+@pytest.fixture
+def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    (tmp_path / "Decay.mo").write_text(MODEL)
+    (tmp_path / "history.csv").write_text(HISTORY)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def status_of(*words: str) -> int:
+    return CliRunner().invoke(app, list(words)).exit_code
+
+
+def bytes_of(place: Path, folder: str, words: tuple[str, ...], seed: str, threads: str) -> dict[str, bytes]:
+    """What a command writes in a place of its own, by a process of its own: every file but the pages."""
+    there = place / folder
+    there.mkdir()
+    for name in ("Decay.mo", "history.csv"):
+        shutil.copy(place / name, there)
+    settings = os.environ | {"PYTHONHASHSEED": seed, "OMP_NUM_THREADS": threads, "OPENBLAS_NUM_THREADS": threads}
+    command = [sys.executable, "-m", "lacuna.cli.main", *words, "--out", "out"]
+    subprocess.run(command, cwd=there, env=settings, check=True, capture_output=True)
+    files = (p for p in (there / "out").rglob("*") if p.is_file() and p.suffix != ".html")
+    return {p.relative_to(there).as_posix(): p.read_bytes() for p in files}
+
+
+@pytest.mark.parametrize("words", [SIMULATE, FORECAST], ids=["simulate", "forecast"])
+def test_equal_bytes_over_hash_seeds_threads_and_folders(place: Path, words: tuple[str, ...]) -> None:
+    one = bytes_of(place, "one", words, "1", "1")
+    other = bytes_of(place, "another place", words, "2", "2")
+    assert len(one) > 2
+    assert {name for name in one if one[name] != other.get(name)} == set()
+
+
+def test_a_result_is_verified_and_a_changed_one_is_not(place: Path) -> None:
+    assert status_of(*SIMULATE, "--out", "out") == 0
+    assert status_of("verify", "out") == 0
+    figures = place / "out" / "Decay.csv"
+    figures.write_text(figures.read_text().replace("0.1", "0.2", 1))
+    said = CliRunner().invoke(app, ["verify", "out"])
+    assert (said.exit_code, "not the same: Decay.csv" in said.output) == (1, True)
+
+
+def test_verify_needs_the_inputs_as_they_were(place: Path) -> None:
+    assert status_of(*SIMULATE, "--out", "out") == 0
+    (place / "Decay.mo").write_text(MODEL.replace("k = 1", "k = 3"))
+    said = CliRunner().invoke(app, ["verify", "out"])
+    assert (said.exit_code, "Decay.mo is not what" in said.output) == (1, True)
+
+
+@pytest.mark.parametrize(
+    "change", [{"command": ["lsp"]}, {"files": ["../x"]}, {"files": ["/etc/passwd"]}, {"inputs": []}, {"format": 1}]
+)
+def test_verify_takes_no_orders_from_a_strangers_file(place: Path, change: dict[str, object]) -> None:
+    assert status_of(*SIMULATE, "--out", "out") == 0
+    record = place / "out" / MADE_BY
+    record.write_text(json.dumps(json.loads(record.read_text()) | change))
+    said = CliRunner().invoke(app, ["verify", "out"])
+    assert (said.exit_code, "damaged" in said.output) == (1, True)

@@ -1,0 +1,90 @@
+"""`--watch`: the page follows the source, answers to this machine and the secret only, and ends cleanly."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import json
+from pathlib import Path
+import re
+import signal
+import subprocess
+import sys
+from urllib.error import HTTPError
+from urllib.parse import urlsplit
+from urllib.request import Request, urlopen
+
+import pytest
+
+MODEL = """model Tank
+  Real h(start=1, fixed=true);
+equation
+  der(h) = -h;
+  annotation(experiment(StopTime=1));
+end Tank;
+"""
+PATIENCE = 60  # s, of a machine with much to do
+
+
+@pytest.fixture
+def tank(tmp_path: Path) -> Path:
+    path = tmp_path / "Tank.mo"
+    path.write_text(MODEL, encoding="utf-8")
+    return path
+
+
+@pytest.fixture
+def running(tank: Path) -> Iterator[subprocess.Popen[str]]:
+    command = [sys.executable, "-c", "from lacuna.cli.main import app; app()", "simulate", str(tank), "--watch"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, bufsize=1) as process:
+        yield process
+        process.kill()
+
+
+@pytest.fixture
+def address(running: subprocess.Popen[str]) -> str:
+    return running.stdout.readline().split()[-1]
+
+
+def state(address: str, after: int) -> dict:
+    """The first state beyond number `after`."""
+    found = {"number": 0}
+    while found["number"] <= after:
+        with urlopen(f"{address}{after}", timeout=PATIENCE) as answer:
+            found = json.load(answer)
+    return found
+
+
+@pytest.mark.timeout(4 * PATIENCE)
+def test_a_saved_equation_is_a_new_figure_and_a_slip_is_said_above_the_old_one(
+    running: subprocess.Popen[str], address: str, tank: Path, tmp_path: Path
+) -> None:
+    with urlopen(address, timeout=PATIENCE) as answer:
+        assert "Tank.mo" in answer.read().decode()
+    first = state(address, 0)
+    assert first["svg"].startswith("<svg") and first["message"] == ""
+    tank.write_text(MODEL.replace("-h;", "-2*h;"), encoding="utf-8")
+    second = state(address, first["number"])
+    assert second["svg"] != first["svg"]
+    tank.write_text(MODEL.replace("-h;", "-hh;"), encoding="utf-8")
+    third = state(address, second["number"])
+    assert "did you mean h?" in third["message"] and third["svg"] == second["svg"]
+    running.send_signal(signal.SIGINT)
+    said, _ = running.communicate(timeout=PATIENCE)
+    assert running.returncode == 0
+    assert said.endswith("ended\n") and "Traceback" not in said
+    assert re.search(r"drawn \d+\.\d s after the save", said)
+
+
+def test_only_who_knows_the_secret_at_this_machine_s_own_name_is_answered(address: str) -> None:
+    place = urlsplit(address)
+    assert place.hostname == "127.0.0.1"
+    assert len(place.path) > 20
+    root = f"http://{place.netloc}"
+    wrong = [
+        Request(f"{root}/"), Request(f"{root}/0"), Request(f"{root}/guess/"), Request(f"{address}../Tank.mo"),
+        Request(address, headers={"Host": "elsewhere.example"}), Request(f"{address}etc/passwd"),
+    ]  # fmt: skip
+    for request in wrong:
+        with pytest.raises(HTTPError) as refused:
+            urlopen(request, timeout=PATIENCE)
+        assert refused.value.code == 404

@@ -1,0 +1,54 @@
+"""Two laws at two places, each in the other's way; slopes that are infinite at a sample; what parameters' errors do."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lacuna.codegen.symbolic.expr import const, mul, power, var
+from lacuna.discovery.case.cases import load
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.places import read as read_structure
+from lacuna.discovery.efforts.numeric import Evaluator, NotNumeric, table
+from lacuna.discovery.explain import explain
+from lacuna.discovery.fit.fit import believed, fit, noise_of
+from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.naming.foretold import DRAWS, foretold
+
+from .test_efforts import BELIEVED, TORRICELLI, cascade
+
+
+def test_two_laws_at_two_places_are_found_at_both(tmp_path: Path) -> None:
+    """A root in the lower tank's outflow, and a loss from the upper one that grows with the cube of its level."""
+    truth = TORRICELLI.replace("q - k*upper", "q - k*upper - 2e-3*upper^3")
+    result = explain(load(cascade(tmp_path, truth)))
+    assert result.verdict == "missing_physics"
+    assert {f.ranked.attachment.location for f in result.findings} == {"upper", "lower"}
+    floor = np.sqrt(np.mean([f**2 for f in result.floor.values()]))
+    assert result.after.validate[""] < 1.1 * floor
+
+
+def test_a_slope_that_is_infinite_at_a_sample_is_that_beside_it() -> None:
+    level = np.array([0.0, 0.25, 1.0, 0.0])
+    slope = mul(const(0.5), power(var("h"), const(-0.5)))
+    rows = table([{0: slope}], 1, Evaluator(lambda n: level), 4)
+    assert rows[:, 0, 0] == pytest.approx([1.0, 1.0, 0.5, 0.5])
+    with pytest.raises(NotNumeric):
+        table([{0: slope}], 1, Evaluator(lambda n: 0.0 * level), 4)
+
+
+def test_what_is_foretold_is_the_response_to_the_drawn_parameters(tmp_path: Path) -> None:
+    case = load(cascade(tmp_path, BELIEVED))
+    machine = Machine(case, Amendment(read_structure(case.library(), case.base)))
+    free, fixed = believed(case, machine)
+    (k,) = [f for f in free if f.name == "k"]
+    found = fit(machine, case.fit, noise_of(case), [k], fixed | {f.name: f.centre for f in free if f is not k})
+    error = float(np.sqrt(found.estimate.covariance(found.inflation())[0, 0]))
+    (recording,) = case.validate
+    drawn = np.abs(np.random.default_rng(0).standard_normal(DRAWS)).max()
+    higher, lower = (machine.simulate(found.point | {"k": found.point["k"] + s}, recording) for s in (error, -error))
+    for column, spread in foretold(found, case.validate).items():
+        moved = drawn * np.sqrt(np.mean((higher[column] - lower[column]) ** 2)) / 2
+        assert spread == pytest.approx(moved / np.std(recording.columns[column]), rel=0.02)
