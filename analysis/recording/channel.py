@@ -58,11 +58,20 @@ def from_table(
 
     Raises RecordingError where none is, or two columns have one name.
     """
+    if not len(header) == len(units) == len(values):
+        raise RecordingError(f"{path}: {len(header)} names and {len(units)} units for {len(values)} columns")
     _refuse_namesakes(path, header)
     heads = [read_head(text, unit) for text, unit in zip(header, units, strict=True)]
     k, assumed = _time_column(path, heads, values)
     time, more = seconds(path, heads[k], values[k])
+    for head, column in zip(heads, values, strict=True):
+        if np.isinf(column).any():
+            raise RecordingError(
+                f"{path}: `{head.text}` has a value beyond the largest number, {np.finfo(float).max:.3g}"
+            )
     others = [i for i in range(len(heads)) if i != k]
+    if not others or not len(time):
+        raise RecordingError(f"{path}: there is no {'signal beside' if len(time) else 'sample of'} `{heads[k].text}`")
     names = distinct([heads[i] for i in others])
     channels = tuple(
         Channel(n, heads[i].unit or "", time, values[i], heads[i]) for n, i in zip(names, others, strict=True)

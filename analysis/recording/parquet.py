@@ -15,14 +15,15 @@ def read(path: Path) -> Recorded:
 
     try:
         table = parquet.read_table(path)
-    except (pyarrow.ArrowException, OSError) as error:
+        fields = [f for f in table.schema if pyarrow.types.is_floating(f.type) or pyarrow.types.is_integer(f.type)]
+        names = [f.name for f in fields]
+    except (pyarrow.ArrowException, OSError, UnicodeDecodeError) as error:
         raise RecordingError(f"{path}: not a Parquet file that can be read: {error}") from None
-    fields = [f for f in table.schema if pyarrow.types.is_floating(f.type) or pyarrow.types.is_integer(f.type)]
     if not fields:
         raise RecordingError(f"{path}: none of its columns holds numbers")
     units = [(f.metadata or {}).get(b"unit", b"").decode("utf-8", "replace") for f in fields]
-    values = np.array([table.column(f.name).cast("float64").to_numpy() for f in fields])
-    return from_table(path, [f.name for f in fields], units, values)
+    values = np.array([table.column(name).cast("float64").to_numpy() for name in names])
+    return from_table(path, names, units, values)
 
 
 def write(recorded: Recorded, path: Path) -> None:

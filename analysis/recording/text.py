@@ -25,6 +25,8 @@ _SEPARATORS = (",", ";", "\t", "|")
 _SAMPLE = 200  # lines that decide the dialect
 _NAN = re.compile(r"(?<![A-Za-z])nan(?![A-Za-z])", re.IGNORECASE)
 _NUMBER = {mark: re.compile(rf"[+-]?(\d+[{mark}]?\d*|[{mark}]\d+)([eE][+-]?\d+)?|(?i:nan)|") for mark in ".,"}
+_NO_TEXT = re.compile("[\0-\x08\x0e-\x1f\x7f]")  # control characters, which a terminal would obey
+_NO_NAME = re.compile(r"[+-]?([0-9.]+([eE][+-]?[0-9]+)?|(?i:inf|infinity|nan))")
 # A unit as it stands in a row of its own, such as s, rad/s, 1/min, N.m, degC: no blanks, few characters.
 _UNIT = re.compile(r"[\[(]?[^\s\[\]()]{0,12}[\])]?")
 
@@ -82,6 +84,8 @@ def read_text(path: Path) -> TextTable:
         raise RecordingError(f"{path}:{first + 1}: {_no_header(above, width)}")
     units = names[-1] if len(names) > 1 and _are_units(names[-1], names[-2]) else None
     header = names[-2] if units else names[-1]
+    if any(_NO_NAME.fullmatch(name) for name in (*header, *(unit for unit in units or () if unit != "1"))):
+        raise RecordingError(f"{path}:{first}: numbers where names of columns or units should be")
     values = _numbers(path, lines, first, Dialect(separator, decimal, encoding), width)
     kept = _named_columns(path, header, values)
     return TextTable(
@@ -109,7 +113,7 @@ def _decoded(path: Path) -> tuple[str, str]:
     except UnicodeDecodeError:
         encoding = "cp1252"  # of loggers that know no Unicode; it only matters for names and units
         text = raw.decode(encoding, errors="replace")
-    if "\0" in text:
+    if _NO_TEXT.search(text):
         raise RecordingError(f"{path}: holds bytes that are no text")
     return text, encoding
 

@@ -203,3 +203,45 @@ def test_a_damaged_file_of_units_is_refused_by_name(tmp_path: Path) -> None:
     path.with_suffix(".meta.json").write_text('{"format": ')
     with pytest.raises(RecordingError, match=r"run\.meta\.json"):
         read_recorded(path)
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("time,x\n0,1e999\n1,2\n", "largest number"),
+        ("time,x\n0,inf\n1,2\n", "names of columns or units"),
+        ("time,x\x1b[31m\n0,1\n1,2\n", "no text"),
+    ],
+)
+def test_what_is_no_number_and_no_text_is_refused(tmp_path, text, reason):
+    path = tmp_path / "hostile.csv"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(RecordingError, match=reason):
+        read_recorded(path)
+
+
+def test_parquet_without_signals_rows_or_readable_units_is_refused(tmp_path):
+    import pyarrow
+    from pyarrow import parquet
+
+    path, times = tmp_path / "hostile.parquet", pyarrow.array([0.0, 1.0])
+    unit = pyarrow.field("x", pyarrow.float64(), metadata={"unit": b"\xff\xfe"})
+    parquet.write_table(pyarrow.table([times, times], schema=pyarrow.schema([("time", pyarrow.float64()), unit])), path)
+    assert read_recorded(path).channels[0].name == "x"
+    for table in ({"time": times}, {"time": times[:0], "x": times[:0]}):
+        parquet.write_table(pyarrow.table(table), path)
+        with pytest.raises(RecordingError, match="there is no"):
+            read_recorded(path)
+    parquet.write_table(pyarrow.table({"time": times, "xyzzy": times}), path)
+    path.write_bytes(path.read_bytes().replace(b"xyzzy", b"\xffyzzy"))
+    with pytest.raises(RecordingError, match="can be read"):
+        read_recorded(path)
+
+
+def test_a_mat_table_with_more_columns_than_names_is_refused(tmp_path):
+    from scipy.io import savemat
+
+    names = np.array(["a", "b"], object)
+    savemat(tmp_path / "table.mat", {"time": np.arange(5.0), "names": names, "data": np.zeros((5, 3))})
+    with pytest.raises(RecordingError, match="3 names and 3 units for 4 columns"):
+        read_recorded(tmp_path / "table.mat")
