@@ -9,7 +9,7 @@ import numpy as np
 
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case, CaseError
-from lacuna.discovery.case.recordings_check import check_case
+from lacuna.discovery.case.recordings_check import Problem, check_case
 from lacuna.discovery.catalogue import catalogue, places
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
@@ -41,8 +41,24 @@ def opened(case: Case, library: Library) -> tuple[Explanation, Machine | None]:
     if not _trusted(result, "the recordings cannot be trusted"):
         return result, None
     machine = _believed_machine(case, places.read(library, case.base))
-    result.problems += check_against_model(machine, believed(case, machine))
+    result.problems += _slips(machine)
     return result, machine if _trusted(result, "the recordings contradict themselves") else None
+
+
+def _slips(machine: Machine) -> list[Problem]:
+    """What contradicts the model: at its believed values and, of a shift in time, as fitted to the recordings, too.
+
+    A machine that is faster or slower than believed looks shifted until its parameters are fitted; they cannot take a
+    slip away."""
+    case, (free, fixed) = machine.case, believed(machine.case, machine)
+    found = check_against_model(machine, (free, fixed))
+    if not found or any(p.kind != "shift" for p in found):
+        return found
+    fitted = fit(machine, case.fit, noise_of(case), free, fixed)
+    if fitted is None or astray(fitted):
+        return found
+    there = [replace(f, centre=fitted.point[f.name]) for f in free]
+    return [p for p in check_against_model(machine, (there, fixed)) if p.kind == "shift"]
 
 
 def _trusted(result: Explanation, otherwise: str) -> bool:
