@@ -11,21 +11,6 @@ enum { HALVINGS = 45 };           /* of a step, to find where a divisor is zero 
 static const double pole = 1e6;   /* growth of a quotient on the way there that tells a pole from 0/0 */
 static const double shrunk = 1e3; /* by what a divisor does so at least, or the quotient grows with its numerator */
 
-/* The first equation that gives no finite number, as failure; false where all do. */
-bool rt_blame(rt_session *s, mdl_storage storage, const double *xdot, const double *v) {
-  for (int k = 0; k < s->d->n_computed; k++) {
-    const mdl_computed *c = &s->d->computed[k];
-    if ((c->storage == MDL_PARAMETER) != (storage == MDL_PARAMETER)) continue;
-    double value = (c->storage == MDL_PARAMETER ? s->data.p : c->storage == MDL_DERIVATIVE ? xdot : v)[c->index];
-    if (isfinite(value)) continue;
-    int row = rt_find_row(s, c->storage == MDL_DERIVATIVE ? MDL_STATE : c->storage, c->index);
-    if (c->storage == MDL_PARAMETER && row < 0) continue; /* an inverse that may not be used */
-    s->data.failure = (mdl_failure){MDL_FAILURE_NONFINITE, c->equation, row, value, 0};
-    return true;
-  }
-  return false;
-}
-
 rt_status rt_check_parameters(rt_session *s) {
   if (rt_finite(s->d->n_p, s->data.p) || !rt_blame(s, MDL_PARAMETER, NULL, NULL)) return RT_OK;
   return rt_fail_model(s, s->start, "computing parameters");

@@ -9,31 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NODES = 5, MANY = 4096 };
-static const double node[NODES] = {0, 0.14644660940672624, 0.5, 0.85355339059327376, 1};
-static const double weight[NODES] = {0.5, -1, 1, -1, 0.5};
-
-typedef struct {
-  double begin, length; /* s */
-  double value[NODES];
-  bool jump, kink; /* against the piece before */
-} piece;
-
-/* `cursor` is the piece that is looked into from the start of the present step on, -1 before the start of the run;
- * nothing before piece `ahead` that jumps or bends is still to come. */
-typedef struct {
-  piece *pieces;
-  int n, capacity, cursor, ahead;
-  double before, size; /* value up to the start; largest one so far */
-} history;
-
-struct rt_delays {
-  int n;
-  bool fresh; /* an event lies between the last piece and the next */
-  history *past;
-  double *seconds, *left, *right, *at_node; /* [n], and [n * NODES] */
-};
-
 bool rt_delays_create(rt_session *s) {
   int n = s->d->n_delay;
   if (!n) return true;
@@ -92,17 +67,6 @@ int rt_delays_start(rt_session *s) {
   return status;
 }
 
-static double inside(const piece *p, double t) {
-  double theta = rt_min(1, rt_max(0, (t - p->begin) / p->length)), above = 0, below = 0;
-  for (int i = 0; i < NODES; i++) {
-    double off = theta - node[i];
-    if (off == 0) return p->value[i];
-    above += weight[i] / off * (p->value[i] - p->value[0]);
-    below += weight[i] / off;
-  }
-  return p->value[0] + above / below;
-}
-
 /* Per second, at the first or the last point of a piece. */
 static double slope(const piece *p, int at) {
   double sum = 0;
@@ -111,70 +75,13 @@ static double slope(const piece *p, int at) {
   return sum / p->length;
 }
 
-/* The piece that holds t, not beyond a jump. */
-static int reached(const history *h, double t) {
-  int k = h->cursor;
-  while (k + 1 < h->n && h->pieces[k + 1].begin < t && !h->pieces[k + 1].jump)
-    k++;
-  return k;
-}
-
-void rt_delays_at(rt_session *s, double t) {
-  rt_delays *d = s->delays;
-  for (int k = 0; d && k < d->n; k++) {
-    const history *h = &d->past[k];
-    int at = reached(h, t - d->seconds[k]);
-    s->data.u[s->d->delay_input[k]] = at < 0 ? h->before : inside(&h->pieces[at], t - d->seconds[k]);
-  }
-}
-
-/* An event at t: what has been reached by then holds from now on. */
-void rt_delays_pass(rt_session *s, double t) {
-  rt_delays *d = s->delays;
-  for (int k = 0; d && k < d->n; k++) {
-    history *h = &d->past[k];
-    while (h->cursor + 1 < h->n && h->pieces[h->cursor + 1].begin + d->seconds[k] <= t + s->clock.tolerance)
-      h->cursor++;
-  }
-}
-
-/* What no step may pass: the end of what is known, and the next instant at which a delay jumps or bends. */
-double rt_delays_limit(rt_session *s) {
-  rt_delays *d = s->delays;
-  double limit = INFINITY, now = s->t + s->clock.tolerance;
-  for (int k = 0; d && k < d->n; k++) {
-    history *h = &d->past[k];
-    const piece *p = h->pieces;
-    while (h->ahead < h->n && (p[h->ahead].begin + d->seconds[k] <= now || !(p[h->ahead].jump || p[h->ahead].kink)))
-      h->ahead++;
-    if (h->ahead < h->n) limit = rt_min(limit, p[h->ahead].begin + d->seconds[k]);
-    limit = rt_min(limit, s->t + d->seconds[k]);
-  }
-  return limit;
-}
-
-int rt_delays_due(rt_session *s) {
-  rt_delays *d = s->delays;
-  int pending = 0;
-  for (int k = 0; d && k < d->n; k++) {
-    const history *h = &d->past[k];
-    for (int i = h->cursor + 1; i < h->n; i++) {
-      double off = h->pieces[i].begin + d->seconds[k] - s->t;
-      if (off > s->clock.tolerance) break;
-      if (h->pieces[i].jump) pending |= RT_PENDING_JUMP;
-      if (h->pieces[i].kink && s->method->multistep && off >= -s->clock.tolerance) pending |= RT_PENDING_KINK;
-    }
-  }
-  return pending;
-}
-
 /* A step begins: what e is there, after any event. Pieces that no step looks into any more are forgotten. */
 rt_status rt_delays_leave(rt_session *s) {
   rt_delays *d = s->delays;
   if (!d) return RT_OK;
   for (int k = 0; k < d->n; k++) {
     history *h = &d->past[k];
-    h->cursor = reached(h, s->t - d->seconds[k]);
+    h->cursor = rt_reached(h, s->t - d->seconds[k]);
     if (h->cursor < MANY || h->cursor < h->n / 2) continue;
     h->n -= h->cursor;
     h->ahead = h->ahead > h->cursor ? h->ahead - h->cursor : 0;

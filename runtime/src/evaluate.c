@@ -5,21 +5,6 @@
 
 #include "session.h"
 
-int rt_find_row(const rt_session *s, mdl_storage storage, int index) {
-  for (int i = 0; i < s->d->n_variables; i++)
-    if (s->d->variables[i].storage == storage && s->d->variables[i].index == index) return i;
-  return -1;
-}
-
-/* Row in the variable table of a state, and of an unknown of the residual form; -1 where it has no name. */
-int rt_state_variable(const rt_session *s, int state) {
-  return rt_find_row(s, MDL_STATE, state);
-}
-
-int rt_unknown_variable(const rt_session *s, int k) {
-  return k < s->d->n_x ? rt_state_variable(s, k) : rt_find_row(s, MDL_ALGEBRAIC, s->d->z_index[k - s->d->n_x]);
-}
-
 /* 0 if all n_x derivatives are finite; else 1, with the equation to blame, or the first state, in m->failure. */
 int rt_check_finite(rt_session *s, const double *x) {
   double sum = 0;

@@ -10,13 +10,6 @@
 
 #include "looks.h"
 
-/* Positive while relation r keeps its value, whose guard g_previous has just been the start of a step. */
-double rt_margin(const rt_session *s, int r, double g) {
-  bool holds = s->data.rel[r];
-  double at_start = holds ? s->g_previous[r] : -s->g_previous[r];
-  return (holds ? g : -g) + (at_start > 0 ? 0 : rt_hysteresis(s, r));
-}
-
 static bool any_changed(const rt_session *s) {
   for (int r = 0; r < s->d->n_rel; r++) {
     double held = s->data.rel[r] ? s->g[r] : -s->g[r];
@@ -29,13 +22,6 @@ static bool any_negative(const rt_session *s, const double *g) {
   for (int r = 0; r < s->d->n_rel; r++)
     if (rt_is_state_relation(s, r) && rt_margin(s, r, g[r]) < 0) return true;
   return false;
-}
-
-int rt_guards_at(rt_session *s, double t, double *g) {
-  rt_dense_eval(&s->dense, s->d->n_x, t, s->x_trial);
-  int status = rt_rhs(s, t, s->x_trial, s->xdot_trial, s->v_trial);
-  s->result->counters.root_evaluations++;
-  return status ? status : s->d->roots(&s->data, t, s->x_trial, s->xdot_trial, s->v_trial, g);
 }
 
 /* Fraction of the bracket [a, b] at which the first guard crosses, by the secants with end values weighted by wa, wb.

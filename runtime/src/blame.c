@@ -1,0 +1,34 @@
+/* Who is to blame: the rows of the table of variables, and the first equation that gives no finite number. */
+#include <math.h>
+
+#include "session.h"
+
+int rt_find_row(const rt_session *s, mdl_storage storage, int index) {
+  for (int i = 0; i < s->d->n_variables; i++)
+    if (s->d->variables[i].storage == storage && s->d->variables[i].index == index) return i;
+  return -1;
+}
+
+/* Row in the variable table of a state, and of an unknown of the residual form; -1 where it has no name. */
+int rt_state_variable(const rt_session *s, int state) {
+  return rt_find_row(s, MDL_STATE, state);
+}
+
+int rt_unknown_variable(const rt_session *s, int k) {
+  return k < s->d->n_x ? rt_state_variable(s, k) : rt_find_row(s, MDL_ALGEBRAIC, s->d->z_index[k - s->d->n_x]);
+}
+
+/* The first equation that gives no finite number, as failure; false where all do. */
+bool rt_blame(rt_session *s, mdl_storage storage, const double *xdot, const double *v) {
+  for (int k = 0; k < s->d->n_computed; k++) {
+    const mdl_computed *c = &s->d->computed[k];
+    if ((c->storage == MDL_PARAMETER) != (storage == MDL_PARAMETER)) continue;
+    double value = (c->storage == MDL_PARAMETER ? s->data.p : c->storage == MDL_DERIVATIVE ? xdot : v)[c->index];
+    if (isfinite(value)) continue;
+    int row = rt_find_row(s, c->storage == MDL_DERIVATIVE ? MDL_STATE : c->storage, c->index);
+    if (c->storage == MDL_PARAMETER && row < 0) continue; /* an inverse that may not be used */
+    s->data.failure = (mdl_failure){MDL_FAILURE_NONFINITE, c->equation, row, value, 0};
+    return true;
+  }
+  return false;
+}
