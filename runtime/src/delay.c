@@ -4,7 +4,7 @@
  * (J.-P. Berrut, L. N. Trefethen, Barycentric Lagrange interpolation, SIAM Review 46 (2004) 501-517). No step is longer
  * than the shortest T, so that it looks into what is known. Where e jumped or bent, its delay does so T later: an
  * event. As with recorded inputs, the end of a step that lands on a jump sees the value before it. */
-#include "delay.h"
+#include "past.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -51,6 +51,8 @@ rt_status rt_delays_begin(rt_session *s) {
   return RT_OK;
 }
 
+enum { MANY = 4096 }; /* pieces behind the cursor that are worth the move */
+
 static int values_at(rt_session *s, double t, const double *x, const double *xdot, const double *v, double *value) {
   return s->d->delays(&s->data, t, x, xdot, v, value);
 }
@@ -68,7 +70,7 @@ int rt_delays_start(rt_session *s) {
 }
 
 /* Per second, at the first or the last point of a piece. */
-static double slope(const piece *p, int at) {
+static double slope(const rt_piece *p, int at) {
   double sum = 0;
   for (int i = 0; i < NODES; i++)
     if (i != at) sum += weight[i] / weight[at] / (node[at] - node[i]) * (p->value[i] - p->value[at]);
@@ -80,7 +82,7 @@ rt_status rt_delays_leave(rt_session *s) {
   rt_delays *d = s->delays;
   if (!d) return RT_OK;
   for (int k = 0; k < d->n; k++) {
-    history *h = &d->past[k];
+    rt_history *h = &d->past[k];
     h->cursor = rt_reached(h, s->t - d->seconds[k]);
     if (h->cursor < MANY || h->cursor < h->n / 2) continue;
     h->n -= h->cursor;
@@ -93,9 +95,9 @@ rt_status rt_delays_leave(rt_session *s) {
 }
 
 /* Whether the newest piece jumps or bends against the one before, by more than the tolerance resolves. */
-static void compare_ends(const rt_session *s, history *h, bool fresh) {
-  piece *p = &h->pieces[h->n - 1];
-  const piece *last = h->n > 1 ? p - 1 : NULL;
+static void compare_ends(const rt_session *s, rt_history *h, bool fresh) {
+  rt_piece *p = &h->pieces[h->n - 1];
+  const rt_piece *last = h->n > 1 ? p - 1 : NULL;
   double visible = 1e-3 * s->options.rtol * h->size;
   p->jump = fabs(p->value[0] - (last ? last->value[NODES - 1] : h->before)) > visible;
   double turn = slope(p, 0) - (last ? slope(last, NODES - 1) : 0);
@@ -105,16 +107,16 @@ static void compare_ends(const rt_session *s, history *h, bool fresh) {
 
 static bool append(rt_session *s, int k) {
   rt_delays *d = s->delays;
-  history *h = &d->past[k];
+  rt_history *h = &d->past[k];
   if (h->n == h->capacity) {
     int capacity = h->capacity ? 2 * h->capacity : 64;
-    piece *larger = realloc(h->pieces, (size_t)capacity * sizeof *larger);
+    rt_piece *larger = realloc(h->pieces, (size_t)capacity * sizeof *larger);
     if (!larger) return false;
     h->pieces = larger;
     h->capacity = capacity;
   }
-  piece *p = &h->pieces[h->n++];
-  *p = (piece){.begin = s->t_previous, .length = s->t - s->t_previous};
+  rt_piece *p = &h->pieces[h->n++];
+  *p = (rt_piece){.begin = s->t_previous, .length = s->t - s->t_previous};
   for (int i = 0; i < NODES; i++) {
     p->value[i] = d->at_node[i * d->n + k];
     h->size = rt_max(h->size, fabs(p->value[i]));

@@ -1,9 +1,9 @@
 /* The past of what is delayed, looked into: values, and the instants at which they jump or bend. delay.c writes it. */
 #include <math.h>
 
-#include "delay.h"
+#include "past.h"
 
-static double inside(const piece *p, double t) {
+static double inside(const rt_piece *p, double t) {
   double theta = rt_min(1, rt_max(0, (t - p->begin) / p->length)), above = 0, below = 0;
   for (int i = 0; i < NODES; i++) {
     double off = theta - node[i];
@@ -15,7 +15,7 @@ static double inside(const piece *p, double t) {
 }
 
 /* The piece that holds t, not beyond a jump. */
-int rt_reached(const history *h, double t) {
+int rt_reached(const rt_history *h, double t) {
   int k = h->cursor;
   while (k + 1 < h->n && h->pieces[k + 1].begin < t && !h->pieces[k + 1].jump)
     k++;
@@ -25,7 +25,7 @@ int rt_reached(const history *h, double t) {
 void rt_delays_at(rt_session *s, double t) {
   rt_delays *d = s->delays;
   for (int k = 0; d && k < d->n; k++) {
-    const history *h = &d->past[k];
+    const rt_history *h = &d->past[k];
     int at = rt_reached(h, t - d->seconds[k]);
     s->data.u[s->d->delay_input[k]] = at < 0 ? h->before : inside(&h->pieces[at], t - d->seconds[k]);
   }
@@ -35,7 +35,7 @@ void rt_delays_at(rt_session *s, double t) {
 void rt_delays_pass(rt_session *s, double t) {
   rt_delays *d = s->delays;
   for (int k = 0; d && k < d->n; k++) {
-    history *h = &d->past[k];
+    rt_history *h = &d->past[k];
     while (h->cursor + 1 < h->n && h->pieces[h->cursor + 1].begin + d->seconds[k] <= t + s->clock.tolerance)
       h->cursor++;
   }
@@ -46,8 +46,8 @@ double rt_delays_limit(rt_session *s) {
   rt_delays *d = s->delays;
   double limit = INFINITY, now = s->t + s->clock.tolerance;
   for (int k = 0; d && k < d->n; k++) {
-    history *h = &d->past[k];
-    const piece *p = h->pieces;
+    rt_history *h = &d->past[k];
+    const rt_piece *p = h->pieces;
     while (h->ahead < h->n && (p[h->ahead].begin + d->seconds[k] <= now || !(p[h->ahead].jump || p[h->ahead].kink)))
       h->ahead++;
     if (h->ahead < h->n) limit = rt_min(limit, p[h->ahead].begin + d->seconds[k]);
@@ -60,7 +60,7 @@ int rt_delays_due(rt_session *s) {
   rt_delays *d = s->delays;
   int pending = 0;
   for (int k = 0; d && k < d->n; k++) {
-    const history *h = &d->past[k];
+    const rt_history *h = &d->past[k];
     for (int i = h->cursor + 1; i < h->n; i++) {
       double off = h->pieces[i].begin + d->seconds[k] - s->t;
       if (off > s->clock.tolerance) break;

@@ -214,6 +214,12 @@ static inline void rt_extend_guard(rt_session *s, int r, double size) {
   if (size > s->g_travel[r]) s->g_travel[r] = size;
 }
 
+/* blame.c */
+int rt_find_row(const rt_session *s, mdl_storage storage, int index);
+int rt_state_variable(const rt_session *s, int state);
+int rt_unknown_variable(const rt_session *s, int k);
+bool rt_blame(rt_session *s, mdl_storage storage, const double *xdot, const double *v);
+
 /* failure.c */
 rt_status rt_fail(rt_session *s, rt_status status, double time, int variable, const mdl_equation *where,
                   const char *format, ...) __attribute__((format(printf, 6, 7)));
@@ -228,9 +234,6 @@ int rt_evaluate(rt_session *s);
 void rt_residual_point(rt_session *s);
 int rt_jacobian(rt_session *s, double t, double *y, double *yp, double cj, double *values);
 rt_status rt_check_forms(rt_session *s);
-int rt_find_row(const rt_session *s, mdl_storage storage, int index);
-int rt_state_variable(const rt_session *s, int state);
-int rt_unknown_variable(const rt_session *s, int k);
 
 /* scale.c */
 rt_status rt_scale_parameters(rt_session *s);
@@ -238,7 +241,6 @@ void rt_scale_start(rt_session *s);
 void rt_scale_grow(rt_session *s);
 
 /* check.c */
-bool rt_blame(rt_session *s, mdl_storage storage, const double *xdot, const double *v);
 rt_status rt_check_parameters(rt_session *s);
 rt_status rt_check_values(rt_session *s, double t, const double *x, const double *xdot, const double *v);
 rt_status rt_check_point(rt_session *s, bool fresh);
@@ -265,10 +267,12 @@ void rt_dense_point(rt_session *s, double t, bool alone, double *x);
 void rt_dense_eval(const rt_dense *dense, int n, double t, double *x);
 void rt_dense_column(const rt_dense *dense, int n, int i, size_t points, const double *t, double *x);
 
-/* roots.c and dips.c */
-rt_status rt_find_state_event(rt_session *s);
+/* guards.c */
 double rt_margin(const rt_session *s, int r, double g);
 int rt_guards_at(rt_session *s, double t, double *g);
+
+/* roots.c and dips.c */
+rt_status rt_find_state_event(rt_session *s);
 void rt_resume_step(rt_session *s);
 bool rt_may_dip(const rt_session *s);
 int rt_find_dip(rt_session *s, double *inside);

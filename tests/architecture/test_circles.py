@@ -8,10 +8,14 @@ from __future__ import annotations
 
 import ast
 from graphlib import CycleError, TopologicalSorter
+import re
 
 import pytest
 
 from tests.architecture.sources import ROOT, files
+
+_DEFINED = re.compile(r"^(?!static)\w[\w *]*?\b(rt_\w+)\([^;]*?\) \{$", re.MULTILINE)
+_CALLED = re.compile(r"\b(rt_\w+)\(")
 
 
 def import_graph(folder: str) -> dict[str, set[str]]:
@@ -38,6 +42,22 @@ def import_graph(folder: str) -> dict[str, set[str]]:
 @pytest.mark.parametrize("folder", ["lacuna", "codegen", "runtime", "analysis", "discovery", "fmi", "lsp", "cli"])
 def test_modules_import_in_no_circle(folder: str) -> None:
     graph = import_graph(folder)
+    try:
+        list(TopologicalSorter(graph).static_order())
+    except CycleError as circle:
+        pytest.fail(" -> ".join(circle.args[1]))
+
+
+def call_graph() -> dict[str, set[str]]:
+    """Files of the runtime, with those whose functions each calls."""
+    text = {path.name: path.read_text(encoding="utf-8") for path in files("runtime/src", ".c")}
+    home = {name: file for file, source in text.items() for name in _DEFINED.findall(source)}
+    return {file: {home[n] for n in _CALLED.findall(source) if n in home} - {file} for file, source in text.items()}
+
+
+def test_files_of_the_runtime_call_each_other_in_no_circle() -> None:
+    graph = call_graph()
+    assert {"events.c", "initialise.c", "record.c"} <= graph["simulate.c"]
     try:
         list(TopologicalSorter(graph).static_order())
     except CycleError as circle:
