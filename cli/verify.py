@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 import lacuna
-from lacuna.cli.answer import Answer, answered
+from lacuna.cli.answer import Answer, answered, progress
 
 
 @answered
@@ -22,7 +22,8 @@ def verify(
     Ends with status 0 where every file is equal byte for byte (pages and times of computing apart), else with 1. Run it
     in the folder where the command was given.
     """
-    found = lacuna.verify(folder)
+    with progress() as tell:
+        found = lacuna.verify(folder, progress=tell)
     said = f"{' '.join(('lacuna', *found.command))}: {len(found.checked)} files made again"
     failure = f"error: not the same: {', '.join(found.differs)}" if found.differs else ""
     return Answer(asdict(found), [said if failure else f"{said}, all the same"], failure=failure)

@@ -15,6 +15,7 @@ from typing import Any
 
 from lacuna.children import run
 from lacuna.errors import UserError
+from lacuna.progress import Progress, spoken
 
 MADE_BY = "made-by.json"
 FORMAT = "lacuna-made-by-1"
@@ -59,7 +60,7 @@ def _results_in(folder: Path) -> list[Path]:
     return [p for p in found if not any(n.startswith(".") or n in kept for n in p.relative_to(folder).parts)]
 
 
-def verify(folder: str | Path) -> Verification:
+def verify(folder: str | Path, progress: Progress | None = None) -> Verification:
     """Give the command that made the results in `folder` again, and compare.
 
     Every file is compared byte by byte, but for pages (.html), which say when and by which words they were made, and
@@ -71,6 +72,7 @@ def verify(folder: str | Path) -> Verification:
     for word, digest in made["inputs"].items():
         if not Path(word).exists() or _digest(Path(word), folder) != digest:
             raise UserError(f"{word} is not what the results in {folder} were made from: it is gone or has changed")
+    spoken(progress)(f"making again: lacuna {' '.join(made['command'])}")
     with tempfile.TemporaryDirectory() as scratch:
         again = Path(scratch) / folder.resolve().name
         done = run([sys.executable, "-m", "lacuna.cli.main", *made["command"], "--out", again])

@@ -60,14 +60,15 @@ static int narrow(rt_session *s, bracket *k, double t) {
 /* Shrink the interval from the start of the step to `end` to the first crossing: Illinois variant of regula falsi on
  * the earliest crossing (Dowell & Jarratt 1971), with steps no closer to an end than half the tolerance, so that both
  * ends move in. A guard at the level of rounding gives secants that say nothing: where two of them have not halved the
- * interval, the third look is at its middle, so that 3 log2(length / tolerance) looks are always enough. s->g belongs
- * to *crossing, the end of the interval on entry and the crossing on return. */
+ * interval, the third look is at its middle, so that 3 log2(length / tolerance) looks are always enough: the tolerance
+ * has a floor, the rounding of time, or a guard that jumps right behind zero would be sought for ever. s->g belongs to
+ * *crossing, the end of the interval on entry and the crossing on return. */
 static int locate(rt_session *s, double *crossing) {
   bracket k = {s->t_previous, *crossing, 1, 1, 0};
   double length = k.b - k.a, tolerance;
   memcpy(s->g_low, s->g_previous, (size_t)s->d->n_rel * sizeof *s->g);
   memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
-  for (int i = 1; k.b - k.a > (tolerance = 1e-12 * (k.b - s->t_previous) + 4 * DBL_EPSILON * fabs(k.b)); i++) {
+  for (int i = 1; k.b - k.a > (tolerance = 1e-12 * (k.b - s->t_previous) + 0.25 * rt_smallest_step(s)); i++) {
     bool creeps = i % 3 == 0 && k.b - k.a > 0.5 * length;
     double t = k.a + (k.b - k.a) * (creeps ? 0.5 : first_secant(s, s->g_low, k.wa, s->g, k.wb));
     t = rt_min(rt_max(t, k.a + 0.5 * tolerance), k.b - 0.5 * tolerance);

@@ -214,13 +214,11 @@ static inline void rt_extend_guard(rt_session *s, int r, double size) {
   if (size > s->g_travel[r]) s->g_travel[r] = size;
 }
 
-/* blame.c */
+/* blame.c and failure.c */
 int rt_find_row(const rt_session *s, mdl_storage storage, int index);
 int rt_state_variable(const rt_session *s, int state);
 int rt_unknown_variable(const rt_session *s, int k);
 bool rt_blame(rt_session *s, mdl_storage storage, const double *xdot, const double *v);
-
-/* failure.c */
 rt_status rt_fail(rt_session *s, rt_status status, double time, int variable, const mdl_equation *where,
                   const char *format, ...) __attribute__((format(printf, 6, 7)));
 rt_status rt_fail_model(rt_session *s, double time, const char *doing);
@@ -267,11 +265,9 @@ void rt_dense_point(rt_session *s, double t, bool alone, double *x);
 void rt_dense_eval(const rt_dense *dense, int n, double t, double *x);
 void rt_dense_column(const rt_dense *dense, int n, int i, size_t points, const double *t, double *x);
 
-/* guards.c */
+/* guards.c, roots.c and dips.c */
 double rt_margin(const rt_session *s, int r, double g);
 int rt_guards_at(rt_session *s, double t, double *g);
-
-/* roots.c and dips.c */
 rt_status rt_find_state_event(rt_session *s);
 void rt_resume_step(rt_session *s);
 bool rt_may_dip(const rt_session *s);

@@ -13,7 +13,8 @@ import lacuna
 IMMEDIATE = {
     "check", "copy_examples", "default_settings", "degradation_laws", "dump", "export_fmu", "export_history",
     "format_model", "is_user_error",
-    "list_effects", "list_models", "list_solvers", "load", "message_of", "nearest", "open_case", "recorded",
+    "list_effects", "list_models", "list_solvers", "load", "message_of", "nearest", "open_case", "record_making",
+    "recorded",
     "serve_editor", "watch",
 }  # fmt: skip
 MODEL = """model Tank

@@ -91,3 +91,18 @@ def test_a_run_without_progress_ends(tmp_path: Path) -> None:
     assert failure is not None
     assert failure.status == "step_collapse"
     assert "0.3 s of computing brought" in str(failure)
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+def test_a_guard_that_jumps_right_behind_time_zero_is_found(tmp_path: Path, solver: str) -> None:
+    """There is no shortest time behind zero: a bracket that shrinks in proportion to it does so for ever."""
+    model = """model Behind
+      Real y = noEvent(if time > 0 then -1 else 1);
+      Real z(start=0, fixed=true);
+    equation
+      der(z) = if y > 0 then 1 else -1;
+    end Behind;
+    """
+    result = simulated(tmp_path, model, solver=solver, stop=1.0)
+    assert result.complete, result.failure
+    assert result["z"][-1] == pytest.approx(-1, abs=1e-12)
