@@ -13,7 +13,7 @@ from lacuna.analysis.map.plant import Plant, SourceEquation
 from lacuna.analysis.map.rows import Row
 from lacuna.analysis.report.figures import FIGURES
 from lacuna.analysis.report.figures.style import BAND_FILL, BAND_INK
-from lacuna.analysis.report.page import figure_in, page
+from lacuna.analysis.report.page import code, figure_in, page
 from lacuna.analysis.report.page import table as page_table
 from lacuna.analysis.settings import Fault, Settings
 
@@ -150,6 +150,8 @@ def _equations(equations: list[SourceEquation]) -> str:
         parts.setdefault(equation.origin or "model", []).append(equation)
     alike: dict[str, list[str]] = {}
     for origin, members in parts.items():
-        code = "\n".join(f"<i>{escape(e.place):<24}</i>{escape(e.text)}" for e in members)
-        alike.setdefault(code, []).append(origin)
-    return "\n".join(f"<h4>{escape(', '.join(names))}</h4><pre>{code}</pre>" for code, names in alike.items())
+        lines = "\n".join(f"<i>{escape(e.place):<24}</i>{escape(e.text)}" for e in members)
+        alike.setdefault(lines, []).append(origin)
+    return "\n".join(
+        f"<h4>{escape(', '.join(names))}</h4>{code(Markup(lines), 'equations')}" for lines, names in alike.items()
+    )

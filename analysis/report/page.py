@@ -84,6 +84,11 @@ def table(header: Sequence[object], rows: Iterable[Sequence[object]], numbers: r
     ).format(line("th", header), body)
 
 
+def code(text: str | Markup, label: str) -> Markup:
+    """Text of a program, which scrolls in itself; `label` is for those who do not see it."""
+    return Markup('<pre tabindex="0" role="region" aria-label="{}">{}</pre>').format(label, text)
+
+
 def figure(svg: str, title: str, caption: str = "", data: tuple[str, str] | None = None) -> Markup:
     """An SVG in the page itself, with title and description for those who do not see it. `data`: the name and text of a
     file of what is drawn, to be kept by a link."""

@@ -15,8 +15,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from lacuna.analysis.report.figures.data import drawn_data
+from lacuna.analysis.report.page import code, page, table
 from lacuna.analysis.report.page import figure as figure_of
-from lacuna.analysis.report.page import page, table
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.explanation.diagnosis import build, left_over, sentence
 from lacuna.discovery.explanation.explanation import Explanation
@@ -35,7 +35,7 @@ def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
         parts += _located(result.located) if result.located and result.located.best else []
         parts += _findings(result) + _rivals(result) + _parameters(result) + _left(result)
     if amended is not None:
-        parts += ["<h2>The amended model</h2>", f"<pre>{escape(amended.read_text(encoding='utf-8'))}</pre>"]
+        parts += ["<h2>The amended model</h2>", code(amended.read_text(encoding="utf-8"), "amended model")]
     action = f"decide by {result.experiment}" if result.experiment else ""
     return _page(parts, result.case.title, folder, sentence(result), action)
 
