@@ -190,7 +190,8 @@ def _rivals(result: Explanation) -> list[str]:
         tried = {r.attachment.label for r in naming.ranked}
         others = [(label, share) for label, share in naming.screened if label not in tried][:12]
         rest = ", ".join(f"{label} ({share:.0%})" for label, share in others)
-        parts.append(f"<p>Screened out (share of the misfit they could explain): {escape(rest)}.</p>")
+        if rest:
+            parts.append(f"<p>Screened out (share of the misfit they could explain): {escape(rest)}.</p>")
         parts += _failures(naming)
     return parts
 
