@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
+from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.find import find
@@ -68,11 +69,15 @@ def _elsewhere(amendment: Amendment) -> Callable[[str], bool]:
 
 
 def without(found: Fit, ranked: Ranked, amendment: Amendment) -> Fit | None:
-    """The model of `amendment`, which lacks this effect, with all else left where it is."""
+    """The model of `amendment`, which lacks this effect, with all else left where it is; None where it is no model:
+    another law is a function of what this one computes, or it cannot be simulated."""
     prefix = f"{ranked.attachment.component}."
     free = [f for f in found.estimate.free if not f.name.startswith(prefix)]
     fixed = {n: v for n, v in found.fixed.items() if not n.startswith(prefix)}
-    machine = found.machine.amended(amendment)
+    try:
+        machine = found.machine.amended(amendment)
+    except Diagnostic:
+        return None
     return linearised(machine, machine.case.fit, found.noise, free, fixed, found.point)
 
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.symbolic.expr import const, mul, power, var
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
@@ -15,6 +17,7 @@ from lacuna.discovery.efforts.numeric import Evaluator, NotNumeric, table
 from lacuna.discovery.explain import explain
 from lacuna.discovery.fit.fit import believed, fit, noise_of
 from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.law.several import without
 from lacuna.discovery.naming.foretold import DRAWS, foretold
 
 from .test_efforts import BELIEVED, TORRICELLI, cascade
@@ -52,3 +55,12 @@ def test_what_is_foretold_is_the_response_to_the_drawn_parameters(tmp_path: Path
     for column, spread in foretold(found, case.validate).items():
         moved = drawn * np.sqrt(np.mean((higher[column] - lower[column]) ** 2)) / 2
         assert spread == pytest.approx(moved / np.std(recording.columns[column]), rel=0.02)
+
+
+def test_a_law_that_another_is_a_function_of_stays() -> None:
+    def amended(_: object) -> Machine:
+        raise Diagnostic("R002", "there is no variable law_T2")
+
+    found = SimpleNamespace(estimate=SimpleNamespace(free=[]), fixed={}, machine=SimpleNamespace(amended=amended))
+    ranked = SimpleNamespace(attachment=SimpleNamespace(component="law_T2"))
+    assert without(found, ranked, None) is None
