@@ -13,11 +13,11 @@ PYTEST := LACUNA_CACHE=$(abspath $(BUILD))/cache $(PYTHON) -m pytest -q -n 2 --d
 run_ctest = ctest --test-dir $(1) --output-on-failure -j 2 > $(1)/ctest.log && tail -n 3 $(1)/ctest.log \
   || { cat $(1)/ctest.log; exit 1; }
 FUZZ_SECONDS ?= 180
-FUZZ_TARGETS := stream table recording inputs
+FUZZ_TARGETS := stream table inputs
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*' ':!:fmi/standard/*')
 
 .PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined prognosis tolerance-study \
-        prove-machines figures docs wheel vsix examples belts hybrid msl compliance format lint sanitize ctest pytest lock clean
+        prove-machines prove-experiments figures docs wheel vsix examples belts hybrid units msl compliance format lint sanitize ctest pytest lock clean
 
 help: ## Print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -72,6 +72,9 @@ prove: setup ## The blind proof of the diagnosis (long, resumes), writes docs/pr
 
 prove-machines: setup ## The proof on machines of others (SMALL=1: two cases of each; resumes)
 	@$(PYTHON) -m tests.proof.machines --out $(OUT)/prove-machines $(if $(SMALL),--small)
+
+prove-experiments: setup ## Proposed experiments made on the truth of undetermined cases (long, resumes)
+	@$(PYTHON) -m tests.proof.experiments --out $(OUT)/prove-experiments
 
 degrade: setup ## The diagnosis with more noise, shorter recordings and no current, writes docs/degradation.md
 	@$(PYTHON) -m tests.proof.degrade --out $(OUT)/degrade
@@ -145,6 +148,9 @@ fuzz: setup ## [FUZZ_SECONDS=180] each of: models through the parser, systems by
 
 belts: setup ## Stick and slip against closed forms: 200 machines, rtol 1e-4 to 1e-10, all adaptive solvers
 	@$(PYTHON) -m tests.events belts
+
+units: setup ## T1, T2, FlightControlEma and ten circuits in other units: events and relative errors (some minutes)
+	@$(PYTHON) -m tests.events units
 
 hybrid: setup ## 20 000 runs of random hybrid systems against closed-form switching times (a quarter of an hour)
 	@$(PYTHON) -m tests.events systems

@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from bench import campaign, diagnosis, growth, maps, race, report, scenarios, sensitivities, watching
+from bench import campaign, diagnosis, growth, keystrokes, maps, race, report, scenarios, sensitivities, watching
 
 Section = Callable[[int], Sequence[report.Row]]
 
@@ -42,6 +42,7 @@ SECTIONS: dict[str, tuple[str, Section]] = {
         growth.growth,
     ),
     "watching": ("From the save of an equation to the new figure", watching.from_save_to_figure),
+    "keystrokes": ("From a keystroke to the language server's findings", keystrokes.from_keystroke_to_findings),
     "diagnosis": ("Practice cases explained, seconds", diagnosis.split),
 }
 

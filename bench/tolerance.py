@@ -49,7 +49,7 @@ class Study:
         self.severities = severities
         self.settings = settings or load_settings()
         self._model = runtime.Model(compile_model(self.settings.model).path)
-        self._chain = Chain(self.settings.text)
+        self._chain = Chain(self.settings)
         self._times = np.arange(self.settings.samples) / self.settings.sampling_rate
 
     def runs(self, label: str, **solver: object) -> Runs:

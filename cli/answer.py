@@ -3,9 +3,7 @@ status 1; a traceback is for our own mistakes only."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Callable
 from dataclasses import dataclass, field
 import functools
 import inspect
@@ -22,12 +20,12 @@ from rich.console import Console, RenderableType
 import typer
 
 import lacuna
+from lacuna.cli.progress import shown
 
 WIDTH = 110  # columns, where the terminal has fewer or there is none: broken words help nobody
-_silent: ContextVar[bool] = ContextVar("silent", default=False)
-
-Json = Annotated[bool, typer.Option("--json", help="Print the answer as JSON, and nothing else on standard output")]
-Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but warnings and errors")]
+_JSON = "Print the answer as JSON, and nothing else on standard output; progress as lines of JSON on standard error"
+Json = Annotated[bool, typer.Option("--json", help=_JSON)]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but warnings and errors, and no progress")]
 _EVERYWHERE = {"json": Json, "quiet": Quiet}
 
 
@@ -47,7 +45,7 @@ def answered(command: Callable[..., Answer]) -> Callable[..., None]:
 
     @functools.wraps(command)
     def run(*args: Any, context: typer.Context, json: bool = False, quiet: bool = False, **kwargs: Any) -> None:
-        token = _silent.set(json or quiet)
+        token = shown.set("nothing" if quiet else "lines" if json else "bar")
         try:
             answer = command(*args, **kwargs)
             lacuna.record_making([str(context.info_name), *_words(context)], answer.written)
@@ -62,7 +60,7 @@ def answered(command: Callable[..., Answer]) -> Callable[..., None]:
                 _unexpected(error)
             _fail(lacuna.message_of(error), {}, json)
         finally:
-            _silent.reset(token)
+            shown.reset(token)
 
     hints = get_type_hints(command, include_extras=True) | _EVERYWHERE | {"context": typer.Context, "return": None}
     own = [p.replace(annotation=hints[n]) for n, p in inspect.signature(command).parameters.items()]
@@ -77,12 +75,12 @@ def answered(command: Callable[..., Answer]) -> Callable[..., None]:
 
 
 def _words(context: typer.Context) -> list[str]:
-    """What was typed after the command's name, without --out and what only decides the printing."""
+    """What was typed after the command's name, without what changes no result: where it goes, how it is printed."""
     given, arguments = [], []
     for parameter in context.command.params:
         name, value = parameter.name or "", context.params.get(parameter.name or "")
         source = context.get_parameter_source(name)
-        if source is None or source.name != "COMMANDLINE" or name in ("out", *_EVERYWHERE):
+        if source is None or source.name != "COMMANDLINE" or name in (*lacuna.ELSEWHERE, *_EVERYWHERE):
             continue
         for one in value if isinstance(value, list | tuple) else [value]:
             if parameter.param_type_name == "argument":
@@ -149,19 +147,3 @@ def _finite(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [_finite(v) for v in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-@contextmanager
-def progress() -> Iterator[lacuna.Progress]:
-    """A callback that draws a bar where standard error is a terminal, and nothing elsewhere."""
-    from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
-
-    console = Console(stderr=True)
-    columns = (SpinnerColumn(), TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console, transient=True, disable=_silent.get() or not console.is_terminal) as bar:
-        task = bar.add_task("", total=None)
-
-        def tell(text: str, share: float | None) -> None:
-            bar.update(task, description=text, total=None if share is None else 1.0, completed=share or 0.0)
-
-        yield tell

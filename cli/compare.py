@@ -10,9 +10,10 @@ from rich.table import Table
 import typer
 
 import lacuna
-from lacuna.cli.answer import Answer, answered, progress
+from lacuna.cli.answer import Answer, answered
 from lacuna.cli.complete import models
 from lacuna.cli.options import MODEL_HELP, ClassName, Hold, Inputs, Libraries, Parameters, inputs, parameters
+from lacuna.cli.progress import progress
 
 
 @answered

@@ -8,8 +8,9 @@ from typing import Annotated, Literal
 import typer
 
 import lacuna
-from lacuna.cli.answer import Answer, answered, progress
+from lacuna.cli.answer import Answer, answered
 from lacuna.cli.options import assignments, number
+from lacuna.cli.progress import progress
 
 
 @answered

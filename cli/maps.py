@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
@@ -10,9 +11,10 @@ from rich.table import Table
 import typer
 
 import lacuna
-from lacuna.cli.answer import Answer, answered, progress
+from lacuna.cli.answer import Answer, answered
 from lacuna.cli.complete import models
 from lacuna.cli.options import ClassName, Libraries
+from lacuna.cli.progress import progress
 from lacuna.cli.watch import Port, Watch, watched
 
 
@@ -64,10 +66,10 @@ def maps(
     return Answer(data, [*_comparison(done), f"{len(done)} severities: {split}"], [done.folder])
 
 
-def _drawn(model: str | None, asked: dict[str, Any]) -> Any:
-    """The RMS of the phase currents over the fault, of the map as it is now."""
-    done = lacuna.maps(model, **asked, figures=False)
-    return done.plot(*(name for name in done.features if name.startswith("rms")))
+def _drawn(model: str | None, asked: dict[str, Any]) -> Iterator[Any]:
+    """The RMS of the phase currents over the fault, at some severities and then at all, of the map as it is now."""
+    for done in lacuna.growing_map(model, **asked):
+        yield done.plot(*(name for name in done.features if name.startswith("rms")))
 
 
 def _file(path: Path | None) -> list[Path]:

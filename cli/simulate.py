@@ -10,7 +10,7 @@ from rich.table import Table
 import typer
 
 import lacuna
-from lacuna.cli.answer import Answer, answered, progress
+from lacuna.cli.answer import Answer, answered
 from lacuna.cli.options import (
     ClassName,
     Hold,
@@ -24,6 +24,7 @@ from lacuna.cli.options import (
     inputs,
     parameters,
 )
+from lacuna.cli.progress import progress
 from lacuna.cli.watch import Port, Watch, watched
 from lacuna.texts import file_name
 

@@ -9,8 +9,9 @@ from rich.table import Table
 import typer
 
 import lacuna
-from lacuna.cli.answer import Answer, answered, progress
+from lacuna.cli.answer import Answer, answered
 from lacuna.cli.options import Libraries
+from lacuna.cli.progress import progress
 
 Case = Annotated[Path, typer.Argument(metavar="CASE", help="Folder with case.toml and its recordings")]
 Out = Annotated[Path | None, typer.Option(help="Folder of report.html; default: out/STEP/CASE")]

@@ -8,9 +8,10 @@ from typing import Annotated
 import typer
 
 import lacuna
-from lacuna.cli.answer import Answer, answered, progress
+from lacuna.cli.answer import Answer, answered
 from lacuna.cli.complete import models
 from lacuna.cli.options import ClassName, Libraries
+from lacuna.cli.progress import progress
 
 
 @answered

@@ -9,7 +9,8 @@ from typing import Annotated
 import typer
 
 import lacuna
-from lacuna.cli.answer import Answer, answered, progress
+from lacuna.cli.answer import Answer, answered
+from lacuna.cli.progress import progress
 
 
 @answered

@@ -13,7 +13,8 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.efforts.find import INDIFFERENT
-from lacuna.discovery.explanation.experiments import separate
+from lacuna.discovery.experiment.proposal import propose
+from lacuna.discovery.explanation.contenders import contenders
 from lacuna.discovery.explanation.explanation import Clock, Explanation
 from lacuna.discovery.fit.evidence import (
     astray,
@@ -60,6 +61,9 @@ def explain(
         add_scatter(result, progress)
     clock.done("name")
     _conclude(result)
+    result.trial = propose(case, contenders(result), progress)
+    result.experiment = result.trial.sentence() if result.trial else result.experiment
+    clock.done("next experiment")
     return result
 
 
@@ -123,9 +127,7 @@ def _conclude_from_findings(result: Explanation) -> None:
         rivals = first.elsewhere
         names = ", ".join(dict.fromkeys(r.attachment.label for r in rivals[:3]))
         result.reason = f"{first.ranked.attachment.label} and {names} explain the data equally well"
-        result.trial = separate(result.case, first.ranked.fit, rivals[0].fit)
-        labels = (first.ranked.attachment.label, rivals[0].attachment.label)
-        result.experiment = result.trial.sentence(labels) if result.trial else experiment_for(first.ranked, rivals)
+        result.experiment = experiment_for(first.ranked, rivals)
     else:
         result.verdict = "missing_physics"
 

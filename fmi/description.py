@@ -51,12 +51,15 @@ def describe(header: Header, variables: FmiVariables, version: str) -> bytes:
         experiment["stepSize"] = _text(header.interval)
     ET.SubElement(root, "DefaultExperiment", experiment)
     place = ET.SubElement(root, "ModelVariables")
-    for v in variables.all:
-        if version == "3.0":
-            place.append(_variable_3(v))
-        elif v not in variables.indicators:
-            place.append(_variable_2(v))
-    _structure_2(root, variables) if version == "2.0" else _structure_3(root, variables)
+    if version == "2.0":
+        indicators = {v.reference for v in variables.indicators}
+        listed = [v for v in variables.all if v.reference not in indicators]
+        places = {v.reference: k for k, v in enumerate(listed, 1)}
+        place.extend(_variable_2(v, places) for v in listed)
+        _structure_2(root, variables, places)
+    else:
+        place.extend(_variable_3(v) for v in variables.all)
+        _structure_3(root, variables)
     ET.indent(root)
     return ET.tostring(root, encoding="UTF-8", xml_declaration=True)
 
@@ -160,11 +163,12 @@ def _variable_3(v: FmiVariable) -> ET.Element:
     return ET.Element(_TYPES[v.type], attributes)
 
 
-def _variable_2(v: FmiVariable) -> ET.Element:
+def _variable_2(v: FmiVariable, places: dict[int, int]) -> ET.Element:
+    """`places`: where a value reference stands in the list, of which the first is 1."""
     element = ET.Element("ScalarVariable", _attributes(v))
     typed = _typed(v)
     if v.derivative_of is not None:
-        typed["derivative"] = str(v.derivative_of + 1)  # by place, of which the first is 1
+        typed["derivative"] = str(places[v.derivative_of])
     ET.SubElement(element, v.type, typed)
     return element
 
@@ -180,8 +184,7 @@ def _structure_3(root: ET.Element, variables: FmiVariables) -> None:
             ET.SubElement(place, name, valueReference=str(v.reference))
 
 
-def _structure_2(root: ET.Element, variables: FmiVariables) -> None:
-    """Variables by their place in the list, which is their value reference plus one."""
+def _structure_2(root: ET.Element, variables: FmiVariables, places: dict[int, int]) -> None:
     place = ET.SubElement(root, "ModelStructure")
     lists = {
         "Outputs": variables.outputs, "Derivatives": variables.derivatives,
@@ -191,7 +194,7 @@ def _structure_2(root: ET.Element, variables: FmiVariables) -> None:
         if members:
             group = ET.SubElement(place, name)
             for v in members:
-                ET.SubElement(group, "Unknown", index=str(v.reference + 1))
+                ET.SubElement(group, "Unknown", index=str(places[v.reference]))
 
 
 def build_description(identifier: str, sources: tuple[str, ...], options: tuple[str, ...]) -> bytes:

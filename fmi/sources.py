@@ -16,6 +16,8 @@ _HERE = Path(__file__).resolve().parent
 _RUNTIME = _HERE.parent / "runtime"
 _OTHERS = {
     "ida.c",
+    "ida_failure.c",
+    "ida_matrix.c",
     "ida_tangent.c",
     "ida.h",
     "vector.c",

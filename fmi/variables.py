@@ -1,6 +1,7 @@
 """The variables of an FMU: rows of the model's variable table with the roles that FMI gives them.
 
-Value references (fmi/src/fmu.h): 0 time, 1 + row, then the derivatives of the states, then the event indicators.
+Value references (fmi/src/fmu.h): 0 time, 1 + row, then the derivatives of the states, then the event indicators, then
+the states that no row stands for.
 """
 
 from __future__ import annotations
@@ -44,17 +45,26 @@ class FmiVariables:
         self.model, self._prepared, self._values = model, prepared, values
         if "time" in model.variables:
             raise FmuError(f"{model.name} has a variable called time, which is the independent variable of an FMU")
-        self._states = self._state_rows()
 
     @cached_property
     def all(self) -> list[FmiVariable]:
         clock = FmiVariable("time", 0, "independent", "continuous", unit="s", description="time")
         rows = [self._row(v) for v in self.model.variables.values()]
-        return [clock, *rows, *self._derivatives(), *self._indicators()]
+        chosen = [v for v in self.states if v.reference > len(rows)]
+        return [clock, *rows, *self._derivatives(), *self.indicators, *chosen]
 
-    @property
+    @cached_property
     def states(self) -> list[FmiVariable]:
-        return [self.all[1 + v.row] for v in self._states]
+        """The variable that is each state itself, in the order of the states. One that events choose anew stands now
+        for one variable and now for another, so it has a name of its own, in quotes, which no variable's can be."""
+        own = {v.index: v for v in reversed(self.model.states.values()) if v.sign == 1}
+        first = self._first_indicator + len(self.indicators)
+        return [
+            self._row(own[k]) if k in own else
+            FmiVariable(f"'$state[{k + 1}]'", first + k, "local", "continuous", initial="calculated",
+                        description="one of the variables that may be states here: events choose it anew")
+            for k in range(self.model.n_states)
+        ]  # fmt: skip
 
     @property
     def derivatives(self) -> list[FmiVariable]:
@@ -65,11 +75,6 @@ class FmiVariables:
         return [v for v in self.all if v.causality == "output"]
 
     @property
-    def indicators(self) -> list[FmiVariable]:
-        first = 1 + len(self.model.variables) + len(self._states)
-        return self.all[first:]
-
-    @property
     def initial_unknowns(self) -> list[FmiVariable]:
         """What FMI lists as solved for at the start: outputs, states, their derivatives, dependent parameters."""
         chosen = {v.reference for v in (*self.states, *self.derivatives)}
@@ -78,14 +83,6 @@ class FmiVariables:
             if v.initial == "calculated"
             and (v.reference in chosen or v.causality in ("output", "calculatedParameter"))
         ]  # fmt: skip
-
-    def _state_rows(self) -> list[runtime.Variable]:
-        """The variable that is each state itself, in the order of the states."""
-        own = {v.index: v for v in reversed(self.model.states.values()) if v.sign == 1}
-        missing = set(range(self.model.n_states)) - set(own)
-        if missing:
-            raise FmuError(f"{self.model.name} has {len(missing)} states without a name: FMI must name each")
-        return [own[k] for k in range(self.model.n_states)]
 
     @cached_property
     def _starting(self) -> dict[str, float]:
@@ -129,16 +126,21 @@ class FmiVariables:
         return [
             FmiVariable(
                 f"der({v.name})", first + k, "local", "continuous", initial="calculated",
-                unit=_per_second(v.shown_unit), description=f"derivative of {v.name} by time", derivative_of=1 + v.row,
+                unit=_per_second(v.unit), description=f"derivative of {v.name} by time", derivative_of=v.reference,
             )
-            for k, v in enumerate(self._states)
+            for k, v in enumerate(self.states)
         ]  # fmt: skip
 
-    def _indicators(self) -> list[FmiVariable]:
-        first = 1 + len(self.model.variables) + len(self._states)
+    @property
+    def _first_indicator(self) -> int:
+        return 1 + len(self.model.variables) + self.model.n_states
+
+    @cached_property
+    def indicators(self) -> list[FmiVariable]:
         switched = [
             r for r, is_time in zip(self.model.relations, self.model.time_relations, strict=True) if not is_time
         ]
+        first = self._first_indicator
         return [
             FmiVariable(f"eventIndicator[{k + 1}]", first + k, "local", "continuous", initial="calculated",
                         description=f"{r.text} ({r.origin})" if r.origin else r.text)

@@ -22,7 +22,16 @@ if TYPE_CHECKING:
     from lacuna.editor import format_model, serve_editor
     from lacuna.errors import UserError, is_user_error, message_of, nearest
     from lacuna.examples import copy_examples
-    from lacuna.faults import Assessment, CombinedMap, OperatingMap, assess, combined_maps, default_settings, maps
+    from lacuna.faults import (
+        Assessment,
+        CombinedMap,
+        OperatingMap,
+        assess,
+        combined_maps,
+        default_settings,
+        growing_map,
+        maps,
+    )
     from lacuna.fleets import fleet
     from lacuna.fmus import ExportedFmu, export_fmu
     from lacuna.history import export_history, refresh, remember
@@ -32,7 +41,7 @@ if TYPE_CHECKING:
     from lacuna.prognosis import Prognosis, forecast
     from lacuna.progress import Progress
     from lacuna.results import IncompleteRun, Result
-    from lacuna.verification import Verification, record_making, verify
+    from lacuna.verification import ELSEWHERE, Verification, record_making, verify
     from lacuna.watching import watch
 
 _HOMES = {
@@ -43,7 +52,16 @@ _HOMES = {
     "editor": ("format_model", "serve_editor"),
     "errors": ("UserError", "is_user_error", "message_of", "nearest"),
     "examples": ("copy_examples",),
-    "faults": ("Assessment", "CombinedMap", "OperatingMap", "assess", "combined_maps", "default_settings", "maps"),
+    "faults": (
+        "Assessment",
+        "CombinedMap",
+        "OperatingMap",
+        "assess",
+        "combined_maps",
+        "default_settings",
+        "growing_map",
+        "maps",
+    ),
     "fleets": ("fleet",),
     "fmus": ("ExportedFmu", "export_fmu"),
     "history": ("export_history", "refresh", "remember"),
@@ -54,13 +72,14 @@ _HOMES = {
     "degradation": ("degradation_laws",),
     "prognosis": ("Prognosis", "forecast"),
     "results": ("IncompleteRun", "Result"),
-    "verification": ("Verification", "record_making", "verify"),
+    "verification": ("ELSEWHERE", "Verification", "record_making", "verify"),
     "watching": ("watch",),
 }
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 
 __version__ = _version("lacuna")
 __all__ = [
+    "ELSEWHERE",
     "Agreement",
     "Assessment",
     "Case",
@@ -98,6 +117,7 @@ __all__ = [
     "fleet",
     "forecast",
     "format_model",
+    "growing_map",
     "is_user_error",
     "list_effects",
     "list_models",

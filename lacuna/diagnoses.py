@@ -151,6 +151,7 @@ class Case:
         self, *, out: str | Path | None = None, limit: float = LIMIT, progress: Progress | None = None
     ) -> Explanation:
         """See `lacuna.explain`."""
+        from lacuna.discovery.experiment.files import write_next
         from lacuna.discovery.explain import explain as explained
         from lacuna.discovery.explain import judge_written, write_amended
         from lacuna.discovery.explanation import diagnosis
@@ -158,12 +159,13 @@ class Case:
 
         folder = self._out("explain", out)
         with kept(folder / ".unfinished"):
-            found = explained(self._case, progress=spoken(progress), limit=limit)
+            found = explained(self._case, progress=spoken(progress, limit), limit=limit)
         amended = write_amended(found, folder)
         if amended is not None:
             judge_written(found, amended)
         told = diagnosis.write(found, folder, amended)
-        return self._told(found, folder, amended, written=(told,), concluded=True)
+        proposed = write_next(self._case, found.trial, folder)
+        return self._told(found, folder, amended, written=(told, *proposed[:1]), concluded=True)
 
     @names_missing_packages
     def fit(self, *, out: str | Path | None = None, progress: Progress | None = None) -> Explanation:

@@ -26,6 +26,6 @@ def message_of(error: BaseException) -> str:
 
 def nearest(name: str, valid: Iterable[str]) -> str:
     """The end of a refusal of `name`: the valid names that may be meant, or else some that there are."""
-    from lacuna.runtime.errors import suggestion
+    from lacuna.suggest import suggestion
 
     return suggestion(name, valid)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from lacuna.analysis.settings import Settings
 
 PAPER_MAP = Path("out/maps/paper")
+FIRST_LOOK = 5  # every fifth severity: a fifth of the time, and the curves already have their shape
 
 
 class OperatingMap:
@@ -163,6 +165,27 @@ def maps(
         disturbed = plant if actuator else _plant(chosen.disturbed_model, "", libraries, chosen)
         prepare_assessment(disturbed, chosen, done, jobs=jobs)
     return OperatingMap(done, chosen)
+
+
+@names_missing_packages
+def growing_map(
+    actuator: str | Path | None = None, *, class_name: str = "", libraries: Iterable[str | Path] = (),
+    settings: str | Path | None = None, out: str | Path | None = None, jobs: int | None = None,
+    progress: Progress | None = None,
+) -> Iterator[OperatingMap]:  # fmt: skip
+    """The map of `maps` without figures, twice: at every fifth severity for a first look, then whole and written."""
+    from lacuna.analysis.map.maps import build_map, first_look
+
+    chosen = _settings(settings)
+    plant = _plant(str(actuator or chosen.model), class_name, libraries, chosen)
+    folder = Path(out) if out else Path("out/maps") / chosen.path.stem
+    tell = counted(f"map of {plant.name}", progress)
+
+    first = partial(first_look, every=FIRST_LOOK)
+    looks = (
+        look(plant, chosen, folder, jobs=jobs, progress=tell) for look in (first, partial(build_map, figures=False))
+    )
+    return (OperatingMap(done, chosen) for done in looks)
 
 
 @names_missing_packages

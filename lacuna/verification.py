@@ -20,6 +20,9 @@ from lacuna.progress import Progress, spoken
 MADE_BY = "made-by.json"
 FORMAT = "lacuna-made-by-1"
 VERIFIABLE = ("simulate", "maps", "sweep", "assess", "forecast", "explain")
+# Options that write, serve or connect elsewhere and change no result: never recorded, never followed.
+ELSEWHERE = ("out", "store", "actuator", "cycles", "hours", "replaced", "watch", "port", "scheduler")
+_FORBIDDEN = {f"--{name}" for name in ELSEWHERE}
 
 
 @dataclass(frozen=True)
@@ -36,8 +39,8 @@ class Verification:
 
 
 def record_making(command: Sequence[str], written: Sequence[Path]) -> None:
-    """Write beside the results of a command how they were made: its words without --out, and the digests of the files
-    and folders among them. `written` are files in one folder, or that folder."""
+    """Write beside the results of a command how they were made: its words without the options ELSEWHERE, and the
+    digests of the files and folders among them. `written` are files in one folder, or that folder."""
     if command[0] not in VERIFIABLE or not written:
         return
     folder = written[0] if written[0].is_dir() else written[0].parent
@@ -94,7 +97,8 @@ def _made_by(folder: Path) -> dict[str, Any]:
     try:
         words, files, inputs = made["command"], made["files"], made["inputs"]
         sound = made["format"] == FORMAT and words[0] in VERIFIABLE and isinstance(inputs, dict)
-        sound = sound and all(isinstance(word, str) for word in (*words, *files)) and "--out" not in words
+        sound = sound and all(isinstance(word, str) for word in (*words, *files))
+        sound = sound and not any(word.partition("=")[0] in _FORBIDDEN for word in words)
     except (KeyError, IndexError, TypeError):
         sound = False
     if not sound or any(".." in Path(name).parts or Path(name).is_absolute() for name in files):

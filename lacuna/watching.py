@@ -27,7 +27,7 @@ _PAGE = Path(__file__).with_name("watching.html")
 
 
 def watch(
-    draw: Callable[[], Figure],
+    draw: Callable[[], Figure | Iterable[Figure]],
     sources: Iterable[str | Path],
     *,
     title: str = "",
@@ -38,10 +38,11 @@ def watch(
 ) -> None:
     """Serve a page with the figure that `draw` gives, and draw it again whenever one of `sources` changes.
 
-    `sources` are .mo files or other files, and folders of .mo files; those of package Lacuna are looked at, too. What
-    `draw` raises because of a user's mistake stands on the page, above the last figure. The page is at an address with
-    a secret, which `opened` is told, and answers to this machine only; `port` 0 takes a free one. `told` hears what was
-    drawn, and how long after the save. Ends when `stop` is set, or by KeyboardInterrupt.
+    Of several figures each takes the place of the one before; those still to come are left out where a source changes
+    meanwhile. `sources` are .mo files or other files, and folders of .mo files; those of package Lacuna are looked at,
+    too. What `draw` raises because of a user's mistake stands on the page, above the last figure. The page is at an
+    address with a secret, which `opened` is told, and answers to this machine only; `port` 0 takes a free one. `told`
+    hears what was drawn, and how long after the save. Ends when `stop` is set, or by KeyboardInterrupt.
     """
     shown = _Shown(title)
     server = ThreadingHTTPServer(("127.0.0.1", port), _handler(shown))
@@ -57,7 +58,11 @@ def watch(
 
 
 def _follow(
-    draw: Callable[[], Figure], sources: list[Path], shown: _Shown, told: Callable[[str], None], stop: threading.Event
+    draw: Callable[[], Figure | Iterable[Figure]],
+    sources: list[Path],
+    shown: _Shown,
+    told: Callable[[str], None],
+    stop: threading.Event,
 ) -> None:
     seen: dict[Path, tuple[int, int]] = {}
     while not stop.is_set():
@@ -68,14 +73,20 @@ def _follow(
         saved = max((stamp[0] for path, stamp in found.items() if seen.get(path) != stamp), default=0) / 1e9
         first, seen = not seen, found
         try:
-            shown.change(_svg(draw()), "")
+            for figure in _figures(draw()):
+                shown.change(_svg(figure), "")
+                told("drawn" if first else f"drawn {time.time() - saved:.1f} s after the save")
+                if stop.is_set() or _stamps(sources) != seen:
+                    break
         except Exception as error:
             if not is_user_error(error):
                 raise
             shown.change(None, message_of(error))
             told(message_of(error))
-        else:
-            told("drawn" if first else f"drawn {time.time() - saved:.1f} s after the save")
+
+
+def _figures(drawn: Figure | Iterable[Figure]) -> Iterable[Figure]:
+    return drawn if isinstance(drawn, Iterable) else (drawn,)
 
 
 def _svg(figure: Figure) -> str:

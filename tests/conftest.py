@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
 from pathlib import Path
 
@@ -17,3 +18,22 @@ def shared() -> Path:
     if not folder.is_dir():
         pytest.skip(f"needs the shared folder of benchmarks and recordings; not at {folder} (set LACUNA_SHARED)")
     return folder
+
+
+@pytest.fixture(scope="session")
+def map_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A map of the hand-written simulation, prepared for assessment: once for all workers of a run."""
+    from lacuna.analysis.map.maps import build_map
+    from lacuna.analysis.severity.preparation import prepare_assessment
+    from tests.analysis.plants import ReferencePlant, paper_settings
+
+    base = tmp_path_factory.getbasetemp()
+    folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "prepared"
+    folder.mkdir(exist_ok=True)
+    with (folder / "lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not (folder / "map" / "severity.table").exists():
+            fewer = [("conditions = 7", "conditions = 3"), ("every = 10", "every = 13")]
+            settings, plant = paper_settings(folder, *fewer), ReferencePlant()
+            prepare_assessment(plant, settings, build_map(plant, settings, folder / "map", figures=False))
+    return folder / "map"

@@ -59,7 +59,7 @@ def _tools(work: Work) -> tuple[ModelPlant, Chain, Settings]:
             partial.write_bytes(content)
             partial.replace(path)
     settings = load_settings(text)
-    return ModelPlant(work.name, library, work.model_hash, settings, solver=work.solver), Chain(settings.text), settings
+    return ModelPlant(work.name, library, work.model_hash, settings, solver=work.solver), Chain(settings), settings
 
 
 def _schema(parameters: list[str], channels: int) -> pa.Schema:

@@ -73,18 +73,12 @@ def compare_with_file(
 def read_columns(path: Path) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """`time` and the other columns of a CSV with one header line; empty fields are NaN. `event` is left out."""
     check_file(path)
-    with path.open(newline="", encoding="utf-8") as file:
-        lines = list(csv.reader(file))
-    header = [name.strip() for name in lines[0]] if lines else []
-    if not header or header[0] != "time":
-        raise AnalysisError(f"{path}: the first column must be 'time'")
-    try:
-        body = np.array([[float(cell) if cell.strip() else np.nan for cell in line] for line in lines[1:]], dtype=float)
-    except ValueError as error:
-        raise AnalysisError(f"{path}: {error}") from None
-    if body.ndim != 2 or body.shape[1] != len(header) or len(body) < 2:
-        raise AnalysisError(f"{path}: every line needs {len(header)} fields, and at least two lines are needed")
-    if not np.all(np.diff(body[:, 0]) >= 0):
-        row = int(np.flatnonzero(~(np.diff(body[:, 0]) >= 0))[0]) + 3
+    columns, _ = runtime.read_csv(path)
+    time = columns.pop("time")
+    columns.pop("event", None)
+    if len(time) < 2:
+        raise AnalysisError(f"{path}: at least two lines are needed")
+    if not np.all(np.diff(time) >= 0):
+        row = int(np.flatnonzero(~(np.diff(time) >= 0))[0]) + 3
         raise AnalysisError(f"{path}:{row}: time must not decrease")
-    return body[:, 0], {name: body[:, k] for k, name in enumerate(header) if name not in ("time", "event")}
+    return time, columns

@@ -78,6 +78,22 @@ def build_map(
     return Map(out, rows, summary, seconds)
 
 
+def first_look(
+    plant: Plant,
+    settings: Settings,
+    out: Path | str,
+    every: int,
+    *,
+    jobs: int | None = None,
+    progress: Progress | None = None,
+) -> Map:
+    """The map at each `every`-th severity and the last. Only its rows are written; `build_map` goes on from them."""
+    out, severities = Path(out), settings.fault.severities
+    some = [*severities[:-1:every], severities[-1]]
+    rows = sweep(plant, settings, some, RowStore(out / "rows", plant, settings), jobs=jobs, progress=progress)
+    return Map(out, rows, summarise(settings, rows) | {"model": {"name": plant.name, "hash": plant.hash}}, {})
+
+
 def drawn_key(store: RowStore) -> str:
     """Of what decides the figures and the report: the rows' own key, the code that draws, and its library."""
     digest = hashlib.sha256(store.key.encode() + version("matplotlib").encode())

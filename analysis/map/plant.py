@@ -13,8 +13,8 @@ import numpy as np
 from lacuna import runtime
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.settings import Settings
-from lacuna.runtime.errors import suggestion
 from lacuna.runtime.library import library_path as runtime_library_path
+from lacuna.suggest import suggestion
 
 
 @dataclass(frozen=True)

@@ -33,7 +33,7 @@ def sweep(
     if progress:
         progress(len(rows), len(severities))
     if todo:
-        chain = Chain(settings.text)
+        chain = Chain(settings)
 
         def work(severity: float) -> Row:
             row = compute_row(plant, chain, settings, severity)

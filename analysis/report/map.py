@@ -28,9 +28,9 @@ _TEMPLATE = Path(__file__).with_name("map.html.in")
 
 def report_html(plant: Plant, settings: Settings, rows: list[Row], summary: dict[str, Any], folder: Path) -> str:
     """The page; `folder` holds the figures, as draw_all wrote them, and map.csv."""
-    first, last = rows[0], rows[-1]
+    first, last, fault = rows[0], rows[-1], settings.fault.name
     verdict = (
-        f"{settings.fault.name}: the mean RMS of the phase currents goes from {1e3 * first.rms_mean:.1f} mA at "
+        f"{fault[0].upper()}{fault[1:]}: the mean RMS of the phase currents goes from {1e3 * first.rms_mean:.1f} mA at "
         f"{settings.fault.text(first.severity)} to {1e3 * last.rms_mean:.1f} mA at "
         f"{settings.fault.text(last.severity)}."
     )

@@ -61,8 +61,14 @@ def _ranges(results: pa.Table, settings: Settings) -> Markup:
         values = _column(results, name)
         values = values[np.isfinite(values)]
         if values.size:
-            rows.append((name, *(f"{v:.5g}" for v in (values.min(), np.median(values), values.max()))))
-    return table(("column, SI units", "least", "median", "greatest"), rows)
+            rows.append((name, _unit(name), *(f"{v:.5g}" for v in (values.min(), np.median(values), values.max()))))
+    return table(("column", "unit", "least", "median", "greatest"), rows, numbers=range(2, 5))
+
+
+def _unit(name: str) -> str:
+    """Of a feature; a parameter has the SI unit of its declaration."""
+    found = [unit for head, unit in (("rms_", "A"), ("peak_hz", "Hz"), ("speed_", "rad/s")) if name.startswith(head)]
+    return found[0] if found else "SI, as declared"
 
 
 def write(results: Path, model: str, settings: Settings) -> Path:

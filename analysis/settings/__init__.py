@@ -1,11 +1,12 @@
 """The settings of a map: what is simulated, how it is sampled and analysed, and what was published.
 
-One TOML file serves the C++ library and Python (settings/paper.toml says what each entry means).
+settings/paper.toml says what each entry means.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 import tomllib
 from typing import Any
@@ -59,7 +60,7 @@ class Fault:
 
 @dataclass(frozen=True)
 class Settings:
-    """One settings file; `text` is what the C++ library parses."""
+    """One settings file, and its `text`."""
 
     path: Path
     text: str
@@ -71,6 +72,11 @@ class Settings:
     currents: tuple[str, ...]
     speed: str
     angle: str
+    section: float  # of the record
+    overlap: float  # of a section
+    padding: str  # none | section | record
+    peak_above: float  # Hz
+    peak_threshold: float  # of the largest line
     speed_after: float  # s
     solver: str
     relative_tolerance: float
@@ -120,9 +126,16 @@ def load_settings(path: Path | str = PAPER) -> Settings:
     if path.exists():
         check_file(path)
     try:
-        text = path.read_text(encoding="utf-8")
+        return settings_of(path.read_text(encoding="utf-8"), path)
+    except UnicodeDecodeError as error:
+        raise AnalysisError(f"{path}: not a settings file: {error}") from None
+
+
+def settings_of(text: str, path: Path) -> Settings:
+    """The settings that `text` says; `path` is named in errors. Raises AnalysisError."""
+    try:
         raw = tomllib.loads(text)
-    except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+    except tomllib.TOMLDecodeError as error:
         raise AnalysisError(f"{path}: not a settings file: {error}") from None
     try:
         settings = _settings(path, text, raw)
@@ -132,11 +145,25 @@ def load_settings(path: Path | str = PAPER) -> Settings:
         raise AnalysisError(f"{path}: {error}") from None
     if settings.fault.step <= 0 or settings.fault.last < settings.fault.first:
         raise AnalysisError(f"{path}: [fault] needs first <= last and step above zero")
+    _check_bands(settings)
     return settings
+
+
+def _check_bands(settings: Settings) -> None:
+    """In rising order, not overlapping. Gaps between them are allowed, the paper has some."""
+    if not settings.bands:
+        raise AnalysisError(f"{settings.path}: at least one severity band is needed")
+    for band in settings.bands:
+        if not band.first <= band.last:
+            raise AnalysisError(f"{settings.path}: band {band.name}: first is above last")
+    for before, band in pairwise(settings.bands):
+        if not before.last < band.first:
+            raise AnalysisError(f"{settings.path}: band {band.name} does not begin above the end of {before.name}")
 
 
 def _settings(path: Path, text: str, raw: dict[str, Any]) -> Settings:
     signals, recording, solver = raw["signals"], raw["recording"], raw["solver"]
+    spectrum, peak = raw["spectrum"], raw["first_peak"]
     return Settings(
         path=path,
         text=text,
@@ -148,6 +175,11 @@ def _settings(path: Path, text: str, raw: dict[str, Any]) -> Settings:
         currents=tuple(signals["currents"]),
         speed=signals["speed"],
         angle=signals["angle"],
+        section=float(spectrum["section"]),
+        overlap=float(spectrum["overlap"]),
+        padding=spectrum["padding"],
+        peak_above=float(peak["above"]),
+        peak_threshold=float(peak["threshold"]),
         speed_after=float(raw["speed"]["after"]),
         solver=solver["name"],
         relative_tolerance=float(solver["relative_tolerance"]),

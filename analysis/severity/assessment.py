@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 import json
 from pathlib import Path
-import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.files import published_together
 from lacuna.analysis.recording.recordings import Recording, read_recording
 from lacuna.analysis.settings import Band, Settings
@@ -66,10 +64,7 @@ def assess(
 
 def chain_at(settings: Settings, sampling_rate: float) -> Chain:
     """The settings' chain at another sampling rate: sections are shares of the record, so only the rate changes."""
-    text, replaced = re.subn(r"(?m)^sampling_rate\s*=.*$", f"sampling_rate = {sampling_rate!r}", settings.text)
-    if replaced != 1:
-        raise AnalysisError(f"{settings.path}: sampling_rate must stand on one line of its own")
-    return Chain(text)
+    return Chain(replace(settings, sampling_rate=sampling_rate))
 
 
 def filtered(recording: Recording, settings: Settings, unfiltered: bool) -> Recording:

@@ -30,7 +30,7 @@ def prepare_assessment(plant: Plant, settings: Settings, finished: Map, *, jobs:
     every level of the first nuisance, and around them the other nuisances. Raises AnalysisError where a severity has no
     complete signature.
     """
-    chain, severities = Chain(settings.text), settings.fault.severities
+    chain, severities = Chain(settings), settings.fault.severities
     plant = plant.with_solver(settings.table("assessment")["solver"])
     nuisances = settings.raw.get("nuisances", [])
     signatures, covariance = [], []

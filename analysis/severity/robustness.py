@@ -62,7 +62,7 @@ def run_tests(
     nuisances = settings.raw.get("nuisances", [])
     plant = plant.with_solver(settings.table("assessment")["solver"])
     design = qmc.Sobol(1 + len(nuisances), seed=SEED).random(count)
-    study = _Study(plant, prepared, Chain(settings.text), nuisances, stranger or {})
+    study = _Study(plant, prepared, Chain(settings), nuisances, stranger or {})
     everything = [plant.hash, settings.text, stranger, CHUNK, SEED, count]
     key = hashlib.sha256(json.dumps(everything).encode() + prepared.key).hexdigest()
     store.mkdir(parents=True, exist_ok=True)

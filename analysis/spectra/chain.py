@@ -9,7 +9,10 @@ import weakref
 import numpy as np
 
 from lacuna.analysis.errors import AnalysisError
-from lacuna.analysis.spectra.library import DOUBLES, MESSAGE_SIZE, CChannel, CSummary, library, pointer
+from lacuna.analysis.settings import Settings
+from lacuna.analysis.spectra.library import DOUBLES, MESSAGE_SIZE, CChannel, CSettings, CSummary, library, pointer
+
+_PADDINGS = ("none", "section", "record")  # as lacuna_padding counts them
 
 
 @dataclass(frozen=True)
@@ -29,17 +32,30 @@ class Features:
     channels: ctypes.Array  # the same, for the C interface
 
 
+def _in_c(settings: Settings) -> CSettings:
+    """Raises AnalysisError for a padding that there is not; all else is checked where it is used."""
+    if settings.padding not in _PADDINGS:
+        known = ", ".join(_PADDINGS)
+        raise AnalysisError(f"{settings.path}: spectrum.padding is {settings.padding!r}, not one of {known}")
+    names = (ctypes.c_char_p * len(settings.currents))(*(name.encode() for name in settings.currents))
+    return CSettings(
+        settings.sampling_rate, settings.duration, len(names), names, settings.angle.encode(), settings.section,
+        settings.overlap, _PADDINGS.index(settings.padding), settings.peak_above, settings.peak_threshold,
+        settings.speed_after,
+    )  # fmt: skip
+
+
 class Chain:
-    """Sections, Hann window, padded transform, peak hold, first peak, RMS and speed, for the text of a settings file.
+    """Sections, Hann window, padded transform, peak hold, first peak, RMS and speed, as the settings say.
 
     Built once (window, FFT plan); then any number of threads may use it.
     Raises AnalysisError for settings or recordings that it cannot use.
     """
 
-    def __init__(self, settings: str):
+    def __init__(self, settings: Settings):
         self._lib = library()
         message = ctypes.create_string_buffer(MESSAGE_SIZE)
-        self._chain = self._lib.lacuna_chain_new(settings.encode(), message, MESSAGE_SIZE)
+        self._chain = self._lib.lacuna_chain_new(_in_c(settings), message, MESSAGE_SIZE)
         if not self._chain:
             raise AnalysisError(message.value.decode(errors="replace"))
         weakref.finalize(self, self._lib.lacuna_chain_free, self._chain)

@@ -13,6 +13,22 @@ MESSAGE_SIZE = 500
 DOUBLES = ctypes.POINTER(ctypes.c_double)
 
 
+class CSettings(ctypes.Structure):
+    _fields_ = [
+        ("sampling_rate", ctypes.c_double),
+        ("duration", ctypes.c_double),
+        ("channels", ctypes.c_size_t),
+        ("currents", ctypes.POINTER(ctypes.c_char_p)),
+        ("angle", ctypes.c_char_p),
+        ("section", ctypes.c_double),
+        ("overlap", ctypes.c_double),
+        ("padding", ctypes.c_int),
+        ("peak_above", ctypes.c_double),
+        ("peak_threshold", ctypes.c_double),
+        ("speed_after", ctypes.c_double),
+    ]
+
+
 class CChannel(ctypes.Structure):
     _fields_ = [
         ("rms", ctypes.c_double),
@@ -63,7 +79,7 @@ def library_path() -> Path:
 _ADDRESS, _SIZE, _TEXT = ctypes.c_void_p, ctypes.c_size_t, ctypes.c_char_p
 _MESSAGE = [_TEXT, _SIZE]
 _FUNCTIONS = {
-    "lacuna_chain_new": (_ADDRESS, [_TEXT, *_MESSAGE]),
+    "lacuna_chain_new": (_ADDRESS, [ctypes.POINTER(CSettings), *_MESSAGE]),
     "lacuna_chain_free": (None, [_ADDRESS]),
     "lacuna_chain_channels": (_SIZE, [_ADDRESS]),
     "lacuna_chain_samples": (_SIZE, [_ADDRESS]),

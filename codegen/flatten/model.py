@@ -11,13 +11,20 @@ from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.instance import ArrayNode, Instance, Node
 from lacuna.codegen.flatten.classes.leaf import Leaf
+from lacuna.codegen.flatten.connections.balance import check_balance
 from lacuna.codegen.flatten.connections.connections import connection_equations
 from lacuna.codegen.flatten.connections.expandable import expand
 from lacuna.codegen.flatten.connections.streams import stream_variables
 from lacuna.codegen.flatten.connections.structure import Structure
 from lacuna.codegen.flatten.equations.algorithms import flatten_algorithm
 from lacuna.codegen.flatten.equations.equations import Collected, check_discrete
-from lacuna.codegen.flatten.equations.variables import add_used_constants, flatten_variables, mark_discrete
+from lacuna.codegen.flatten.equations.texts import bind_texts
+from lacuna.codegen.flatten.equations.variables import (
+    add_used_constants,
+    flatten_variables,
+    mark_discrete,
+    mark_evaluated,
+)
 from lacuna.codegen.flatten.expressions.constants import evaluate
 from lacuna.codegen.flatten.expressions.lower import lower_scalar
 from lacuna.codegen.flatten.language import LOWERING
@@ -72,11 +79,10 @@ def flatten(
     model.functions = context.functions
     at_events = assigned([*model.whens, *(s for a in model.algorithms for s in a.statements)])
     with context.attempt():
-        check_discrete(body.equations, set(at_events), context)
+        check_discrete(model.equations, leaves, set(at_events), context)
     mark_discrete(model, at_events)
     add_used_constants(model, context, list(_all_expressions(model)))
-    for scalar in context.evaluated & model.variables.keys():
-        model.variables[scalar].evaluated = True
+    mark_evaluated(model, context.evaluated)
     model.experiment = _experiment(top)
     _check_units(model, context, units)
     model.files = {**library.files, **context.files}
@@ -128,6 +134,9 @@ def _instantiate(top: Instance) -> tuple[list[Leaf], list[tuple[ast.Section, ast
         if instance.cls.expandable:
             buses.append(instance)
             return
+        if instance.cls.kind == "connector" and not (instance.parent is not None and instance.parent.in_connector):
+            with instance.context.attempt():
+                check_balance(instance)
         look_at(instance, list(instance.elements))
         sections.extend((section, cls, instance) for section, cls in instance.sections)
 
@@ -150,6 +159,7 @@ def _instantiate(top: Instance) -> tuple[list[Leaf], list[tuple[ast.Section, ast
     while implicit := [name for name in top.elements if name not in declared]:  # inner ones that were asked for (5.4)
         declared.update(implicit)
         look_at(top, implicit)
+    bind_texts(sections)
     return leaves, sections, buses
 
 
@@ -168,7 +178,7 @@ def _sections(sections: list[tuple[ast.Section, ast.Class, Instance]]) -> tuple[
     body, initial = Collected(), Collected()
     for section, cls, instance in sections:
         context = instance.context
-        scope = Scope(context, cls, instance, initial=section.initial)
+        scope = Scope(context, cls, instance, initial=section.initial, pure=not section.initial)
         out = initial if section.initial else body
         with context.attempt():
             if section.algorithm:

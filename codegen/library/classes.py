@@ -21,8 +21,8 @@ from lacuna.codegen.library.search_path import (
     search_path,
     split_name,
 )
-from lacuna.codegen.library.suggest import did_you_mean
 from lacuna.codegen.syntax import ast, parse
+from lacuna.suggest import did_you_mean
 
 HOME_PACKAGE = "Lacuna"
 MODEL_KINDS = ("model", "block", "class")  # what can be simulated

@@ -8,8 +8,8 @@ from pathlib import Path
 import re
 
 from lacuna.codegen.errors import Diagnostic
-from lacuna.codegen.library.suggest import did_you_mean
 from lacuna.codegen.syntax import parse
+from lacuna.suggest import did_you_mean
 
 MODEL_FOLDER = Path(__file__).resolve().parents[2] / "model"
 PACKAGE_FILE = "package.mo"

@@ -16,17 +16,21 @@ from lacuna.codegen.symbolic.rewrite import Rewriter
 
 
 def evaluate_constants(model: flat.FlatModel) -> flat.FlatModel:
-    """Replace every constant, evaluated parameter and final parameter that has a literal value by that value."""
+    """Replace every constant, evaluated parameter and final parameter that has a literal value by that value, and so
+    every parameter that depends on such alone."""
     values = _literal_values(model)
-    return Rewriter(lambda n: values.get(n.value) if n.op == "var" else None).model(model)
+    model = Rewriter(lambda n: values.get(n.value) if n.op == "var" else None).model(model)
+    fixed = {n: replace(v, evaluated=True) for n in values if not (v := model.variables[n]).final}
+    return replace(model, variables=model.variables | fixed)
 
 
 def _literal_values(model: flat.FlatModel) -> dict[str, Expr]:
+    """By name. A parameter whose declared value is no literal cannot be set, so what it depends on decides it."""
     values: dict[str, Expr] = {}
     rewriter = Rewriter(lambda n: values.get(n.value) if n.op == "var" else None)
     for name in dependency_order(model):
         v = model.variables[name]
-        if v.variability == flat.CONSTANT or v.evaluated or v.final:
+        if v.variability == flat.CONSTANT or v.evaluated or v.final or v.binding.op != "const":
             value = rewriter.expression(v.binding)
             if value.op == "const":
                 values[name] = value

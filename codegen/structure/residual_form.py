@@ -40,7 +40,8 @@ def residual_form(system: System, explicit: Sequence[Step], tearing: Tearing) ->
     torn = min(orders, key=lambda torn: nonzeros(torn, system))
     if tearing.amplifies(torn, map(var, system.states)):
         blocks = [unknowns_of(step) for step in explicit if isinstance(step, LinearBlock)]
-        torn = tearing.tear(rows, algebraics, rough, [u for block in blocks for u in block if u.op == "var"])
+        known = set(algebraics)  # slopes of a choice of states are none: no derivative depends on them
+        torn = tearing.tear(rows, algebraics, rough, [u for block in blocks for u in block if u in known])
     used = needed(torn.assignments, (row.leaves for row in torn.residuals))
     return ResidualForm(used, torn.tears, torn.residuals)
 

@@ -176,6 +176,7 @@ class Component:
     outer: bool = False
     replaceable: bool = False
     constraint: Extends | None = None  # constrainedby CLASS(...)
+    annotation: Modification | None = None
 
 
 @dataclass(slots=True, eq=False)

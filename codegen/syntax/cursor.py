@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.library.suggest import did_you_mean
 from lacuna.codegen.syntax.lexer import KEYWORDS, Source
+from lacuna.suggest import did_you_mean
 
 MAX_DEPTH = 100
 MAX_OPERANDS = 1000

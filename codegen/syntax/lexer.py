@@ -41,6 +41,7 @@ _INSTEAD = {
 }
 
 _ESCAPES = {"n": "\n", "t": "\t", "r": "\r", "f": "\f", "v": "\v", "a": "\a", "b": "\b"}
+_ESCAPED = frozenset((*_ESCAPES, "'", '"', "?", "\\"))  # what may stand after a backslash
 
 
 @dataclass
@@ -84,6 +85,8 @@ def tokenize(text: str, file: str) -> Source:
                 kind = word
             elif kind == "num":
                 _check_number(source, position, found.end())
+            if "\\" in word:
+                _check_escapes(source, position, word)
             source.kinds.append(kind)
             source.words.append(word)
             source.offsets.append(position)
@@ -126,6 +129,14 @@ def _check_number(source: Source, start: int, end: int) -> None:
             source.span(start, end - start + 1),
             "put an operator between them, such as 2*x; an exponent needs digits, such as 1e-3",
         )
+
+
+def _check_escapes(source: Source, start: int, word: str) -> None:
+    """Raises P018 for a backslash before what needs none (Modelica 3.6, 2.4.2)."""
+    for found in re.finditer(r"\\(.)", word, flags=re.DOTALL):
+        if found[1] not in _ESCAPED:
+            hint = 'write \\\\ for a backslash; the others are \\n, \\t, \\" and the like'
+            raise Diagnostic("P018", f"{found[0]!r} is no escape sequence", source.span(start + found.start(), 2), hint)
 
 
 def string_value(word: str) -> str:

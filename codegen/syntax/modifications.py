@@ -14,6 +14,7 @@ _GRAPHICS = frozenset(
     )
 )  # fmt: skip
 _VARIABILITIES = ("parameter", "constant", "discrete")
+_TYPE_PREFIXES = ("flow", "stream", *_VARIABILITIES, "input", "output")
 KINDS = ("model", "block", "connector", "record", "type", "package", "function", "class")
 CLASS_STARTS = (*KINDS, "partial", "encapsulated", "expandable", "operator", "pure", "impure")
 
@@ -71,16 +72,17 @@ class ModificationParser(ExpressionParser):
         return ast.Extends(bound.span, bound, modification)
 
     def _type_prefixes(self, options: dict[str, object]) -> None:
-        while True:
-            if self.kind in ("flow", "stream"):
-                options[self.kind] = True
-            elif self.kind in _VARIABILITIES:
-                options["variability"] = self.kind
-            elif self.kind in ("input", "output"):
-                options["causality"] = self.kind
-            else:
-                return
+        """[flow | stream] [discrete | parameter | constant] [input | output], in this order (A.2.4)."""
+        if self.kind in ("flow", "stream"):
+            options[self.kind] = True
             self.at += 1
+        for name, words in (("variability", _VARIABILITIES), ("causality", ("input", "output"))):
+            if self.kind in words:
+                options[name] = self.kind
+                self.at += 1
+        if self.kind in _TYPE_PREFIXES:
+            hint = "one of flow, stream; then one of discrete, parameter, constant; then one of input, output"
+            raise Diagnostic("P021", f"the prefix '{self.word}' cannot stand here", self.span(), hint)
 
     def _component(self, kind: ast.Ref, shared: list[ast.Expression], options: dict[str, object]) -> ast.Component:
         start = self.at
@@ -100,9 +102,18 @@ class ModificationParser(ExpressionParser):
             self.at += 1
             condition = self.expression()
         description = self.description()
-        if self.kind == "annotation":
-            self.annotation()
-        return ast.Component(span, name, kind, dimensions + shared, modification, condition, description, **options)
+        annotation = self.annotation() if self.kind == "annotation" else None
+        return ast.Component(
+            span,
+            name,
+            kind,
+            dimensions + shared,
+            modification,
+            condition,
+            description,
+            annotation=annotation,
+            **options,
+        )
 
     def modification(self, selective: bool = False) -> ast.Modification:
         """(name = value, ...) = value, either part optional; `selective` (of extends) allows break entries."""

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import math
 from typing import Any
 
-from lacuna.codegen.library.suggest import did_you_mean
+from lacuna.suggest import did_you_mean
 
 
 class KeyProblem(Exception):

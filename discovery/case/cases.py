@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+import math
 from pathlib import Path
 import tomllib
 
@@ -66,6 +67,15 @@ class Own:
     initial: dict[str, float | str] = field(default_factory=dict)
 
 
+@dataclass(frozen=True)
+class Limit:
+    """How far an input may go in a further experiment, SI, and how fast per second; None: as recorded."""
+
+    min: float | None = None
+    max: float | None = None
+    rate: float | None = None
+
+
 @dataclass
 class Case:
     folder: Path
@@ -80,6 +90,7 @@ class Case:
     validate: list[Recording] = field(default_factory=list)
     found: CaseModel | None = None  # where the class `model` is
     own: dict[str, Own] = field(default_factory=dict)  # what holds in one recording only, by its file
+    limits: dict[str, Limit] = field(default_factory=dict)  # of inputs, for a proposed experiment
 
     @property
     def base(self) -> str:
@@ -124,6 +135,7 @@ def load(folder: str | Path, libraries: Sequence[str | Path] = ()) -> Case:
     if not any(s.role == "output" for s in signals.values()):
         raise CaseError(f'{path}: no signal has role = "output", so there is nothing to compare with')
     names = {key: raw["recordings"][key] for key in ("fit", "validate")}
+    _distinct(path, [*names["fit"], *names["validate"]])
     case = Case(
         folder=folder,
         title=raw.get("title", folder.name),
@@ -135,6 +147,7 @@ def load(folder: str | Path, libraries: Sequence[str | Path] = ()) -> Case:
         initial=dict(raw.get("initial", {})),
         found=case_model(folder, raw["model"], [*raw.get("libraries", []), *(Path(p).resolve() for p in libraries)]),
         own=_own(path, raw.get("recording", {}), [*names["fit"], *names["validate"]]),
+        limits=_limits(path, raw.get("limits", {}), signals),
     )
     case.fit = [read_recording(folder / name, signals) for name in names["fit"]]
     case.validate = [read_recording(folder / name, signals) for name in names["validate"]]
@@ -154,6 +167,14 @@ def _read(path: Path) -> dict:
     return raw
 
 
+def _distinct(path: Path, files: list[str]) -> None:
+    """Recordings are told apart by their names, also those of other folders."""
+    first: dict[str, str] = {}
+    for file in files:
+        if (other := first.setdefault(Path(file).name, file)) != file:
+            raise CaseError(f"{path}: {other} and {file} have the same name; give one of the two another")
+
+
 def _floats(values: dict) -> dict[str, float]:
     return {name: float(value) for name, value in values.items()}
 
@@ -163,9 +184,20 @@ def _own(path: Path, tables: dict, files: list[str]) -> dict[str, Own]:
         if name not in files:
             raise CaseError(f'{path}: [recording."{name}"] is none of the recordings ({", ".join(files)})')
     return {
-        name: Own(_floats(t.get("parameters", {})), _floats(t.get("uncertainty", {})), dict(t.get("initial", {})))
+        Path(name).name: Own(
+            _floats(t.get("parameters", {})), _floats(t.get("uncertainty", {})), dict(t.get("initial", {}))
+        )
         for name, t in tables.items()
     }
+
+
+def _limits(path: Path, tables: dict, signals: dict[str, Signal]) -> dict[str, Limit]:
+    for column, table in tables.items():
+        if column not in signals or signals[column].role != "input":
+            raise CaseError(f"{path}: [limits.{column}] is none of the inputs")
+        if table.get("min", -math.inf) >= table.get("max", math.inf):
+            raise CaseError(f"{path}: [limits.{column}] min = {table['min']} is not below max = {table['max']}")
+    return {column: Limit(**_floats(table)) for column, table in tables.items()}
 
 
 def _signal(path: Path, column: str, table: dict) -> Signal:
@@ -186,7 +218,7 @@ def read_recording(path: Path, signals: dict[str, Signal]) -> Recording:
         recorded = read_recorded(path)
     except RecordingError as error:
         raise CaseError(str(error)) from error
-    if recorded.time != "time":
+    if recorded.time not in ("time", "time [s]"):  # as `lacuna convert` writes it
         raise CaseError(f"{path}: column `time` is missing; is it `{recorded.time}`? Its unit is the second")
     missing = [column for column in signals if not any(column in (c.head.text, c.name) for c in recorded.channels)]
     if missing or not recorded.channels:

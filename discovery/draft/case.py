@@ -93,11 +93,11 @@ def _kelvins(recorded: Recording, matches: Sequence[Match]) -> Recording:
 
 
 def _targets(model: Model) -> list[Target]:
-    """All variables that may be recorded; parameters and derivatives are not."""
+    """All variables that may be recorded: parameters and derivatives are not, and a switch only where it drives."""
     return [
-        Target(name, v.unit, v.kind == "input", v.description)
+        Target(name, v.unit, v.kind == "input", v.description, discrete=v.type != "Real")
         for name, v in model.variables.items()
-        if v.kind not in ("parameter", "derivative") and v.type == "Real"
+        if v.kind not in ("parameter", "derivative") and (v.type == "Real" or v.kind == "input")
     ]
 
 

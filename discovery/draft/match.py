@@ -7,19 +7,20 @@ from dataclasses import dataclass
 import re
 
 from lacuna.analysis.recording.heads import Head
-from lacuna.codegen.library.suggest import distance
 from lacuna.recorded_units import to_si
+from lacuna.suggest import distance
 from lacuna.units import parse_unit
 
 
 @dataclass(frozen=True)
 class Target:
-    """A variable that a column may record."""
+    """A variable that a column may record; `discrete`: a Boolean or an Integer, which holds its value."""
 
     name: str
     unit: str
     is_input: bool
     description: str = ""
+    discrete: bool = False
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,8 @@ def _match(head: Head, scores: dict[Target, float], target: Target | None) -> Ma
         return Match(head, None)
     others = sorted((t for t in scores if t != target), key=lambda t: -scores[t])
     # Sure: the names say the same and the unit agrees, or nothing else has this dimension.
-    sure = head.unit is not None and (scores[target] >= SAME_NAME or not others)
+    said = head.unit is not None or target.discrete
+    sure = said and (scores[target] >= SAME_NAME or not others)
     return Match(head, target, tuple(others[:4]), sure)
 
 

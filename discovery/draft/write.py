@@ -58,9 +58,9 @@ def case_toml(draft: Draft) -> tuple[str, tuple[str, ...]]:
         f"# A case drafted from {', '.join(map(_one_line, draft.recordings))}.",
         f"# Lines that begin with `{LOOK}` want a look.",
     )
-    text("", f"model = {_string(draft.model)}")
+    text("", f"model = {string(draft.model)}")
     if draft.libraries:
-        text(f"libraries = [{', '.join(map(_string, draft.libraries))}]")
+        text(f"libraries = [{', '.join(map(string, draft.libraries))}]")
     text("")
     for note in draft.notes:
         text.look(note)
@@ -80,7 +80,7 @@ def case_toml(draft: Draft) -> tuple[str, tuple[str, ...]]:
         text.look(
             "the last recordings judge what was fitted to the others: they should show motions that the others do not"
         )
-    text(f"fit = [{', '.join(map(_string, draft.fit))}]", f"validate = [{', '.join(map(_string, draft.validate))}]", "")
+    text(f"fit = [{', '.join(map(string, draft.fit))}]", f"validate = [{', '.join(map(string, draft.validate))}]", "")
     return "\n".join(text.lines), tuple(text.unsure)
 
 
@@ -91,14 +91,15 @@ def _signals(text: _Text, draft: Draft) -> None:
             text.look(f"column `{match.head.text}` fits no variable of the model and was left out")
             text("")
             continue
-        text(f"[signals.{_key(match.head.name)}]" + _origin(match.head.text, match.head.name))
+        text(f"[signals.{key(match.head.name)}]" + _origin(match.head.text, match.head.name))
         if not match.sure:
             text.look(_doubt(match))
         role = "input" if match.target.is_input else "output"
-        text(f'role = "{role}"', f"variable = {_string(match.target.name)}" + _said(match.target.description))
-        text(f"unit = {_string(_unit(match))}")
-        if role == "input" and column.steps:
-            text.look(f"`{match.head.name}` takes few values: it was taken to hold between samples, as a command does")
+        text(f'role = "{role}"', f"variable = {string(match.target.name)}" + _said(match.target.description))
+        text(f"unit = {string(_unit(match))}")
+        if role == "input" and (column.steps or match.target.discrete):
+            if not match.target.discrete:
+                text.look(f"`{match.head.name}` takes few values: it was taken to hold between samples, like a command")
             text('interpolation = "hold"')
         if role == "output" and column.level > 0:
             text(f"# noise_std = {column.level:.3g}  # estimated from the recordings; as good as leaving it out")
@@ -126,21 +127,21 @@ def _initial(text: _Text, draft: Draft) -> None:
     unknown = [name for name, value in draft.initial.items() if value == "unknown"]
     if unknown:
         text.look(f"the machine does not begin at rest: where {', '.join(unknown)} begins is fitted")
-    text(*(f"{_key(name)} = {_string(value)}" for name, value in draft.initial.items()), "")
+    text(*(f"{key(name)} = {string(value)}" for name, value in draft.initial.items()), "")
 
 
 def _parameters(text: _Text, draft: Draft) -> None:
     text("[parameters]  # what is believed, SI; the model's own values where nothing is said")
     for name, (value, unit, description) in draft.parameters.items():
-        text(f"# {_key(name)} = {value!r}  # {_one_line(f'{unit}  {description}'.strip())}")
+        text(f"# {key(name)} = {value!r}  # {_one_line(f'{unit}  {description}'.strip())}")
     text("", "[uncertainty]  # relative standard deviation of a belief; 0 is exact, 0.05 where nothing is said", "")
 
 
-def _key(name: str) -> str:
-    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else _string(name)
+def key(name: str) -> str:
+    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else string(name)
 
 
-def _string(text: str) -> str:
+def string(text: str) -> str:
     """A TOML basic string; TOML's escapes are JSON's."""
     return json.dumps(text, ensure_ascii=False)
 

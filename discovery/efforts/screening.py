@@ -27,9 +27,10 @@ SAME = 1e-3  # share of what a law explains, by which another one must differ to
 def proposals(locator: Locator, site: Site, guided: Guided, most: int) -> list[Proposal]:
     """Laws of one and of two groups of terms at a place, `most` of each, the most telling first."""
     along = [p.along for p in guided.pieces]
-    known = {n: v.unit for n, v in locator.base.machine.model.variables.items()}
     answering = _answering(locator, along[0], site.place.column)
-    found = variables(along, site.location, known, locator.opened.linear.states, answering)
+    found = variables(
+        along, site.location, locator.base.machine.model.variables, locator.opened.linear.states, answering
+    )
     courses = {v.local: np.concatenate([a.values[v.name] for a in along]) / v.size for v in found}
     ranges = {local: (float(c.min()), float(c.max())) for local, c in courses.items()}
     place = LawSite(site.place.sites[0], site.location, site.place.unit, tuple(found))
@@ -107,10 +108,10 @@ def _doubled(regression: Regression, single: list[tuple[int, ...]], every: range
             scored[(*first, other)] = score
     kinds: dict[frozenset, tuple[int, ...]] = {}
     for key in sorted(scored, key=lambda k: scored[k])[:CHECKED]:
-        kind = frozenset(regression.groups[g].texts for g in key)
-        if len(kinds) < PAIRS and kind not in kinds and regression.plausible(key):
-            kinds[kind] = key
-    better = _refined_pairs(regression, [(key, scored[key]) for key in kinds.values()])
+        kinds.setdefault(frozenset(regression.groups[g].texts for g in key), key)
+    plausible = [key for key in kinds.values() if regression.plausible(key)]
+    kept = _distinct(regression, plausible, PAIRS)
+    better = _refined_pairs(regression, [(key, scored[key]) for key in kept])
     return [pair for pair, _ in sorted(better, key=lambda b: b[1])]
 
 

@@ -7,13 +7,14 @@ function). Texts are Modelica.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from lacuna.codegen.units.inference import SECOND
 from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.law.law_terms import DRY, Group, Shape, Variable
+from lacuna.runtime.model import Variable as ModelVariable
 from lacuna.units import parse_unit
 
 MOST = 12  # variables at a place, the nearest first: their pairs are what a search costs
@@ -29,13 +30,15 @@ _WHOLE = (1 / 3, 2 / 3, 1.0, 7 / 4, *EXPONENTS, 5.0)
 
 
 def variables(
-    along: Sequence[Along], location: str, units: dict[str, str], states: list[str], answering: frozenset[str]
-) -> list[Variable]:
+    along: Sequence[Along], location: str, known: Mapping[str, ModelVariable], states: list[str],
+    answering: frozenset[str],
+) -> list[Variable]:  # fmt: skip
     """The variables of a law at `location`, the nearest first; those that follow from another one are left out.
 
     `answering` are those that the effort changes at once: they are in the balance that says what the effort is, and a
     sum of them is that balance again. Of them only rates of states serve, where something else multiplies them.
     """
+    units = {n: v.unit for n, v in known.items()}
     names = [n for n, v in along[0].values.items() if np.ndim(v) == 1 and (n in units or n.startswith("der("))]
     names = [n for n in names if not n.startswith("probe") and (n not in answering or n.startswith("der("))]
     largest: dict[str, float] = {}
@@ -61,7 +64,8 @@ def variables(
             continue
         unit = units.get(name) or _rate(units.get(name.removeprefix("der(").removesuffix(")"), ""))
         kind = "state" if name in order else "rate" if name in answering else "other"
-        kept.append(Variable(f"x{len(kept) + 1}", name, unit, kind, float(f"{size:.2g}")))
+        switch = name in known and known[name].type == "Boolean"
+        kept.append(Variable(f"x{len(kept) + 1}", name, unit, kind, float(f"{size:.2g}"), switch))
         courses.append(scaled)
         if len(kept) == MOST:
             break
@@ -87,7 +91,9 @@ def groups(
     for v in found:
         result += _remembering(v, interval, duration) if v.kind != "rate" else []
         low, high = ranges[v.local]
-        if v.kind != "rate":
+        if v.switch:
+            result.append(Group((v.scaled,)))
+        elif v.kind != "rate":
             result += _alone(v) if low < 0 < high else _of_one_sign(v)
         if v.kind == "state":
             result += _waves(v, high - low)
@@ -169,6 +175,8 @@ def _waves(v: Variable, span: float) -> list[Group]:
 def _together(a: Variable, b: Variable, signed: bool, once: bool) -> list[Group]:
     """Products: those that are alike both ways once."""
     x, y = a.scaled, b.scaled
+    if b.switch:  # any function of it is the same again
+        return [Group((f"{x}*{y}",))] if once else []
     saturating = Group((f"({x}/(1 + {{q}}*{y}^2) - {x})",), (Shape("q", "1", 1.0, 0.01, 100.0, (), 0.9),))
     found = [Group((f"{x}*{y}^2",)), Group((f"{x}*abs{y}",)), saturating]
     found += [Group((DRY.format(x=x) + f"*abs{y}",))] if signed and a.kind != "rate" else []

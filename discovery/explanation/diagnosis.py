@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from lacuna.discovery.experiment.files import described
 from lacuna.discovery.explanation.confidence import alternatives, confidence, explained, odds, tie
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import whiteness
@@ -45,6 +46,8 @@ def build(result: Explanation, amended: Path | None) -> dict[str, Any]:
         diagnosis["reason"] = result.reason
     if result.experiment:
         diagnosis["experiment"] = result.experiment
+    if result.trial:
+        diagnosis["next_experiment"] = described(result.case, result.trial)
     if result.problems:
         diagnosis["recordings"] = [p.as_dict() for p in result.problems]
     diagnosis["seconds"] = {k: round(v, 2) for k, v in result.seconds.items()}

@@ -11,7 +11,7 @@ from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.recordings_check import Problem
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.find import Found
-from lacuna.discovery.explanation.experiments import Experiment
+from lacuna.discovery.experiment.proposal import Proposal
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.intervals import standard_errors
 from lacuna.discovery.fit.lead import Lead
@@ -30,7 +30,7 @@ class Explanation:
     verdict: str = "undetermined"
     reason: str = ""
     experiment: str = ""
-    trial: Experiment | None = None  # the recording that would separate tied explanations, simulated
+    trial: Proposal | None = None  # the recording that would tell explanations apart
     base: Fit | None = None
     final: Fit | None = None
     amendment: Amendment | None = None

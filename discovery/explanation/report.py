@@ -18,6 +18,8 @@ from lacuna.analysis.report.figures.data import drawn_data
 from lacuna.analysis.report.page import code, page, table
 from lacuna.analysis.report.page import figure as figure_of
 from lacuna.discovery.case.cases import Case
+from lacuna.discovery.experiment.files import FOLDER
+from lacuna.discovery.experiment.picture import picture
 from lacuna.discovery.explanation.diagnosis import build, left_over, sentence
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.fit import Fit
@@ -36,7 +38,7 @@ def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
         parts += _findings(result) + _rivals(result) + _parameters(result) + _left(result)
     if amended is not None:
         parts += ["<h2>The amended model</h2>", code(amended.read_text(encoding="utf-8"), "amended model")]
-    action = f"decide by {result.experiment}" if result.experiment else ""
+    action = result.experiment or ""
     return _page(parts, result.case.title, folder, sentence(result), action)
 
 
@@ -240,15 +242,8 @@ def _left(result: Explanation) -> list[str]:
 
 
 def _trial(result: Explanation) -> list[str]:
-    """The recording that would tell tied explanations apart, as both of them expect it."""
-    trial = result.trial
-    if trial is None:
+    """The recording that would tell the explanations apart, as the first and its hardest rival expect it."""
+    if result.trial is None:
         return []
-    figure, ax = plt.subplots(figsize=(9, 2.4))
-    keep = slice(None, None, max(1, len(trial.recording.time) // 1500))
-    ax.plot(trial.recording.time[keep], trial.first[keep], "C0", lw=1, label="first explanation")
-    ax.plot(trial.recording.time[keep], trial.second[keep], "C1", lw=1, label="its rival")
-    ax.set_xlabel("time / s")
-    ax.set_ylabel(f"{trial.column} / {result.case.signals[trial.column].si_unit}")
-    ax.legend(loc="upper right", fontsize="small")
-    return [_svg(figure, "The recording that would tell the two explanations apart")]
+    how = f"<p>Its waveform, a case that reads the recording, and these curves are in {FOLDER}/.</p>"
+    return [_svg(picture(result.case, result.trial), "The experiment that decides"), how]

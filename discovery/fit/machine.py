@@ -14,7 +14,6 @@ import numpy as np
 from lacuna.codegen.cache import CompilerError
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.errors import Diagnostic
-from lacuna.codegen.library.suggest import did_you_mean
 from lacuna.discovery.case.cases import Case, CaseError, Recording, Signal
 from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.case.values import values_in
@@ -22,6 +21,7 @@ from lacuna.discovery.catalogue.amend import Amendment, probe_name, tracker_name
 from lacuna.discovery.fit.tracking import Motion, recorded_column, recorded_motion
 from lacuna.recorded_units import same_unit
 from lacuna.runtime import Model, RecordedInput, Session, SimulationError
+from lacuna.suggest import did_you_mean
 
 RTOL, LEAST_RTOL, FINER = 1e-6, 1e-9, 0.1  # of the solver: usual, least, and the step from one to the next finer one
 NEGLIGIBLE = 1e-3  # RMS of the solver's errors, in units of noise; friction that is added makes ten times as much of it

@@ -64,7 +64,7 @@ class Law:
         whole = " + ".join(terms).replace("+ -", "- ")
         for v in self.site.variables:
             whole = whole.replace(f"{v.local}_ref", f"{v.size:g}")
-            whole = _renamed(whole, v.local, v.name)
+            whole = _renamed(whole, v.local, v.reading)
         return whole
 
     def form(self, values: dict[str, float]) -> str:
@@ -88,7 +88,7 @@ def attach(law: Law) -> Attachment:
         signature=f"no effect of the catalogue; {site.unit} as {law.text()}",
     )  # fmt: skip
     own = _OWN[type(place)]
-    signals = tuple((v.local, v.name) for v in law.references() if v.local not in own)
+    signals = tuple((v.local, v.reading) for v in law.references() if v.local not in own)
     return Attachment(
         effect, component, site.location,
         shaft=place if isinstance(place, Shaft) else None,

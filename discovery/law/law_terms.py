@@ -30,6 +30,12 @@ class Variable:
     unit: str
     kind: str  # speed | position | current
     size: float
+    switch: bool = False  # a Boolean of the model: 1 while it is true
+
+    @property
+    def reading(self) -> str:
+        """What the law's component reads of the model, in Modelica."""
+        return f"(if {self.name} then 1.0 else 0.0)" if self.switch else self.name
 
     @property
     def scaled(self) -> str:

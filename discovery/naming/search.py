@@ -79,7 +79,9 @@ class Search:
     def run(self, progress: Progress, most: int = MAX_FINDINGS) -> None:
         """Add findings, `most` of them, until what is left is noise, or nothing more pays."""
         while len(self.findings) < most and not self.exhausted and not self.settled():
-            progress(f"looking for missing physics, round {len(self.findings) + 1}")
+            so_far = " and ".join(finding.ranked.attachment.label for finding in self.findings)
+            known = f"; so far {so_far}" if so_far else ""
+            progress(f"looking for missing physics, round {len(self.findings) + 1}{known}")
             if not self.add(progress):
                 self.exhausted = True
                 return

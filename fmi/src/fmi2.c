@@ -84,24 +84,17 @@ fmi2Status fmi2Reset(fmi2Component c) {
   return status(fmu_reset(c));
 }
 
-#define VALUES(Name)                                                                                                   \
+#define VALUES(Name, type)                                                                                             \
   fmi2Status fmi2Get##Name(fmi2Component c, const fmi2ValueReference references[], size_t n, fmi2##Name values[]) {    \
-    for (size_t i = 0; i < n; i++) {                                                                                   \
-      double value;                                                                                                    \
-      if (!fmu_get(c, references[i], &value)) return fmi2Error;                                                        \
-      values[i] = (fmi2##Name)value;                                                                                   \
-    }                                                                                                                  \
-    return fmi2OK;                                                                                                     \
+    return status(fmu_get(c, n, references, type, values));                                                            \
   }                                                                                                                    \
   fmi2Status fmi2Set##Name(fmi2Component c, const fmi2ValueReference references[], size_t n,                           \
                            const fmi2##Name values[]) {                                                                \
-    for (size_t i = 0; i < n; i++)                                                                                     \
-      if (!fmu_set(c, references[i], (double)values[i])) return fmi2Error;                                             \
-    return fmi2OK;                                                                                                     \
+    return status(fmu_set(c, n, references, type, values));                                                            \
   }
-VALUES(Real)
-VALUES(Integer)
-VALUES(Boolean)
+VALUES(Real, FMU_DOUBLE)
+VALUES(Integer, FMU_INT)
+VALUES(Boolean, FMU_INT)
 
 fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference references[], size_t n, fmi2String values[]) {
   (void)references, (void)values;
@@ -135,10 +128,7 @@ fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_
 }
 
 fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size) {
-  const fmu_snapshot *kept = state;
-  if (size < kept->size) return status(fmu_refuse(c, "a state needs %zu bytes", kept->size));
-  memcpy(bytes, kept->bytes, kept->size);
-  return fmi2OK;
+  return status(fmu_pack(c, state, bytes, size));
 }
 
 fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state) {
@@ -185,39 +175,24 @@ fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time) {
   return status(fmu_set_time(c, time));
 }
 
-static bool counts(fmu *f, size_t n, int wanted) {
-  return n == (size_t)wanted || fmu_refuse(f, "%zu values where there are %d", n, wanted);
-}
-
 fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t n) {
-  fmu *f = c;
-  return status(counts(f, n, f->session->d->n_x) && fmu_set_states(f, x));
+  return status(fmu_set_states(c, n, x));
 }
 
 fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real xdot[], size_t n) {
-  fmu *f = c;
-  if (!counts(f, n, f->session->d->n_x) || !fmu_refresh(f)) return fmi2Error;
-  memcpy(xdot, f->session->data.xdot, n * sizeof *xdot);
-  return fmi2OK;
+  return status(fmu_derivatives(c, n, xdot));
 }
 
 fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real z[], size_t n) {
-  return status(counts(c, n, ((fmu *)c)->n_indicators) && fmu_indicators(c, z));
+  return status(fmu_indicators(c, n, z));
 }
 
 fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t n) {
-  fmu *f = c;
-  if (!counts(f, n, f->session->d->n_x) || !fmu_refresh(f)) return fmi2Error;
-  memcpy(x, f->session->data.x, n * sizeof *x);
-  return fmi2OK;
+  return status(fmu_states(c, n, x));
 }
 
 fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real nominals[], size_t n) {
-  fmu *f = c;
-  if (!counts(f, n, f->session->d->n_x) || !fmu_refresh(f)) return fmi2Error;
-  for (size_t i = 0; i < n; i++)
-    nominals[i] = fmu_nominal(f, (int)i);
-  return fmi2OK;
+  return status(fmu_nominals(c, n, nominals));
 }
 
 fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference references[], size_t n,

@@ -84,28 +84,23 @@ fmi3Status fmi3Reset(fmi3Instance instance) {
   return status(fmu_reset(instance));
 }
 
+static bool counts(fmu *f, size_t variables, size_t values) {
+  return values == variables || fmu_refuse(f, "%zu values for %zu variables", values, variables);
+}
+
 /* Getters and setters of the types that variables have; those of all other types refuse. */
-#define VALUES(Name, ctype)                                                                                            \
-  fmi3Status fmi3Get##Name(fmi3Instance instance, const fmi3ValueReference references[], size_t n, ctype values[],     \
-                           size_t n_values) {                                                                          \
-    if (n != n_values) return status(fmu_refuse(instance, "%zu values for %zu variables", n_values, n));               \
-    for (size_t i = 0; i < n; i++) {                                                                                   \
-      double value;                                                                                                    \
-      if (!fmu_get(instance, references[i], &value)) return fmi3Error;                                                 \
-      values[i] = (ctype)value;                                                                                        \
-    }                                                                                                                  \
-    return fmi3OK;                                                                                                     \
+#define VALUES(Name, type)                                                                                             \
+  fmi3Status fmi3Get##Name(fmi3Instance instance, const fmi3ValueReference references[], size_t n,                     \
+                           fmi3##Name values[], size_t n_values) {                                                     \
+    return status(counts(instance, n, n_values) && fmu_get(instance, n, references, type, values));                    \
   }                                                                                                                    \
   fmi3Status fmi3Set##Name(fmi3Instance instance, const fmi3ValueReference references[], size_t n,                     \
-                           const ctype values[], size_t n_values) {                                                    \
-    if (n != n_values) return status(fmu_refuse(instance, "%zu values for %zu variables", n_values, n));               \
-    for (size_t i = 0; i < n; i++)                                                                                     \
-      if (!fmu_set(instance, references[i], (double)values[i])) return fmi3Error;                                      \
-    return fmi3OK;                                                                                                     \
+                           const fmi3##Name values[], size_t n_values) {                                               \
+    return status(counts(instance, n, n_values) && fmu_set(instance, n, references, type, values));                    \
   }
-VALUES(Float64, fmi3Float64)
-VALUES(Int32, fmi3Int32)
-VALUES(Boolean, fmi3Boolean)
+VALUES(Float64, FMU_DOUBLE)
+VALUES(Int32, FMU_INT)
+VALUES(Boolean, FMU_BOOL)
 
 fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *state) {
   return status(fmu_save(instance, state));
@@ -129,10 +124,7 @@ fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState state,
 }
 
 fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState state, fmi3Byte bytes[], size_t size) {
-  const fmu_snapshot *kept = state;
-  if (size < kept->size) return status(fmu_refuse(instance, "a state needs %zu bytes", kept->size));
-  memcpy(bytes, kept->bytes, kept->size);
-  return fmi3OK;
+  return status(fmu_pack(instance, state, bytes, size));
 }
 
 fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte bytes[], size_t size, fmi3FMUState *state) {
@@ -175,39 +167,24 @@ fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time) {
   return status(fmu_set_time(instance, time));
 }
 
-static bool counts(fmu *f, size_t n, int wanted) {
-  return n == (size_t)wanted || fmu_refuse(f, "%zu values where there are %d", n, wanted);
-}
-
 fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 x[], size_t n) {
-  fmu *f = instance;
-  return status(counts(f, n, f->session->d->n_x) && fmu_set_states(f, x));
+  return status(fmu_set_states(instance, n, x));
 }
 
 fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 xdot[], size_t n) {
-  fmu *f = instance;
-  if (!counts(f, n, f->session->d->n_x) || !fmu_refresh(f)) return fmi3Error;
-  memcpy(xdot, f->session->data.xdot, n * sizeof *xdot);
-  return fmi3OK;
+  return status(fmu_derivatives(instance, n, xdot));
 }
 
 fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 z[], size_t n) {
-  return status(counts(instance, n, ((fmu *)instance)->n_indicators) && fmu_indicators(instance, z));
+  return status(fmu_indicators(instance, n, z));
 }
 
 fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 x[], size_t n) {
-  fmu *f = instance;
-  if (!counts(f, n, f->session->d->n_x) || !fmu_refresh(f)) return fmi3Error;
-  memcpy(x, f->session->data.x, n * sizeof *x);
-  return fmi3OK;
+  return status(fmu_states(instance, n, x));
 }
 
 fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 nominals[], size_t n) {
-  fmu *f = instance;
-  if (!counts(f, n, f->session->d->n_x) || !fmu_refresh(f)) return fmi3Error;
-  for (size_t i = 0; i < n; i++)
-    nominals[i] = fmu_nominal(f, (int)i);
-  return fmi3OK;
+  return status(fmu_nominals(instance, n, nominals));
 }
 
 fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *n) {

@@ -2,7 +2,7 @@
  * versions of the interface (fmi2.c, fmi3.c) are thin layers over these functions.
  *
  * Value references: 0 time; 1 + row, a row of the variable table; then the derivatives of the states; then the event
- * indicators. All functions return false after a failure, which has been said through `say`. */
+ * indicators; then the states. All functions return false after a failure, which has been said through `say`. */
 #ifndef FMU_H
 #define FMU_H
 
@@ -66,8 +66,9 @@ bool fmu_terminate(fmu *f);
 
 /* fmu_values.c */
 bool fmu_refresh(fmu *f);
-bool fmu_get(fmu *f, unsigned reference, double *value);
-bool fmu_set(fmu *f, unsigned reference, double value);
+typedef enum { FMU_DOUBLE, FMU_INT, FMU_BOOL } fmu_type; /* of the importer's arrays */
+bool fmu_get(fmu *f, size_t n, const unsigned *references, fmu_type type, void *values);
+bool fmu_set(fmu *f, size_t n, const unsigned *references, fmu_type type, const void *values);
 bool fmu_directional(fmu *f, size_t n_unknowns, const unsigned *unknowns, size_t n_knowns, const unsigned *knowns,
                      const double *seed, double *result);
 
@@ -75,11 +76,14 @@ bool fmu_directional(fmu *f, size_t n_unknowns, const unsigned *unknowns, size_t
 bool fmu_enter_event(fmu *f);
 bool fmu_happen(fmu *f, fmu_news *news);
 bool fmu_set_time(fmu *f, double time);
-bool fmu_set_states(fmu *f, const double *x);
-bool fmu_indicators(fmu *f, double *z);
+/* Of the continuous states and the indicators; all refuse a count that is not theirs. */
+bool fmu_set_states(fmu *f, size_t n, const double *x);
+bool fmu_states(fmu *f, size_t n, double *x);
+bool fmu_derivatives(fmu *f, size_t n, double *xdot);
+bool fmu_nominals(fmu *f, size_t n, double *nominals);
+bool fmu_indicators(fmu *f, size_t n, double *z);
 bool fmu_completed_step(fmu *f, bool *event, bool *terminate);
 bool fmu_leave_event(fmu *f);
-double fmu_nominal(const fmu *f, int state);
 
 /* fmu_step.c: co-simulation. `event`: stopped before an event that the importer is to let happen. */
 bool fmu_step(fmu *f, double from, double size, bool may_stop, bool *event);
@@ -91,6 +95,7 @@ typedef struct {
 } fmu_snapshot;
 bool fmu_save(fmu *f, void **snapshot); /* into *snapshot, or a new one where it is NULL */
 bool fmu_load(fmu *f, const void *snapshot);
+bool fmu_pack(fmu *f, const void *snapshot, void *bytes, size_t size);
 bool fmu_unpack(fmu *f, const void *bytes, size_t size, void **snapshot);
 
 #endif

@@ -107,16 +107,33 @@ bool fmu_set_time(fmu *f, double time) {
   return true;
 }
 
-bool fmu_set_states(fmu *f, const double *x) {
+static bool counts(fmu *f, size_t n, int wanted) {
+  return n == (size_t)wanted || fmu_refuse(f, "%zu values where there are %d", n, wanted);
+}
+
+bool fmu_set_states(fmu *f, size_t n, const double *x) {
+  if (!counts(f, n, f->session->d->n_x)) return false;
   memcpy(f->session->data.x, x, (size_t)f->session->d->n_x * sizeof *x);
   f->fresh = false;
   return true;
 }
 
+bool fmu_states(fmu *f, size_t n, double *x) {
+  if (!counts(f, n, f->session->d->n_x) || !fmu_refresh(f)) return false;
+  memcpy(x, f->session->data.x, n * sizeof *x);
+  return true;
+}
+
+bool fmu_derivatives(fmu *f, size_t n, double *xdot) {
+  if (!counts(f, n, f->session->d->n_x) || !fmu_refresh(f)) return false;
+  memcpy(xdot, f->session->data.xdot, n * sizeof *xdot);
+  return true;
+}
+
 /* Positive while a relation that holds goes on holding, negative while one that does not goes on not holding. */
-bool fmu_indicators(fmu *f, double *z) {
+bool fmu_indicators(fmu *f, size_t n, double *z) {
   rt_session *s = f->session;
-  if (!fmu_refresh(f)) return false;
+  if (!counts(f, n, f->n_indicators) || !fmu_refresh(f)) return false;
   for (int i = 0; i < f->n_indicators; i++) {
     int r = f->indicator[i];
     double keeps = margin(s, r);
@@ -151,7 +168,11 @@ bool fmu_leave_event(fmu *f) {
   return true;
 }
 
-double fmu_nominal(const fmu *f, int state) {
-  double size = f->session->nominal[state];
-  return size > 0 && isfinite(size) ? size : 1;
+bool fmu_nominals(fmu *f, size_t n, double *nominals) {
+  if (!counts(f, n, f->session->d->n_x) || !fmu_refresh(f)) return false;
+  for (size_t i = 0; i < n; i++) {
+    double size = f->session->nominal[i];
+    nominals[i] = size > 0 && isfinite(size) ? size : 1;
+  }
+  return true;
 }

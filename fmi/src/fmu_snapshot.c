@@ -76,6 +76,13 @@ bool fmu_save(fmu *f, void **snapshot) {
   return true;
 }
 
+bool fmu_pack(fmu *f, const void *snapshot, void *bytes, size_t size) {
+  const fmu_snapshot *kept = snapshot;
+  if (size < kept->size) return fmu_refuse(f, "a state needs %zu bytes", kept->size);
+  memcpy(bytes, kept->bytes, kept->size);
+  return true;
+}
+
 bool fmu_unpack(fmu *f, const void *bytes, size_t size, void **snapshot) {
   if (size != size_of(f)) return fmu_refuse(f, "these %zu bytes are no state of this FMU", size);
   *snapshot = NULL;

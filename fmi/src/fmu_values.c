@@ -40,11 +40,28 @@ static const mdl_variable *row_of(const fmu *f, unsigned reference) {
   return reference >= 1 && reference <= (unsigned)d->n_variables ? &d->variables[reference - 1] : NULL;
 }
 
-/* Index of the state whose derivative is referred to, or -1. */
-static int derivative_of(const fmu *f, unsigned reference) {
+typedef struct {
+  mdl_storage storage;
+  int index;
+  double sign;
+} place;
+
+/* Where a variable's number is: of a row, of a state's derivative, or of a state that no row stands for. False for all
+ * else, event indicators among them. */
+static bool place_of(const fmu *f, unsigned reference, place *found) {
   const mdl_descriptor *d = f->model.descriptor;
-  unsigned first = 1 + (unsigned)d->n_variables;
-  return reference >= first && reference < first + (unsigned)d->n_x ? (int)(reference - first) : -1;
+  const mdl_variable *v = row_of(f, reference);
+  unsigned derivatives = 1 + (unsigned)d->n_variables, n = (unsigned)d->n_x;
+  unsigned states = derivatives + n + (unsigned)f->n_indicators;
+  if (v)
+    *found = (place){v->storage, v->index, v->sign};
+  else if (reference >= derivatives && reference < derivatives + n)
+    *found = (place){MDL_DERIVATIVE, (int)(reference - derivatives), 1};
+  else if (reference >= states && reference < states + n)
+    *found = (place){MDL_STATE, (int)(reference - states), 1};
+  else
+    return false;
+  return true;
 }
 
 static bool get_indicator(fmu *f, unsigned reference, double *value) {
@@ -70,7 +87,7 @@ static bool get_parameter(fmu *f, const mdl_variable *v, double *value) {
   return true;
 }
 
-bool fmu_get(fmu *f, unsigned reference, double *value) {
+static bool get(fmu *f, unsigned reference, double *value) {
   const mdl_data *m = &f->session->data;
   const mdl_variable *v = row_of(f, reference);
   if (reference == 0) {
@@ -85,13 +102,23 @@ bool fmu_get(fmu *f, unsigned reference, double *value) {
   if (!fmu_refresh(f)) return false;
   const double *const arrays[] = {[MDL_STATE] = m->x,     [MDL_ALGEBRAIC] = m->v, [MDL_DISCRETE] = m->d,
                                   [MDL_PARAMETER] = m->p, [MDL_INPUT] = m->u,     [MDL_DERIVATIVE] = m->xdot};
-  int state = derivative_of(f, reference);
-  if (state >= 0)
-    *value = m->xdot[state];
-  else if (v)
-    *value = v->sign * arrays[v->storage][v->index];
-  else
-    return get_indicator(f, reference, value);
+  place at;
+  if (!place_of(f, reference, &at)) return get_indicator(f, reference, value);
+  *value = at.sign * arrays[at.storage][at.index];
+  return true;
+}
+
+bool fmu_get(fmu *f, size_t n, const unsigned *references, fmu_type type, void *values) {
+  for (size_t i = 0; i < n; i++) {
+    double value = 0;
+    if (!get(f, references[i], &value)) return false;
+    if (type == FMU_DOUBLE)
+      ((double *)values)[i] = value;
+    else if (type == FMU_INT)
+      ((int *)values)[i] = (int)value;
+    else
+      ((bool *)values)[i] = value != 0;
+  }
   return true;
 }
 
@@ -120,7 +147,7 @@ static bool set_parameter(fmu *f, const mdl_variable *v, double value) {
   return true;
 }
 
-bool fmu_set(fmu *f, unsigned reference, double value) {
+static bool set(fmu *f, unsigned reference, double value) {
   const mdl_variable *v = row_of(f, reference);
   if (!v) return fmu_refuse(f, "there is no variable with the value reference %u that may be set", reference);
   if (!isfinite(value)) return fmu_refuse(f, "%s: %g is not a finite number", v->name, value);
@@ -138,26 +165,36 @@ bool fmu_set(fmu *f, unsigned reference, double value) {
   return true;
 }
 
+bool fmu_set(fmu *f, size_t n, const unsigned *references, fmu_type type, const void *values) {
+  for (size_t i = 0; i < n; i++) {
+    double value = type == FMU_DOUBLE ? ((const double *)values)[i]
+                   : type == FMU_INT  ? ((const int *)values)[i]
+                                      : ((const bool *)values)[i];
+    if (!set(f, references[i], value)) return false;
+  }
+  return true;
+}
+
 static bool seed(fmu *f, unsigned reference, double value) {
-  const mdl_variable *v = row_of(f, reference);
   mdl_lanes *const arrays[] = {[MDL_STATE] = f->tangent.x,     [MDL_ALGEBRAIC] = NULL,     [MDL_DISCRETE] = NULL,
                                [MDL_PARAMETER] = f->tangent.p, [MDL_INPUT] = f->tangent.u, [MDL_DERIVATIVE] = NULL};
-  if (!v || !arrays[v->storage] || (v->storage == MDL_PARAMETER && !v->settable))
+  const mdl_variable *v = row_of(f, reference);
+  place at;
+  if (!place_of(f, reference, &at) || !arrays[at.storage] || (at.storage == MDL_PARAMETER && !v->settable))
     return fmu_refuse(f, "no derivative with respect to %s: it is no state, input or parameter that may be set",
                       v ? v->name : "this variable");
-  ((double *)arrays[v->storage])[v->index * MDL_LANES] += v->sign * value;
+  ((double *)arrays[at.storage])[at.index * MDL_LANES] += at.sign * value;
   return true;
 }
 
 static bool read_row(fmu *f, unsigned reference, double *result) {
-  const mdl_variable *v = row_of(f, reference);
-  int state = derivative_of(f, reference);
   const mdl_tangent *b = &f->tangent;
   const mdl_lanes *const arrays[] = {[MDL_STATE] = b->x,     [MDL_ALGEBRAIC] = b->v, [MDL_DISCRETE] = b->d,
                                      [MDL_PARAMETER] = b->p, [MDL_INPUT] = b->u,     [MDL_DERIVATIVE] = b->xdot};
-  if (!v && state < 0) return fmu_refuse(f, "no derivative of the variable with the value reference %u", reference);
-  const double *rows = (const double *)(v ? arrays[v->storage] : b->xdot);
-  *result = (v ? v->sign : 1) * rows[(v ? v->index : state) * MDL_LANES];
+  place at;
+  if (!place_of(f, reference, &at))
+    return fmu_refuse(f, "no derivative of the variable with the value reference %u", reference);
+  *result = at.sign * ((const double *)arrays[at.storage])[at.index * MDL_LANES];
   return true;
 }
 

@@ -18,11 +18,11 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 11
+#define MDL_ABI_VERSION 12
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
-  MDL_FAILURE_SINGULAR,  /* a linear block of equations has no unique solution; `equation` is one of them */
+  MDL_FAILURE_SINGULAR,  /* linear equations contradict each other or make no step; `equation` is one of them */
   MDL_FAILURE_NEWTON,    /* a nonlinear block did not converge */
   MDL_FAILURE_NONFINITE, /* an equation gave NaN or infinity */
   MDL_FAILURE_DOMAIN,    /* argument outside a function's domain: sqrt, log, asin, division by zero ... */
@@ -61,6 +61,8 @@ typedef struct mdl_data {
   double homotopy;   /* in initial_system(): 1 what homotopy() actually is, 0 what it is simplified to */
   long stack;        /* bytes of the stack that functions of the model now hold, about; 0 outside of them */
   long rounds;       /* loops' rounds and calls since the outermost function was entered */
+  int undetermined;  /* set by rhs(): 1 + an equation of a linear block that leaves unknowns open in this mode */
+  double shift;      /* 0; by as many nominal values rhs() moves what is open away from the solution next to zero */
 } mdl_data;
 
 typedef enum {

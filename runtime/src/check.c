@@ -75,6 +75,7 @@ static rt_status look_for_pole(rt_session *s, int k) {
   int before = s->division_sign[k];
   double ordinary = fabs(value[0] / value[1]), divisor = fabs(value[1]), nearest;
   rt_dense_prepare(s);
+  memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial); /* nonlinear blocks start near their roots */
   if (!divisions_at(s, a)) {
     ordinary = fmax(ordinary, fabs(value[0] / value[1]));
     divisor = fmax(divisor, fabs(value[1]));

@@ -81,10 +81,9 @@ void rt_clock_tick(rt_session *s) {
   rt_clock *c = &s->clock;
   double now = s->t + c->tolerance;
   if (s->pending & RT_PENDING_TIME) {
-    double at = rt_max(s->t, c->next_relation);
-    s->d->time_relations(&s->data, at);
+    s->d->time_relations(&s->data, s->t);
     log_time_relations(s);
-    c->next_relation = s->d->next_time_event(&s->data, at);
+    c->next_relation = s->d->next_time_event(&s->data, s->t);
     s->result->counters.time_events++;
   }
   for (int i = 0; i < s->d->n_sample; i++) {

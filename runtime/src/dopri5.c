@@ -81,6 +81,7 @@ const rt_method rt_method_dopri5 = {
     .step = rt_onestep_step,
     .dense = rt_onestep_dense,
     .count = rt_onestep_count,
+    .errors = rt_onestep_errors,
     .sensitivities = rt_onestep_sensitivities,
     .dense_tangent = rt_onestep_dense_tangent,
 };

@@ -24,6 +24,7 @@ int rt_check_finite(rt_session *s, const double *x) {
 int rt_rhs(rt_session *s, double t, const double *x, double *xdot, double *v) {
   if (s->d->n_u) rt_inputs_at(s, t);
   s->result->counters.rhs++;
+  s->data.undetermined = 0;
   return s->d->rhs(&s->data, t, x, xdot, v);
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "sensitivity.h"
+#include "undetermined.h"
 
 enum {
   MAX_PASSES = 100,
@@ -153,6 +154,7 @@ static void remember(rt_session *s) {
   memcpy(s->x_before, s->data.x, (size_t)d->n_x * sizeof(double));
   memcpy(s->xdot_before, s->data.xdot, (size_t)d->n_x * sizeof(double));
   memcpy(s->v_before, s->data.v, (size_t)d->n_v * sizeof(double));
+  memcpy(s->d_before, s->data.d, (size_t)d->n_d * sizeof(double));
   memcpy(s->rel_before, s->data.rel, (size_t)d->n_rel);
 }
 
@@ -182,9 +184,24 @@ static bool is_inconsequential(rt_session *s) {
   return s->resume;
 }
 
+/* A guard at its zero may be past it in the mode before and short of it in the mode after, where the same rounding
+ * weighs more (a diode that opens: the current left over, over its conductance). The relations fall back, and nothing
+ * has happened; they switch when the guard has left the hysteresis. */
+static bool has_fallen_back(const rt_session *s) {
+  return s->pending == RT_PENDING_STATE && !s->reinitialised && !s->data.terminated &&
+         same(s->data.d, s->d_before, s->d->n_d) && !memcmp(s->data.rel, s->rel_before, (size_t)s->d->n_rel);
+}
+
+/* A time relation that is due within the tolerance happens at its own time: what reads the time there, a table say, has
+ * arrived too. A run stops there anyway; an importer's communication points may be rounded to just before it. */
+static void arrive(rt_session *s) {
+  s->t = rt_max(s->t, s->clock.next_relation);
+}
+
 /* What is pending at the present time happens: two rows in the result, and the method restarts where something changed.
  */
 rt_status rt_event(rt_session *s) {
+  if (s->pending & RT_PENDING_TIME) arrive(s);
   bool record = s->options.record_events && s->pending & ~RT_PENDING_INPUT;
   rt_status status = record ? rt_record_event_row(s) : RT_OK;
   if (status) return status;
@@ -192,13 +209,20 @@ rt_status rt_event(rt_session *s) {
   s->last_event = s->t;
   remember(s);
   if ((status = rt_jump_measure(s))) return status;
+  size_t logged = s->result->n_events;
+  long switched = s->result->counters.state_events;
   if (s->pending & RT_PENDING_JUMP) s->result->counters.input_jumps++;
   rt_inputs_begin(s, s->t);
   if (s->pending & RT_PENDING_STATE) switch_relations(s);
   if (s->pending & (RT_PENDING_TIME | RT_PENDING_SAMPLE)) rt_clock_tick(s);
   rt_jump_begin(s);
-  if ((status = rt_iterate_event(s)) || (status = rt_jump_end(s)) || (status = check_chattering(s, since)))
+  if ((status = rt_iterate_event(s)) || (status = rt_jump_end(s)) || (status = check_chattering(s, since)) ||
+      (status = rt_follow_undetermined(s)))
     return status;
+  if (has_fallen_back(s)) {
+    s->result->n_events = logged;
+    s->result->counters.state_events = switched;
+  }
   if (rt_follow_switches(s, since)) return rt_fail_model(s, s->t, "looking ahead from an event");
   memset(s->flip, 0, (size_t)s->d->n_rel);
   if (record && (status = rt_record_event_row(s))) return status;

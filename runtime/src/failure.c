@@ -104,7 +104,7 @@ static void append_values(rt_session *s, int n_values, const int *rows) {
 }
 
 /* The values of the variables of an equation. */
-static void append_equation(rt_session *s, int equation) {
+void rt_append_equation(rt_session *s, int equation) {
   const int *first = s->d->equation_first + equation;
   append_values(s, first[1] - first[0], s->d->equation_variables + first[0]);
 }
@@ -145,24 +145,39 @@ rt_status rt_fail_model(rt_session *s, double time, const char *doing) {
   rt_fail(s, status_of(f->kind), time, variable, where, "%s at time %.9g s: %s%s%s (value %.9g)", doing, time,
           describe(f->kind), named ? ", variable " : "", named ? d->variables[variable].name : "",
           isnan(f->value) ? fabs(f->value) : f->value);
-  if (where && d->equation_first) append_equation(s, f->equation);
+  if (where && d->equation_first) rt_append_equation(s, f->equation);
   return s->failure.status;
 }
 
-/* The solver asks for steps of h seconds, too small to get anywhere: the fault is in the state that changes fastest. */
-rt_status rt_fail_collapse(rt_session *s, double h, const char *why) {
-  const mdl_data *m = &s->data;
-  if (m->failure.kind != MDL_FAILURE_NONE) return rt_fail_model(s, s->t, "integrating");
+/* The state with the largest of `amounts` [n_x], in tolerances. */
+static int largest_in_tolerances(const rt_session *s, const double *amounts, double *largest) {
   int worst = 0;
-  double largest = 0;
+  *largest = 0;
   for (int i = 0; i < s->d->n_x; i++) {
-    double speed = fabs(m->xdot[i]) / (s->atol[i] + s->options.rtol * fabs(m->x[i]));
-    if (speed > largest) worst = i;
-    largest = fmax(largest, speed);
+    double size = fabs(amounts[i]) / (s->atol[i] + s->options.rtol * fabs(s->data.x[i]));
+    if (!(size > *largest)) continue;
+    worst = i;
+    *largest = size;
+  }
+  return worst;
+}
+
+/* The solver asks for steps of h seconds, too small to get anywhere: the fault is in the state with the largest error
+ * of the last step that was tried, or, where that tells nothing, in the one that changes fastest. */
+rt_status rt_fail_collapse(rt_session *s, double h, const char *why) {
+  if (s->data.failure.kind != MDL_FAILURE_NONE) return rt_fail_model(s, s->t, "integrating");
+  const char *reason = "has the largest error: does its derivative jump without an event, or grow without bound?";
+  double *error = s->x_trial, largest = 0;
+  memset(error, 0, (size_t)s->d->n_x * sizeof *error);
+  if (s->method->errors) s->method->errors(s, s->memory, error);
+  int worst = largest_in_tolerances(s, error, &largest);
+  if (largest < 0.01) {
+    worst = largest_in_tolerances(s, s->data.xdot, &largest);
+    reason = "changes fastest";
   }
   int variable = rt_state_variable(s, worst);
   const char *name = variable >= 0 ? s->d->variables[variable].name : "a state";
   return rt_fail(s, RT_STEP_COLLAPSE, s->t, variable, NULL,
-                 "solver %s makes no progress at time %.9g s: %s (step %.3g s); %s changes fastest", s->method->name,
-                 s->t, why, h, name);
+                 "solver %s makes no progress at time %.9g s: %s (step %.3g s); %s %s", s->method->name, s->t, why, h,
+                 name, reason);
 }

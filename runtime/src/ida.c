@@ -10,13 +10,6 @@
 #include "vector.h"
 
 enum { MAX_ERROR_FAILS = 25 }; /* in one step: each divides it by four, and a first step may be far too long */
-enum { DENSE_LIMIT = 10 };     /* unknowns up to which a dense matrix is faster than KLU */
-
-/* What IDA may recover from by a shorter step. */
-static int not_finite(rt_session *s, int row, double value) {
-  s->data.failure = (mdl_failure){MDL_FAILURE_NONFINITE, s->d->residual_equation[row], -1, value, 0};
-  return 1;
-}
 
 static int residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user) {
   rt_session *s = user;
@@ -31,43 +24,7 @@ static int residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *us
   int row = 0;
   while (row < n - 1 && isfinite(values[row]))
     row++;
-  return not_finite(s, row, values[row]);
-}
-
-static int check_jacobian(rt_session *s, const double *values) {
-  for (int k = 0; k < s->d->jac_nnz; k++)
-    if (!isfinite(values[k])) return not_finite(s, s->d->jac_rowidx[k], values[k]);
-  return 0;
-}
-
-static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix matrix, void *user,
-                    N_Vector t1, N_Vector t2, N_Vector t3) {
-  (void)r, (void)t1, (void)t2, (void)t3;
-  rt_session *s = user;
-  const mdl_descriptor *d = s->d;
-  rt_ida *m = s->memory;
-  double *values = m->values;
-  rt_inputs_at(s, t);
-  int status = rt_jacobian(s, t, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), cj, values);
-  if (!status) status = check_jacobian(s, values);
-  if (status) return status;
-  int n = d->n_x + d->n_z;
-  if (SUNMatGetID(matrix) == SUNMATRIX_SPARSE) {
-    for (int j = 0; j <= n; j++)
-      SUNSparseMatrix_IndexPointers(matrix)[j] = d->jac_colptr[j];
-    for (int k = 0; k < d->jac_nnz; k++)
-      SUNSparseMatrix_IndexValues(matrix)[k] = d->jac_rowidx[k];
-    memcpy(SUNSparseMatrix_Data(matrix), values, (size_t)d->jac_nnz * sizeof *values);
-    long fails = 0;
-    IDAGetNumNonlinSolvConvFails(m->ida, &fails);
-    bool choose_pivots = fails != m->pivots_chosen_at;
-    m->pivots_chosen_at = fails;
-    return choose_pivots ? SUNLinSol_KLUReInit(m->solver, matrix, d->jac_nnz, SUNKLU_REINIT_PARTIAL) : 0;
-  }
-  for (int j = 0; j < n; j++)
-    for (int k = d->jac_colptr[j]; k < d->jac_colptr[j + 1]; k++)
-      SUNDenseMatrix_Column(matrix, j)[d->jac_rowidx[k]] = values[k];
-  return 0;
+  return rt_ida_not_finite(s, row, values[row]);
 }
 
 static void destroy(void *p) {
@@ -102,19 +59,6 @@ static int weights(N_Vector y, N_Vector weight, void *user) {
   return 0;
 }
 
-static bool create_linear_solver(rt_session *s, rt_ida *m) {
-  sunindextype n = s->d->n_x + s->d->n_z;
-  if (n > DENSE_LIMIT) {
-    m->matrix = SUNSparseMatrix(n, n, s->d->jac_nnz, CSC_MAT, m->context);
-    m->solver = m->matrix ? SUNLinSol_KLU(m->y, m->matrix, m->context) : NULL;
-  } else {
-    m->matrix = SUNDenseMatrix(n, n, m->context);
-    m->solver = m->matrix ? rt_dense_solver_new((int)n, m->context) : NULL;
-  }
-  return m->solver && IDASetLinearSolver(m->ida, m->solver, m->matrix) == IDA_SUCCESS &&
-         IDASetJacFn(m->ida, jacobian) == IDA_SUCCESS;
-}
-
 /* Algebraic unknowns are left out of the error test: their z' at a restart is only a difference quotient. */
 static bool set_options(rt_session *s, rt_ida *m) {
   for (int i = 0; i < s->d->n_x; i++)
@@ -132,7 +76,7 @@ static void *create(rt_session *s) {
   m->values = calloc((size_t)s->d->jac_nnz + 1, sizeof *m->values);
   if (m->values && SUNContext_Create(SUN_COMM_NULL, &m->context) == 0 && create_vectors(s, m) &&
       (m->ida = IDACreate(m->context)) && IDAInit(m->ida, residual, 0, m->y, m->yp) == IDA_SUCCESS &&
-      set_options(s, m) && create_linear_solver(s, m))
+      set_options(s, m) && rt_ida_create_matrix(s, m))
     return m;
   destroy(m);
   return NULL;
@@ -213,20 +157,24 @@ static rt_status begin(rt_session *s, void *p) {
   return status ? status : restart(s, p);
 }
 
+static void errors(rt_session *s, void *p, double *error) {
+  rt_ida *m = p;
+  if (IDAGetEstLocalErrors(m->ida, m->work) == IDA_SUCCESS)
+    memcpy(error, N_VGetArrayPointer(m->work), (size_t)s->d->n_x * sizeof *error);
+}
+
 static rt_status fail(rt_session *s, rt_ida *m, int flag) {
   sunrealtype h = 0;
   IDAGetCurrentStep(m->ida, &h);
-  return rt_fail_collapse(s, h,
-                          flag == IDA_ERR_FAIL    ? "the error test fails"
-                          : flag == IDA_CONV_FAIL ? "Newton's method fails"
-                                                  : "it gave up");
+  if (flag == IDA_CONV_FAIL && s->data.failure.kind == MDL_FAILURE_NONE) return rt_ida_fail_newton(s, m, h);
+  return rt_fail_collapse(s, h, flag == IDA_ERR_FAIL ? "the error test fails" : "it gave up");
 }
 
 /* Whether the explicit form, from the algebraic unknowns z of the residual form on, gives others: by more than ten
  * times their tolerance. The branch that IDA's Newton method followed has ended (a fold), and it has come to rest
  * behind. */
 static bool has_jumped(const rt_session *s, const double *z) {
-  for (int k = 0; k < s->d->n_z; k++) {
+  for (int k = 0; k < s->d->n_z && !s->undetermined; k++) {
     double tolerance = s->options.rtol * fabs(z[k]) + s->atol[s->d->n_x + k];
     if (fabs(s->data.v[s->d->z_index[k]] - z[k]) > 10 * tolerance) return true;
   }
@@ -285,6 +233,7 @@ const rt_method rt_method_ida = {
     .dense = dense,
     .point = point,
     .count = count,
+    .errors = errors,
     .sensitivities = rt_ida_sensitivities,
     .dense_tangent = rt_ida_dense_tangent,
 };

@@ -14,10 +14,18 @@ typedef struct {
   double *values;        /* [jac_nnz] */
   bool started;          /* IDA holds counters of this run that are not in the result yet */
   long pivots_chosen_at; /* failures of Newton's method when KLU last chose its pivots; -1: before the restart */
+  int held;              /* terms of undetermined.c in the matrix that KLU has ordered */
   int columns;           /* sensitivities that IDA is set up for */
   N_Vector *tangent_y, *tangent_yp, *tangent_atol; /* [columns] */
   double *rows_y, *rows_yp, *rows_r; /* the same as rows of a bundle, [(n_x + n_z) * columns of the bundle] */
 } rt_ida;
+
+/* ida_matrix.c */
+int rt_ida_not_finite(rt_session *s, int row, double value);
+bool rt_ida_create_matrix(rt_session *s, rt_ida *m);
+
+/* ida_failure.c */
+rt_status rt_ida_fail_newton(rt_session *s, rt_ida *m, double h);
 
 /* ida_tangent.c */
 bool rt_ida_sensitivities(rt_session *s, void *memory);

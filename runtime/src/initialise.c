@@ -24,6 +24,8 @@ static void clear(rt_session *s) {
   m->initial = 1;
   m->start_time = s->start;
   m->homotopy = 1;
+  m->shift = 0;
+  m->undetermined = s->undetermined = s->n_held = 0;
   m->terminal = m->reinitialised = m->terminated = 0;
   m->failure = (mdl_failure){.equation = -1, .variable = -1};
   memset(s->flip, 0, (size_t)d->n_rel);
@@ -51,11 +53,14 @@ static rt_status set_parameters_and_starts(rt_session *s) {
   return !status && s->sensitivities ? rt_tangent_start(s) : status;
 }
 
-/* At the start there is no history: a relation is exactly what its guard says. */
-static bool settle_relations(rt_session *s) {
+/* At the start there is no history: a relation is exactly what its guard says. `patient`: where that goes in circles,
+ * one whose guard is at zero stays what it is, as at an event: two brakes on one shaft that give way together, say, of
+ * which each holds as long as the other does. */
+static bool settle_relations(rt_session *s, bool patient) {
   bool changed = false;
   for (int r = 0; r < s->d->n_rel; r++) {
     if (s->d->relations[r].is_time || isnan(s->g[r])) continue;
+    if (patient && fabs(s->g[r]) <= rt_hysteresis(s, r)) continue;
     unsigned char now = s->g[r] > 0;
     changed |= now != s->data.rel[r];
     s->data.rel[r] = now;
@@ -67,7 +72,7 @@ static bool settle_relations(rt_session *s) {
 static bool settles_without_values(rt_session *s) {
   mdl_data *m = &s->data;
   return s->data.failure.kind == MDL_FAILURE_NONFINITE && s->d->n_rel &&
-         !s->d->roots(m, s->t, m->x, m->xdot, m->v, s->g) && settle_relations(s);
+         !s->d->roots(m, s->t, m->x, m->xdot, m->v, s->g) && settle_relations(s, false);
 }
 
 static rt_status fail_initialisation(rt_session *s) {
@@ -129,7 +134,7 @@ static rt_status solve_initial_equations(rt_session *s) {
       return fail_initialisation(s);
     }
     if (rt_tangent_initial(s, false)) return s->failure.status;
-    bool changed = settle_relations(s);
+    bool changed = settle_relations(s, i >= MAX_ITERATIONS / 2);
     memcpy(s->when_before, m->when, (size_t)s->d->n_when);
     memcpy(s->x_swept, m->x, (size_t)s->d->n_x * sizeof *m->x);
     if (s->d->event(m, s->t, m->x, m->xdot, m->v)) return fail_initialisation(s);

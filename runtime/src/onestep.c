@@ -140,6 +140,7 @@ rt_status rt_onestep_step(rt_session *s, void *memory, double limit) {
   bool adaptive = !(s->options.step > 0), rejected = false;
   double remaining = limit - s->t, h = choose(s, o, remaining);
   load(s, o);
+  memcpy(s->v_before, s->data.v, (size_t)s->d->n_v * sizeof *s->v_before);
   for (;;) {
     int status = o->scheme->attempt(s, o, h);
     if (!status) status = rt_check_finite(s, o->f1);
@@ -156,6 +157,7 @@ rt_status rt_onestep_step(rt_session *s, void *memory, double limit) {
     }
     s->result->counters.error_test_fails++;
     rejected = true;
+    memcpy(s->data.v, s->v_before, (size_t)s->d->n_v * sizeof *s->data.v); /* a step too long may find other roots */
     h *= status == 0 && isfinite(square) ? rt_max(least_cut, 0.9 * pow(square, -0.5 / o->scheme->order)) : 0.25;
     o->h_next = h;
     if (!(h > 0 && h >= rt_smallest_step(s))) return rt_fail_collapse(s, h, "the error test fails");
@@ -167,6 +169,11 @@ void rt_onestep_dense(rt_session *s, void *memory, rt_dense *dense) {
   dense->t0 = o->t0;
   dense->h = o->h;
   o->scheme->dense(s->d->n_x, o, dense);
+}
+
+void rt_onestep_errors(rt_session *s, void *memory, double *error) {
+  const rt_onestep *o = memory;
+  memcpy(error, o->error, (size_t)s->d->n_x * sizeof *error);
 }
 
 void rt_onestep_count(rt_session *s, void *memory) {

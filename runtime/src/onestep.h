@@ -42,6 +42,7 @@ rt_status rt_onestep_restart(rt_session *s, void *memory);
 rt_status rt_onestep_step(rt_session *s, void *memory, double limit);
 void rt_onestep_dense(rt_session *s, void *memory, rt_dense *dense);
 void rt_onestep_count(rt_session *s, void *memory);
+void rt_onestep_errors(rt_session *s, void *memory, double *error);
 
 /* onestep_tangent.c */
 bool rt_onestep_sensitivities(rt_session *s, void *memory);

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "onestep.h"
+#include "undetermined.h"
 
 enum { STAGES = 6 };
 
@@ -111,6 +112,8 @@ static int factor(rt_session *s, work *w, double h) {
   for (int j = 0; j < n; j++)
     for (int k = m->jac_colptr[j]; k < m->jac_colptr[j + 1]; k++)
       w->matrix[j * n + m->jac_rowidx[k]] = w->fy[k] + cj * w->fyp[k];
+  for (int k = 0; k < s->n_held; k++)
+    w->matrix[s->held[k].column * n + s->held[k].row] += s->held[k].value;
   equilibrate(s, w);
   int singular = rt_lu_factor(n, w->matrix, w->pivot);
   if (!singular) return 0;
@@ -213,4 +216,5 @@ const rt_method rt_method_rodas4 = {
     .step = rt_onestep_step,
     .dense = rt_onestep_dense,
     .count = rt_onestep_count,
+    .errors = rt_onestep_errors,
 };

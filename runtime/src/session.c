@@ -6,6 +6,7 @@
 
 #include "delay.h"
 #include "sensitivity.h"
+#include "undetermined.h"
 
 /* With RT_OWN_METHODS the runtime is ours alone, without SUNDIALS: what an FMU carries as source. */
 static const rt_method *const methods[] = {
@@ -88,7 +89,8 @@ static bool allocate_session(rt_session *s) {
   s->inputs = calloc((size_t)s->d->n_u + 1, sizeof *s->inputs);
   s->clock.next = calloc((size_t)s->d->n_sample + 1, sizeof *s->clock.next);
   s->initial_index = calloc((size_t)s->d->n_x + 1, sizeof *s->initial_index);
-  return s->inputs && s->clock.next && s->initial_index && allocate_numbers(s) && allocate_flags(s) &&
+  s->held = calloc((size_t)(s->d->n_x + s->d->n_z) + 1, sizeof *s->held);
+  return s->inputs && s->held && s->clock.next && s->initial_index && allocate_numbers(s) && allocate_flags(s) &&
          rt_delays_create(s);
 }
 
@@ -140,6 +142,7 @@ void rt_session_free(rt_session *s) {
   rt_delays_free(s);
   if (s->memory) s->method->destroy(s->memory);
   free(s->inputs);
+  free(s->held);
   free(s->clock.next);
   free(s->initial_index);
   free(s->recorder.outputs);

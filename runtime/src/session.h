@@ -71,9 +71,10 @@ typedef struct {
   rt_status (*step)(struct rt_session *, void *memory, double limit);
   void (*dense)(struct rt_session *, void *memory, rt_dense *dense);
   void (*point)(struct rt_session *, void *memory, double t,
-                double *x);                                 /* cheaper than dense for one point; may be NULL */
-  void (*count)(struct rt_session *, void *memory);         /* add the method's own counters to the result */
-  bool (*sensitivities)(struct rt_session *, void *memory); /* get ready for those of the session, or for none */
+                double *x);                                    /* cheaper than dense for one point; may be NULL */
+  void (*count)(struct rt_session *, void *memory);            /* add the method's own counters to the result */
+  void (*errors)(struct rt_session *, void *memory, double *); /* [n_x] of the last step tried; NULL: not known */
+  bool (*sensitivities)(struct rt_session *, void *memory);    /* get ready for those of the session, or for none */
   void (*dense_tangent)(struct rt_session *, void *memory, rt_dense *dense); /* as dense, of the states' tangents */
 } rt_method;
 
@@ -122,9 +123,8 @@ struct rt_session {
   double *x_end, *xdot_end, *v_end; /* the point there */
   long steps_taken;                 /* in this run */
   int tiny_steps;                   /* consecutive steps that hardly differ from none */
-  bool resume;                      /* go on in the last step: nothing that is integrated has changed at t */
+  bool in_pieces, resume;           /* the last step is longer; go on in it, for no state or slope has changed at t */
   double look, look_curved;         /* longest piece of the last step to be looked at at once, of any step (s) */
-  bool in_pieces;                   /* the last step is longer */
   double *phase, *phase_start;      /* [n_phases] rad */
   rt_clock clock;
   rt_dense dense;
@@ -147,6 +147,8 @@ struct rt_session {
   int futile_events;          /* consecutive events that got nowhere, see check_chattering */
   double *division;           /* [2 n_divisions] numerators and divisors */
   signed char *division_sign; /* [n_divisions] of their products when they were last looked at; 0 not known */
+  int undetermined, n_held;   /* mdl_data.undetermined since the last event; terms that hold what it leaves open */
+  struct rt_held *held;       /* [n_x + n_z], undetermined.h */
   rt_recorder recorder;
   struct rt_delays *delays;        /* delay.c; NULL: the model has none */
   rt_sensitivities *sensitivities; /* NULL: none are asked for */
@@ -224,6 +226,7 @@ rt_status rt_fail(rt_session *s, rt_status status, double time, int variable, co
 rt_status rt_fail_model(rt_session *s, double time, const char *doing);
 rt_status rt_fail_bound(rt_session *s, double time, int variable, double value, double min, double max);
 rt_status rt_fail_collapse(rt_session *s, double h, const char *why);
+void rt_append_equation(rt_session *s, int equation);
 
 /* evaluate.c: the model's functions, counted and guarded; > 0 recoverable, < 0 not, m->failure says why */
 int rt_rhs(rt_session *s, double t, const double *x, double *xdot, double *v);
@@ -237,7 +240,6 @@ rt_status rt_check_forms(rt_session *s);
 rt_status rt_scale_parameters(rt_session *s);
 void rt_scale_start(rt_session *s);
 void rt_scale_grow(rt_session *s);
-
 /* check.c */
 rt_status rt_check_parameters(rt_session *s);
 rt_status rt_check_values(rt_session *s, double t, const double *x, const double *xdot, const double *v);
@@ -258,7 +260,6 @@ double rt_clock_limit(rt_session *s);
 int rt_clock_due(rt_session *s);
 void rt_clock_tick(rt_session *s);
 bool rt_clock_relations(rt_session *s);
-
 /* dense.c */
 void rt_dense_prepare(rt_session *s);
 void rt_dense_point(rt_session *s, double t, bool alone, double *x);
@@ -281,10 +282,9 @@ rt_status rt_happen(rt_session *s);
 rt_status rt_check_asserts(rt_session *s);
 void rt_start_patience(rt_session *s);
 
-/* events.c */
+/* events.c and initialise.c */
 rt_status rt_event(rt_session *s);
 rt_status rt_iterate_event(rt_session *s);
-/* initialise.c */
 rt_status rt_initialise(rt_session *s);
 
 /* record.c */

@@ -6,6 +6,7 @@
 #include "delay.h"
 #include "looks.h"
 #include "sensitivity.h"
+#include "undetermined.h"
 
 enum { MAX_TINY_STEPS = 100, STEPS_BETWEEN_LOOKS = 64 };
 static const double most_steps = 1e10; /* of a fixed size: weeks */
@@ -84,7 +85,8 @@ rt_status rt_begin(rt_session *s) {
   rt_scale_start(s);
   rt_looks_begin(s);
   if (!status && s->sensitivities) status = rt_tangent_begin(s);
-  status = rt_check_asserts(s);
+  if (!status) status = rt_check_asserts(s);
+  if (!status) status = rt_follow_undetermined(s);
   if (!status) status = rt_check_point(s, true);
   if (!status) status = s->method->begin(s, s->memory);
   rt_record_begin(s);
@@ -110,6 +112,7 @@ static rt_status step(rt_session *s) {
     }
   s->tiny_steps = s->t - s->t_previous < rt_smallest_step(s) ? s->tiny_steps + 1 : 0;
   if (s->tiny_steps > MAX_TINY_STEPS) return rt_fail_collapse(s, s->t - s->t_previous, "its steps vanish");
+  if (!status) status = rt_check_undetermined(s);
   if (!status) rt_looks_divide(s);
   return status;
 }

@@ -2,27 +2,20 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
-#include <sstream>
 #include <string>
 #include <thread>
 
 #include "lacuna/chain.hpp"
 #include "lacuna/error.hpp"
 #include "lacuna_analysis.h"
+#include "paper.hpp"
 #include "reference_actuator.h"
 
 namespace {
 
 constexpr int samples = 100000;
-
-std::string paper_settings() {
-  std::ostringstream text;
-  text << std::ifstream(PAPER_SETTINGS).rdbuf();
-  return text.str();
-}
 
 struct Record {
   std::array<std::vector<double>, 5> columns; // currents a, b, c, speed, angle
@@ -42,7 +35,7 @@ struct Record {
 
 class PaperChain : public testing::Test {
 protected:
-  const lacuna::Chain chain{lacuna::Settings::parse(paper_settings())};
+  const lacuna::Chain chain{paper_settings()};
 
   lacuna::Features of(double zeta) const {
     const Record record(zeta);
@@ -50,17 +43,52 @@ protected:
   }
 };
 
+lacuna_settings paper_settings_in_c() {
+  static const std::array<const char *, 3> currents{"filter[1].y", "filter[2].y", "filter[3].y"};
+  return {100000.0, 1.0, 3, currents.data(), "rotor.phi", 0.25, 0.67, LACUNA_PAD_RECORD, 5.0, 0.1, 0.3};
+}
+
+std::string refusal_of(const lacuna::Settings &settings) {
+  try {
+    const lacuna::Chain chain(settings);
+  } catch (const lacuna::Error &error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
 } // namespace
+
+TEST(Settings, SectionsArePaddedAsTheySay) {
+  lacuna::Settings settings = paper_settings();
+  EXPECT_EQ(settings.samples(), 100000u);
+  EXPECT_EQ(settings.padded_length(25000), 131072u);
+  settings.padding = lacuna::Settings::Padding::section;
+  EXPECT_EQ(settings.padded_length(25000), 32768u);
+  settings.padding = lacuna::Settings::Padding::none;
+  EXPECT_EQ(settings.padded_length(25000), 25000u);
+  EXPECT_EQ(settings.padded_length(25001), 25002u);
+}
+
+TEST(Settings, NameTheEntryThatIsWrong) {
+  lacuna::Settings rate = paper_settings(), overlap = paper_settings(), signals = paper_settings();
+  rate.sampling_rate = -1;
+  overlap.overlap = 1.5;
+  signals.currents.clear();
+  EXPECT_EQ(refusal_of(rate), "settings: recording.sampling_rate must be above zero");
+  EXPECT_EQ(refusal_of(overlap), "settings: spectrum.overlap must be between 0 and 1");
+  EXPECT_EQ(refusal_of(signals), "settings: signals.currents must name at least one signal");
+}
 
 TEST_F(PaperChain, ReproducesThePublishedMapFromAnIndependentSimulation) {
   std::map<double, lacuna::Features> map;
-  for (const auto &band : chain.settings().bands)
-    for (const double edge : {band.first, band.last})
+  for (const auto &[first, last] : paper_bands)
+    for (const double edge : {first, last})
       map.emplace(edge, of(edge));
   const std::array<double, 4> rise{0.0160, 0.0994, 0.0611, 0.1969}; // A, of the consistent set
   for (std::size_t b = 0; b < 4; ++b) {
-    const auto &band = chain.settings().bands[b];
-    EXPECT_NEAR(map.at(band.last).rms_mean - map.at(band.first).rms_mean, rise[b], 0.5e-3) << band.name;
+    const auto &[first, last] = paper_bands[b];
+    EXPECT_NEAR(map.at(last).rms_mean - map.at(first).rms_mean, rise[b], 0.5e-3) << first;
   }
   for (const auto &[zeta, features] : map) {
     const auto &channel = features.channels;
@@ -120,7 +148,8 @@ TEST_F(PaperChain, SilenceHasNoPeakAndNoSpeed) {
 
 TEST(CInterface, GivesTheFeaturesOfTheLibrary) {
   char message[200] = "";
-  lacuna_chain *chain = lacuna_chain_new(paper_settings().c_str(), message, sizeof message);
+  const lacuna_settings settings = paper_settings_in_c();
+  lacuna_chain *chain = lacuna_chain_new(&settings, message, sizeof message);
   ASSERT_NE(chain, nullptr) << message;
   const Record record(0.1);
   const double *currents[3] = {record.columns[0].data(), record.columns[1].data(), record.columns[2].data()};
@@ -138,6 +167,8 @@ TEST(CInterface, GivesTheFeaturesOfTheLibrary) {
 
 TEST(CInterface, WritesAMessageThatFits) {
   std::array<char, 12> message{};
-  EXPECT_EQ(lacuna_chain_new("[nothing]", message.data(), message.size()), nullptr);
+  lacuna_settings settings = paper_settings_in_c();
+  settings.sampling_rate = -1;
+  EXPECT_EQ(lacuna_chain_new(&settings, message.data(), message.size()), nullptr);
   EXPECT_EQ(std::string(message.data()), "settings: r");
 }

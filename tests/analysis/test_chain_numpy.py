@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from hypothesis import given
 from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
@@ -15,7 +17,7 @@ from lacuna.analysis.spectra.chain import Chain
 from tests.analysis.reference import simulate
 
 PAPER = load_settings()
-CHAIN = Chain(PAPER.text)
+CHAIN = Chain(PAPER)
 PADDED = 2**17
 
 
@@ -103,4 +105,6 @@ def test_refusals_name_what_is_wrong():
     with pytest.raises(AnalysisError, match="25000 samples"):
         CHAIN.section_spectrum(np.zeros(10))
     with pytest.raises(AnalysisError, match="overlap"):
-        Chain(PAPER.text.replace("overlap = 0.67", "overlap = 1.0"))
+        Chain(replace(PAPER, overlap=1.0))
+    with pytest.raises(AnalysisError, match="padding is 'twice'"):
+        Chain(replace(PAPER, padding="twice"))

@@ -6,11 +6,9 @@
 
 #include "lacuna/error.hpp"
 #include "lacuna/features.hpp"
-#include "lacuna/severity.hpp"
 
 using lacuna::first_peak;
 using lacuna::mean_speed;
-using lacuna::SeverityBands;
 
 namespace {
 
@@ -96,26 +94,4 @@ TEST(BetweenLines, FindsTheTopOfAHannPeak) {
 TEST(Harmonics, AreTheLargestLinesNearMultiplesOfTheFundamental) {
   const auto found = lacuna::harmonic_amplitudes(lines({7, 0, 0, 0, 0, 5, 1, 0, 0, 0, 3, 4, 0, 0, 9, 0}), 5.2, 1);
   EXPECT_EQ(found, (std::array<double, 4>{7, 5, 4, 0}));
-}
-
-TEST(SeverityBands, GapsBelongToTheNearerBand) {
-  const SeverityBands bands({{"green", "", 0, 0.10}, {"orange", "", 0.11, 0.26}});
-  EXPECT_EQ(bands.of(0.0).name, "green");
-  EXPECT_EQ(bands.of(0.10).name, "green");
-  EXPECT_EQ(bands.of(0.104).name, "green");
-  EXPECT_EQ(bands.of(0.106).name, "orange");
-  EXPECT_EQ(bands.of(-0.1).name, "green");
-  EXPECT_EQ(bands.of(0.9).name, "orange");
-}
-
-TEST(SeverityBands, RiseIsBetweenTheEdges) {
-  const std::vector<double> severity{0, 0.1, 0.2}, value{1, 2, 5};
-  EXPECT_DOUBLE_EQ(SeverityBands::rise({"", "", 0, 0.2}, severity, value), 4.0);
-  EXPECT_NEAR(SeverityBands::rise({"", "", 0.05, 0.15}, severity, value), 2.0, 1e-12);
-}
-
-TEST(SeverityBands, RefuseDisorder) {
-  EXPECT_THROW(SeverityBands({}), lacuna::Error);
-  EXPECT_THROW(SeverityBands({{"a", "", 0.2, 0.1}}), lacuna::Error);
-  EXPECT_THROW(SeverityBands({{"a", "", 0, 0.1}, {"b", "", 0.1, 0.2}}), lacuna::Error);
 }

@@ -5,16 +5,15 @@
 #include <complex>
 #include <cstdlib>
 #include <ctime>
-#include <fstream>
 #include <limits>
 #include <numbers>
 #include <random>
-#include <sstream>
 
 #include "lacuna/chain.hpp"
 #include "lacuna/onboard/fft.hpp"
 #include "lacuna/onboard/monitor.hpp"
 #include "malloc_trap.h"
+#include "paper.hpp"
 #include "reference_actuator.h"
 
 using lacuna::Configuration;
@@ -26,9 +25,7 @@ namespace {
 constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 lacuna::Chain paper_chain() {
-  std::ostringstream text;
-  text << std::ifstream(PAPER_SETTINGS).rdbuf();
-  return lacuna::Chain(lacuna::Settings::parse(text.str()));
+  return lacuna::Chain(paper_settings());
 }
 
 Configuration configuration_of(const lacuna::Chain &chain) {

@@ -58,7 +58,7 @@ def test_solver_met_every_event(built):
 
 @pytest.mark.parametrize("zeta", [0.0, 0.33, 0.5])
 def test_features_equal_those_of_an_independent_simulation(plant, settings, zeta):
-    chain, record, reference = Chain(settings.text), plant.run(zeta), simulate(zeta)
+    chain, record, reference = Chain(settings), plant.run(zeta), simulate(zeta)
     found, expected = chain.analyse(record.currents, record.angle), chain.analyse(reference[:3], reference[4])
     np.testing.assert_allclose(found.rms, expected.rms, rtol=1e-6)
     np.testing.assert_allclose(found.harmonic, expected.harmonic, atol=1e-6)

@@ -24,6 +24,9 @@ def test_the_papers_settings():
         ("step = 0.01", "step = -1.0", "step above zero"),
         ("sampling_rate = 100000.0", 'sampling_rate = "fast"', "fast"),
         ('mode = "Normal"', 'state = "Normal"', "state"),
+        ("overlap = 0.67", 'overlap = "much"', "much"),
+        ("first = 0.11", "first = 0.05", "band orange does not begin above the end of green"),
+        ("last = 0.33", "last = 0.2", "band red: first is above last"),
     ],
 )
 def test_slips_name_the_file_and_the_entry(tmp_path, old, new, message):

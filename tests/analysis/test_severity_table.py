@@ -22,7 +22,7 @@ SIGMA = 0.01
 @pytest.fixture(scope="module")
 def features():
     record = simulate(0.1)
-    return Chain(load_settings().text).analyse(record[:3], record[4])
+    return Chain(load_settings()).analyse(record[:3], record[4])
 
 
 @pytest.fixture(scope="module")

@@ -79,9 +79,16 @@ def test_verify_needs_the_inputs_as_they_were(place: Path) -> None:
     assert (said.exit_code, "Decay.mo is not what" in said.output) == (1, True)
 
 
-@pytest.mark.parametrize(
-    "change", [{"command": ["lsp"]}, {"files": ["../x"]}, {"files": ["/etc/passwd"]}, {"inputs": []}, {"format": 1}]
-)
+FORGED = [
+    {"command": ["lsp"]}, {"files": ["../x"]}, {"files": ["/etc/passwd"]}, {"inputs": []}, {"format": 1},
+    {"command": ["simulate", "Decay.mo", "--watch"]}, {"command": ["simulate", "Decay.mo", "--out=elsewhere"]},
+    {"command": ["assess", "test.csv", "--store", "postgresql://host/fleet"]},
+    {"command": ["assess", "test.csv", "--store=sqlite:///fleet.db"]},
+    {"command": ["sweep", "Decay.mo", "--scheduler", "tcp://host:8786"]},
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("change", FORGED)
 def test_verify_takes_no_orders_from_a_strangers_file(place: Path, change: dict[str, object]) -> None:
     assert status_of(*SIMULATE, "--out", "out") == 0
     record = place / "out" / MADE_BY

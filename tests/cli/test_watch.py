@@ -75,6 +75,30 @@ def test_a_saved_equation_is_a_new_figure_and_a_slip_is_said_above_the_old_one(
     assert re.search(r"drawn \d+\.\d s after the save", said)
 
 
+def test_of_several_figures_each_takes_the_place_of_the_one_before_until_a_source_changes(tank: Path) -> None:
+    import threading
+
+    from matplotlib.figure import Figure
+
+    import lacuna
+
+    drawn, stop, told = [], threading.Event(), []
+
+    def draw() -> Iterator[Figure]:
+        drawn.append(0)
+        for _ in range(3):
+            yield Figure()
+            drawn[-1] += 1
+            if len(drawn) == 1 and drawn[-1] == 1:
+                tank.write_text(MODEL.replace("-h;", "-3*h;"), encoding="utf-8")
+            if drawn[-1] == 3:
+                stop.set()
+
+    lacuna.watch(draw, [tank], opened=told.append, told=told.append, stop=stop)
+    assert drawn == [1, 3]  # the second figure of the first round is the last one of it
+    assert told[1:3] == ["drawn", "drawn"]
+
+
 def test_only_who_knows_the_secret_at_this_machine_s_own_name_is_answered(address: str) -> None:
     place = urlsplit(address)
     assert place.hostname == "127.0.0.1"

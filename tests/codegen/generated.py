@@ -25,6 +25,8 @@ class Data(Structure):
         ("failure", Failure),
         *((name, c_double) for name in ("start_time", "homotopy")),
         *((name, c_long) for name in ("stack", "rounds")),
+        ("undetermined", c_int),
+        ("shift", c_double),
     ]
 
 

@@ -1,4 +1,4 @@
-"""A law that no catalogue holds is found as an expression; and rivals are told apart by a simulated experiment."""
+"""A law that no catalogue holds is found as an expression."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
-from lacuna.discovery.explanation.experiments import separate
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.law.empirical_law import find
 from lacuna.discovery.law.law_terms import Group, evaluate
@@ -70,15 +69,3 @@ def test_a_loss_that_no_catalogue_holds_is_found_as_a_law(
     at_200 = text.replace("^", "**").replace("shaft.w", "200.0").replace("shaft.phi", str(phi))
     known = {"sign": np.sign, "abs": abs, "sin": np.sin, "cos": np.cos}
     assert eval(at_200, known) == pytest.approx(expected, rel=0.02)
-
-
-def test_an_experiment_separates_two_explanations(consistent_case: Path) -> None:
-    case = load(consistent_case)
-    base, _ = fit_believed(case, Machine(case, Amendment(read(Library(), case.model))))
-    other, _ = fit_believed(case, Machine(case, Amendment(read(Library(), case.model))))
-    other.estimate.values = other.estimate.values * 1.05
-    best = separate(case, base, other)
-    assert best.sigmas > 1.0 and np.max(np.abs(best.recording.columns["u"])) <= 2.01 * 4.0
-    assert best.sentence(("this", "that")).startswith("record r")
-    same = separate(case, base, base)
-    assert same.sigmas == 0.0 and "no variant" in same.sentence(("this", "that"))

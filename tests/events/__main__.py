@@ -1,4 +1,5 @@
-"""Campaigns of hybrid systems with closed-form event times: python -m tests.events belts|systems [--draws N]."""
+"""Campaigns of hybrid systems with closed-form event times, and of models in other units: python -m tests.events
+belts|systems|units [--draws N]."""
 
 from __future__ import annotations
 
@@ -12,7 +13,7 @@ import numpy as np
 
 from lacuna import runtime
 from lacuna.codegen.compile import compile_model
-from tests.events import belts, hybrid
+from tests.events import belts, hybrid, in_units
 from tests.events.judge import wrong
 from tests.events.models import compiled
 
@@ -58,13 +59,41 @@ def run_systems(draws: int) -> int:
     return verdicts["wrong"]
 
 
+CIRCUITS = (
+    "Electrical.Analog.Examples.Rectifier", "Electrical.Analog.Examples.HeatingRectifier",
+    "Electrical.Analog.Examples.ControlledSwitchWithArc", "Electrical.Analog.Examples.NandGate",
+    "Electrical.Analog.Examples.ShowSaturatingInductor", "Electrical.Analog.Examples.OvervoltageProtection",
+    "Electrical.Analog.Examples.DemoPowerSupply", "Electrical.Analog.Examples.OpAmps.SignalGenerator",
+    "Mechanics.Translational.Examples.ElastoGap", "Mechanics.Rotational.Examples.CoupledClutches",
+)  # fmt: skip
+
+
+def run_units(count: int) -> int:
+    """T1, T2, FlightControlEma and circuits of the Modelica Standard Library in other units; the number of faults."""
+    from bench.generated import T1, T2, model_file
+    from bench.msl import shared_folder
+
+    models = [(str(model_file(T1)), 2.0), (str(model_file(T2)), None), ("Actuators.FlightControlEma", None)]
+    models += [(f"Modelica.{name}", None) for name in CIRCUITS]
+    faults = []
+    with tempfile.TemporaryDirectory() as cache:
+        for name, stop in models[:count]:
+            found = in_units.compare(name, stop, cache, [str(shared_folder())])
+            print(*found.lines, *found.faults, sep="\n", flush=True)
+            faults += found.faults
+    print(f"{len(faults)} faults")
+    return len(faults)
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("campaign", choices=["belts", "systems"])
+    parser.add_argument("campaign", choices=["belts", "systems", "units"])
     parser.add_argument("--draws", type=int, default=None)
     arguments = parser.parse_args()
-    count = run_belts(arguments.draws or 200) if arguments.campaign == "belts" else run_systems(arguments.draws or 520)
-    return 1 if count else 0
+    run, draws = {"belts": (run_belts, 200), "systems": (run_systems, 520), "units": (run_units, 100)}[
+        arguments.campaign
+    ]
+    return 1 if run(arguments.draws or draws) else 0
 
 
 if __name__ == "__main__":

@@ -22,22 +22,34 @@ OTHERS = {
     "T2": str(ROOT / "tests/models/SixStepMotor.mo"),
     "FlightControlEma": "Actuators.FlightControlEma",
 }
+LIBRARY = {
+    name.rsplit(".", 1)[-1]: f"Modelica.{name}"
+    for name in (
+        "Blocks.Examples.PID_Controller", "Blocks.Examples.BooleanNetwork1",
+        "Electrical.Analog.Examples.HeatingRectifier", "Electrical.Analog.Examples.OpAmps.InvertingSchmittTrigger",
+        "Electrical.Analog.Examples.SwitchWithArc", "Electrical.Machines.Examples.DCMachines.DCPM_Start",
+        "Mechanics.Rotational.Examples.CoupledClutches", "Mechanics.Rotational.Examples.LossyGearDemo1",
+        "Mechanics.Translational.Examples.ElastoGap", "Thermal.HeatTransfer.Examples.ControlledTemperature",
+    )
+}  # fmt: skip
+ALL = {**OWN, **OTHERS, **LIBRARY}
 _CLASSES = {
     ("3.0", "me"): FMU3Model, ("3.0", "cs"): FMU3Slave, ("2.0", "me"): FMU2Model, ("2.0", "cs"): FMU2Slave,
 }  # fmt: skip
 
 
 class Fmus:
-    """`path(name, version)`: exported on first use, into `folder`."""
+    """`path(name, version)`: exported on first use, into `folder`. Those of LIBRARY need `libraries`, its folder."""
 
     def __init__(self, folder: Path):
         self._folder = folder
 
     def path(self, name: str, version: str = "3.0", **more: Any) -> Path:
-        marks = "".join(f"-{k}-{v}" for k, v in sorted(more.items()) if k != "parameters")
+        marks = "".join(f"-{k}-{v}" for k, v in sorted(more.items()) if k not in ("parameters", "libraries"))
         target = self._folder / f"{name}-{version}{marks}-{len(more.get('parameters', ()))}.fmu"
         if not target.exists():
-            lacuna.export_fmu({**OWN, **OTHERS}.get(name, name), target, version=version, **more)
+            units = "warn" if name in LIBRARY else "error"
+            lacuna.export_fmu(ALL.get(name, name), target, version=version, units=units, **more)
         return target
 
     @contextmanager

@@ -6,24 +6,16 @@ from __future__ import annotations
 from pathlib import Path
 import zipfile
 
-import fmpy
 from fmpy.validation import validate_fmu
 import numpy as np
 import pytest
 
 import lacuna
-from tests.fmi.fmus import OTHERS, OWN, Fmus
+from tests.fmi.fmus import ALL, OTHERS, OWN, Fmus
+from tests.fmi.trajectories import KINDS, differences, reference, run, signals_of
 
 BOUND = 1e-5  # of each signal's largest value
-KINDS = {"me": "ModelExchange", "cs": "CoSimulation"}
-HYBRID = {"T1": 0.4, "T2": 0.03, "FlightControlEma": 0.03, "Clockwork": 2.0, "VanDerPol": 20.0}
-
-
-def run(path: Path, kind: str, stop: float, outputs: list[str], **more) -> np.ndarray:
-    return fmpy.simulate_fmu(
-        str(path), fmi_type=KINDS[kind], stop_time=stop, output_interval=more.pop("interval", stop / 100),
-        relative_tolerance=1e-9, solver="CVode", output=outputs, **more,
-    )  # fmt: skip
+HYBRID = {"T1": 0.4, "T2": 0.03, "FlightControlEma": 0.03, "Clockwork": 2.0, "VanDerPol": 20.0, "Pendulum": 1.0}
 
 
 @pytest.mark.parametrize(("name", "version"), [*((n, "3.0") for n in (*OWN, *OTHERS)), *((n, "2.0") for n in OWN)])
@@ -32,28 +24,16 @@ def test_fmpy_finds_nothing_to_object_to(fmus: Fmus, name: str, version: str) ->
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize(("name", "version"), [*((n, "3.0") for n in HYBRID), ("T1", "2.0"), ("T2", "2.0")])
+@pytest.mark.parametrize(
+    ("name", "version"), [*((n, "3.0") for n in HYBRID), ("T1", "2.0"), ("T2", "2.0"), ("Pendulum", "2.0")]
+)
 def test_states_are_ours_on_both_sides_of_events(fmus: Fmus, name: str, version: str, kind: str) -> None:
-    stop, model = HYBRID[name], lacuna.load({**OWN, **OTHERS}[name])
-    states = list({(v.index): n for n, v in reversed(model.states.items())}.values())
-    found = run(fmus.path(name, version), kind, stop, states, record_events=True)
+    stop, model = HYBRID[name], lacuna.load(ALL[name])
+    signals = signals_of(model)
+    found = run(fmus.path(name, version), kind, stop, signals, record_events=True)
     assert found["time"][-1] == pytest.approx(stop)
-    times, rows = np.unique(found["time"], return_index=True)
-    rows = np.append(rows[1:], len(found["time"])) - 1  # of two rows at one instant the one after the event
-    ours = model.simulate(stop=stop, solver="dopri5", rtol=1e-11, outputs=states, interval=stop / 4000, event_rows=True)
-    for state in states:
-        reference = _after_events(ours, state, times)
-        size = np.max(np.abs(ours[state]))
-        assert np.max(np.abs(found[state][rows] - reference)) <= BOUND * size, state
-
-
-def _after_events(result: lacuna.Result, name: str, times: np.ndarray) -> np.ndarray:
-    """The value at each instant; where the state jumps there, the one after it."""
-    at, values = np.asarray(result.time), np.asarray(result[name])
-    left = np.clip(np.searchsorted(at, times + 1e-9 * at[-1], side="right") - 1, 0, len(at) - 2)
-    slope = np.where(at[left + 1] > at[left], values[left + 1] - values[left], 0)
-    span = np.where(at[left + 1] > at[left], at[left + 1] - at[left], 1)
-    return values[left] + slope * np.clip((times - at[left]) / span, 0, 1)
+    beyond = differences(found, reference(model, stop, signals), signals)
+    assert not {signal: d for signal, d in beyond.items() if d > BOUND}
 
 
 @pytest.mark.parametrize("version", ["3.0", "2.0"])
@@ -81,7 +61,7 @@ def test_decay(fmus: Fmus, kind: str, version: str) -> None:
 @pytest.mark.parametrize("version", ["3.0", "2.0"])
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_stair_without_states_ends_itself(fmus: Fmus, kind: str, version: str) -> None:
-    found = run(fmus.path("Stair", version), kind, 12.0, ["counter"], interval=0.5)
+    found = run(fmus.path("Stair", version), kind, 12.0, ["counter"], output_interval=0.5)
     assert found["time"][-1] <= 9.0 + 0.5
     inside = np.abs(found["time"] - np.round(found["time"])) > 0.1
     assert np.array_equal(found["counter"][inside], 1 + np.floor(found["time"][inside]))
@@ -95,7 +75,9 @@ def test_inputs_of_all_types_pass_through(fmus: Fmus, kind: str, version: str) -
         [(0, 0.0, 1, False), (1, 2.0, 1, False), (1, 3.0, -2, True), (2, 3.0, -2, True)],
         dtype=[("time", float), ("u", float), ("n", np.int32), ("b", bool)],
     )
-    found = run(fmus.path("Feedthrough", version), kind, 2.0, ["y", "doubled", "m", "c"], input=table, interval=0.25)
+    found = run(
+        fmus.path("Feedthrough", version), kind, 2.0, ["y", "doubled", "m", "c"], input=table, output_interval=0.25
+    )
     late = found["time"] > 1.3
     assert set(found["m"][late]) == {-2} and set(found["c"][late]) == {1}
     assert found["y"][late] == pytest.approx(3.0) and found["doubled"][late] == pytest.approx(6.0)

@@ -134,6 +134,18 @@ def test_event_mode_stops_a_step_at_each_event(fmus: Fmus) -> None:
         assert real(fmu, "v")[0] == pytest.approx(-0.7 * before)
 
 
+@pytest.mark.parametrize("version", ["3.0", "2.0"])
+def test_an_event_just_after_a_rounded_communication_point_happens_at_its_own_time(fmus: Fmus, version: str) -> None:
+    """Ten steps of 0.1 end an ulp before 1."""
+    with fmus.instance("Seconds", "cs", version) as fmu:
+        begin(fmu)
+        reached = 0.0
+        for _ in range(55):
+            fmu.doStep(reached, 0.1)
+            reached += 0.1
+        assert real(fmu, "next") == [6.0]
+
+
 def test_reset_begins_anew(fmus: Fmus) -> None:
     with fmus.instance("Clockwork", "cs") as fmu:
         begin(fmu)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from lsprotocol import types as lsp
 
-from tests.lsp.client import Editor, drive
+from bench.editor import Editor, drive
 
 MODEL = """\
 model Winch "A motor that lifts a load"

@@ -225,7 +225,8 @@ def test_failed_writing_leaves_the_old_file(servo: runtime.Model, tmp_path: Path
     ("text", "words"),
     [
         ("a,b\n1,2\n", "first column must be called time"),
-        ("time,x\n1,2\n3\n", "Line #"),
+        ("time,x\n1,2\n3\n", ":3: 1 fields for 2 names"),
+        ("time,x\n1,2\n3,two\n", ":3: .*two"),
         ("time,x,x\n1,2,3\n", "same name"),
         ("", "time"),
     ],

@@ -138,3 +138,21 @@ def test_an_infinite_slope_at_the_start(tmp_path: Path, solver: str) -> None:
     result = simulated(tmp_path, ROOTS, solver=solver, stop=1.0, interval=0.01)
     assert result.complete, result.failure
     assert result["middle"] == pytest.approx(0.75 * result["p"], rel=1e-6)
+
+
+TWO_ROOTS = """model TwoRoots "A pulse that a long step meets unawares: its stages reach far, to another root"
+  Real x(start = 1, fixed = true), y(start = 1);
+equation
+  (y - x)*(y + 10) = 0;
+  der(x) = -100*exp(-((time - 1)/0.01)^2)*y;
+end TwoRoots;
+"""
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_rejected_step_leaves_no_root_behind(tmp_path: Path, solver: str) -> None:
+    """x goes from 1 to exp(-100 * 0.01 * sqrt(pi)), wherever the stages of rejected steps have been."""
+    result = simulated(tmp_path, TWO_ROOTS, solver=solver, rtol=1e-7, stop=2.0, max_step={"ida": 0.01}.get(solver, 0.1))
+    assert result.complete, result.failure
+    assert result["y"][-1] == pytest.approx(np.exp(-np.sqrt(np.pi)), rel=1e-4)
+    assert result["y"] == pytest.approx(result["x"], rel=1e-9)

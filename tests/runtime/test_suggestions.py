@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from lacuna.runtime.errors import suggestion
+from lacuna.suggest import suggestion
 
 NAMES = ["R", "L", "winding.R", "winding.hall.theta_e", "stops.phi_max", "stops.phi_min", "J"]
 

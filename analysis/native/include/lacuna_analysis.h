@@ -26,8 +26,23 @@ typedef struct {
   int turns;
 } lacuna_summary;
 
-/* Build a chain from the text of a settings file. */
-lacuna_chain *lacuna_chain_new(const char *settings, char *message, size_t message_size);
+typedef enum { LACUNA_PAD_NONE, LACUNA_PAD_SECTION, LACUNA_PAD_RECORD } lacuna_padding;
+
+/* What settings/paper.toml explains; all of it is copied. */
+typedef struct {
+  double sampling_rate;        /* Hz */
+  double duration;             /* s */
+  size_t channels;             /* currents */
+  const char *const *currents; /* [channels] their names, for messages */
+  const char *angle;           /* its name */
+  double section, overlap;     /* shares of the record, of a section */
+  lacuna_padding padding;      /* to the next power of two */
+  double peak_above;           /* Hz */
+  double peak_threshold;       /* share of the largest line */
+  double speed_after;          /* s */
+} lacuna_settings;
+
+lacuna_chain *lacuna_chain_new(const lacuna_settings *settings, char *message, size_t message_size);
 void lacuna_chain_free(lacuna_chain *chain);
 
 size_t lacuna_chain_channels(const lacuna_chain *chain);
@@ -72,8 +87,8 @@ size_t lacuna_table_channels(const lacuna_table *table);
 int lacuna_table_estimate(const lacuna_table *table, const lacuna_channel *channels, double rms_mean,
                           lacuna_estimate *estimate);
 
-/* The filter of a forecast (analysis/prognosis/filter/filter.py): Gaussians over severity x and logarithm l of a law's rate.
- * Arrays over hypotheses are [laws][histories][columns]. */
+/* The filter of a forecast (analysis/prognosis/filter/filter.py): Gaussians over severity x and logarithm l of a law's
+ * rate. Arrays over hypotheses are [laws][histories][columns]. */
 typedef struct {
   size_t laws, histories, columns, points;
   const double *severity;                               /* [points] of the laws' tables, rising */

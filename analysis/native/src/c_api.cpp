@@ -49,11 +49,24 @@ std::vector<lacuna::ChannelFeatures> channels_of(const lacuna_channel *channels,
   return result;
 }
 
+lacuna::Settings settings_of(const lacuna_settings &s) {
+  return {s.sampling_rate,
+          s.duration,
+          {s.currents, s.currents + s.channels},
+          s.angle,
+          s.section,
+          s.overlap,
+          static_cast<lacuna::Settings::Padding>(s.padding),
+          s.peak_above,
+          s.peak_threshold,
+          s.speed_after};
+}
+
 } // namespace
 
-lacuna_chain *lacuna_chain_new(const char *settings, char *message, size_t message_size) {
+lacuna_chain *lacuna_chain_new(const lacuna_settings *settings, char *message, size_t message_size) {
   lacuna_chain *chain = nullptr;
-  guarded(message, message_size, [&] { chain = new lacuna_chain{lacuna::Chain(lacuna::Settings::parse(settings))}; });
+  guarded(message, message_size, [&] { chain = new lacuna_chain{lacuna::Chain(settings_of(*settings))}; });
   return chain;
 }
 

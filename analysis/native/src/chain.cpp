@@ -8,8 +8,17 @@
 
 namespace lacuna {
 
+namespace {
+
+const Settings &checked(const Settings &settings) {
+  settings.check();
+  return settings;
+}
+
+} // namespace
+
 Chain::Chain(const Settings &settings)
-    : settings_(settings), sections_(settings.samples(), settings.section, settings.overlap),
+    : settings_(checked(settings)), sections_(settings.samples(), settings.section, settings.overlap),
       spectrum_(HannWindow(sections_.length()), settings.padded_length(sections_.length())) {}
 
 void Chain::require_record(std::span<const double> record, const std::string &name) const {

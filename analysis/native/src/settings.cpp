@@ -3,61 +3,32 @@
 #include <cmath>
 
 #include "lacuna/error.hpp"
-#include "lacuna/toml.hpp"
 #include "lacuna/transform.hpp"
 
 namespace lacuna {
 
 namespace {
 
-double positive(const toml::Table &table, const std::string &name, const std::string &key) {
-  const double value = table.number(key);
-  if (!(value > 0 && std::isfinite(value))) throw Error("settings: " + name + "." + key + " must be above zero");
-  return value;
+void positive(double value, const std::string &entry) {
+  if (!(value > 0 && std::isfinite(value))) throw Error("settings: " + entry + " must be above zero");
 }
 
-double share(const toml::Table &table, const std::string &name, const std::string &key) {
-  const double value = table.number(key);
-  if (!(value >= 0 && value <= 1)) throw Error("settings: " + name + "." + key + " must be between 0 and 1");
-  return value;
-}
-
-Settings::Padding parse_padding(const std::string &text) {
-  if (text == "record") return Settings::Padding::record;
-  if (text == "section") return Settings::Padding::section;
-  if (text == "none") return Settings::Padding::none;
-  throw Error("settings: spectrum.padding must be \"record\", \"section\" or \"none\", not \"" + text + "\"");
-}
-
-std::vector<Band> parse_bands(const toml::Document &document) {
-  std::vector<Band> result;
-  for (const toml::Table &table : document.tables("bands"))
-    result.push_back({table.text("name"), table.text("mode"), table.number("first"), table.number("last")});
-  return SeverityBands(result).bands();
+void share(double value, const std::string &entry) {
+  if (!(value >= 0 && value <= 1)) throw Error("settings: " + entry + " must be between 0 and 1");
 }
 
 } // namespace
 
-Settings Settings::parse(std::string_view text) {
-  const toml::Document document(text);
-  const toml::Table &recording = document.table("recording"), &signals = document.table("signals"),
-                    &spectrum = document.table("spectrum"), &peak = document.table("first_peak");
-  Settings s{};
-  s.sampling_rate = positive(recording, "recording", "sampling_rate");
-  s.duration = positive(recording, "recording", "duration");
-  if (s.sampling_rate * s.duration > 1e8) throw Error("settings: a record of more than 1e8 samples is not supported");
-  s.currents = signals.texts("currents");
-  if (s.currents.empty()) throw Error("settings: signals.currents must name at least one signal");
-  if (signals.has("angle")) s.angle = signals.text("angle");
-  s.section = share(spectrum, "spectrum", "section");
-  s.overlap = share(spectrum, "spectrum", "overlap");
-  s.padding = parse_padding(spectrum.text("padding"));
-  s.peak_above = peak.number("above");
-  s.peak_threshold = share(peak, "first_peak", "threshold");
-  s.speed_after = s.angle.empty() ? 0 : document.table("speed").number("after");
-  if (!(s.speed_after >= 0)) throw Error("settings: speed.after must not be negative");
-  s.bands = parse_bands(document);
-  return s;
+void Settings::check() const {
+  positive(sampling_rate, "recording.sampling_rate");
+  positive(duration, "recording.duration");
+  if (sampling_rate * duration > 1e8) throw Error("settings: a record of more than 1e8 samples is not supported");
+  if (currents.empty()) throw Error("settings: signals.currents must name at least one signal");
+  share(section, "spectrum.section");
+  share(overlap, "spectrum.overlap");
+  if (!std::isfinite(peak_above)) throw Error("settings: first_peak.above must be a finite number");
+  share(peak_threshold, "first_peak.threshold");
+  if (!(speed_after >= 0)) throw Error("settings: speed.after must not be negative");
 }
 
 std::size_t Settings::samples() const {

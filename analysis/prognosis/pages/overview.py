@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 from html import escape
 import io
+import math
 
 from markupsafe import Markup
 import pyarrow as pa
@@ -13,7 +14,7 @@ from lacuna.analysis.prognosis.pages.telling import use
 from lacuna.analysis.report.page import figure, page
 
 SHOWN = 60  # actuators at greatest risk
-WIDTH, ROW = 1000, 18  # of the drawing
+WIDTH, ROW, FONT = 720, 20, 13  # of the drawing: its text can be read where it is as narrow as figures get
 
 _COUNTS = Markup("""<p class="counts"><span><b>{total}</b> actuators</span> <span><b>{now}</b> remove now</span>
 <span><b>{forecast}</b> with a forecast</span> <span><b>{early}</b> too early to say</span>
@@ -60,22 +61,29 @@ def _data(rows: list[dict]) -> str:
     return text.getvalue()
 
 
+def _round(value: float) -> float:
+    """The largest of 1, 2 and 5 times a power of ten that is not above `value`."""
+    power = 10 ** math.floor(math.log10(value))
+    return max(m * power for m in (1, 2, 5) if m * power <= value)
+
+
 def _drawing(rows: list[dict]) -> str:
     """A bar for each actuator, by remaining use; what is beyond the axis runs out of it."""
     if not rows:
         return ""
     ends = sorted(r["high80"] if r["high80"] is not None else r["median"] or 0 for r in rows)
     top = max(ends[int(0.9 * (len(ends) - 1))], 1e-12) * 1.1
-    left, height = 220, ROW * (len(rows) + 2)
+    left, height = 190, ROW * (len(rows) + 2)
+    step = _round(top / 4)
 
     def at(left_over: float | None) -> float:
         return left + (WIDTH - left) * min(1.0, (top if left_over is None else left_over) / top)
 
-    parts = [f'<svg viewBox="0 0 {WIDTH} {height}" font-size="12" font-family="system-ui,sans-serif">']
-    for k in range(5):
-        x = left + (WIDTH - left) * k / 5
+    parts = [f'<svg viewBox="0 0 {WIDTH} {height}" font-size="{FONT}" font-family="system-ui,sans-serif">']
+    for k in range(int(top / step) + 1):
+        x = at(k * step)
         parts.append(f'<path d="M{x:.1f} 0V{height - ROW}" stroke="#ddd"/><text x="{x:.1f}" y="{height - 4}">'
-                     f'{use(top * k / 5)}{" " + escape(rows[0]["unit"]) if not k else ""}</text>')  # fmt: skip
+                     f'{use(k * step)}{" " + escape(rows[0]["unit"]) if not k else ""}</text>')  # fmt: skip
     for k, r in enumerate(rows):
         y = ROW * (k + 0.5) + 4
         name = escape(r["actuator"] + (f" {r['fault']}" if r["fault"] else ""))

@@ -66,15 +66,19 @@ def _part(f: Forecast, svg: str, data: tuple[str, str], risk: float) -> Markup:
         figure(svg, said, data=data),
     ]
     if f.verdict == FORECAST:
-        header = ["limit", "97.5 % later than", "90 %", "median", "10 %", "2.5 %"]
-        rows = [[name, *map(_cell, row)] for name, row in zip(f.limits.names, f.quantiles, strict=True)]
+        unit = f.history.unit
+        header = [f"limit, {unit} until it", "97.5 % later than", "90 %", "median", "10 %", "2.5 %"]
+        rows = [[name, *_cells(row)] for name, row in zip(f.limits.names, f.quantiles, strict=True)]
         laws = ", ".join(f"{n} {100 * w:.0f} %" for n, w in list(f.weights.items())[:3])
         parts += [table(header, rows), Markup("<p><small>Laws: {}.</small></p>").format(laws)]
     return Markup("").join(parts)
 
 
-def _cell(value: float) -> str:
-    return use(value) if np.isfinite(value) else "-"
+def _cells(row: np.ndarray) -> list[str]:
+    """Of a limit that is behind, that it is."""
+    if np.all(row <= 0):
+        return ["reached", *[""] * (len(row) - 1)]
+    return [use(value) if np.isfinite(value) else "-" for value in row]
 
 
 def curves(f: Forecast, bank: Bank):

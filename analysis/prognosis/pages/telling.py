@@ -30,12 +30,17 @@ def sentence(f: Forecast, risk: float) -> str:
         return f"{text} The risk stays below {100 * risk:g} % as far as tests are listed."
     if f.advised <= f.at:
         return f"{text} Remove it now: at the next test the risk of {limit} is above {100 * risk:g} %."
-    return f"{text} Until the test at {f.advised:.6g} {unit} the risk of {limit} stays below {100 * risk:g} %."
+    return f"{text} Until the test at {_grouped(f.advised, 6)} {unit} the risk of {limit} stays below {100 * risk:g} %."
 
 
 def use(value: float) -> str:
     """Three digits; what lies beyond the horizon is said so."""
-    return "beyond the horizon" if not math.isfinite(value) else f"{float(f'{value:.3g}'):,.10g}".replace(",", " ")
+    return "beyond the horizon" if not math.isfinite(value) else _grouped(value, 3)
+
+
+def _grouped(value: float, digits: int) -> str:
+    """Thousands apart by a space that breaks no line."""
+    return f"{float(f'{value:.{digits}g}'):,.10g}".replace(",", "\N{NO-BREAK SPACE}")
 
 
 def entry(f: Forecast, risk: float) -> dict:

@@ -42,6 +42,7 @@ def draw(settings: Settings, map_csv: Path, features: Features, estimate: Estima
         axes.plot(found, measured, "o", color=colour, markersize=8, markeredgecolor="white", clip_on=False)
         label_line_end(axes, severity[-1], curve[-1], f"phase {phase_name(channel)}", colour)
     axes.plot(severity, 1e3 * rows["rms_mean"], color=MUTED, linewidth=1.3)
+    label_line_end(axes, severity[-1], 1e3 * rows["rms_mean"][-1], "mean", MUTED)
     axes.plot(
         settings.fault.shown(estimate.paper), 1e3 * features.rms_mean, "D", color=MUTED, markersize=7, clip_on=False,
         label="mean RMS read back alone, as in the paper",

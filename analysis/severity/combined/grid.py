@@ -64,7 +64,7 @@ def build_grid(
     nuisances = other_nuisances(settings, other)
     levels = conditions(LEVELS) if nuisances and nuisances[0] is every[0] else [0.0]
     share = 1 / len(levels)
-    surroundings = [Surroundings(plant, settings, Chain(settings.text), nuisances, level, share) for level in levels]
+    surroundings = [Surroundings(plant, settings, Chain(settings), nuisances, level, share) for level in levels]
     knots = [np.linspace(axis[0], axis[-1], CORNERS) for axis in (x, y)]
     total, done = len(levels) * (len(x) * len(y) + CORNERS**2), 0
 

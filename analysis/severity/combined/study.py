@@ -49,7 +49,7 @@ class Study:
 def run_study(plant: Plant, grid: Grid, alone: SeverityTable, count: int, progress: Progress | None = None) -> Study:
     """`count` tests (a power of two keeps the design balanced); `alone`: the table of the map over the first fault."""
     settings, other, estimator = grid.settings, grid.other, JointEstimator(grid)
-    plant, chain = plant.with_solver(settings.table("assessment")["solver"]), Chain(settings.text)
+    plant, chain = plant.with_solver(settings.table("assessment")["solver"]), Chain(settings)
     nuisances = other_nuisances(settings, other)
     design = qmc.Sobol(2 + len(nuisances), seed=SEED).random(count)
 

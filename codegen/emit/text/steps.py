@@ -68,11 +68,20 @@ class StepWriter:
     def _fail(self, kind: str, row: Row, value: str = "0.0") -> str:
         return f"return mdl_fail(m, MDL_FAILURE_{kind}, {self._equation_index(row.source)}, {value});"
 
-    def _solve(self, matrix: str, right: str, rows: Sequence[Row]) -> None:
+    def _solve(self, block: str, step: LinearBlock) -> None:
         """A singular matrix is told at the equation that comes with the unknown that it does not determine."""
-        self._body.line(f"const int {matrix}_singular = mdl_solve({len(rows)}, {matrix}, {right});")
-        equation = self._equation_of(rows, f"{matrix}_singular")
-        self._body.line(f"if ({matrix}_singular) return mdl_fail(m, MDL_FAILURE_SINGULAR, {equation}, 0.0);")
+        body, size = self._body, len(step.tears)
+        body.line(f"const int {block}_singular = mdl_solve({size}, {block}_a, {block}_b);")
+        sizes = [self._nominal(u) for u in step.tears]
+        with body.scope(f"if ({block}_singular)", sizes):
+            equation = self._equation_of(step.residuals, f"{block}_singular")
+            nominal = ", ".join(map(body.value, sizes))
+            body.line(f"const double {block}_nominal[{size}] = {{{nominal}}};")
+            body.line(f"const int {block}_equation = {equation};")
+            arguments = f"m, {size}, {block}_singular - 1, {block}_a, {block}_b, {block}_nominal"
+            body.line(f"if (mdl_least({arguments})) "
+                      f"return mdl_fail(m, MDL_FAILURE_SINGULAR, {block}_equation, 0.0);")  # fmt: skip
+            body.line(f"m->undetermined = 1 + {block}_equation;")
 
     def _equation_of(self, rows: Sequence[Row], singular: str) -> str:
         """The equation of the unknown that mdl_solve names, of the first one where it names none."""
@@ -99,21 +108,30 @@ class StepWriter:
         right = [body.value(b) for b in step.right]
         names = [body.names.leaf(u) for u in step.tears]
         if size == 1:
-            divisor = f"{names[0]}_divisor"
-            body.line(f"const double {divisor} = {matrix[0]};")
-            body.line(f"if ({divisor} == 0.0) {self._fail('SINGULAR', step.residuals[0])}")
-            body.line(f"const double {names[0]} = {body.value(step.right[0], 8)} / {divisor};")
+            self._quotient(step, names[0], matrix[0])
         else:
             block = f"{names[0]}_block"
             body.line(f"double {block}_a[{size * size}] = {{{', '.join(matrix)}}};")
-            body.line(f"double {block}_b[{size}] = {{{', '.join(right)}}};")
-            self._solve(f"{block}_a", f"{block}_b", step.residuals)
+            body.line(f"double {block}_b[{2 * size}] = {{{', '.join(right)}}};")
+            self._solve(block, step)
             for k, name in enumerate(names):
                 body.line(f"const double {name} = {block}_b[{k}];")
         for u in step.tears:
             body.define(u)
         for a in step.assignments:
             self._assignment(a)
+
+    def _quotient(self, step: LinearBlock, name: str, matrix: str) -> None:
+        """One equation; 0 x = 0 leaves x open, see emit/functions/linear.py."""
+        body, row, (right,) = self._body, step.residuals[0], step.right
+        nominal = self._nominal(step.tears[0])
+        body.line(f"const double {name}_divisor = {matrix};")
+        body.line(f"double {name} = {body.value(right)};")
+        body.line(f"if ({name}_divisor != 0.0) {name} /= {name}_divisor;")
+        body.line(f"else if ({name} != 0.0) {self._fail('SINGULAR', row)}")
+        with body.scope("else", [nominal]):
+            body.line(f"{name} = m->shift * {body.value(nominal, 7)};")
+            body.line(f"m->undetermined = {1 + self._equation_index(row.source)};")
 
     def _nonlinear(self, step: NonlinearBlock) -> None:
         """A loop that evaluates the block wherever its solver (emit/functions/newton.py) looks."""
@@ -146,7 +164,7 @@ class StepWriter:
         for row in step.residuals:
             self.note(row)
         residuals = ", ".join(body.value(r.residual) for r in step.residuals)
-        body.line(f"double {block}_r[{size}] = {{{residuals}}};")
+        body.line(f"double {block}_r[{2 * size}] = {{{residuals}}};")
         body.line(f"const int {block}_looked = mdl_newton_look(&{block}, {block}_r);")
         body.line(f"if ({block}.phase == MDL_FAILED) return mdl_fail(m, {block}.singular ? MDL_FAILURE_SINGULAR "
                   f": MDL_FAILURE_NEWTON, {self._equation_of(step.residuals, f'{block}.singular')}, 0.0);")  # fmt: skip

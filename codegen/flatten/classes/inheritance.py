@@ -9,10 +9,10 @@ from lacuna.codegen.flatten.classes.restrictions import check_class
 from lacuna.codegen.flatten.names.component import Component
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier, from_tree, merge
-from lacuna.codegen.flatten.names.scope import Scope, base_class, base_clauses, own_or_inherited
+from lacuna.codegen.flatten.names.scope import PRIMITIVES, Scope, base_class, base_clauses, find_class, own_or_inherited
 from lacuna.codegen.flatten.names.unknown import unknown_class
-from lacuna.codegen.library.suggest import did_you_mean
 from lacuna.codegen.syntax import ast
+from lacuna.suggest import did_you_mean
 
 MAX_DEPTH = 40
 
@@ -119,13 +119,22 @@ class Inheritance:
         present = self.elements.get(name)
         if element.declaration.redeclares:
             element = _redeclared(element, present)
-        elif present is not None and present.declaration is not element.declaration:
-            same_type = str(present.declaration.type) == str(element.declaration.type)
-            if present.cls is element.cls or not same_type:
-                error = Diagnostic("R010", f"{name} is declared twice", element.declaration.span, "rename one of them")
-                error.notes.append((present.declaration.span, "the other declaration"))
-                raise error
+        elif present is not None and not self._is_same(present, element):
+            error = Diagnostic("R010", f"{name} is declared twice", element.declaration.span, "rename one of them")
+            error.notes.append((present.declaration.span, "the other declaration"))
+            raise error
         self.elements[name] = element
+
+    def _is_same(self, one: Element, other: Element) -> bool:
+        """Whether an element is inherited again: of the same type, each by the names of its own class (7.1.2)."""
+        if one.declaration is other.declaration:
+            return True
+        if one.cls is other.cls:
+            return False
+        if str(one.declaration.type) == str(other.declaration.type) and str(one.declaration.type) in PRIMITIVES:
+            return True
+        meant = [find_class(self._context.library, e.cls, e.declaration.type) for e in (one, other)]
+        return meant[0] is not None and meant[0] is meant[1]
 
     def _refuse_unknown(self, modifier: Modifier, elements: dict[str, Element], cls: ast.Class) -> None:
         for name, child in modifier.children.items():

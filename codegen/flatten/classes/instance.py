@@ -16,7 +16,7 @@ from lacuna.codegen.flatten.classes.prefixes import check_block, check_outer, ch
 from lacuna.codegen.flatten.classes.redeclared import check_modifier, check_redeclared, seen
 from lacuna.codegen.flatten.classes.restrictions import check_flow_record
 from lacuna.codegen.flatten.classes.subtypes import mismatch, require_subtype
-from lacuna.codegen.flatten.classes.types import Type, resolve_type
+from lacuna.codegen.flatten.classes.types import Type, causality_of, resolve_type
 from lacuna.codegen.flatten.expressions.enumerations import IndexType, index_type
 from lacuna.codegen.flatten.expressions.evaluate import evaluate_boolean, evaluate_dimensions
 from lacuna.codegen.flatten.expressions.lower import modifier_value
@@ -94,7 +94,8 @@ class Instance:
         around = self.parent
         connector = self.cls.kind == "connector"
         self.in_connector = connector or (around is not None and around.in_connector)
-        self.causality = (declaration.causality if declaration else "") or (around.causality if around else "")
+        own = (declaration.causality if declaration else "") or causality_of(self.cls, self.context)
+        self.causality = own or (around.causality if around else "")
         self.flow = bool(declaration and declaration.flow) or (around is not None and around.flow)
         self.stream = bool(declaration and declaration.stream) or (around is not None and around.stream)
         self.open_ended = self.cls.expandable or (connector and around is not None and around.open_ended)
@@ -237,6 +238,11 @@ class Instance:
         shape = [] if isinstance(found, Instance) else found.shape
         if len(shape) != len(declaration.dimensions) + len(wanted.dimensions):
             reason = "their numbers of dimensions differ"
+        sizes = [d for d in declaration.dimensions if not isinstance(d, ast.Colon)]
+        if not reason and len(sizes) == len(shape) and sizes:
+            wanted_sizes = evaluate_dimensions(sizes, scope, None, declaration.name)
+            if tuple(wanted_sizes) != tuple(shape):
+                reason = "their sizes differ"
         if reason:
             error = Diagnostic(
                 "R076", f"outer {declaration.name}: {reason}", declaration.span, "make their types alike"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cached_property
 from math import prod
 
@@ -12,11 +13,12 @@ from lacuna.codegen.flatten.expressions.lower import modifier_value
 from lacuna.codegen.flatten.names.component import Component
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier
+from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Array, Record, Value, indices, shape_of, shape_text
-from lacuna.codegen.library.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.syntax import ast
+from lacuna.suggest import did_you_mean
 
 
 class Leaf:
@@ -41,6 +43,7 @@ class Leaf:
         self.causality = declaration.causality or found.causality or instance.causality
         self.flow, self.stream = declaration.flow or instance.flow, declaration.stream or instance.stream
         self.open_ended = instance.open_ended  # in an expandable connector: its direction follows from the connections
+        self.relayed = False  # a connected expandable connector brought it: nothing here says who drives it
         if shape:
             self.names = tuple(f"{name}[{','.join(map(str, i))}]" for i in indices(shape))
         else:
@@ -98,6 +101,11 @@ class Leaf:
             raise Diagnostic("F020", f"the {self.primitive} {self.name} has no value", self.span, hint)
         return value
 
+    def bind(self, value: ast.Expression, scope: Scope) -> None:
+        """Take a value from an equation."""
+        self.modifier = replace(self.modifier, value=value, scope=scope, index=())
+        self._bound = False
+
     def binding(self) -> Value | None:
         """The value of its declaration equation or binding, checked for size and type; None where it has none."""
         if self._lowering:
@@ -106,11 +114,17 @@ class Leaf:
             self._lowering = True
             try:
                 if self.modifier.value is not None:
-                    self._binding = self._fit(modifier_value(self.modifier), self.modifier, "the binding")
+                    self._binding = self._fit(modifier_value(self._holding()), self.modifier, "the binding")
             finally:
                 self._lowering = False
             self._bound = True
         return self._binding
+
+    def _holding(self) -> Modifier:
+        """The modifier whose value holds at all times where this is no parameter."""
+        if self.is_structural or self.modifier.scope is None:
+            return self.modifier
+        return replace(self.modifier, scope=replace(self.modifier.scope, pure=True))
 
     def attribute(self, name: str) -> Value | None:
         """One attribute of all elements (a scalar where the variable is one)."""

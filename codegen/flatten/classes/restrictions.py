@@ -97,6 +97,11 @@ def _component(cls: ast.Class, component: ast.Component) -> Iterator[Diagnostic]
         yield Diagnostic("R070", f"a {kind} has no protected elements", span, "make it public")
     if kind in _ALL_PUBLIC and (component.inner or component.outer):
         yield Diagnostic("R070", f"a {kind} has neither inner nor outer elements", span, "declare it in a model")
+    if component.stream and kind not in ("connector", "record"):
+        yield Diagnostic("R070", f"the stream {component.name} of a {kind}", span, "streams belong into connectors")
+    if cls.expandable and component.flow:
+        hint = "connect the flow by a connector of its own"
+        yield Diagnostic("R070", f"the flow {component.name} of an expandable connector", span, hint)
     if kind == "record" and (component.causality or component.flow or component.stream):
         hint = "prefixes of that kind belong into connectors, blocks and functions"
         yield Diagnostic(

@@ -48,6 +48,8 @@ class ConnectionSets:
 
 def _is_source(part: Part) -> bool:
     """An output of a component, or an input of the model itself that can be connected from outside."""
+    if part.leaf.relayed:
+        return False
     outside = part.end.outside
     return part.leaf.causality == ("input" if outside else "output") and not (
         outside and part.leaf.declaration.protected

@@ -107,11 +107,23 @@ def _share(giver: Instance, taker: Instance) -> bool:
         node = giver.child(name)
         have = taker.child(name)
         if have is None and taker.cls.expandable and not isinstance(node, Absent):
-            taker.adopt(name, _like(node, name, taker))
+            taken = _like(node, name, taker)
+            for leaf in _leaves(taken):
+                leaf.relayed = True
+            taker.adopt(name, taken)
             changed = True
         elif isinstance(node, Instance) and isinstance(have, Instance) and node.cls.expandable:
             changed = _share(node, have) or changed
     return changed
+
+
+def _leaves(node: Node) -> Iterator[Leaf]:
+    if isinstance(node, Leaf):
+        yield node
+    elif isinstance(node, ArrayNode):
+        yield from (leaf for item in node.items for leaf in _leaves(item))
+    elif isinstance(node, Instance):
+        yield from (leaf for name in node.present for leaf in _leaves(node.child(name)))
 
 
 def _add(owner: Instance, ref: ast.Ref, found: list[Connector], scope: Scope, connections: Connections) -> None:

@@ -11,6 +11,7 @@ from lacuna.codegen.flatten.expressions.constants import known
 from lacuna.codegen.flatten.expressions.enumerations import enumeration_of
 from lacuna.codegen.flatten.expressions.lower import lower, lower_scalar
 from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.flatten.names.values import ChosenText
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, TRUE
 from lacuna.codegen.syntax import ast
 
@@ -25,6 +26,8 @@ def lower_assert(call: ast.Call, scope: Scope) -> flat.Assert:
     message = ""
     if condition is not TRUE:  # else nobody reads it (8.3.7)
         message = lower(arguments["message"], replace(scope, message=True, conditional=True))
+    if isinstance(message, ChosenText):
+        message = " or ".join(dict.fromkeys(text for _, text in message.alternatives))
     if not isinstance(message, str):
         hint = 'assert(x > 0, "text", AssertionLevel.warning)'
         raise Diagnostic("R020", "the message of assert is not a String", call.span, hint)

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.classes.leaf import Leaf
 from lacuna.codegen.flatten.expressions.constants import variability
 from lacuna.codegen.flatten.expressions.enumerations import require_same
 from lacuna.codegen.flatten.expressions.lower import lower, lower_results
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
-from lacuna.codegen.flatten.names.values import Record, Value, holds_records, items_of, shape_of, shape_text
+from lacuna.codegen.flatten.names.values import ChosenText, Record, Value, holds_records, items_of, shape_of, shape_text
 from lacuna.codegen.flatten.references.iterators import iterate
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
@@ -53,6 +54,8 @@ def equate(left: Value, right: Value, span: Span, scope: Scope, text: str) -> li
         raise Diagnostic("R042", f"the sides differ in size: {message}", span, "both sides need the same size")
     result = []
     for a, b in _pairs(left, right, span):
+        if isinstance(a, str | ChosenText) and a == b:
+            continue  # what gives a String its value
         check_types(a, b, span, scope)
         result.append(flat.Equation(a, b, span, origin_of(scope), text))
     return result
@@ -74,8 +77,9 @@ def _pairs(left: Value, right: Value, span: Span) -> Iterator[tuple[Expr | str, 
 
 def check_types(a: Expr | str, b: Expr | str, span: Span, scope: Scope) -> None:
     """Both sides Boolean, both Integer, or at least one Real with numbers only."""
-    if isinstance(a, str) or isinstance(b, str):
-        raise Diagnostic("R024", "an equation between Strings", span, "Strings are parameters only")
+    if not (isinstance(a, Expr) and isinstance(b, Expr)):
+        hint = "a String has one equation of its own, outside of conditions: s = ..."
+        raise Diagnostic("R024", "an equation between Strings", span, hint)
     kinds = {a.type, b.type}
     if BOOLEAN in kinds and len(kinds) > 1:
         hint = "a Boolean as a number: if b then 1 else 0"
@@ -96,7 +100,9 @@ def check_target(target: Expr | str, span: Span, scope: Scope) -> None:
         raise Diagnostic("R058", f"the {kind} {target.value} is assigned", span, hint)
 
 
-def check_discrete(equations: list[flat.Equation], assigned: set[str], context: Context) -> None:
+def check_discrete(
+    equations: list[flat.Equation], leaves: Iterable[Leaf], assigned: set[str], context: Context
+) -> None:
     """A discrete variable that no event sets does not follow what varies between events. Raises R063."""
     for e in equations:
         for a, b in ((e.lhs, e.rhs), (e.rhs, e.lhs)):
@@ -105,6 +111,17 @@ def check_discrete(equations: list[flat.Equation], assigned: set[str], context: 
                 hint = "set it at events: when ... then; or drop 'discrete'"
                 message = f"the discrete {a.value} equals what varies continuously"
                 raise Diagnostic("R063", message, e.span, hint)
+    _check_declared(leaves, assigned)
+
+
+def _check_declared(leaves: Iterable[Leaf], assigned: set[str]) -> None:
+    """A Real declared `discrete` is assigned in a when-clause; an input and what is connected gets its value elsewhere
+    (4.4.4). Raises R063."""
+    for leaf in leaves:
+        plain = leaf.declaration.variability == "discrete" and leaf.primitive == REAL and not leaf.causality
+        if plain and not leaf.instance.in_connector and not assigned.intersection(leaf.names):
+            hint = "set it at events: when ... then; or drop 'discrete'"
+            raise Diagnostic("R063", f"no when-clause sets the discrete {leaf.name}", leaf.span, hint)
 
 
 def _several(item: ast.Equality, scope: Scope) -> list[flat.Equation]:

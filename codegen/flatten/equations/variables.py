@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 
 from lacuna.codegen import flat
@@ -9,11 +10,12 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.leaf import Leaf
 from lacuna.codegen.flatten.classes.types import EXTERNAL
 from lacuna.codegen.flatten.equations.equations import real_or_same
-from lacuna.codegen.flatten.expressions.constants import evaluate, is_parameter
+from lacuna.codegen.flatten.expressions.constants import evaluate, is_parameter, variability
 from lacuna.codegen.flatten.expressions.enumerations import enumeration_of, require_same
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
+from lacuna.codegen.syntax import ast
 
 _STATE_SELECT = ("never", "avoid", "default", "prefer", "always")
 _NUMERIC = ("start", "min", "max", "nominal")
@@ -58,6 +60,7 @@ def _variable(leaf: Leaf, name: str, attributes: dict[str, Expr | str]) -> flat.
         leaf.variability,
         description=leaf.declaration.description,
         final=leaf.modifier.final,
+        evaluated=leaf.is_structural and not leaf.is_free and _is_evaluated(leaf.declaration.annotation),
     )
     for key in _NUMERIC:
         if key in attributes:
@@ -79,6 +82,14 @@ def _variable(leaf: Leaf, name: str, attributes: dict[str, Expr | str]) -> flat.
     return result
 
 
+def _is_evaluated(annotation: ast.Modification | None) -> bool:
+    """annotation(Evaluate = true): the value is part of the structure (Modelica 3.6, 18.3)."""
+    return any(
+        a.name == "Evaluate" and isinstance(a.modification.value, ast.Literal) and a.modification.value.value is True
+        for a in (annotation.arguments if annotation else ())
+    )
+
+
 def _state_select(value: Expr | str, leaf: Leaf) -> str:
     context, span = leaf.instance.context, leaf.modifier.children["stateSelect"].span
     if isinstance(value, str) or enumeration_of(value, context) != "StateSelect":
@@ -98,7 +109,7 @@ def _typed(value: Expr | str, leaf: Leaf, what: str, span: Span) -> Expr:
     """`value` for the variable `leaf`; a whole number becomes a Real constant where that is needed."""
     kind = leaf.primitive
     checked = _of_type(value, kind, what, span)
-    require_same(ex.var(leaf.names[0], kind), checked, leaf.instance.context, span)
+    require_same(ex.var(leaf.names[0], kind), value, leaf.instance.context, span)
     return checked
 
 
@@ -119,6 +130,9 @@ def _parameter_value(leaf: Leaf, variable: flat.Variable, value: Expr | None, co
         if not is_parameter(checked, context):
             message = f"the {leaf.variability} {variable.name} depends on what varies: {ex.to_text(checked)}"
             raise Diagnostic("R055", message, span, "remove 'parameter', or use parameters and constants only")
+        if leaf.variability == "constant" and variability(checked, context) != "constant":
+            message = f"the constant {variable.name} depends on parameters: {ex.to_text(checked)}"
+            raise Diagnostic("R055", message, span, "declare it as a parameter, or use constants only")
         return checked
     if variable.fixed is ex.FALSE:
         return None
@@ -161,6 +175,16 @@ def _names(expressions: list[Expr]) -> list[str]:
                 names.append(str(e.value))
             stack.extend(e.args)
     return names
+
+
+def mark_evaluated(model: flat.FlatModel, names: Collection[str]) -> None:
+    """Parameters of these names, those with Evaluate = true, and what they depend on are part of the structure."""
+    pending = [v for v in model.variables.values() if v.evaluated or v.name in names]
+    while pending:
+        variable = pending.pop()
+        variable.evaluated = True
+        used = [model.variables[n] for n in _names([variable.binding])] if variable.binding is not None else []
+        pending += [v for v in used if not v.evaluated and v.fixed is not ex.FALSE]
 
 
 def mark_discrete(model: flat.FlatModel, targets: list[str]) -> None:

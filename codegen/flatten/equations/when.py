@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.equations.asserts import lower_assert
@@ -20,7 +22,7 @@ def flatten_when(item: ast.When, scope: Scope) -> flat.When:
     """A vector of conditions becomes one branch for each: any rising edge fires the body once."""
     branches = []
     for written, body in item.branches:
-        statements = when_body(body, scope)
+        statements = when_body(body, replace(scope, pure=False))
         branches += [(condition, statements) for condition in when_conditions(written, scope)]
     _same_targets([body for _, body in branches], item.span, "elsewhen")
     return flat.When(branches, item.span, origin_of(scope))
@@ -37,13 +39,23 @@ def _same_targets(bodies: list[list[flat.Statement]], span: Span, what: str) -> 
 
 
 def when_conditions(written: ast.Expression, scope: Scope) -> list[Expr]:
+    """The conditions of a when-clause. Only `initial()` itself, alone or in the vector, is active at the start (8.6):
+    what a function makes of it is true there already and does not become true later."""
     value = lower(written, scope)
     conditions = scalars(value)
+    parts = written.elements if isinstance(written, ast.ArrayLiteral) else [written]
+    if len(parts) == len(conditions):
+        pairs = zip(conditions, parts, strict=True)
+        conditions = [FALSE if isinstance(c, Expr) and c.op == "initial" and not _asks(w) else c for c, w in pairs]
     for condition in conditions:
         if not isinstance(condition, Expr) or condition.type != BOOLEAN:
             hint = "use a comparison, sample(...), or a Boolean variable"
             raise Diagnostic("R020", "the condition of when is not a Boolean", written.span, hint)
     return conditions
+
+
+def _asks(written: ast.Expression) -> bool:
+    return isinstance(written, ast.Call) and str(written.function) == "initial"
 
 
 def when_body(body: list[ast.Item], scope: Scope) -> list[flat.Statement]:

@@ -207,7 +207,7 @@ def map_call(e: ast.Call, scope: Scope, count: int) -> Value:
     arguments = _arguments(e, scope, count, count)
     name = str(e.function)
     for a, written in zip(arguments, e.args, strict=True):
-        need_numbers(a, written.span, name)
+        need_numbers(a, written.span, name, scope.context)
         for item in scalars(a):
             if name in _DOMAINS and item.op == "const" and not _DOMAINS[name][0](item.value) and not scope.conditional:
                 message = f"{name}({ex.to_text(item)}) does not exist"

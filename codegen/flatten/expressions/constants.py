@@ -7,6 +7,7 @@ from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import Expr
+from lacuna.codegen.symbolic.leaves import leaves
 
 
 class AtRunTime(Exception):
@@ -123,6 +124,8 @@ def _variability(e: Expr, context: Context) -> str:
         return "continuous"
     if e.op in ("pre", "sample", "initial", "terminal", "edge", "change"):
         return "discrete"
+    if e.op == "noEvent":  # what is in it changes as its variables do (3.8.5)
+        return max((variability(n, context) for n in leaves(e)), key=_ORDER.__getitem__, default="constant")
     found = max((variability(a, context) for a in e.args), key=_ORDER.__getitem__, default="constant")
     by_events = e.op in ex.RELATIONS or (e.op == "call" and e.value in ("floor", "ceil", "integer", "div", "sign"))
     return "discrete" if by_events and found == "continuous" else found

@@ -27,6 +27,6 @@ def time_derivative(e: Expr, scope: Scope, span: Span) -> Expr:
             raise Diagnostic("R054", f"the derivative of the discrete {leaf.value}", span, hint)
         return ex.der(leaf) if kind == "continuous" else ex.ZERO
 
-    if e.op == "var" and e.type != ex.REAL and variability(e, scope.context) == "discrete":
+    if e.op == "var" and e.type != ex.REAL:
         raise Diagnostic("R054", f"the derivative of the {e.type} {e.value}", span, "only Reals have derivatives")
     return Differentiator(seed)(e)

@@ -6,12 +6,15 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.expressions.chosen_texts import choose, compared, joined
 from lacuna.codegen.flatten.expressions.constants import is_known, known
-from lacuna.codegen.flatten.expressions.enumerations import require_same
+from lacuna.codegen.flatten.expressions.enumerations import enumeration_of, require_same
+from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import (
     Array,
+    ChosenText,
     Record,
     Value,
     concatenate,
@@ -45,7 +48,13 @@ def lower_scalar(e: ast.Expression, scope: Scope, kind: str = "") -> Expr:
     """As `lower`, for what must be a scalar (of type `kind`; Integer serves as Real)."""
     value = lower(e, scope)
     if not isinstance(value, Expr):
-        found = "a String" if isinstance(value, str) else "a record" if isinstance(value, Record) else "an array"
+        found = (
+            "a String"
+            if isinstance(value, str | ChosenText)
+            else "a record"
+            if isinstance(value, Record)
+            else "an array"
+        )
         raise Diagnostic("R020", f"{found} where a scalar is needed", e.span, "use one element of it")
     if kind and value.type != kind and not (kind == REAL and value.type == INTEGER):
         raise Diagnostic("R020", f"this is {value.type}, {kind} is needed", e.span, _conversion(value.type, kind))
@@ -84,14 +93,19 @@ def _need(value: Value, kinds: tuple[str, ...], span: Span, op: str) -> None:
     items = value.items if isinstance(value, Array) else (value,)
     for item in items:
         if not isinstance(item, Expr) or item.type not in kinds:
-            found = item.type if isinstance(item, Expr) else "String" if isinstance(item, str) else "record"
+            found = "record" if isinstance(item, Record) else "String" if isinstance(item, str) else item.type
             wanted = " or ".join(kinds)
             hint = _conversion(found, kinds[0]) if isinstance(item, Expr) else "use numbers, or fields of the record"
             raise Diagnostic("R021", f"{op} is applied to a {found}; it needs {wanted}", span, hint)
 
 
-def need_numbers(value: Value, span: Span, op: str) -> None:
+def need_numbers(value: Value, span: Span, op: str, context: Context | None = None) -> None:
+    """Raises R021 for anything but numbers; where `context` is given, for values of an enumeration too (4.9.5)."""
     _need(value, (REAL, INTEGER), span, op)
+    for item in value.items if context and isinstance(value, Array) else (value,) if context else ():
+        if item.type == INTEGER and enumeration_of(item, context):
+            hint = "Integer(e) is the number of a literal"
+            raise Diagnostic("R021", f"{op} is applied to a value of an enumeration", span, hint)
 
 
 def _unary(e: ast.Unary, scope: Scope) -> Value:
@@ -101,7 +115,7 @@ def _unary(e: ast.Unary, scope: Scope) -> Value:
     if e.op == "not":
         _need(value, (BOOLEAN,), e.span, "not")
         return elementwise(ex.logical_not, [value], e.span, "not")
-    need_numbers(value, e.span, e.op)
+    need_numbers(value, e.span, e.op, scope.context)
     return elementwise(ex.neg, [value], e.span, "a sign") if "-" in e.op else value
 
 
@@ -113,29 +127,24 @@ def _binary(e: ast.Binary, scope: Scope) -> Value:
         for value in (left, right):
             _need(value, (BOOLEAN,), e.span, e.op)
         return elementwise(ex.logical_and if e.op == "and" else ex.logical_or, [left, right], e.span, e.op)
-    if isinstance(left, str) and isinstance(right, str):
-        return _texts(e, left, right)
+    texts = isinstance(left, str | ChosenText) and isinstance(right, str | ChosenText)
+    if texts and (e.op == "+" or e.op in ex.RELATIONS):
+        return joined(left, right, e.span) if e.op == "+" else compared(e.op, left, right, e.span)
     if e.op in ex.RELATIONS:
         return _relation(e, left, right, scope)
     for value in (left, right):
-        need_numbers(value, e.span, e.op)
+        need_numbers(value, e.span, e.op, scope.context)
     return _ARITHMETIC[e.op](left, right, e.span)
-
-
-def _texts(e: ast.Binary, left: str, right: str) -> Value:
-    if e.op == "+":
-        return left + right
-    if e.op in ("==", "<>"):
-        return ex.const((left == right) == (e.op == "=="))
-    raise Diagnostic("R021", f"{e.op} is applied to Strings", e.span, "Strings can be joined by + and compared by ==")
 
 
 def _relation(e: ast.Binary, left: Value, right: Value, scope: Scope) -> Expr:
     for value in (left, right):
         if not isinstance(value, Expr):
             raise Diagnostic("R021", f"{e.op} compares scalars", e.span, "compare element by element")
-    if (left.type == BOOLEAN) != (right.type == BOOLEAN) or (left.type == BOOLEAN and e.op not in ("==", "<>")):
+    if (left.type == BOOLEAN) != (right.type == BOOLEAN):
         raise Diagnostic("R021", f"{e.op} between {left.type} and {right.type}", e.span, "compare like with like")
+    if left.type == BOOLEAN and e.op not in ("==", "<>"):  # false < true (3.5)
+        left, right = (ex.if_else(b, ex.const(1), ex.const(0)) for b in (left, right))
     require_same(left, right, scope.context, e.span)
     exact = e.op in ("==", "<>") and REAL in (left.type, right.type) and not scope.in_function
     if exact and not (is_known(left, scope.context) and is_known(right, scope.context)):
@@ -194,7 +203,6 @@ _ARITHMETIC: dict[str, Callable[[Value, Value, Span], Value]] = {
 
 
 def _if(e: ast.IfExpression, scope: Scope) -> Value:
-    otherwise: Value | None = None
     chosen: list[tuple[Expr, ast.Expression]] = []
     last = e.otherwise
     for written, value in e.branches:
@@ -205,14 +213,38 @@ def _if(e: ast.IfExpression, scope: Scope) -> Value:
         if condition.op != "const":
             chosen.append((condition, value))
             scope = replace(scope, conditional=True)
-    otherwise = lower(last, scope)
+    result = _alternative(last, scope, bool(chosen))
     for condition, written in reversed(chosen):
-        otherwise = _choice(condition, lower(written, scope), otherwise, written.span, scope)
-    return otherwise
+        then = _alternative(written, scope, True)
+        if isinstance(then, Diagnostic) or isinstance(result, Diagnostic):
+            if not is_known(condition, scope.context):
+                raise then if isinstance(then, Diagnostic) else result
+            result = then if known(condition, scope, e.span, "the condition").value else result
+        else:
+            result = _choice(condition, then, result, written.span, scope)
+    if isinstance(result, Diagnostic):
+        raise result
+    return result
+
+
+NOT_THERE = ("R045", "R046")  # an element outside its array, a division by zero
+
+
+def _alternative(written: ast.Expression, scope: Scope, chosen: bool) -> Value | Diagnostic:
+    """The value of one alternative, where there is a choice the reason why it has none: it may not be the one."""
+    try:
+        return lower(written, scope)
+    except Diagnostic as error:
+        if not chosen or error.code not in NOT_THERE:
+            raise
+        return error
 
 
 def _choice(condition: Expr, then: Value, otherwise: Value, span: Span, scope: Scope) -> Value:
-    if isinstance(then, str) or isinstance(otherwise, str) or shape_of(then) != shape_of(otherwise):
+    texts = isinstance(then, str | ChosenText) and isinstance(otherwise, str | ChosenText)
+    if texts and not is_known(condition, scope.context):
+        return choose(condition, then, otherwise)
+    if texts or isinstance(then, str) or isinstance(otherwise, str) or shape_of(then) != shape_of(otherwise):
         decided = known(condition, scope, span, "the condition of alternatives of different size")
         return then if decided.value else otherwise
     if isinstance(then, Record) and isinstance(otherwise, Record) and then.fields.keys() == otherwise.fields.keys():

@@ -5,12 +5,15 @@ from __future__ import annotations
 import re
 
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.expressions.constants import known
+from lacuna.codegen.flatten.expressions.chosen_texts import Text, choose
+from lacuna.codegen.flatten.expressions.constants import is_known, known
 from lacuna.codegen.flatten.expressions.enumerations import enumeration_of
 from lacuna.codegen.flatten.expressions.lower import lower, lower_scalar
+from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope, literals_of
-from lacuna.codegen.flatten.names.values import Record, Value
-from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
+from lacuna.codegen.flatten.names.values import ChosenText, Record, Value
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, INTEGER, REAL, TRUE, Expr
 from lacuna.codegen.syntax import ast
 
 _FORMAT = re.compile(r"([-+ #0]*)(\d*)(?:\.(\d+))?([diuoxXeEfFgG])$")
@@ -22,7 +25,7 @@ def text_of(e: ast.Call, scope: Scope) -> Value:
     if not e.args:
         raise Diagnostic("R050", "String needs a value", e.span, "write String(x)")
     value = lower(e.args[0], scope)
-    if isinstance(value, str):
+    if isinstance(value, str | ChosenText):
         return value
     if isinstance(value, Record):
         text = scope.context.lowering.text(value, e, scope)
@@ -32,9 +35,39 @@ def text_of(e: ast.Call, scope: Scope) -> Value:
         raise Diagnostic("R020", "String of what is no scalar", e.span, "use one element of it")
     if scope.message and value.op != "const":
         return str(value)
+    kind = enumeration_of(value, scope.context)
+    value = settled(value, scope.context)
+    if value.op != "const" and not is_known(value, scope.context) and (kind or value.type == BOOLEAN):
+        return _chosen(value, kind, _options(e, value, scope), scope, e.span)
     constant = known(value, scope, e.span, "the value of a String")
-    options = _options(e, constant, scope)
-    return _written(constant, options, enumeration_of(value, scope.context), scope, e.span)
+    return _written(constant, _options(e, constant, scope), kind, scope, e.span)
+
+
+def settled(e: Expr, context: Context) -> Expr:
+    """`e` with the values of the variables in it that a declaration equation sets to a constant."""
+
+    def value_of(n: Expr) -> Expr | None:
+        leaf, position = context.scalars.get(str(n.value), (None, 0)) if n.op == "var" else (None, 0)
+        if leaf is None or leaf.is_structural:
+            return None
+        value = leaf.element(leaf.binding(), position)
+        value = settled(value, context) if isinstance(value, Expr) else None
+        return value if value is not None and value.op == "const" else None
+
+    return ex.transform(e, value_of, {})
+
+
+def _chosen(value: Expr, kind: str, options: dict[str, object], scope: Scope, span: Span) -> Value:
+    """The text of a Boolean or of a value of an enumeration that varies: chosen among those of all values."""
+    if "format" in options:
+        raise Diagnostic("R050", "a format of what is no number", span, "leave the format out")
+    every = [TRUE, FALSE] if not kind else [ex.const(n + 1) for n in range(len(literals_of(kind, scope)))]
+    texts = [_written(each, options, kind, scope, span) for each in every]
+    conditions = [value] if not kind else [ex.relation("==", value, each) for each in every]
+    result: Text = texts[-1]
+    for condition, text in reversed(list(zip(conditions, texts[:-1], strict=False))):
+        result = choose(condition, text, result)
+    return result
 
 
 def _options(e: ast.Call, value: Expr, scope: Scope) -> dict[str, object]:

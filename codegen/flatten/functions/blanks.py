@@ -33,6 +33,6 @@ def _blank_record(local: Local, scope: Scope) -> Record:
         inner = replace(part.scope, locals=dict(fields))
         value, where = given.get(part.name), scope
         if value is None:
-            value, where = part.declaration.modification.value, inner
+            value, where = part.declaration.modification.value, part.around_default(inner)
         fields[part.name] = blank(part, inner) if value is None else fit(part, lower(value, where), inner, value.span)
     return Record(local.name, fields, local.type.cls)

@@ -17,6 +17,7 @@ from lacuna.codegen.flatten.functions.interpret import interpret
 from lacuna.codegen.flatten.functions.library.external import call_external
 from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
 from lacuna.codegen.flatten.functions.locals import Local, Signature, fit, signature_of
+from lacuna.codegen.flatten.functions.parts import parts, rebuilt
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope, find_class
 from lacuna.codegen.flatten.names.values import (
@@ -30,10 +31,10 @@ from lacuna.codegen.flatten.names.values import (
     stack,
 )
 from lacuna.codegen.flatten.references.iterators import references
-from lacuna.codegen.library.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.syntax import ast
+from lacuna.suggest import did_you_mean
 
 MAX_INLINE_NODES = 250
 MAX_INLINE_DEPTH = 12
@@ -172,7 +173,7 @@ def bind_arguments(
             elif default is not None:
                 if _asks_for(default, open_, local):
                     continue
-                value, span = lower(default, inner), default.span
+                value, span = lower(default, local.around_default(inner)), default.span
             else:
                 hint = f"{cls.name}({', '.join(i.name for i in inputs)})"
                 raise Diagnostic("R050", f"the input {local.name} of {cls.name} is not given", e.span, hint)
@@ -287,12 +288,13 @@ def construct_record(cls: ast.Class, e: ast.Call, scope: Scope) -> Record:
 def run(name: str, arguments: list[Expr], context: Context, span: Span) -> Expr:
     """A kept function on constant arguments: its (first) result as a constant."""
     source = context.table(Sources)[name]
-    bound: dict[str, Value] = {}
-    for local, value in zip(source.inputs, arguments, strict=True):
-        bound[local] = Array(source.shapes[local], value.args) if value.op == "array" else value
+    variables = [v for n, whole in source.inputs.items() for v in parts(n, whole).values()]
+    given = (Array(v.shape, a.args) if isinstance(v, Array) else a for v, a in zip(variables, arguments, strict=True))
+    bound = {n: rebuilt(whole, given) for n, whole in source.inputs.items()}
     try:
         results = interpret(source.signature, bound, context, span)
     except AtRunTime as reason:
         message = f"{name} cannot be evaluated at translation: {reason.args[0]}"
         raise Diagnostic("F021", message, span, "give it constants and parameters only") from None
-    return scalars(results[source.output])[source.element]
+    found = [part for result in results for part in parts("", result).values()]
+    return scalars(found[source.output])[source.element]

@@ -11,6 +11,7 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.instance import package_of
 from lacuna.codegen.flatten.equations.asserts import lower_assert
 from lacuna.codegen.flatten.equations.effects import effect
+from lacuna.codegen.flatten.expressions.chosen_texts import choose
 from lacuna.codegen.flatten.expressions.constants import AtRunTime
 from lacuna.codegen.flatten.expressions.lower import lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.functions.blanks import blank
@@ -21,6 +22,7 @@ from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import (
     Array,
+    ChosenText,
     Record,
     Value,
     elementwise,
@@ -33,10 +35,10 @@ from lacuna.codegen.flatten.names.values import (
 )
 from lacuna.codegen.flatten.references.iterators import iterate
 from lacuna.codegen.flatten.references.references import apply_subscripts
-from lacuna.codegen.library.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr
 from lacuna.codegen.syntax import ast
+from lacuna.suggest import did_you_mean
 
 MAX_STEPS = 50_000
 MAX_SYMBOLIC_STEPS = 400
@@ -54,7 +56,7 @@ def interpret(signature: Signature, arguments: dict[str, Value], context: Contex
         scope = replace(local.scope, locals=run.locals)
         default = local.declaration.modification.value
         if default is not None:
-            value = fit(local, lower(default, scope), scope, default.span)
+            value = fit(local, lower(default, local.around_default(scope)), scope, default.span)
             run.locals[local.name] = _named_constant(local, signature.cls, value, context) if run.symbolic else value
         else:
             if local.is_flexible:
@@ -293,6 +295,6 @@ def _choose(condition: Expr, then: Value, otherwise: Value, span: Span) -> Value
     if isinstance(then, Array) and holds_records(then) and shape_of(then) == shape_of(otherwise):
         pairs = zip(then.items, items_of(otherwise), strict=True)
         return Array(then.shape, tuple(_choose(condition, a, b, span) for a, b in pairs))
-    if isinstance(then, str) or isinstance(otherwise, str):
-        raise AtRunTime("a String", span)
+    if isinstance(then, str | ChosenText) and isinstance(otherwise, str | ChosenText):
+        return choose(condition, then, otherwise)
     return elementwise(lambda a, b: ex.if_else(condition, a, b), [then, otherwise], span, "alternatives")

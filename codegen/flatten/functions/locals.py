@@ -8,6 +8,7 @@ from functools import cached_property
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.instance import Instance
 from lacuna.codegen.flatten.classes.types import EXTERNAL, Type, resolve_type
+from lacuna.codegen.flatten.expressions.enumerations import enumeration_of
 from lacuna.codegen.flatten.expressions.evaluate import evaluate_dimensions
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import from_tree, merge
@@ -36,6 +37,11 @@ class Local:
     declaration: ast.Component
     type: Type
     scope: Scope  # of the class it is declared in
+    modified_in: ast.Class | None = None  # the class whose extends clause gives the default
+
+    def around_default(self, scope: Scope) -> Scope:
+        """`scope` for the default: a modification's names are looked up where it is written (7.2)."""
+        return scope if self.modified_in is None else replace(scope, cls=self.modified_in)
 
     @property
     def is_flexible(self) -> bool:
@@ -124,11 +130,12 @@ def signature_of(cls: ast.Class, context: Context) -> Signature:
         declared = []
         for name, element in instance.elements.items():
             scope = Scope(context, element.cls, in_function=True)
-            declaration, outer = element.declaration, element.modifier
+            declaration, outer, modified_in = element.declaration, element.modifier, None
             if outer is not None and isinstance(outer.value, ast.Expression):
                 changed = replace(declaration.modification, value=outer.value)
                 declaration = replace(declaration, modification=changed)
-            declared.append(Local(name, declaration, resolve_type(declaration.type, scope), scope))
+                modified_in = outer.scope.cls if outer.scope is not None else None
+            declared.append(Local(name, declaration, resolve_type(declaration.type, scope), scope, modified_in))
         if cls.kind == "function":
             _check_function(cls, instance)
             _check_components(cls, declared)
@@ -175,7 +182,20 @@ def fit(local: Local, value: Value, scope: Scope, span: Span) -> Value:
         each = f"for each element: {{f({local.name}) for {local.name} in array}}"
         raise Diagnostic("R062", message, span, "both need the same size" if sizes else each)
     items = [typed(item, local.type.primitive, local.name, span) for item in scalars(value)]
+    _require_enumeration(local, scalars(value), scope, span)
     return Array(sizes, tuple(items)) if isinstance(value, Array) else items[0]
+
+
+def _require_enumeration(local: Local, items: list[Expr | str], scope: Scope, span: Span) -> None:
+    """Raises R025 for a value of one enumeration where a number or another is declared."""
+    cls = local.type.cls
+    wanted = (cls.origin or cls).path if local.type.literals and cls is not None else ""
+    for item in items:
+        found = enumeration_of(item, scope.context) if isinstance(item, Expr) else ""
+        if found and found != wanted:
+            names = [name.rsplit(".", 1)[-1] or local.type.primitive for name in (wanted, found)]
+            hint = f"give a {names[0]}; Integer(e) is the number of a literal"
+            raise Diagnostic("R025", f"{local.name} is {names[0]}, given {names[1]}", span, hint)
 
 
 def _fit_records(local: Local, value: Value, scope: Scope, span: Span) -> Value:

@@ -27,10 +27,11 @@ def operator_record(value: Value) -> ast.Class | None:
 def overloaded(op: str, operands: Sequence[Value], span: Span, scope: Scope) -> Value:
     """The value of an operator of which one operand at least is an operator record. Raises R079."""
     classes = [cls for cls in map(operator_record, operands) if cls is not None]
-    name = op.removeprefix(".") if op.startswith(".") and any(map(shape_of, operands)) else op
-    found = _call_one(f"'{name}'", classes, operands, span, scope)
+    if op.startswith(".") and any(map(shape_of, operands)):
+        return _element_by_element(op, operands, span, scope)  # never a product of whole arrays (10.6.2)
+    found = _call_one(f"'{op}'", classes, operands, span, scope)
     if found is None and len(operands) == 2:
-        found = _converted(f"'{name}'", operands, span, scope)
+        found = _converted(f"'{op}'", operands, span, scope)
     if found is not None:
         return found
     if any(map(shape_of, operands)):
@@ -38,7 +39,7 @@ def overloaded(op: str, operands: Sequence[Value], span: Span, scope: Scope) -> 
     if not classes:
         hint = "make it an operator record, or name its fields"
         raise Diagnostic("R079", f"a record has no operator {op}", span, hint)
-    hint = f"declare an operator '{name}' for these operands in {classes[0].name}"
+    hint = f"declare an operator '{op}' for these operands in {classes[0].name}"
     raise Diagnostic("R079", f"{classes[0].name} has no operator {op} for these operands", span, hint)
 
 

@@ -26,6 +26,7 @@ class Component(Protocol):
     """An instance of a structured class."""
 
     name: str
+    cls: ast.Class
     variability: str
     parent: Component | None
     causality: str  # input, output or "", of itself or of what it is part of; so are the next two

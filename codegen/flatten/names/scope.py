@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.names.component import Component
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.values import Value
 from lacuna.codegen.flatten.names.views import constrain, is_specialised, member, modified, redeclarations, view
 from lacuna.codegen.library.classes import PREDEFINED, Library
-from lacuna.codegen.library.suggest import did_you_mean
 from lacuna.codegen.syntax import ast
+from lacuna.suggest import did_you_mean
 
 PRIMITIVES = ("Real", "Integer", "Boolean", "String")
 
@@ -27,6 +27,7 @@ class Scope:
     initial: bool = False  # in an initial section
     conditional: bool = False  # under a condition not known yet: what cannot be computed may never be asked for
     message: bool = False  # in the text of an assert
+    pure: bool = False  # where no impure function may be called: equations that hold at all times
 
     def with_locals(self, **values: Value) -> Scope:
         return replace(self, locals={**self.locals, **values})
@@ -160,8 +161,10 @@ def imported_class(library: Library, item: ast.Import) -> ast.Class | None:
     return cls
 
 
-def find_first(library: Library, cls: ast.Class, name: str, of_base: bool = False) -> ast.Class | None:
-    """The class that the single name `name` means inside `cls`, looking outwards."""
+def find_first(
+    library: Library, cls: ast.Class, name: str, of_base: bool = False, outermost: bool = True
+) -> ast.Class | None:
+    """The class that the single name `name` means inside `cls`, looking outwards, up to the `outermost` packages."""
     current: ast.Class | None = cls
     while current is not None:
         if current is cls and of_base:
@@ -176,7 +179,7 @@ def find_first(library: Library, cls: ast.Class, name: str, of_base: bool = Fals
         if current.encapsulated:
             return PREDEFINED.get(name)
         current = current.parent
-    return library.member(library.root, name)
+    return library.member(library.root, name) if outermost else None
 
 
 def find_class(library: Library, cls: ast.Class, ref: ast.Ref, of_base: bool = False) -> ast.Class | None:
@@ -190,6 +193,23 @@ def find_class(library: Library, cls: ast.Class, ref: ast.Ref, of_base: bool = F
             return None
         found = class_inside(library, found, name, ref)
     return found
+
+
+def meant_class(cls: ast.Class, span: Span, scope: Scope) -> ast.Class:
+    """`cls` itself; of one that is declared `outer`, the inner class of that name around `scope` (5.4).
+
+    Raises R013 where there is none. Where no component is known (in functions) the declared class stands.
+    """
+    if not cls.outer or scope.instance is None:
+        return cls
+    above: Component | None = scope.instance
+    while above is not None:
+        found = own_or_inherited(scope.context.library, above.cls, cls.name)
+        if found is not None and found.inner:
+            return found
+        above = above.parent
+    hint = f"declare in a class around it: inner {cls.kind} {cls.name}"
+    raise Diagnostic("R013", f"no 'inner' matches the 'outer' class {cls.name}", span, hint)
 
 
 def class_inside(library: Library, cls: ast.Class, name: str, ref: ast.Ref) -> ast.Class | None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.names.scope import PRIMITIVES, base_classes, find_first, own_or_inherited
 from lacuna.codegen.library.classes import HOME_PACKAGE, Library
-from lacuna.codegen.library.suggest import did_you_mean, nearest
 from lacuna.codegen.syntax import ast
+from lacuna.suggest import did_you_mean, nearest, question
 
 
 def visible_classes(library: Library, cls: ast.Class) -> list[str]:
@@ -45,4 +45,4 @@ def _elsewhere(library: Library, ref: ast.Ref) -> str:
         classes = []
     names = nearest(ref.names[-1], (c.name for c in classes))
     found = [c.path for name in names for c in classes if c.name == name]
-    return f"did you mean {' or '.join(found[:3])}?" if found else "declare it, or import its package"
+    return question(found[:3]) if found else "declare it, or import its package"

@@ -57,7 +57,18 @@ class ExternalValue:
     data: object
 
 
-Value = Expr | str | Array | Record | FunctionValue | ExternalValue
+@dataclass(frozen=True, slots=True)
+class ChosenText:
+    """A String that is chosen at run time: (condition, text), the first whose condition holds; the last one's does."""
+
+    alternatives: tuple[tuple[Expr, str], ...]
+
+    @property
+    def type(self) -> str:
+        return "String"
+
+
+Value = Expr | str | ChosenText | Array | Record | FunctionValue | ExternalValue
 
 
 def shape_of(value: Value) -> tuple[int, ...]:
@@ -112,7 +123,7 @@ def elementwise(function: Callable[..., Expr], values: list[Value], span: Span, 
     for v in values:
         if isinstance(v, FunctionValue | ExternalValue):
             raise Diagnostic("R041", f"{what} of a function or an external object", span, "it works on numbers")
-        if any(isinstance(i, Record | str) for i in items_of(v)):
+        if any(isinstance(i, Record | str | ChosenText) for i in items_of(v)):
             found = "a record" if holds_records(v) else "a String"
             raise Diagnostic("R041", f"{what} of {found}", span, "it works on numbers and Booleans")
     shapes = {v.shape for v in values if isinstance(v, Array)}

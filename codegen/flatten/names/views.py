@@ -93,6 +93,8 @@ def constrain(library: Library, new: ast.Class, old: ast.Class, by_element: bool
     """
     if new.alias is not None and new.alias.target is not None:
         return new
+    if (old.origin or old) is (new.origin or new):
+        return old  # put there by the base class, which is seen with the same redeclarations
     if not old.replaceable or old.final:
         hint = "declare it with 'replaceable'"
         error = Diagnostic("R033", f"{old.name} is not replaceable", new.span, hint)

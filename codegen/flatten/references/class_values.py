@@ -18,9 +18,9 @@ from lacuna.codegen.flatten.names.scope import (
 )
 from lacuna.codegen.flatten.names.unknown import visible_classes
 from lacuna.codegen.library.classes import Library
-from lacuna.codegen.library.suggest import did_you_mean
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.syntax import ast
+from lacuna.suggest import did_you_mean
 
 
 def from_class(ref: ast.Ref, scope: Scope) -> tuple[Node, int] | Expr:

@@ -25,17 +25,17 @@ from lacuna.codegen.flatten.names.values import (
     stack,
 )
 from lacuna.codegen.flatten.references.class_values import from_class
-from lacuna.codegen.library.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, REAL, Expr
 from lacuna.codegen.syntax import ast
+from lacuna.suggest import did_you_mean
 
 
 def read(ref: ast.Ref, scope: Scope) -> Value:
     """The value of a name in an expression."""
     first = ref.names[0]
     if first in scope.locals:
-        return _read_local(ref, scope)
+        return read_local(ref, scope)
     if first == "time" and len(ref.names) == 1:
         if scope.cls.kind in ("function", "record", "connector"):
             raise Diagnostic(
@@ -52,7 +52,8 @@ def read(ref: ast.Ref, scope: Scope) -> Value:
     return found if isinstance(found, Expr) else _walk(found[0], ref, found[1], scope)
 
 
-def _read_local(ref: ast.Ref, scope: Scope) -> Value:
+def read_local(ref: ast.Ref, scope: Scope) -> Value:
+    """What a name means that starts with a loop variable, or with a variable of a function."""
     value = scope.locals[ref.names[0]]
     value = apply_subscripts(value, ref.subscripts[0], scope, ref)
     for name, subscripts in zip(ref.names[1:], ref.subscripts[1:], strict=True):

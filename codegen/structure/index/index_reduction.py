@@ -6,6 +6,7 @@ C. Pantelides, The consistent initialization of differential-algebraic systems, 
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 
 from lacuna.codegen import flat
@@ -14,7 +15,7 @@ from lacuna.codegen.structure.index.dummy_derivatives import choose_states
 from lacuna.codegen.structure.sorting.singular import require_regular
 from lacuna.codegen.structure.system import Row, System
 from lacuna.codegen.symbolic.differentiate import Differentiator
-from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, der, to_text, var
+from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, der, is_const, to_text, var
 from lacuna.codegen.symbolic.leaves import leaves
 
 
@@ -59,10 +60,10 @@ def base_name(n: Expr) -> str:
 
 
 class TimeDerivative:
-    """d/dt of equations. An input cannot be differentiated: its derivative is not known."""
+    """d/dt of equations, where `still` does not move. The derivative of an input is not known, and refused."""
 
-    def __init__(self, model: flat.FlatModel):
-        self._model = model
+    def __init__(self, model: flat.FlatModel, still: Collection[Expr] = ()):
+        self._model, self._still = model, still
         self._row: Row | None = None
         self._differentiate = Differentiator(self._seed)
 
@@ -73,7 +74,7 @@ class TimeDerivative:
     def _seed(self, n: Expr) -> Expr:
         if n.op == "time":
             return ONE
-        if n.op not in ("var", "der"):
+        if n.op not in ("var", "der") or n in self._still:
             return ZERO
         v = self._model.variables[base_name(n)]
         if v.causality == "input":
@@ -86,11 +87,17 @@ class TimeDerivative:
         return der(n) if v.variability == flat.CONTINUOUS else ZERO
 
 
+def _still(rows: list[Row]) -> set[Expr]:
+    """Variables of which an equation says der(x) = 0: constraints on other variables do not determine them."""
+    sides = [pair for row in rows for pair in ((row.lhs, row.rhs), (row.rhs, row.lhs))]
+    return {a.args[0] for a, b in sides if a.op == "der" and is_const(b, 0)}
+
+
 class _Pantelides:
     def __init__(self, model: flat.FlatModel, rows: list[Row], names: list[str]):
         self._unknown = set(names)
         self._position = {name: k for k, name in enumerate(names)}
-        self._differentiate = TimeDerivative(model)
+        self._differentiate = TimeDerivative(model, _still(rows))
         self.rows = rows
         self.derivative_of: dict[Row, Row] = {}
         self.has_derivative: set[Expr] = set()  # variables whose derivative is in the system too

@@ -175,3 +175,26 @@ end Cam;
 """
     prepared, _ = translate(write_model(tmp_path, text))
     assert set(prepared.system.states) == {"a", "w"} and not prepared.system.switches
+
+
+FADING = """model Fading "An output in time that is a function of two states, one of the size 1e5 and one of 1e-5"
+  Real a(start = 1e5), b(start = 1e-5), y(start = 0), slope;
+initial equation
+  a = 1e5; b = 1e-5;
+equation
+  der(a) = -a;
+  der(b) = 1e-5;
+  y = a*exp(-(1e-5 + 1e-6*time)/b);
+  slope = der(y);
+end Fading;
+"""
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_slopes_are_no_unknowns_of_the_residual_form(tmp_path: Path, solver: str) -> None:
+    """A choice of states whose residual form, torn, would amplify rounding: it leaves linear blocks whole."""
+    model = runtime.Model(compile_model(write_model(tmp_path, FADING)).path)
+    result = runtime.simulate(model, solver=solver, rtol=1e-8, stop=1.0)
+    assert result.complete, result.failure
+    t, b = result.time, 1e-5 * (1 + result.time)
+    assert result["y"] == pytest.approx(1e5 * np.exp(-t) * np.exp(-(1e-5 + 1e-6 * t) / b), rel=1e-6)

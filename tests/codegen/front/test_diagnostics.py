@@ -10,8 +10,8 @@ import pytest
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten import flatten
 from lacuna.codegen.library.classes import Library
-from lacuna.codegen.library.suggest import distance, nearest
 from lacuna.codegen.syntax import parse
+from lacuna.suggest import distance, nearest
 from tests.codegen.front.helpers import flatten_text
 
 

@@ -25,6 +25,18 @@ equation
 end Plate;
 """
 
+HEATER = """model Heater
+  input Boolean on;
+  parameter Real C(unit="J/K") = 500;
+  parameter Real G(unit="W/K") = 2;
+  parameter Real P(unit="W") = 100;
+  Real T(unit="K", start=293, fixed=true);
+  Boolean warm = T > 300;
+equation
+  C*der(T) = (if on then P else 0) - G*(T - 293);
+end Heater;
+"""
+
 
 @pytest.fixture
 def plate(tmp_path: Path) -> Path:
@@ -176,3 +188,16 @@ def test_nothing_is_written_where_something_is_wrong(plate: Path, tmp_path: Path
     new_case(str(plate), [good], tmp_path / "case")
     with pytest.raises(CaseError, match="is there already"):
         new_case(str(plate), [good], tmp_path / "case")
+
+
+def test_a_switch_drives_where_the_model_declares_one(tmp_path: Path) -> None:
+    model = tmp_path / "Heater.mo"
+    model.write_text(HEATER)
+    recording = logged(
+        tmp_path / "run.csv", "time [s],on,T [K],warm", lambda k: f"{k},{k // 90 % 2},{293 + 0.1 * k},{k // 70}"
+    )
+    made = new_case(str(model), [recording], tmp_path / "case")
+    case = load(made.path.parent)
+    assert [(s.column, s.role, s.interpolation) for s in case.inputs] == [("on", "input", "hold")]
+    assert [s.column for s in case.outputs] == ["T"]  # a switch that only reads says nothing that T does not
+    assert "`warm` fits no variable" in made.path.read_text()

@@ -10,8 +10,8 @@ from pathlib import Path
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.values import Array, Value
-from lacuna.codegen.library.suggest import did_you_mean
 from lacuna.codegen.symbolic import expr as ex
+from lacuna.suggest import did_you_mean
 from lacuna.texts import decimal
 
 CSV_COLUMN = "csvColumn"

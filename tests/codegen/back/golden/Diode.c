@@ -109,17 +109,18 @@ static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double val
 }
 
 /* Solve a x = b in place (row-major, n x n) by Gaussian elimination with scaled partial pivoting; b becomes x. Where a
- * is singular to working precision, 1 + the unknown that it does not determine: rows and columns have no scale. */
+ * is singular to working precision, 1 + the unknown that it does not determine: rows and columns have no scale. b has
+ * 2 n places: behind the right sides come the sizes of what is summed up in them. */
 static int mdl_solve(int n, double *a, double *b) {
   double size[n];
   for (int i = 0; i < n; ++i) {
     double largest = 0.0;
     for (int j = 0; j < n; ++j)
       if (fabs(a[i * n + j]) > largest) largest = fabs(a[i * n + j]);
-    if (!(largest > 0.0) || !isfinite(largest)) return 1 + i;
-    const double scale = 1.0 / largest;
+    const double scale = largest > 0.0 ? 1.0 / largest : 1.0;
     for (int j = 0; j < n; ++j) a[i * n + j] *= scale;
     b[i] *= scale;
+    b[n + i] = fabs(b[i]);
   }
   for (int j = 0; j < n; ++j) {
     size[j] = 0.0;
@@ -137,15 +138,18 @@ static int mdl_solve(int n, double *a, double *b) {
         a[k * n + j] = a[pivot * n + j];
         a[pivot * n + j] = swap;
       }
-      const double swap = b[k];
-      b[k] = b[pivot];
-      b[pivot] = swap;
+      for (int j = 0; j < 2; ++j) {
+        const double swap = b[j * n + k];
+        b[j * n + k] = b[j * n + pivot];
+        b[j * n + pivot] = swap;
+      }
     }
     for (int i = k + 1; i < n; ++i) {
       const double factor = a[i * n + k] / a[k * n + k];
       if (factor == 0.0) continue;
       for (int j = k + 1; j < n; ++j) a[i * n + j] -= factor * a[k * n + j];
       b[i] -= factor * b[k];
+      b[n + i] += fabs(factor) * b[n + k];
     }
   }
   for (int i = n - 1; i >= 0; --i) {
@@ -374,7 +378,7 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
     i = I_s * (tmp1 - 1.0);
     if (v_2_block.phase == MDL_SOLVED) break;
     /* Diode.mo:14  u = R*i + v + u_C */
-    double v_2_block_r[1] = {u - (R * i + v_2 + u_C)};
+    double v_2_block_r[2] = {u - (R * i + v_2 + u_C)};
     const int v_2_block_looked = mdl_newton_look(&v_2_block, v_2_block_r);
     if (v_2_block.phase == MDL_FAILED) return mdl_fail(m, v_2_block.singular ? MDL_FAILURE_SINGULAR : MDL_FAILURE_NEWTON, (const int[]){1, 1}[v_2_block.singular], 0.0);
     if (v_2_block_looked) continue;

@@ -173,8 +173,14 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
   /* linear block of 5, torn to 1 */
   /* Shaft.mo:17  dd/dtdt of phi1 = ratio*phi2 */
   const double der_w1_divisor = 1.0 + ratio * (ratio * J1 * inverse_of_J2);
-  if (der_w1_divisor == 0.0) return mdl_fail(m, MDL_FAILURE_SINGULAR, 2, 0.0);
-  const double der_w1 = (ratio * (ratio * drive * inverse_of_J2)) / der_w1_divisor;
+  double der_w1 = ratio * (ratio * drive * inverse_of_J2);
+  if (der_w1_divisor != 0.0) der_w1 /= der_w1_divisor;
+  else if (der_w1 != 0.0) return mdl_fail(m, MDL_FAILURE_SINGULAR, 2, 0.0);
+  else {
+    const double tmp1 = fabs(tau_max) / fabs(J1);
+    der_w1 = m->shift * (tmp1 > 0.0 ? tmp1 : 5.0);
+    m->undetermined = 3;
+  }
   /* Shaft.mo:19  J1*der(w1) = drive - tau */
   const double tau = drive - J1 * der_w1;
   /* Shaft.mo:15  d/dt of w1 = der(phi1) */

@@ -1,0 +1,47 @@
+"""From a keystroke in an editor to what the language server finds, over the protocol, as an editor has it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+import statistics
+import time
+
+from bench.editor import Editor, drive
+
+MODEL = Path(__file__).parents[1] / "model" / "Actuators" / "FlightControlEma.mo"
+GOAL = 0.150  # s
+KEYSTROKES = 40
+TYPED = '  assert(time < 1e9, "late");'
+
+
+def from_keystroke_to_findings(rounds: int) -> list[dict[str, object]]:
+    """One row: median and longest of `rounds` times KEYSTROKES changes of the whole actuator's text, s."""
+    seconds: list[float] = []
+
+    async def script(editor: Editor) -> None:
+        text = MODEL.read_text(encoding="utf-8")
+        assert await editor.open(text) == []
+        for changed in _typed(text, rounds):
+            begin = time.perf_counter()
+            await editor.type(changed)
+            seconds.append(time.perf_counter() - begin)
+
+    drive(MODEL, script)  # in memory: nothing is saved
+    return [
+        {
+            "model": MODEL.stem, "median s": statistics.median(seconds), "longest s": max(seconds), "goal s": GOAL,
+            "keystrokes": len(seconds),
+        }
+    ]  # fmt: skip
+
+
+def _typed(text: str, rounds: int) -> Iterator[str]:
+    """A comment grows at the end of the first line, then an equation that is not whole yet, letter by letter."""
+    head, rest = text.split("\n", 1)
+    before, equation, after = text.partition("equation\n")
+    for _ in range(rounds):
+        for k in range(KEYSTROKES // 2):
+            yield f"{head} // {'a' * k}\n{rest}"
+        for k in range(KEYSTROKES // 2):
+            yield f"{before}{equation}{TYPED[: k + 3]}\n{after}"

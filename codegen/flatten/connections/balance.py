@@ -1,0 +1,56 @@
+"""Connectors are balanced: as many flows as potentials, and one flow where something streams (9.3.1, 15.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.classes.instance import ArrayNode, Instance, Node
+from lacuna.codegen.flatten.classes.leaf import Leaf
+from lacuna.codegen.flatten.names.scope import own_or_inherited
+
+CONSTRAINT = "equalityConstraint"
+
+
+def check_balance(connector: Instance) -> None:
+    """Raises R077 for a connector whose flows and potentials differ in number, or with streams and not one flow.
+
+    One with an overdetermined type (9.4) has more potentials than flows.
+    """
+    leaves = list(_leaves(connector))
+    if any(leaf is None for leaf in leaves):
+        return
+    flows = sum(len(leaf.names) for leaf in leaves if leaf.flow)
+    streams = [leaf for leaf in leaves if leaf.stream]
+    potentials = sum(len(leaf.names) for leaf in leaves if _is_potential(leaf))
+    name, span = connector.cls.name, connector.cls.span
+    if streams and flows != 1:
+        hint = "declare one scalar flow beside the streams"
+        raise Diagnostic("R077", f"the connector {name} has streams and {flows} flows", span, hint)
+    if flows != potentials:
+        hint = "declare one flow for each potential; or inputs and outputs"
+        raise Diagnostic("R077", f"the connector {name} has {flows} flows and {potentials} potentials", span, hint)
+
+
+def _is_potential(leaf: Leaf) -> bool:
+    return not (leaf.flow or leaf.stream or leaf.causality or leaf.is_structural)
+
+
+def _leaves(node: Node | None) -> Iterator[Leaf | None]:
+    """The variables below; None stands for what an overdetermined type or a bus holds."""
+    if isinstance(node, Leaf):
+        overdetermined = node.type.named is not None and _is_overdetermined(node.instance, node.type.named)
+        yield None if overdetermined else node
+    elif isinstance(node, ArrayNode):
+        for item in node.items:
+            yield from _leaves(item)
+    elif isinstance(node, Instance):
+        if node.cls.expandable or _is_overdetermined(node, node.cls):
+            yield None
+            return
+        for child in node.children():
+            yield from _leaves(child)
+
+
+def _is_overdetermined(instance: Instance, cls: object) -> bool:
+    return own_or_inherited(instance.context.library, cls, CONSTRAINT) is not None

@@ -1,0 +1,171 @@
+"""The statements of a function that runs at run time, and its variables."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.equations.asserts import lower_assert
+from lacuna.codegen.flatten.equations.effects import effect
+from lacuna.codegen.flatten.expressions.elements import local_value
+from lacuna.codegen.flatten.expressions.lower import lower, lower_results, lower_scalar
+from lacuna.codegen.flatten.functions.blanks import blank
+from lacuna.codegen.flatten.functions.interpret import unknown_target
+from lacuna.codegen.flatten.functions.locals import Local, declared_sizes, fit, typed
+from lacuna.codegen.flatten.functions.parts import matched, parts, variables_of
+from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.flatten.names.values import Value, scalars, shape_of
+from lacuna.codegen.flatten.references.iterators import iterate
+from lacuna.codegen.flatten.references.references import read_local
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, INTEGER, REAL, TRUE, Expr
+from lacuna.codegen.syntax import ast
+
+
+class Writer:
+    """Statements of one function; a target is (name, subscripts as values or None for all of it)."""
+
+    def __init__(self, function: flat.Function, scope: Scope) -> None:
+        self.function, self.scope = function, scope
+        self.counter = 0
+
+    def declare(self, name: str, variables: Value) -> None:
+        """A variable of the function, or what a record consists of."""
+        for part, value in parts(name, variables).items():
+            items = scalars(value)
+            kind = items[0].type if items else REAL
+            self.function.shapes[part], self.function.types[part] = shape_of(value), kind
+        self.scope.locals[name] = variables
+
+    def declare_local(self, local: Local, inputs: dict[str, Value]) -> None:
+        """An input, or a result or protected variable with what its declaration gives it."""
+        scope, default = replace(local.scope, locals=self.scope.locals), local.declaration.modification.value
+        if local.name in inputs:
+            self.declare(local.name, inputs[local.name])
+            return
+        span = local.declaration.span
+        if local.type.primitive is None:
+            there = local.around_default(scope)
+            given: Value = fit(local, lower(default, there), scope, span) if default else blank(local, scope)
+        else:
+            shape = declared_sizes(local, scope, None)
+            given = local_value(local.name, local.type.primitive, shape)
+        variables = variables_of(local.name, local.type, given, scope.context, span)
+        self.declare(local.name, variables)
+        if local.type.primitive is not None and default is not None:
+            value = fit(local, lower(default, local.around_default(scope)), scope, default.span)
+            self.assign([((local.name, variables), value)], default.span, self.function.body)
+        elif local.type.primitive is None:
+            for target, value in matched(variables, given, local.name, span):
+                if isinstance(value, Expr) and value.op != "unset":
+                    self.function.body.append(_store(target, value, span))
+
+    def block(self, items: Sequence[ast.Item]) -> list[flat.Statement]:
+        result: list[flat.Statement] = []
+        for item in items:
+            self._item(item, result)
+        return result
+
+    def _item(self, item: ast.Item, result: list[flat.Statement]) -> None:
+        if isinstance(item, ast.Assignment):
+            self._assignment(item, result)
+        elif isinstance(item, ast.If):
+            self._if(item, result)
+        elif isinstance(item, ast.For):
+            self._for(item, list(item.iterators), result)
+        elif isinstance(item, ast.While):
+            condition = lower_scalar(item.condition, self.scope, BOOLEAN)
+            result.append(flat.While(condition, self.block(item.body), item.span))
+        elif isinstance(item, ast.Break):
+            result.append(flat.Break(item.span))
+        elif isinstance(item, ast.Return):
+            result.append(flat.Return(item.span))
+        elif isinstance(item, ast.Procedure) and str(item.call.function) == "assert":
+            result.append(lower_assert(item.call, self.scope))
+        elif isinstance(item, ast.Procedure):
+            result += effect(item, self.scope)
+        else:
+            what = type(item).__name__.lower()
+            raise Diagnostic("R059", f"'{what}' in a function", item.span, "functions compute values only")
+
+    def _if(self, item: ast.If, result: list[flat.Statement]) -> None:
+        branches = []
+        for written, body in item.branches:
+            condition = TRUE if written is None else lower_scalar(written, self.scope, BOOLEAN)
+            if condition is not FALSE:
+                branches.append((condition, self.block(body)))
+            if condition is TRUE:
+                break
+        if branches and branches[0][0] is TRUE:
+            result += branches[0][1]
+        elif branches:
+            result.append(flat.If(branches, item.span))
+
+    def _for(self, item: ast.For, iterators: list[ast.Iterator], result: list[flat.Statement]) -> None:
+        """Over a range the loop is kept; over an array it is unrolled."""
+        if not iterators:
+            result += self.block(item.body)
+            return
+        first, *rest = iterators
+        outer = self.scope
+        bounds = first.range
+        if isinstance(bounds, ast.Range):
+            low, high = (lower_scalar(b, outer, INTEGER) for b in (bounds.first, bounds.last))
+            step = lower_scalar(bounds.step, outer, INTEGER) if bounds.step else ex.const(1)
+            name = first.name if first.name not in self.function.types else self._fresh(first.name)
+            self.scope = outer.with_locals(**{first.name: ex.var(name, INTEGER)})
+            body: list[flat.Statement] = []
+            self._for(item, rest, body)
+            result.append(flat.For(name, low, step, high, body, item.span))
+        else:
+            for value in iterate(first, outer, item.body):
+                self.scope = outer.with_locals(**{first.name: value})
+                self._for(item, rest, result)
+        self.scope = outer
+
+    def _fresh(self, stem: str) -> str:
+        self.counter += 1
+        return f"{stem}_{self.counter}"
+
+    def _assignment(self, item: ast.Assignment, result: list[flat.Statement]) -> None:
+        if not isinstance(item.target, ast.Tuple):
+            self.assign([(self._target(item.target), lower(item.value, self.scope))], item.span, result)
+            return
+        values = lower_results(item.value, self.scope)
+        pairs = zip(item.target.items, values, strict=False)
+        self.assign([(self._target(t), v) for t, v in pairs if t is not None], item.span, result)
+
+    def _target(self, ref: ast.Ref) -> tuple[str, Value]:
+        name = ref.names[0]
+        whole = self.scope.locals.get(name)
+        if whole is None or not parts(name, whole).keys() <= self.function.types.keys():
+            raise unknown_target(ref, self.function.types)
+        if any(part in self.function.inputs for part in parts(name, whole)):
+            raise Diagnostic("R058", f"the input {name} is assigned", ref.span, "copy it to a variable first")
+        return name, read_local(ref, self.scope)
+
+    def assign(self, pairs: list[tuple[tuple[str, Value], Value]], span: Span, result: list[flat.Statement]) -> None:
+        """All targets at once: values that read what is assigned go through temporary variables."""
+        steps = [step for (name, target), value in pairs for step in matched(target, value, name, span)]
+        steps = [(t, typed(v, t.type, ex.to_text(t), span)) for t, v in steps]
+        if len(steps) > 1 and _read_what_is_set(steps):
+            temporary = self._fresh("before")
+            self.declare(temporary, local_value(temporary, steps[0][0].type, (len(steps),)))
+            copies = scalars(self.scope.locals[temporary])
+            result += [_store(copy, value, span) for copy, (_, value) in zip(copies, steps, strict=True)]
+            steps = [(target, copy) for (target, _), copy in zip(steps, copies, strict=True)]
+        result += [_store(target, value, span) for target, value in steps]
+
+
+def _read_what_is_set(steps: list[tuple[Expr, Expr]]) -> bool:
+    """Does a value read one of the variables that are set together with it?"""
+    names = {t.value if t.op == "var" else t.args[0].value for t, _ in steps}
+    return any(n.op == "var" and n.value in names for _, v in steps for n in ex.walk(v))
+
+
+def _store(target: Expr, value: Expr, span: Span) -> flat.Statement:
+    if target.op == "var":
+        return flat.Assign(str(target.value), value, span)
+    return flat.AssignElement(str(target.args[0].value), target.args[1:], value, span)

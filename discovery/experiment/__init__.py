@@ -1,0 +1,1 @@
+"""The recording that would decide between explanations: limits of the inputs, waveforms, what they tell, files."""

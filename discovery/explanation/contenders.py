@@ -1,0 +1,70 @@
+"""Between which explanations a further experiment has to decide."""
+
+from __future__ import annotations
+
+from lacuna.discovery.experiment.separation import Rival, released
+from lacuna.discovery.explanation.explanation import Explanation
+from lacuna.discovery.naming.comparison import Ranked, price
+from lacuna.discovery.naming.search import Finding
+
+BELIEVED = "the believed model"
+MOST = 3  # rivals of the first explanation
+
+
+def contenders(result: Explanation) -> list[Rival]:
+    """The first explanation and its rivals; none where nothing is open.
+
+    Of findings: the first that is tied, and what it is tied with: at other places, else of other physics there. Where
+    nothing stands: the best of all that was tried, the next best, and the believed model. A law that holds another as a
+    special case is no rival of it: no experiment speaks for the simpler one.
+    """
+    for finding in result.findings:
+        if rivals := finding.elsewhere or _of_another_kind(finding):
+            return _told(finding.ranked, rivals)
+    if result.verdict != "undetermined" or result.base is None:
+        return []
+    believed = released(BELIEVED, result.base)
+    tried = _tried(result)
+    return [*_told(tried[0], tried[1:], MOST - 1), believed] if tried else []
+
+
+def _of_another_kind(finding: Finding) -> list[Ranked]:
+    own = finding.ranked.attachment
+    return [
+        r for r in finding.naming.rivals(finding.ranked)
+        if not r.attachment.contains(own) and not own.contains(r.attachment)
+    ]  # fmt: skip
+
+
+def _told(first: Ranked, others: list[Ranked], most: int = MOST) -> list[Rival]:
+    """The first and the best of each other physics or place."""
+    best: dict[tuple[str, str], Ranked] = {}
+    for ranked in [first, *others]:
+        best.setdefault(ranked.identity, ranked)
+    return [released(named(r), r.fit) for r in list(best.values())[: 1 + most]]
+
+
+def named(ranked: Ranked) -> str:
+    """What it is and where; of a law, with its numbers."""
+    attachment = ranked.attachment
+    if attachment.expression is not None:
+        own = {n.removeprefix(f"{attachment.component}."): v for n, v in ranked.fit.point.items()}
+        return f"{attachment.expression(own)} at {attachment.location}"
+    return f"{attachment.effect.title[0].lower()}{attachment.effect.title[1:]} at {attachment.location}"
+
+
+def _tried(result: Explanation) -> list[Ranked]:
+    """What was tried on top of the believed model, the likeliest first."""
+    base, laws = result.base, result.opened.laws if result.opened else []
+    found = {
+        id(r): r for r in [*(r for n in result.namings[:1] for r in n.ranked), *(f.ranked for f in result.findings)]
+    }
+    ranked = [*found.values(), *(Ranked(law, law.fit, 0.0) for law in laws)]
+    if not ranked:
+        return []
+    correlation = min((r.fit for r in ranked), key=lambda f: f.deviance()).correlation()
+
+    def evidence(r: Ranked) -> float:
+        return r.fit.deviance(correlation) + price(len(r.candidate.free), base, correlation)
+
+    return sorted(ranked, key=evidence)

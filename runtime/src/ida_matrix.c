@@ -1,0 +1,95 @@
+/* The matrix of IDA's Newton method: dense for a few unknowns, else sparse, for KLU; and what is held in it. */
+#include <math.h>
+#include <string.h>
+
+#include "ida.h"
+#include "undetermined.h"
+#include "vector.h"
+
+enum { DENSE_LIMIT = 10 }; /* unknowns up to which a dense matrix is faster than KLU */
+
+/* What IDA may recover from by a shorter step. */
+int rt_ida_not_finite(rt_session *s, int row, double value) {
+  s->data.failure = (mdl_failure){MDL_FAILURE_NONFINITE, s->d->residual_equation[row], -1, value, 0};
+  return 1;
+}
+
+static int check_jacobian(rt_session *s, const double *values) {
+  for (int k = 0; k < s->d->jac_nnz; k++)
+    if (!isfinite(values[k])) return rt_ida_not_finite(s, s->d->jac_rowidx[k], values[k]);
+  return 0;
+}
+
+/* The value of `held` in row `row` of column j, 0 where it is none. */
+static double held_at(const rt_session *s, int row, int j) {
+  double value = 0;
+  for (int k = 0; k < s->n_held; k++)
+    if (s->held[k].column == j && s->held[k].row == row) value = s->held[k].value;
+  return value;
+}
+
+/* Columns with what is held: in its place, or behind the others. */
+static sunindextype fill_columns(const rt_session *s, const double *values, SUNMatrix matrix) {
+  const mdl_descriptor *d = s->d;
+  sunindextype *first = SUNSparseMatrix_IndexPointers(matrix), *rows = SUNSparseMatrix_IndexValues(matrix), next = 0;
+  double *data = SUNSparseMatrix_Data(matrix);
+  for (int j = 0; j < d->n_x + d->n_z; j++) {
+    first[j] = next;
+    for (int k = d->jac_colptr[j]; k < d->jac_colptr[j + 1]; k++) {
+      rows[next] = d->jac_rowidx[k];
+      data[next++] = values[k] + (s->n_held ? held_at(s, d->jac_rowidx[k], j) : 0);
+    }
+    for (int k = 0; k < s->n_held; k++) {
+      bool found = s->held[k].column != j;
+      for (sunindextype l = first[j]; l < next; l++)
+        found |= rows[l] == s->held[k].row;
+      if (found) continue;
+      rows[next] = s->held[k].row;
+      data[next++] = s->held[k].value;
+    }
+  }
+  return first[d->n_x + d->n_z] = next;
+}
+
+static int fill_sparse(const rt_session *s, rt_ida *m, SUNMatrix matrix) {
+  sunindextype entries = fill_columns(s, m->values, matrix);
+  long fails = 0;
+  IDAGetNumNonlinSolvConvFails(m->ida, &fails);
+  bool choose_pivots = fails != m->pivots_chosen_at || s->n_held != m->held;
+  m->pivots_chosen_at = fails;
+  m->held = s->n_held;
+  return choose_pivots ? SUNLinSol_KLUReInit(m->solver, matrix, entries, SUNKLU_REINIT_PARTIAL) : 0;
+}
+
+static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix matrix, void *user,
+                    N_Vector t1, N_Vector t2, N_Vector t3) {
+  (void)r, (void)t1, (void)t2, (void)t3;
+  rt_session *s = user;
+  const mdl_descriptor *d = s->d;
+  rt_ida *m = s->memory;
+  double *values = m->values;
+  rt_inputs_at(s, t);
+  int status = rt_jacobian(s, t, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), cj, values);
+  if (!status) status = check_jacobian(s, values);
+  if (status) return status;
+  if (SUNMatGetID(matrix) == SUNMATRIX_SPARSE) return fill_sparse(s, m, matrix);
+  for (int j = 0; j < d->n_x + d->n_z; j++)
+    for (int k = d->jac_colptr[j]; k < d->jac_colptr[j + 1]; k++)
+      SUNDenseMatrix_Column(matrix, j)[d->jac_rowidx[k]] = values[k];
+  for (int k = 0; k < s->n_held; k++)
+    SUNDenseMatrix_Column(matrix, s->held[k].column)[s->held[k].row] += s->held[k].value;
+  return 0;
+}
+
+bool rt_ida_create_matrix(rt_session *s, rt_ida *m) {
+  sunindextype n = s->d->n_x + s->d->n_z;
+  if (n > DENSE_LIMIT) {
+    m->matrix = SUNSparseMatrix(n, n, s->d->jac_nnz + s->d->n_z, CSC_MAT, m->context);
+    m->solver = m->matrix ? SUNLinSol_KLU(m->y, m->matrix, m->context) : NULL;
+  } else {
+    m->matrix = SUNDenseMatrix(n, n, m->context);
+    m->solver = m->matrix ? rt_dense_solver_new((int)n, m->context) : NULL;
+  }
+  return m->solver && IDASetLinearSolver(m->ida, m->solver, m->matrix) == IDA_SUCCESS &&
+         IDASetJacFn(m->ida, jacobian) == IDA_SUCCESS;
+}

@@ -1,0 +1,6 @@
+// section: 16.4
+// refuse: R001 4
+model ClockDeclared
+  Clock c = Clock(0.1);
+  Real x = 1;
+end ClockDeclared;

@@ -1,0 +1,107 @@
+"""A model in its own units and in others, by each solver: event sequences and relative errors side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from lacuna import runtime
+from lacuna.codegen.library.search_path import search_path
+from tests.events.units import rescaled
+
+SYSTEMS = (
+    {"m": 1e3, "A": 1e3},  # mm, mA
+    {"m": 1e6, "A": 1e9},  # um, nA
+    {"kg": 1e-3},  # t, so kN
+    {"m": 1e3, "A": 1e-3, "kg": 1e-3},  # mm, kA, t
+)
+SOLVERS = ("ida", "dopri5", "rodas4")
+RTOL, REFERENCE = 1e-6, 1e-10
+ROWS = 200
+MOST_STEPS = 300_000  # a stiff circuit by dopri5 takes millions
+
+
+@dataclass
+class Comparison:
+    """`lines` to print; `faults`: other events, or errors that differ by more than a factor of two."""
+
+    lines: list[str] = field(default_factory=list)
+    faults: list[str] = field(default_factory=list)
+
+
+@dataclass
+class _Run:
+    """Events as (what, direction), grouped by instant, and the largest error of a state over its range."""
+
+    failure: str
+    events: list[tuple] = field(default_factory=list)
+    error: float = 0.0
+    steps: int = 0
+
+
+def _instants(result: runtime.Result) -> list[tuple]:
+    """What happened at each instant, in any order there: by line, for the text of a relation has factors of units."""
+    found: list[tuple[float, list[tuple]]] = []
+    span = result.time[-1] - result.time[0]
+    for e in result.event_log:
+        if not found or e.time - found[-1][0] > 1e-9 * span:
+            found.append((e.time, []))
+        found[-1][1].append((e.file, e.line, e.direction))
+    return [tuple(sorted(what)) for _, what in found]
+
+
+def _run(
+    model: runtime.Model, factor: dict[str, float], stop: float, solver: str, rtol: float, truth: dict | None
+) -> tuple[_Run, dict]:
+    states = [n for n, v in model.variables.items() if v.kind == "state"]
+    result = runtime.simulate(
+        model, solver=solver, rtol=rtol, stop=stop, interval=stop / ROWS, outputs=states, events=False,
+        max_steps=MOST_STEPS,
+    )  # fmt: skip
+    values = {n: result[n] / factor[n] for n in states}
+    if not result.complete:
+        return _Run(str(result.failure)), values
+    run = _Run("", _instants(result), steps=result.counters["steps"])
+    for n in sorted((truth or {}).keys() & values):  # an alias by a literal factor is none in other units
+        moved = np.ptp(truth[n])
+        if moved > 1e-6 * np.abs(truth[n]).max():  # else at rest, but for rounding
+            run.error = max(run.error, float(np.abs(values[n] - truth[n]).max() / moved))
+    return run, values
+
+
+def compare(
+    name: str, stop: float | None, cache: str, path: Sequence[str] = (), systems: Sequence[dict] = SYSTEMS,
+    solvers: Sequence[str] = SOLVERS,
+) -> Comparison:  # fmt: skip
+    """The model `name` up to `stop` (None: as its experiment says) in each system of units, by each solver."""
+    found = Comparison()
+    models = [rescaled(name, per, search_path(list(path)), cache) for per in ({}, *systems)]
+    end = stop or models[0][0].stop_time
+    truth_run, truth = _run(*models[0], end, solvers[0], REFERENCE, None)
+    if truth_run.failure:
+        found.faults.append(f"{name}: no reference: {truth_run.failure}")
+        return found
+    for solver in solvers:
+        own: _Run | None = None
+        for per, (model, factor) in zip(({}, *systems), models, strict=True):
+            run, _ = _run(model, factor, end, solver, RTOL, truth)
+            units = ", ".join(f"{base} x {by:g}" for base, by in per.items()) or "SI"
+            said = run.failure or f"{run.steps:7d} steps, {len(run.events):4d} instants, error {run.error:.1e}"
+            found.lines.append(f"{name} {solver:7s} {units:28s} {said}")
+            if own is not None:
+                found.faults += [f"{name} {solver} {units}: {fault}" for fault in _faults(own, run)]
+            own = own or run
+    return found
+
+
+def _faults(own: _Run, run: _Run) -> list[str]:
+    if own.failure or run.failure:
+        return [] if own.failure and run.failure else [f"runs in one: {own.failure or run.failure}"]
+    faults = [] if own.events == run.events else [f"{len(run.events)} instants for {len(own.events)}, or others"]
+    low, high = sorted((own.error, run.error))
+    # Far below the tolerance an error is what rounding happens to leave of it.
+    if high > 2 * low and high > 0.1 * RTOL:
+        faults.append(f"error {run.error:.1e} for {own.error:.1e}")
+    return faults

@@ -1,0 +1,41 @@
+"""A solver that gets no further says which state or which equation it is about."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.events.models import simulated
+
+# Newton's method on the root of |z - y| goes to and fro between both sides of it.
+CYCLE = """model Cycle
+  Real x(start = 1, fixed = true), other(start = 3, fixed = true), z(start = 0), y(start = 1);
+equation
+  der(x) = -z;
+  der(other) = -other;
+  y = x + cos(5*other);
+  noEvent(if z > y then sqrt(abs(z - y)) else -sqrt(abs(z - y))) = 0;
+end Cycle;
+"""
+# A large state that moves fast beside a small one whose derivative jumps to and fro.
+JUMPS = """model Jumps
+  Real small(start = 1e-3, fixed = true), big(start = 1e6, fixed = true);
+equation
+  der(big) = 1e6*cos(time);
+  der(small) = small*noEvent(if small > 1.5e-3 then -1e9 else 1);
+end Jumps;
+"""
+
+
+def test_newtons_method_names_the_equation(tmp_path: Path) -> None:
+    result = simulated(tmp_path, CYCLE, solver="ida", stop=3.0)
+    said = str(result.failure)
+    assert "Cycle.mo:7: solver ida makes no progress" in said and "furthest from holding" in said
+    assert "(y = " in said and result.failure.line == 7
+
+
+@pytest.mark.parametrize(("solver", "why"), [("ida", "changes fastest"), ("rodas4", "has the largest error")])
+def test_the_error_test_names_the_state(tmp_path: Path, solver: str, why: str) -> None:
+    result = simulated(tmp_path, JUMPS, solver=solver, stop=3.0)
+    assert f"small {why}" in str(result.failure)

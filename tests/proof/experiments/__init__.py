@@ -1,0 +1,1 @@
+"""Proof of the proposed experiments: played on the simulated truth, they have to decide."""
