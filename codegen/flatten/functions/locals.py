@@ -208,8 +208,10 @@ def _fit_records(local: Local, value: Value, scope: Scope, span: Span) -> Value:
 
 
 def declared_sizes(local: Local, scope: Scope, value: Value | None) -> tuple[int, ...]:
-    """The size of a declared variable; `:` takes that of `value`."""
+    """The size of a declared variable; `:` takes that of `value`, which a size may ask for: `A[:, size(A, 1)]`."""
     sizes = []
+    if value is not None and local.declaration.dimensions:
+        scope = scope.with_locals(**{local.name: value})
     for position, dimension in enumerate(local.declaration.dimensions):
         if isinstance(dimension, ast.Colon):
             shape = shape_of(value) if value is not None else ()
