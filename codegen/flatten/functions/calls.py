@@ -15,6 +15,7 @@ from lacuna.codegen.flatten.names.component import Component
 from lacuna.codegen.flatten.names.scope import Scope, find_class, find_first, meant_class, own_or_inherited
 from lacuna.codegen.flatten.names.unknown import visible_classes
 from lacuna.codegen.flatten.names.values import FunctionValue, Value, elementwise
+from lacuna.codegen.flatten.references.references import refuse_conditional
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.differentiate import Differentiator
 from lacuna.codegen.symbolic.expr import BOOLEAN, Expr
@@ -106,13 +107,24 @@ def _of_component(ref: ast.Ref, scope: Scope) -> tuple[ast.Class | None, Compone
     node: object = scope.instance
     names = list(ref.names)
     while names and isinstance(node, Instance) and names[0] in node.elements:
+        refuse_conditional(node, names[0], ref)
         node = node.meant(names.pop(0))
     if node is scope.instance or not isinstance(node, Instance):
         return None, None
     cls: ast.Class | None = node.cls
     for name in names:
-        cls = own_or_inherited(scope.context.library, cls, name) if cls is not None else None
+        cls = _public_class(cls, name, ref, scope) if cls is not None else None
     return cls, node
+
+
+def _public_class(cls: ast.Class, name: str, ref: ast.Ref, scope: Scope) -> ast.Class | None:
+    """What `cls` holds under a name. Raises R017 where it is protected (4.1)."""
+    found = own_or_inherited(scope.context.library, cls, name)
+    if found is not None and found.protected:
+        error = Diagnostic("R017", f"{name} is protected in {cls.name}", ref.span, "make it public to use it here")
+        error.notes.append((found.span, "declared here"))
+        raise error
+    return found
 
 
 def _partial_derivative(cls: ast.Class, e: ast.Call, scope: Scope) -> Value:

@@ -46,7 +46,7 @@ def read(ref: ast.Ref, scope: Scope) -> Value:
     if scope.instance is not None and not ref.absolute and scope.instance.sees(first, scope.cls):
         node = scope.instance.meant(first)
     if node is not None:
-        _refuse_conditional(scope.instance, first, ref)
+        refuse_conditional(scope.instance, first, ref)
         return _walk(node, ref, 0, scope)
     found = from_class(ref, scope)
     return found if isinstance(found, Expr) else _walk(found[0], ref, found[1], scope)
@@ -96,11 +96,11 @@ def _walk(node: Node, ref: ast.Ref, at: int, scope: Scope) -> Value:
     if last:
         return Record(node.name, {name: _field(node.child(name), ref, scope) for name in node.elements}, node.cls)
     if ref.names[at + 1] in node.elements:
-        _refuse_conditional(node, ref.names[at + 1], ref)
+        refuse_conditional(node, ref.names[at + 1], ref)
     return _walk(member(node, ref, at + 1), ref, at + 1, scope)
 
 
-def _refuse_conditional(instance: Instance, name: str, ref: ast.Ref) -> None:
+def refuse_conditional(instance: Instance, name: str, ref: ast.Ref) -> None:
     """Modelica 3.6, 4.4.5: a component with a condition is used in connections only."""
     declaration = instance.elements[name].declaration
     if declaration.condition is not None:
