@@ -93,10 +93,11 @@ def _selected(
     picked = element(name, kind, tuple(map(ex.const, index))) if index else ex.var(name, kind)
     inputs = {n: function.shapes[n] for n in function.inputs}
     types = {n: function.types[n] for n in function.inputs}
+    result = "result" if "result" not in {name, *inputs} else f"element of {name}"  # which no variable can be called
     context.functions[selected] = flat.Function(
-        selected, function.inputs, ("result",), {**inputs, name: shape, "result": ()},
-        {**types, name: kind, "result": kind}, {},
-        [flat.AssignCall(targets, call, function.span), flat.Assign("result", picked, function.span)], function.span,
+        selected, function.inputs, (result,), {**inputs, name: shape, result: ()},
+        {**types, name: kind, result: kind}, {},
+        [flat.AssignCall(targets, call, function.span), flat.Assign(result, picked, function.span)], function.span,
     )  # fmt: skip
     context.table(Sources)[selected] = source
     context.function_units[selected] = unit
