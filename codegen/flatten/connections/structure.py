@@ -33,10 +33,9 @@ class Structure:
             counted: Counter[str] = Counter()
             for item, scope in structural_items(self.sections, context):
                 if isinstance(item, ast.Connect):
-                    for ref in (item.left, item.right):
-                        counted.update(
-                            {p.end.name for node in connectors(ref, scope) for p in parts(node, False).values()}
-                        )
+                    ends = [_scalars(ref, scope) for ref in (item.left, item.right)]
+                    for end in ends if all(ends) else ():  # to a component whose condition is false: no connection
+                        counted.update(end)
             self.counts = counted
         return self.counts
 
