@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from zlib import crc32
 
 from lacuna.codegen import flat
-from lacuna.codegen.symbolic.evaluate import evaluate
+from lacuna.codegen.symbolic.evaluate import Value, evaluate
 from lacuna.codegen.symbolic.expr import REAL, Expr, der, sub, to_text, var
+from lacuna.codegen.symbolic.function_value import call_value
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import Rewriter
 
@@ -86,7 +87,10 @@ class DeclaredValues:
 
     def __call__(self, e: Expr) -> float | None:
         """The value of `e`, with relations taken as false; None where it has none."""
-        return evaluate(e, self._leaf)
+        return evaluate(e, self._leaf, self._function)
+
+    def _function(self, e: Expr, value: Callable[[Expr], Value | None]) -> Value | None:
+        return call_value(e, value, self._model.functions)
 
     def parametric(self, e: Expr) -> float | None:
         """The value of an expression in parameters only, else None."""

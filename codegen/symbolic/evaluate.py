@@ -1,16 +1,20 @@
-"""Numerical value of an expression, for start values, pivots and tests. Functions of the model are not run here."""
+"""Numerical value of an expression, for start values, pivots and tests."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
-from lacuna.codegen.symbolic.expr import Expr, const, rebuild
+from lacuna.codegen.symbolic.expr import BUILTINS, Expr, const, rebuild
 
 Value = float | int | bool
 
 
-def evaluate(e: Expr, leaf: Callable[[Expr], Value | None]) -> Value | None:
-    """The value of `e` where `leaf(node)` gives the leaves; None where a leaf, a function or its domain has none."""
+Call = Callable[[Expr, Callable[[Expr], "Value | None"]], "Value | None"]
+
+
+def evaluate(e: Expr, leaf: Callable[[Expr], Value | None], call: Call | None = None) -> Value | None:
+    """The value of `e` where `leaf(node)` gives the leaves and `call(node, value)` the calls of functions of the model
+    and of elements of arrays; None where a leaf, a function or its domain has none."""
     memo: dict[Expr, Value | None] = {}
 
     def value(n: Expr) -> Value | None:
@@ -23,6 +27,8 @@ def evaluate(e: Expr, leaf: Callable[[Expr], Value | None]) -> Value | None:
             return n.value
         if not n.args or n.op in ("der", "pre"):
             return leaf(n)
+        if n.op == "call" and call is not None and n.value not in BUILTINS:
+            return call(n, value)
         if n.op in ("noEvent", "smooth"):
             return value(n.args[-1])
         if n.op == "if":
