@@ -104,8 +104,9 @@ def _share(giver: Instance, taker: Instance) -> bool:
     """Both have what one of them has, nested expandable connectors included."""
     changed = False
     for name in list(giver.present):
-        node = giver.child(name)
+        node, was_present = giver.child(name), name in taker.present
         have = taker.child(name)
+        changed = changed or (have is not None and not was_present)  # declared there, and used from now on
         if have is None and taker.cls.expandable and not isinstance(node, Absent):
             taken = _like(node, name, taker)
             for leaf in _leaves(taken):

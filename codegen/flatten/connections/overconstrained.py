@@ -43,6 +43,8 @@ class Graph:
     def solve(self) -> None:
         """Choose the trees and their roots. Raises R080 where branches make a circle, join roots or lack one."""
         sets, edges = UnionFind(), []
+        for name in self.candidates:
+            sets.find(name)  # one that nothing is connected to is a tree of its own
         for a, b, span in self.branches:
             if sets.find(a) == sets.find(b):
                 raise Diagnostic("R080", f"branches between {a} and {b} close a circle", span, "leave one out")
