@@ -16,7 +16,7 @@ import numpy as np
 from bench import isolated, msl_page
 from bench.report import stamp
 from bench.trajectories import deviation, read_reference
-from lacuna.codegen.compile import compile_model, translate
+from lacuna.codegen.compile import compile_model
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.library.search_path import search_path
@@ -89,19 +89,6 @@ def measure(name: str, folder: Path, units: str) -> dict[str, object]:
             "signals": len(reference.signals)}  # fmt: skip
 
 
-def _is_further(name: str) -> bool:
-    return name.removeprefix("Modelica.").startswith(FURTHER)
-
-
-def translated(name: str, folder: Path) -> dict[str, object]:
-    """Translate an example of a package without a goal; it is neither compiled nor run."""
-    try:
-        translate(name, search_path=search_path([folder]))
-    except Diagnostic as error:
-        return {"status": "refused", **first_finding(error), "text": str(error)}
-    return {"status": "translated"}
-
-
 def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("names", nargs="*", help="parts of names of examples (default: all of the listed packages)")
@@ -109,7 +96,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--units", default="error")
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--timeout", type=float, default=TIMEOUT)
-    parser.add_argument("--further", action="store_true", help="the packages without a goal, too: translated only")
+    parser.add_argument("--further", action="store_true", help="the packages without a goal, too")
     parser.add_argument("--keep", action="store_true", help="keep results of an earlier generator")
     parser.add_argument("--page", action="store_true", help="write docs/msl.md")
     chosen = parser.parse_args(arguments)
@@ -120,7 +107,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
              for p in packages}  # fmt: skip
     results = isolated.run_all(
         [n for listed in names.values() for n in listed],
-        lambda n: translated(n, folder) if _is_further(n) else measure(n, folder, chosen.units),
+        lambda n: measure(n, folder, chosen.units),
         chosen.out, timeout=chosen.timeout, workers=chosen.workers, keep=chosen.keep,
     )  # fmt: skip
     if chosen.page:

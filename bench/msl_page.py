@@ -20,14 +20,14 @@ About half of the examples have such a trajectory here; the others can only be s
 FURTHER = """
 ## Packages without a goal
 
-Translated only, neither compiled nor run.
+No trajectories of these are here.
 
-| package | examples | translated |
-| --- | ---: | ---: |
+| package | examples | translated | simulated |
+| --- | ---: | ---: | ---: |
 """
 MOST = 3  # kinds of refusal that are named
 _OWN = re.compile(r"'[^']*'|\S*[._\d\[]\S*")  # what a finding names of one model
-_TRANSLATED = ("translated", "ran", "right", "wrong", "failed", "timeout")
+_TRANSLATED = ("ran", "right", "wrong", "failed", "timeout")
 _RAN = ("ran", "right", "wrong")
 
 
@@ -49,8 +49,9 @@ def write(
 def _further(names: dict[str, list[str]], results: dict[str, dict[str, object]]) -> str:
     text = FURTHER
     for package, listed in names.items():
-        done = sum(results[n]["status"] in _TRANSLATED for n in listed)
-        text += f"| {package} | {len(listed)} | {done} |\n"
+        status = [str(results[n]["status"]) for n in listed]
+        done, ran = (sum(s in which for s in status) for which in (_TRANSLATED, _RAN))
+        text += f"| {package} | {len(listed)} | {done} | {ran} |\n"
     refused = [results[n] for listed in names.values() for n in listed if results[n]["status"] == "refused"]
     text += "\nWhat stands in the way of most:\n\n"
     kinds = Counter(map(_kind, refused))
@@ -58,6 +59,10 @@ def _further(names: dict[str, list[str]], results: dict[str, dict[str, object]])
         first = next(o for o in refused if _kind(o) == kind)
         code = first["code"]
         text += f"- {count} examples: [{code}] {' '.join(str(first['message']).split())[:200]} ({first['place']})\n"
+    text += "\n| example that does not run | outcome |\n| --- | --- |\n"
+    for name in (n for listed in names.values() for n in listed):
+        if results[name]["status"] not in _RAN:
+            text += f"| {name.removeprefix('Modelica.')} | {_outcome(results[name])} |\n"
     return text
 
 
