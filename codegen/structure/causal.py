@@ -74,12 +74,13 @@ def _block(rows: list[Row], unknowns: list[Expr], tearing: Tearing) -> list[Step
         if single:
             return [single]
     torn = tearing.tear(rows, unknowns)
-    chain, tears, residuals = torn.assignments, torn.tears, torn.residuals
-    if _is_linear(rows, set(unknowns)):
-        if tearing.amplifies(torn):
-            return [_linear([], unknowns, rows)]
-        return [_linear(chain, tears, residuals)]
-    return [_nonlinear(chain, tears, residuals)]
+    if not _is_linear(rows, set(unknowns)):
+        return [_nonlinear(torn.assignments, torn.tears, torn.residuals)]
+    if tearing.amplifies(torn):
+        torn = tearing.steady.tear(rows, unknowns)
+    if tearing.amplifies(torn):
+        return [_linear([], unknowns, rows)]
+    return [_linear(torn.assignments, torn.tears, torn.residuals)]
 
 
 def _single(row: Row, unknown: Expr, tearing: Tearing) -> Assignment | Division | None:

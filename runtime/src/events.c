@@ -8,6 +8,7 @@
 
 enum {
   MAX_PASSES = 100,
+  MAX_SINGLE_PASSES = 200,
   MAX_SWEEPS = 40,
   PATIENCE = 4,
   SWEEPS_OF_A_CYCLE = 8,
@@ -17,13 +18,14 @@ enum {
 
 /* A relation keeps its value while its guard is within the hysteresis: what is there may be noise, and a relation that
  * has just been located at its crossing must not fall back. Exactly zero is no noise, and not greater than zero.
- * Whether any relation changed. */
-static bool update_relations(rt_session *s) {
+ * `singly`: only the first of those that disagree, by however little: what is within the hysteresis may be what holds the
+ * others up. Whether any relation changed. */
+static bool update_relations(rt_session *s, bool singly) {
   bool changed = false;
-  for (int r = 0; r < s->d->n_rel; r++) {
+  for (int r = 0; r < s->d->n_rel && !(singly && changed); r++) {
     if (s->d->relations[r].is_time) continue;
     unsigned char *rel = &s->data.rel[r], now = *rel;
-    double g = s->g[r], eps = rt_hysteresis(s, r);
+    double g = s->g[r], eps = singly ? 0 : rt_hysteresis(s, r);
     if (g > eps) now = 1;
     if (g < -eps || (g == 0 && !s->flip[r])) now = 0;
     changed |= now != *rel;
@@ -81,7 +83,7 @@ static void start_again(rt_session *s) {
  * they are, until they agree. One sweep is enough where modes depend on pre-values; more are made where events get
  * nowhere, and what does not settle one way is iterated the other way. 1 something changed, 0 nothing did, -1 failed.
  */
-static int pass(rt_session *s, int sweeps) {
+static int pass(rt_session *s, int sweeps, bool singly) {
   mdl_data *m = &s->data;
   bool changed = false, settled = false;
   memcpy(s->when_before, m->when, (size_t)s->d->n_when);
@@ -89,7 +91,7 @@ static int pass(rt_session *s, int sweeps) {
     s->result->counters.event_passes++;
     if (rt_evaluate(s)) return -1;
     memcpy(s->rel_swept, m->rel, (size_t)s->d->n_rel);
-    bool switched = update_relations(s);
+    bool switched = update_relations(s, singly);
     switched |= rt_clock_relations(s);
     if (switched && k % SWEEPS_OF_A_CYCLE == SWEEPS_OF_A_CYCLE - 1) start_again(s);
     memcpy(s->d_swept, m->d, (size_t)s->d->n_d * sizeof *m->d);
@@ -103,22 +105,29 @@ static int pass(rt_session *s, int sweeps) {
   return changed || !settled || m->reinitialised || !same(m->d, m->pre_d, s->d->n_d);
 }
 
-/* Repeat passes at the present instant until relations, discrete variables and states agree. Ticks last until then. */
+/* Repeat passes at the present instant until relations, discrete variables and states agree. Ticks last until then.
+ *
+ * Ideal diodes and switches that depend on each other may chase each other round when all of them follow their guards
+ * at once. Where neither way settles, one at a time does, always the first that disagrees: the modes of such a circuit
+ * are a linear complementarity problem, and for the matrices of circuits with losses (P-matrices) that rule ends, as no
+ * combination comes twice (K. Murty, Note on a Bard-type scheme for solving the complementarity problem, Opsearch 11
+ * (1974) 123-130). */
 rt_status rt_iterate_event(rt_session *s) {
   mdl_data *m = &s->data;
   char names[400] = "";
   s->reinitialised = false;
   memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
-  for (int i = 0; i < MAX_PASSES; i++) {
-    bool nowhere = s->futile_events > PATIENCE, other_way = i > MAX_PASSES / 2;
-    int changed = pass(s, nowhere != other_way ? MAX_SWEEPS : 1);
+  const int most = MAX_PASSES + MAX_SINGLE_PASSES;
+  for (int i = 0; i < most; i++) {
+    bool nowhere = s->futile_events > PATIENCE, other_way = i > MAX_PASSES / 2, singly = i >= MAX_PASSES;
+    int changed = pass(s, nowhere != other_way && !singly ? MAX_SWEEPS : 1, singly);
     if (changed < 0) return rt_fail_model(s, s->t, "iterating an event");
     if (!changed && !clear_ticks(s)) return RT_OK;
-    if (i >= MAX_PASSES - WATCHED_PASSES) append_changed(s, names, sizeof names);
+    if (i >= most - WATCHED_PASSES) append_changed(s, names, sizeof names);
     memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
   }
   return rt_fail(s, RT_EVENT_CYCLE, s->t, -1, NULL,
-                 "the event at time %.9g s does not settle in %d passes; these keep changing: %s", s->t, MAX_PASSES,
+                 "the event at time %.9g s does not settle in %d passes; these keep changing: %s", s->t, most,
                  names[0] ? names : "relations between continuous variables");
 }
 

@@ -11,16 +11,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, cached_property
 import heapq
+import itertools
 
 from lacuna.codegen.structure.reach import Reach, Users, users_of
 from lacuna.codegen.structure.system import DeclaredValues, Row
 from lacuna.codegen.symbolic.affine import UNSAFE, division_rank, isolate, nonlinear
 from lacuna.codegen.symbolic.differentiate import partial
-from lacuna.codegen.symbolic.expr import Expr, div
+from lacuna.codegen.symbolic.expr import FALSE, TRUE, Expr, div, substitute, walk
 
-AMPLIFICATION = 1e5
+AMPLIFICATION = 1e5  # of rounding, 1e-16, tolerated along a chain: it stays far below the tolerances of a run
+MODES = 4  # conditions of one slope whose combinations are all looked at
 
 
 @dataclass(eq=False)
@@ -42,18 +44,27 @@ class Torn:
 
 
 class Tearing:
-    def __init__(self, values: DeclaredValues):
-        self._values = values
+    """`switching`: whether divisors may differ from mode to mode."""
+
+    def __init__(self, values: DeclaredValues, switching: bool = True):
+        self._values, self._switching = values, switching
         self._explicit: dict[tuple[Row, Expr], tuple[int, Expr | None]] = {}
+        self._steepest: dict[Expr, float | None] = {}
 
     def explicit(self, row: Row, unknown: Expr) -> tuple[int, Expr | None]:
         """(rank, value) of `unknown` from `row`; rank UNSAFE and None where it may not be used."""
         key = (row, unknown)
         if key not in self._explicit:
             parts = isolate(row.lhs, row.rhs, unknown)
-            rank = division_rank(parts[1], self._values.parametric) if parts else UNSAFE
+            usable = parts is not None and (self._switching or all(n.op != "if" for n in walk(parts[1])))
+            rank = division_rank(parts[1], self._values.parametric) if usable else UNSAFE
             self._explicit[key] = (rank, div(*parts) if rank < UNSAFE else None)
         return self._explicit[key]
+
+    @cached_property
+    def steady(self) -> Tearing:
+        """The same without divisors that differ from mode to mode."""
+        return Tearing(self._values, switching=False)
 
     def is_linear(self, row: Row, unknown: Expr) -> bool:
         return unknown not in nonlinear(row.lhs) and unknown not in nonlinear(row.rhs)
@@ -78,8 +89,17 @@ class Tearing:
         """
         users = users_of(step.row.leaves for step in torn.assignments)
         place = {step.unknown: k for k, step in enumerate(torn.assignments)}
-        own = cache(lambda k, n: self._values(partial(torn.assignments[k].value, n)))
+        own = cache(lambda k, n: self._in_worst_mode(partial(torn.assignments[k].value, n)))
         return any(self._largest_slope(torn, leaf, users, place, own) > AMPLIFICATION for leaf in (*torn.tears, *known))
+
+    def _in_worst_mode(self, slope: Expr) -> float | None:
+        """The value of largest size that `slope` has over the modes of its conditions."""
+        if slope not in self._steepest:
+            conditions = list(dict.fromkeys(n.args[0] for n in walk(slope) if n.op == "if"))[:MODES]
+            modes = itertools.product((FALSE, TRUE), repeat=len(conditions))
+            found = [self._values(substitute(slope, dict(zip(conditions, m, strict=True)))) for m in modes]
+            self._steepest[slope] = max((v for v in found if v is not None), key=abs, default=None)
+        return self._steepest[slope]
 
     def _largest_slope(
         self, torn: Torn, leaf: Expr, users: Users, place: dict[Expr, int], own: Callable[[int, Expr], float | None]
