@@ -66,9 +66,13 @@ static void log_time_relations(rt_session *s) {
       rt_result_log(s->result, s->t, RT_EVENT_TIME, r, s->data.rel[r] ? 1 : -1);
 }
 
-/* Time relations with the discrete variables as they are now, and when the next one switches. Whether any changed. */
+/* Time relations with the discrete variables as they are now, and when the next one switches. Whether any changed. One
+ * that these variables have made due within the tolerance happens at its own time: the event's equations read the time,
+ * and would take the relation back. */
 bool rt_clock_relations(rt_session *s) {
-  double now = s->t + s->clock.tolerance;
+  double due = s->d->next_time_event(&s->data, s->t), now = s->t + s->clock.tolerance;
+  if (due > s->t && due <= now) s->t = due;
+  now = s->t + s->clock.tolerance;
   memcpy(s->rel_trial, s->data.rel, (size_t)s->d->n_rel);
   s->d->time_relations(&s->data, now);
   bool changed = memcmp(s->rel_trial, s->data.rel, (size_t)s->d->n_rel) != 0;

@@ -322,10 +322,11 @@ static int mdl_time_relation(double g, double slope, double t) {
   return slope > 0.0 ? g >= -tolerance : g > tolerance;
 }
 
-/* The earlier of `next` and the instant after t at which a time relation switches. */
+/* The earlier of `next` and the instant after t at which a time relation switches: half the tolerance of its value is
+ * after t, so that no instant is between what has switched and what will. */
 static double mdl_next_switch(double g, double slope, double t, double next) {
   const double instant = t - g / slope;
-  return instant > t + 4e-15 * fabs(t) && instant < next ? instant : next;
+  return instant > t + 2e-15 * fabs(t) && instant < next ? instant : next;
 }
 
 static int mdl_parameters(mdl_data *m) {
