@@ -66,18 +66,18 @@ static void log_time_relations(rt_session *s) {
       rt_result_log(s->result, s->t, RT_EVENT_TIME, r, s->data.rel[r] ? 1 : -1);
 }
 
-/* Time relations with the discrete variables as they are now, and when the next one switches. Whether any changed. One
- * that these variables have made due within the tolerance happens at its own time: the event's equations read the time,
- * and would take the relation back. */
+/* Time relations with the discrete variables as they are now, and when the next one switches. Whether any changed. What
+ * these variables have made due within the tolerance happens at its own time: the event's equations read the time, and
+ * would take the relation back. */
 bool rt_clock_relations(rt_session *s) {
-  double due = s->d->next_time_event(&s->data, s->t), now = s->t + s->clock.tolerance;
-  if (due > s->t && due <= now) s->t = due;
-  now = s->t + s->clock.tolerance;
+  const double last = s->t + s->clock.tolerance;
+  double due = s->d->next_time_event(&s->data, s->t);
+  for (; due > s->t && due <= last; due = s->d->next_time_event(&s->data, s->t))
+    s->t = due;
   memcpy(s->rel_trial, s->data.rel, (size_t)s->d->n_rel);
-  s->d->time_relations(&s->data, now);
-  bool changed = memcmp(s->rel_trial, s->data.rel, (size_t)s->d->n_rel) != 0;
-  s->clock.next_relation = s->d->next_time_event(&s->data, now);
-  return changed;
+  s->d->time_relations(&s->data, s->t);
+  s->clock.next_relation = due;
+  return memcmp(s->rel_trial, s->data.rel, (size_t)s->d->n_rel) != 0;
 }
 
 /* Switch the time relations and raise the ticks that are due. */

@@ -18,8 +18,8 @@ enum {
 
 /* A relation keeps its value while its guard is within the hysteresis: what is there may be noise, and a relation that
  * has just been located at its crossing must not fall back. Exactly zero is no noise, and not greater than zero.
- * `singly`: only the first of those that disagree, by however little: what is within the hysteresis may be what holds the
- * others up. Whether any relation changed. */
+ * `singly`: only the first of those that disagree, by however little: what is within the hysteresis may be what holds
+ * the others up. Whether any relation changed. */
 static bool update_relations(rt_session *s, bool singly) {
   bool changed = false;
   for (int r = 0; r < s->d->n_rel && !(singly && changed); r++) {
