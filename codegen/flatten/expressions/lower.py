@@ -6,7 +6,8 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.expressions.chosen_texts import choose, compared, joined
+from lacuna.codegen.flatten.expressions.choices import chosen_value
+from lacuna.codegen.flatten.expressions.chosen_texts import compared, joined
 from lacuna.codegen.flatten.expressions.constants import is_known, known
 from lacuna.codegen.flatten.expressions.enumerations import enumeration_of, require_same
 from lacuna.codegen.flatten.names.context import Context
@@ -221,7 +222,7 @@ def _if(e: ast.IfExpression, scope: Scope) -> Value:
                 raise then if isinstance(then, Diagnostic) else result
             result = then if known(condition, scope, e.span, "the condition").value else result
         else:
-            result = _choice(condition, then, result, written.span, scope)
+            result = chosen_value(condition, then, result, written.span, scope)
     if isinstance(result, Diagnostic):
         raise result
     return result
@@ -238,27 +239,6 @@ def _alternative(written: ast.Expression, scope: Scope, chosen: bool) -> Value |
         if not chosen or error.code not in NOT_THERE:
             raise
         return error
-
-
-def _choice(condition: Expr, then: Value, otherwise: Value, span: Span, scope: Scope) -> Value:
-    texts = isinstance(then, str | ChosenText) and isinstance(otherwise, str | ChosenText)
-    if texts and not is_known(condition, scope.context):
-        return choose(condition, then, otherwise)
-    if texts or isinstance(then, str) or isinstance(otherwise, str) or shape_of(then) != shape_of(otherwise):
-        decided = known(condition, scope, span, "the condition of alternatives of different size")
-        return then if decided.value else otherwise
-    if isinstance(then, Record) and isinstance(otherwise, Record) and then.fields.keys() == otherwise.fields.keys():
-        fields = {n: _choice(condition, v, otherwise.fields[n], span, scope) for n, v in then.fields.items()}
-        return Record(then.name, fields, then.cls)
-    if holds_records(then) or holds_records(otherwise):
-        raise Diagnostic("R041", "an if-expression of different records", span, "choose between their fields")
-
-    def pick(a: Expr, b: Expr) -> Expr:
-        if (a.type == BOOLEAN) != (b.type == BOOLEAN):
-            raise Diagnostic("R021", f"one alternative is {a.type}, the other {b.type}", span, "make them alike")
-        return ex.if_else(condition, a, b)
-
-    return elementwise(pick, [then, otherwise], span, "alternatives")
 
 
 def _array(e: ast.ArrayLiteral, scope: Scope) -> Value:

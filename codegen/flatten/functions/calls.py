@@ -98,8 +98,9 @@ def _defaults_of(cls: ast.Class, e: ast.Call, holder: Component | None, scope: S
     if cls.alias is None or holder is None or scope.in_function:
         return {}
     where = cls.written if isinstance(cls.written, Scope) else Scope(scope.context, cls.parent or cls, holder)
-    arguments = [a for a in cls.alias.modification.arguments if a.modification.value is not None]
-    return {a.name: lower(a.modification.value, where) for a in arguments if a.name not in e.named}
+    open_ = {i.name for i in signature_of(cls, scope.context).inputs[len(e.args) :]} - set(e.named)
+    arguments = [a for a in cls.alias.modification.arguments if a.modification.value is not None and a.name in open_]
+    return {a.name: lower(a.modification.value, where) for a in arguments}
 
 
 def _of_component(ref: ast.Ref, scope: Scope) -> tuple[ast.Class | None, Component | None]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.classes.inheritance import inheriting, refuse_redeclaration
 from lacuna.codegen.flatten.classes.instance import Instance
 from lacuna.codegen.flatten.classes.types import EXTERNAL, Type, resolve_type
 from lacuna.codegen.flatten.expressions.enumerations import enumeration_of
@@ -131,6 +132,9 @@ def signature_of(cls: ast.Class, context: Context) -> Signature:
         for name, element in instance.elements.items():
             scope = Scope(context, element.cls, in_function=True)
             declaration, outer, modified_in = element.declaration, element.modifier, None
+            if outer is not None and isinstance(outer.redeclare, ast.Component):
+                refuse_redeclaration(outer.redeclare, declaration, outer.span)
+                declaration, scope = inheriting(outer.redeclare, declaration), outer.redeclared_in or scope
             if outer is not None and isinstance(outer.value, ast.Expression):
                 changed = replace(declaration.modification, value=outer.value)
                 declaration = replace(declaration, modification=changed)

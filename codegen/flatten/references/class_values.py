@@ -88,8 +88,8 @@ def _constant_around(ref: ast.Ref, scope: Scope) -> Node | None:
 
 
 def _declared_constant(cls: ast.Class, name: str, ref: ast.Ref, scope: Scope) -> Node | None:
-    if cls is scope.cls and scope.instance is not None:
-        return None
+    if cls.kind == "type" or (cls is scope.cls and scope.instance is not None):
+        return None  # a type holds attributes only
     package = package_of(scope.context, cls.whole or cls)
     element = package.elements.get(name) if package.sees(name, cls) else None
     if element is None:
