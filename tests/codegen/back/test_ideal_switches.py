@@ -11,7 +11,7 @@ from lacuna.runtime.model import Model
 from lacuna.runtime.simulation import simulate
 
 VOLTAGE, CLOSED, OPEN, LOAD = 100.0, 1e-5, 1e-5, 100.0  # V, Ohm, S, Ohm
-INVERTER = f"""model Inverter "Three legs on one supply, the load in star; each leg leaks through the switch that is open"
+INVERTER = f"""model Inverter "Three legs on one supply, the load in star; what is open leaks"
   connector Pin
     Real v;
     flow Real i;
@@ -52,7 +52,7 @@ equation
   annotation(experiment(StopTime = 1));
 end Inverter;
 """
-DIODES = """model Diodes "Two phases over two diodes on one load: whichever voltage is higher conducts, at each crossing both switch"
+DIODES = """model Diodes "Two phases over two diodes on one load: both switch where they cross"
   parameter Real Ron = 1e-5, Goff = 1e-5, R = 10;
   Real u[2] = {sin(6.283185307179586*time), -sin(6.283185307179586*time)};
   Real s[2], i[2], v;
