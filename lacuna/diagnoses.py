@@ -155,7 +155,7 @@ class Case:
         from lacuna.discovery.explain import explain as explained
         from lacuna.discovery.explain import judge_written, write_amended
         from lacuna.discovery.explanation import diagnosis
-        from lacuna.discovery.fit.store import kept
+        from lacuna.discovery.fit.kept.store import kept
 
         folder = self._out("explain", out)
         with kept(folder / ".unfinished"):

@@ -54,9 +54,11 @@ def _refined(gaps: np.ndarray, step: float) -> float:
 
 
 def level(pieces: list[np.ndarray]) -> float:
-    """Standard deviation of white noise on a smooth signal, pooled over recordings (each with NaN where missing)."""
-    differences = np.concatenate([np.convolve(p, _THIRD, mode="valid") for p in pieces])
-    differences = differences[np.isfinite(differences)]
+    """Standard deviation of white noise on a smooth signal, pooled over recordings (each with NaN where missing).
+
+    Differences are those of the signal's own samples: between them other signals of a recording may have theirs."""
+    seen = [p[np.isfinite(p)] for p in pieces]
+    differences = np.concatenate([np.convolve(p, _THIRD, mode="valid") if len(p) > 3 else p[:0] for p in seen])
     if not len(differences):
         return 0.0
     spread = float(np.median(np.abs(differences)))
@@ -106,9 +108,11 @@ def sample_weights(values: np.ndarray, noise: Noise) -> np.ndarray:
     weights = np.isfinite(values).astype(float)
     if not is_coarse(noise):
         return weights
-    change = np.flatnonzero(np.diff(np.nan_to_num(values, nan=np.inf)) != 0) + 1
-    lengths = np.diff(np.concatenate([[0], change, [len(values)]]))
-    return weights / np.sqrt(np.repeat(lengths, lengths))
+    seen = values[weights > 0]
+    change = np.flatnonzero(np.diff(seen) != 0) + 1
+    lengths = np.diff(np.concatenate([[0], change, [len(seen)]]))
+    weights[weights > 0] = 1.0 / np.sqrt(np.repeat(lengths, lengths))
+    return weights
 
 
 def correlation_time(residual: np.ndarray) -> float:

@@ -14,7 +14,7 @@ from lacuna.discovery.explanation.confidence import alternatives, confidence, ex
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import whiteness
 from lacuna.discovery.fit.fit import Fit
-from lacuna.discovery.fit.least_squares import Free
+from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.naming.search import Finding
 
 PARTIAL = 0.9  # share of the misfit, below which an explanation is called partial

@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 
 from lacuna.discovery.fit.fit import Fit, fit
-from lacuna.discovery.fit.least_squares import pulls
+from lacuna.discovery.fit.solver.free import pulls
 from lacuna.discovery.fit.time_limit import TimeUp
 from lacuna.discovery.naming.screen import Screen
 

@@ -15,8 +15,8 @@ from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.places import Shaft
 from lacuna.discovery.fit.evidence import nearly_noise
 from lacuna.discovery.fit.fit import Fit, falling_bandwidths, fit, linearised
-from lacuna.discovery.fit.least_squares import WORKERS
 from lacuna.discovery.fit.machine import try_machine
+from lacuna.discovery.fit.solver.least_squares import WORKERS
 from lacuna.discovery.fit.tracking import trackable
 from lacuna.discovery.naming.candidate_fit import fit_candidate
 from lacuna.discovery.naming.comparison import Progress, best_correlation, score
@@ -147,7 +147,8 @@ def _contend(case: Case, base: Fit, candidates: list[Candidate], progress: Progr
     """
     best = min(candidates, key=lambda c: c.fit.deviance())
     near = _near(base, best)
-    close = sorted([c for c in candidates if c.fit.deviance() <= near], key=lambda c: c.fit.deviance())
+    rivals = [c for c in candidates if not c.attachment.contains(best.attachment)]  # those have begun where it ended
+    close = sorted([c for c in rivals if c.fit.deviance() <= near], key=lambda c: c.fit.deviance())
     if len(close) < 2:
         return
     there = linearised(base.machine, case.fit, base.noise, base.estimate.free, base.fixed, best.fit.point)

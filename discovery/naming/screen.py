@@ -17,8 +17,9 @@ from lacuna.discovery.case.cases import Recording
 from lacuna.discovery.catalogue.amend import Attachment
 from lacuna.discovery.catalogue.catalogue import Effect, EffectParameter
 from lacuna.discovery.fit.fit import Fit, Objective
-from lacuna.discovery.fit.least_squares import Free, bounded_linear, pulls
 from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.solver.free import Free, pulls
+from lacuna.discovery.fit.solver.least_squares import bounded_linear
 from lacuna.discovery.naming.shapes import limits_of, shape_starts
 
 RESPONSE = 0.1  # of the residual: size of the response from which a column is taken

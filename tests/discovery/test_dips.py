@@ -8,7 +8,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from lacuna.discovery.fit.least_squares import Free, Problem, solve
+from lacuna.discovery.fit.solver.free import Free
+from lacuna.discovery.fit.solver.least_squares import Problem, solve
 from lacuna.discovery.fit.time_limit import TimeUp
 from lacuna.discovery.naming import dips, screen
 

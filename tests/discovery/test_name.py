@@ -132,39 +132,6 @@ def test_what_promised_most_and_ended_worse_than_nothing_is_led_from_what_is_bel
     assert stuck.fit.deviance() == pytest.approx(right.fit.deviance(), abs=1.0)
 
 
-def test_what_is_tried_next_is_related_to_the_best_by_evidence(
-    case: Case, base: Fit, prepared: Prepared, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A richer law leaves a little less than one that it contains, and does not pay for what it adds."""
-    simple = fitted(case, base, prepared("CoulombFriction"))
-    rich = prepared("StribeckFriction")
-    level = simple.fit.point[simple.attachment.full_name("tau_c")]
-    here = simple.fit.point | {rich.attachment.full_name(n): level for n in ("tau_c", "tau_s")}
-    rich = fitted(case, base, rich, start=here)
-    rich.fit.estimate.cost = simple.fit.estimate.cost - 0.5  # of belief, whatever dips either has ended in
-    rich.fit.estimate.data_cost = simple.fit.estimate.data_cost
-    rich.fit.residuals = simple.fit.residuals
-    assert rich.fit.deviance() < simple.fit.deviance()
-    asked: list[Candidate] = []
-    monkeypatch.setattr(naming, "_halve", lambda case, base, pool, fitted, progress: fitted.update(
-        {c.attachment.label: c for c in pool}))  # fmt: skip
-    monkeypatch.setattr(naming, "first_round", lambda candidates: candidates)
-    monkeypatch.setattr(naming, "relatives", lambda candidates, fitted, best: asked.append(best) or [])
-    monkeypatch.setattr(naming, "begin_again", lambda *_: None)
-    compete(case, [rich, simple], base, final=False)
-    assert asked == [simple]
-
-
-def test_a_ranking_of_held_fits_is_not_cross_validated(
-    case: Case, base: Fit, prepared: Prepared, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    asked: list[object] = []
-    monkeypatch.setattr(naming, "cross_validated", lambda case, base, ranked, *_: asked.append(ranked) or ranked)
-    for final in (False, True):
-        compete(case, [prepared("CoulombFriction")], base, final=final)
-        assert len(asked) == final
-
-
 def raced(case: Case, base: Fit, prepared: Prepared, effect: str, monkeypatch: pytest.MonkeyPatch) -> Naming:
     """The naming of a race that runs out of time when its only hypothesis has been fitted."""
 
@@ -182,18 +149,6 @@ def test_a_race_without_time_names_what_leaves_noise(
     assert found.best.identity == ("friction.coulomb", "shaft")
     with pytest.raises(TimeUp):
         raced(case, base, prepared, "ConstantLoad", monkeypatch)
-
-
-def test_a_race_without_time_to_cross_validate_keeps_its_order(
-    case: Case, base: Fit, prepared: Prepared, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def too_late(*_: object) -> None:
-        raise TimeUp("the search was stopped")
-
-    monkeypatch.setattr(naming, "cross_validated", too_late)
-    found = compete(case, [prepared("CoulombFriction"), prepared("ConstantLoad")], base)
-    assert found.best.identity == ("friction.coulomb", "shaft")
-    assert found.best.confidence > 0.5
 
 
 def test_a_limit_counts_from_when_the_work_was_begun() -> None:

@@ -93,12 +93,9 @@ def spike(v: np.ndarray) -> np.ndarray:
 WITHOUT_A_MODEL = [  # what is done to r2.csv, the kind, the column, the time (s) at which it is seen
     (backwards, "time_order", "time", 0.69),
     (repeated, "time_order", "time", 0.699),
-    (gap, "gap", "time", 0.899),
     (no_time, "time_missing", "time", 0.699),
     (short, "too_short", "time", 0.0),
     (empty, "too_short", "time", None),
-    (changed("u", between(300, 340, np.nan)), "missing_samples", "u", 0.3),
-    (changed("i", between(300, 700, np.nan)), "missing_samples", "i", 0.3),
     (changed("i", between(0, 1500, np.nan)), "missing_samples", "i", 0.0),
     (changed("i", between(600, 800)), "frozen", "i", 0.6),
     (changed("i", between(600, 800, 0.0)), "frozen", "i", 0.6),
@@ -179,6 +176,25 @@ def test_broken_recordings_are_seen_without_a_model(
     assert (first.kind, first.column, first.recording, first.fatal) == (kind, column, "r2.csv", True)
     assert time is None or first.time == pytest.approx(time, abs=2e-3)
     diagnosed(case, column)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "kind", "column", "time"),
+    [
+        (gap, "gap", "time", 0.899),
+        (changed("u", between(300, 340, np.nan)), "gap", "u", 0.299),
+        (changed("i", between(300, 700, np.nan)), "missing_samples", "i", 0.299),
+    ],
+)
+def test_stretches_without_samples_are_said(
+    consistent_case: Path, spoil: Spoil, kind: str, column: str, time: float
+) -> None:
+    """`test_as_they_are` has what becomes of them."""
+    case = load(consistent_case)
+    spoil(case.fit[1])
+    (found,) = check_case(case)
+    assert (found.kind, found.column, found.recording, found.fatal) == (kind, column, "r2.csv", False)
+    assert found.time == pytest.approx(time, abs=2e-3)
 
 
 @pytest.mark.parametrize(("spoil", "text", "column"), AGAINST_THE_MODEL)

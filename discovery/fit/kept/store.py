@@ -19,7 +19,7 @@ import zipfile
 
 import numpy as np
 
-from lacuna.discovery.fit.plain_values import load, save, to_tree
+from lacuna.discovery.fit.kept.plain_values import load, save, to_tree
 
 _folder: Path | None = None
 _version = ""  # of this package's sources
