@@ -17,7 +17,7 @@ FUZZ_TARGETS := stream table inputs
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*' ':!:fmi/standard/*')
 
 .PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined prognosis tolerance-study \
-        prove-machines prove-experiments figures docs wheel vsix examples belts hybrid units msl compliance format lint sanitize ctest pytest lock clean
+        prove-machines prove-experiments figures docs wheel vsix examples belts hybrid automata units msl compliance format lint sanitize ctest pytest lock clean
 
 help: ## Print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -154,6 +154,9 @@ units: setup ## T1, T2, FlightControlEma and ten circuits in other units: events
 
 hybrid: setup ## 20 000 runs of random hybrid systems against closed-form switching times (a quarter of an hour)
 	@$(PYTHON) -m tests.events systems
+
+automata: setup ## 6000 runs of random automata against a program that plays them on closed forms (a quarter of an hour)
+	@$(PYTHON) -m tests.events automata
 
 format: setup ## Format all sources
 	@$(PYTHON) -m ruff format .
