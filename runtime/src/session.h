@@ -286,6 +286,8 @@ void rt_start_patience(rt_session *s);
 rt_status rt_event(rt_session *s);
 rt_status rt_iterate_event(rt_session *s);
 rt_status rt_initialise(rt_session *s);
+void rt_append_name(char *text, size_t size, const char *name);
+void rt_append_changed(const rt_session *s, char *text, size_t size);
 
 /* record.c */
 void rt_record_begin(rt_session *s);
