@@ -12,7 +12,8 @@ from tests.events import play
 from tests.events.models import compiled
 
 
-@pytest.mark.parametrize("number", [0, 1, 2, 3, 38])  # 38: two crossings in a step in which another guard switches
+@pytest.mark.parametrize("number", [0, 1, 2, 38, 137])
+# 38: two crossings in a step in which another guard switches; 137: a guard that comes back at once and jumps
 def test_runs_go_as_the_automaton_is_played(tmp_path: Path, number: int) -> None:
     automaton, expected = play.fair(np.random.default_rng([2027, number]), number)
     model = compiled(tmp_path, automaton.text)
