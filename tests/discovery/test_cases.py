@@ -59,12 +59,9 @@ def test_degrees_celsius_are_read_as_the_kelvin_of_the_variable(tmp_path: Path) 
     )
     (tmp_path / "r.csv").write_text("time,T,C\n0,20,20\n1,26.85,30\n2,,40\n")
     signal = '[signals.{0}]\nrole = "output"\nunit = "degC"\nnoise_std = 0.5\n'
-    (tmp_path / "case.toml").write_text(
-        'model = "Plate.mo"\n'
-        + signal.format("T")
-        + signal.format("C")
-        + '[recordings]\nfit = ["r.csv"]\nvalidate = []\n'
-    )
+    (tmp_path / "r2.csv").write_text("time,T,C\n0,20,20\n1,20,20\n")
+    files = '[recordings]\nfit = ["r.csv"]\nvalidate = ["r2.csv"]\n'
+    (tmp_path / "case.toml").write_text('model = "Plate.mo"\n' + signal.format("T") + signal.format("C") + files)
     case = load(tmp_path)
     assert (case.signals["T"].si_unit, case.signals["C"].si_unit) == ("K", "degC")
     np.testing.assert_allclose(case.fit[0].columns["T"], [293.15, 300.0, np.nan])
