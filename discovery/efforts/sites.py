@@ -34,8 +34,8 @@ class Port:
 
 @dataclass(frozen=True)
 class Site:
-    """A place. `ends` are those of its connection (of a node one suffices); `span` is where its equation stands, in
-    the class or in one that it declares and has one `instance` of."""
+    """A place. `ends` are those of its connection, or all of a node's, of which the first is enough; `span` is where its
+    equation stands, in the class or in one that it declares and has one `instance` of."""
 
     kind: str  # node | edge | equation
     label: str
@@ -75,8 +75,13 @@ def read(library: Library, name: str) -> Sites:
                 else:
                     closed.append((item.text, f"the equation stands in {owner.path}"))
     found += _inside(top)
-    roots = dict.fromkeys(_root(group, end) for end in ports)
-    nodes = [Site("node", root, (root,), ports[root]) for root in roots if root in ports]
+    joined: dict[str, list[str]] = {}
+    for end in ports:
+        joined.setdefault(_root(group, end), []).append(end)
+    nodes = [
+        Site("node", root, (root, *(e for e in ends if e != root)), ports[root])
+        for root, ends in joined.items() if root in ports
+    ]  # fmt: skip
     return Sites(cls, (*nodes, *found), tuple(closed))
 
 
