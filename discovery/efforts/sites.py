@@ -34,7 +34,7 @@ class Port:
 
 @dataclass(frozen=True)
 class Site:
-    """A place. `ends` are those of its connection, or all of a node's, of which the first is enough; `span` is where its
+    """A place. `ends` are those of its connection, or all of a node's, of which one suffices; `span` is where its
     equation stands, in the class or in one that it declares and has one `instance` of."""
 
     kind: str  # node | edge | equation
