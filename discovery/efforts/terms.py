@@ -172,9 +172,8 @@ def _powers(base: str) -> list[Group]:
 
 def _alone(v: Variable) -> list[Group]:
     x, sign = v.scaled, f"sign({v.local})"
-    power = [
-        Group((f"{sign}*abs{x}^{{p}}",), (Shape("p", "1", p, 0.1, 8.0, _WHOLE, 0.75),)) for p in (0.5, 2.0, 3.0, 4.0)
-    ]
+    power = [Group((f"{sign}*abs{x}^{p:.4g}",)) for p in EXPONENTS]
+    power += [Group((f"{sign}*abs{x}^{{p}}",), (Shape("p", "1", p, 0.1, 8.0, _WHOLE, 0.75),)) for p in (0.75, 2.5, 5.0)]
     bend = [
         Group((f"exp({{q}}*{x})",), (Shape("q", "1", q, min(q / 9, q * 9), max(q / 9, q * 9), (), 3.0),))
         for q in (-4, 4)
@@ -201,7 +200,10 @@ def _remembering(v: Variable, interval: float, duration: float) -> list[Group]:
     """A relaxation: storage behind a resistance, a damper behind a spring, a winding around a core; all that is faster
     than the samples or slower than a recording is something else."""
     return [
-        Group((f"({v.scaled} - lag({v.scaled}, {{t}}))",), (Shape("t", "s", float(t), t / 9, t * 9, (), 0.6 * t),))
+        Group(
+            (f"({v.scaled} - lag({v.scaled}, {{t}}))",),
+            (Shape("t", "s", float(t), max(t / 9, interval), t * 9, (), 0.6 * t),),
+        )
         for t in _times(interval, duration)
     ]
 
@@ -210,7 +212,7 @@ def _varying(v: Variable, interval: float, duration: float) -> list[Group]:
     """A coefficient that varies with what it has carried of late, as a winding's resistance does when it warms."""
     x = v.scaled
     return [
-        Group((f"{x}*lag({x}^2, {{t}})",), (Shape("t", "s", float(t), t / 9, t * 9, (), 0.6 * t),))
+        Group((f"{x}*lag({x}^2, {{t}})",), (Shape("t", "s", float(t), max(t / 9, interval), t * 9, (), 0.6 * t),))
         for t in _times(interval, duration)
     ]
 
