@@ -66,6 +66,18 @@ def _written(powers: dict[str, int]) -> str:
     return (".".join(above) or "1") + (f"/({quotient})" if len(below) > 1 else f"/{quotient}" if below else "")
 
 
+def factor_into(declared: str, si: str) -> float:
+    """By what a value in the SI unit `si` of a column is multiplied to be one in the unit that a variable declares; 1
+    where it declares none. Raises UnitError where the two are of other quantities, or of temperatures with other
+    zeros."""
+    if not declared:
+        return 1.0
+    unit = parse_unit(declared)
+    if ("degC" in declared) != ("degC" in si) or unit.exponents != parse_unit(si.replace("ohm", "Ohm")).exponents:
+        raise UnitError(f"{si} is no {declared}")
+    return 1.0 / (unit.factor or 1.0)
+
+
 def same_unit(model: str, column: str) -> bool:
     """Whether an SI unit of a column is that of a variable: one dimension, and of temperatures one zero."""
     if not model:

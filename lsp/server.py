@@ -41,7 +41,7 @@ def make_server(search_path: list[str]) -> LanguageServer:
 
 @contextmanager
 def _answering() -> Iterator[None]:
-    """Garbage is collected behind an answer, not within: a look at all that was parsed costs as much as a flat model."""
+    """Garbage is collected behind an answer, not within it."""
     gc.disable()
     try:
         yield

@@ -24,13 +24,17 @@ def report_html(studies: Sequence[Study], figures: dict[str, list[str]], folder:
     sections = "\n".join(_section(study, figures[study.scenario.name], folder) for study in studies)
     said = findings(studies)
     body = Template(_TEMPLATE.read_text(encoding="utf-8")).substitute(
-        count=f"{len(studies)} scenario{'s' * (len(studies) != 1)}", summary=_summary(studies), sections=sections,
+        count=_scenarios(len(studies)), summary=_summary(studies), sections=sections,
         findings="\n".join(f"<li>{escape(text)}</li>" for text in said),
     )  # fmt: skip
     return page(
         "Variable step against fixed step", Markup(body), verdict=said[0] if said else "", action=_ACTION,
         inputs=[folder / "deviations.csv"],
     )  # fmt: skip
+
+
+def _scenarios(count: int) -> str:
+    return f"{count} scenario{'s' * (count != 1)}"
 
 
 def order_text(study: Study, family: str) -> str:
@@ -49,12 +53,12 @@ def findings(studies: Sequence[Study]) -> list[str]:
         known = [order for order in on_course if not np.isnan(order)]
         if known:
             said.append(
-                f"{family}: order {min(known):.2f} to {max(known):.2f}, {len(known)} of {len(studies)} scenarios"
+                f"{family}: order {min(known):.2f} to {max(known):.2f}, {len(known)} of {_scenarios(len(studies))}"
             )
     finest = [min((r for r in s.lanes if r.lane.family == "rk4"), key=lambda r: r.lane.step) for s in studies]
     if finest:
         worst = max(r.events.maximum for r in finest)
-        said.append(f"rk4 at the finest step: event times within {worst:.1e} s in all of {len(finest)} scenarios")
+        said.append(f"rk4 at the finest step: event times within {worst:.1e} s in all of {_scenarios(len(finest))}")
     checked = [(study, lane) for study in studies for lane in study.lanes if _counts(lane)]
     late = [_late(study, lane) for study, lane in checked if _is_late(study, lane)]
     said.append(
