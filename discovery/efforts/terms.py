@@ -210,18 +210,14 @@ def _remembering(v: Variable, interval: float, duration: float) -> list[Group]:
 
 def _varying(v: Variable, interval: float, duration: float) -> list[Group]:
     """A coefficient that varies with what it has carried of late, as a winding's resistance does when it warms."""
-    x = v.scaled
-    return [
-        Group((f"{x}*lag({x}^2, {{t}})",), (Shape("t", "s", float(t), max(t / 9, interval), t * 9, (), 0.6 * t),))
-        for t in _times(interval, duration)
-    ]
+    return [Group((f"{v.scaled}*lag({v.scaled}^2, {{t}})",), (s,)) for s in _times(interval, duration)]
 
 
-def _times(interval: float, duration: float) -> np.ndarray:
+def _times(interval: float, duration: float) -> list[Shape]:
     """Time constants between the samples' interval and a recording's duration."""
     count = max(2, int(np.ceil(np.log(duration / interval) / np.log(OCTAVES))))
-    times = interval * OCTAVES ** (np.arange(count) + 0.5)
-    return times[times < duration]
+    times = [float(t) for t in interval * OCTAVES ** (np.arange(count) + 0.5) if t < duration]
+    return [Shape("t", "s", t, max(t / 9, interval), t * 9, (), 0.6 * t) for t in times]
 
 
 def _waves(v: Variable, span: float) -> list[Group]:
