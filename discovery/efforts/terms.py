@@ -199,13 +199,7 @@ def _alone(v: Variable) -> list[Group]:
 def _remembering(v: Variable, interval: float, duration: float) -> list[Group]:
     """A relaxation: storage behind a resistance, a damper behind a spring, a winding around a core; all that is faster
     than the samples or slower than a recording is something else."""
-    return [
-        Group(
-            (f"({v.scaled} - lag({v.scaled}, {{t}}))",),
-            (Shape("t", "s", float(t), max(t / 9, interval), t * 9, (), 0.6 * t),),
-        )
-        for t in _times(interval, duration)
-    ]
+    return [Group((f"({v.scaled} - lag({v.scaled}, {{t}}))",), (s,)) for s in _times(interval, duration)]
 
 
 def _varying(v: Variable, interval: float, duration: float) -> list[Group]:
