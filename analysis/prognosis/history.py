@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 import csv
 from dataclasses import dataclass, field
+from functools import cached_property
 import math
 from pathlib import Path
 
@@ -46,7 +47,7 @@ class History:
     warnings: tuple[str, ...] = ()
     doubts: tuple[str, ...] = ()  # why no number may be trusted, where the table contradicts itself
 
-    @property
+    @cached_property
     def lives(self) -> list[slice]:
         """Rows of each part in turn; the last one is in service."""
         starts = [0, *(k for k in np.flatnonzero(self.replaced).tolist() if k)]

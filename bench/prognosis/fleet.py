@@ -38,6 +38,11 @@ class Part:
         return LIMIT * np.interp((use - self.born) / self.life, self.truth.time, self.truth.severity)
 
 
+def tests_a_life(random: np.random.Generator, count: int | None = None):
+    """Tests a life: as many of 20 to 40 as of 60 to 120."""
+    return np.exp(random.uniform(np.log(20), np.log(120), count))
+
+
 class Readings:
     """How simulated tests were read, to be drawn from by severity and by what stays with an actuator."""
 
@@ -62,7 +67,7 @@ def part(number: int, seed: int, readings: Readings) -> Part:
     random = np.random.default_rng([seed, number])
     law = str(random.choice(UNKNOWN if random.random() < OUTSIDE else KNOWN))
     truth = draw(law, random)
-    tests, gap = np.exp(random.uniform(np.log(20), np.log(120))), np.exp(random.uniform(np.log(20), np.log(500)))
+    tests, gap = tests_a_life(random), np.exp(random.uniform(np.log(20), np.log(500)))
     born = 0.0
     nuisances = np.sqrt(3) * random.uniform(-1, 1, 2)
     rows: list[tuple[float, bool, tuple]] = []
