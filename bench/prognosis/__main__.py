@@ -6,6 +6,7 @@ Fixed before the first full run: SEED, PARTS, the fleet (fleet.py, truth.py), sc
 from __future__ import annotations
 
 import argparse
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -126,11 +127,11 @@ def beside(parts: list[Part], tests: Results, seed: int, *, progpy: bool) -> pag
         return oracle([parts[k] for k in rows], tests, what, seed)
 
     def by_progpy(shape: bool) -> Scores | None:
-        if not progpy:
-            return None
-        return study.sample_scores([parts[k] for k in known], study.progpy_samples(seed, shape), lambda *_: None)
+        tell("progpy", 0.5 * shape)
+        samples = partial(study.progpy_samples, seed, shape)
+        return study.sample_scores([parts[k] for k in known], samples) if progpy else None
 
-    line = study.sample_scores(parts, study.line_samples(seed), lambda *_: None)
+    line = study.sample_scores(parts, partial(study.line_samples, seed))
     oracles = (told(watched_known, "law"), told(watched_known, "shape"))
     return page.Rivals(
         line, watched, told(watched, "population"), watched_known, *oracles, known, by_progpy(False), by_progpy(True)

@@ -33,6 +33,10 @@ class Part:
     history: History
     mean_rms: np.ndarray  # severity as the paper's mean RMS reads it, NaN where missing
 
+    @property
+    def number(self) -> int:
+        return int(self.name[1:])
+
     def severity(self, use: np.ndarray) -> np.ndarray:
         """Of the part in service, a fraction."""
         return LIMIT * np.interp((use - self.born) / self.life, self.truth.time, self.truth.severity)

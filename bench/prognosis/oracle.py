@@ -140,7 +140,7 @@ def to_limit(c: Cloud, since: float, random: np.random.Generator) -> np.ndarray:
 
 def posterior(p: Part, readings: Readings, told: str, seed: int) -> dict[int, np.ndarray]:
     """{rows of the history: [AHEAD] use that remains}, after the last test before each checkpoint."""
-    random, h = np.random.default_rng([seed, int(p.name[1:])]), p.history
+    random, h = np.random.default_rng([seed, p.number]), p.history
     start, gap = h.lives[-1].start, float(np.median(np.diff(h.use)))
     mix = {law: (1 - OUTSIDE) / len(KNOWN) for law in KNOWN} | {law: OUTSIDE / len(UNKNOWN) for law in UNKNOWN}
     mix = mix if told == "population" else {p.law: 1.0}

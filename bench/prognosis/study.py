@@ -113,12 +113,20 @@ def arm(parts: Sequence[Part], bank: Bank, risk: float, tell: Tell) -> Arm:
     return Arm(scores, np.concatenate([a.verdicts for a in done]), removals)
 
 
-def sample_scores(parts: Sequence[Part], samples: Callable[[int, Part], dict[int, np.ndarray]], tell: Tell) -> Scores:
-    """Of a method that gives, for each part, {rows of history: samples of the remaining use}."""
+Samples = Callable[[Part], dict[int, np.ndarray]]  # {rows of history: samples of the remaining use}
+
+
+def sample_scores(parts: Sequence[Part], samples: Samples) -> Scores:
+    """Of a method that gives samples, on all cores."""
+    pieces = [parts[k : k + BATCH // 5] for k in range(0, len(parts), BATCH // 5)]
+    with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
+        return Scores.joined(list(pool.map(_sampled, pieces, [samples] * len(pieces))))
+
+
+def _sampled(parts: Sequence[Part], samples: Samples) -> Scores:
     scores = Scores.empty(len(parts))
     for b, p in enumerate(parts):
-        tell("rivals", b / len(parts))
-        found = samples(b, p)
+        found = samples(p)
         for j, share in enumerate(CHECKPOINTS):
             rows = last_test(p, share)
             scores.truth[b, j] = (p.born + p.life - p.history.use[rows - 1]) / p.life
@@ -135,35 +143,28 @@ def _known(p: Part, rows: int) -> np.ndarray:
     return np.arange(start, rows)[np.isfinite(p.history.severity[start:rows])] if rows > start else np.empty(0, int)
 
 
-def line_samples(seed: int) -> Callable[[int, Part], dict[int, np.ndarray]]:
-    def of(b: int, p: Part) -> dict[int, np.ndarray]:
-        result = {}
-        for share in CHECKPOINTS:
-            rows = last_test(p, share)
-            known = _known(p, rows)
-            if len(known) >= 3:
-                own = straight_line(p.history.use[known], p.history.severity[known], LIMIT, seed + b)
-                result[rows] = np.maximum(own - (p.history.use[rows - 1] - p.history.use[known[-1]]), 0)
-        return result
-
-    return of
+def line_samples(seed: int, p: Part) -> dict[int, np.ndarray]:
+    result = {}
+    for share in CHECKPOINTS:
+        rows = last_test(p, share)
+        known = _known(p, rows)
+        if len(known) >= 3:
+            own = straight_line(p.history.use[known], p.history.severity[known], LIMIT, seed + p.number)
+            result[rows] = np.maximum(own - (p.history.use[rows - 1] - p.history.use[known[-1]]), 0)
+    return result
 
 
-def progpy_samples(seed: int, shape: bool) -> Callable[[int, Part], dict[int, np.ndarray]]:
+def progpy_samples(seed: int, shape: bool, p: Part) -> dict[int, np.ndarray]:
     """Told the law; with `shape` its shape too."""
-
-    def of(b: int, p: Part) -> dict[int, np.ndarray]:
-        known = _known(p, len(p.history.use))
-        h = p.history
-        wanted = {last_test(p, share): len(_known(p, last_test(p, share))) - 1 for share in CHECKPOINTS}
-        sd = np.maximum((h.high - h.low)[known] / 2 / TWO_SIDED_95 / LIMIT, 1e-3)
-        tests = Readings(h.use[known], h.severity[known] / LIMIT, sd, float(np.median(np.diff(h.use))))
-        told = p.truth.shape if shape else None
-        found = progpy_remaining(p.law, told, tests, list(wanted.values()), seed + b)
-        late = {rows: h.use[rows - 1] - h.use[known[k]] if k >= 0 else 0.0 for rows, k in wanted.items()}
-        return {rows: np.maximum(found[k] - late[rows], 0) for rows, k in wanted.items() if k in found}
-
-    return of
+    known = _known(p, len(p.history.use))
+    h = p.history
+    wanted = {last_test(p, share): len(_known(p, last_test(p, share))) - 1 for share in CHECKPOINTS}
+    sd = np.maximum((h.high - h.low)[known] / 2 / TWO_SIDED_95 / LIMIT, 1e-3)
+    tests = Readings(h.use[known], h.severity[known] / LIMIT, sd, float(np.median(np.diff(h.use))))
+    told = p.truth.shape if shape else None
+    found = progpy_remaining(p.law, told, tests, list(wanted.values()), seed + p.number)
+    late = {rows: h.use[rows - 1] - h.use[known[k]] if k >= 0 else 0.0 for rows, k in wanted.items()}
+    return {rows: np.maximum(found[k] - late[rows], 0) for rows, k in wanted.items() if k in found}
 
 
 def progpy_verdict() -> str:
