@@ -12,11 +12,11 @@ from __future__ import annotations
 
 from importlib import import_module
 from pathlib import Path
-import tempfile
 
 from lacuna.analysis.files import check_file
 from lacuna.analysis.recording.channel import Reader, Recorded, RecordingError
 from lacuna.extras import names_missing_packages
+from lacuna.written import whole_file
 
 _READERS = {
     "text": (".csv", ".txt", ".tsv", ".dat", ".asc"),
@@ -41,10 +41,8 @@ def read_recorded(path: Path | str) -> Recorded:
 def write_recorded(recorded: Recorded, path: Path) -> None:
     """Write the channels in the format of the path's suffix, whole or not at all. Raises RecordingError for others."""
     kind = _kind(path)
-    with tempfile.TemporaryDirectory(dir=path.parent, prefix=".convert") as scratch:
-        partial = Path(scratch) / path.name
+    with whole_file(path) as partial:
         import_module(f"lacuna.analysis.recording.{kind}").write(recorded, partial)
-        partial.replace(path)
 
 
 def _reader(path: Path) -> Reader:

@@ -27,6 +27,7 @@ from lacuna.discovery.law.locate import Located
 from lacuna.discovery.naming.judge import Judgement
 from lacuna.discovery.naming.name import Naming
 from lacuna.drawn import save
+from lacuna.written import write_whole
 
 
 def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
@@ -44,12 +45,8 @@ def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
 
 def _page(parts: list[str], title: str, folder: Path, verdict: str = "", action: str = "") -> Path:
     path = folder / "report.html"
-    partial = path.with_suffix(".tmp")
     written = [folder / "diagnosis.json", *sorted(folder.glob("*.mo"))]
-    partial.write_text(
-        page(title, Markup("\n".join(parts)), verdict=verdict, action=action, inputs=written), encoding="utf-8"
-    )
-    partial.replace(path)
+    write_whole(path, page(title, Markup("\n".join(parts)), verdict=verdict, action=action, inputs=written))
     return path
 
 
