@@ -2,7 +2,8 @@
 
 What is new is written into a folder of its own beside its place, synced to the disk, and renamed; then the folder that
 holds the names is synced, too. Where a rename fails, those before it are taken back. A power cut between the renames of
-several files can leave some of each making: the command that made them makes them again.
+several files, or a disk that refuses everything from there on, can leave some of each making: the command that made
+them makes them again.
 """
 
 from __future__ import annotations
@@ -69,10 +70,11 @@ def _replace_all(made: list[Path], folder: Path, before: Path) -> None:
             replaced.append(folder / path.name)
     except BaseException:
         for target in replaced:
-            if (before / target.name).exists():
-                (before / target.name).replace(target)
-            else:
-                target.unlink()
+            with suppress(OSError):  # the disk refuses this, too: what is said is the first refusal
+                if (before / target.name).exists():
+                    (before / target.name).replace(target)
+                else:
+                    target.unlink()
         raise
 
 

@@ -25,12 +25,10 @@ def main() -> int:
     names = options.names or [n for n, s in SCENARIOS.items() if options.slow or not s.slow]
     with tempfile.TemporaryDirectory() as folder:
         if "shim" not in os.environ.get("LD_PRELOAD", ""):
-            done = with_shim(Path(folder), [*names, "--every", str(options.every)])
-            print(done.stdout, end="", flush=True)
-            print(done.stderr, end="", file=sys.stderr)
-            return done.returncode
-        from tests.faults.trial import Trial
+            return with_shim(Path(folder), [*names, "--every", str(options.every)]).returncode
+        from tests.faults.trial import Trial, imported
 
+        imported()
         fell = 0
         for name in names:
             trial = Trial(name, SCENARIOS[name], Path(folder).resolve() / name)

@@ -13,13 +13,13 @@ import sys
 SHIM = Path(__file__).with_name("shim.c")
 
 
-def with_shim(folder: Path, words: Sequence[str]) -> subprocess.CompletedProcess[str]:
-    """Run `python -m tests.faults` in a process that has the shim."""
+def with_shim(folder: Path, words: Sequence[str], output: int | None = None) -> subprocess.CompletedProcess[str]:
+    """Run `python -m tests.faults` in a process that has the shim; `output` is where it prints."""
     library = folder / "shim.so"
     subprocess.run(["cc", "-std=gnu11", "-O1", "-shared", "-fPIC", "-o", library, SHIM, "-ldl"], check=True)
     command = [sys.executable, "-m", "tests.faults", *words]
     settings = os.environ | {"LD_PRELOAD": str(library), "MPLBACKEND": "Agg", "OPENBLAS_NUM_THREADS": "1"}
-    return subprocess.run(command, env=settings, capture_output=True, text=True, cwd=SHIM.parents[2])
+    return subprocess.run(command, env=settings, text=True, cwd=SHIM.parents[2], stdout=output)
 
 
 @dataclass(frozen=True)
@@ -39,12 +39,13 @@ class Outcome:
     status: int  # as a shell sees it
     said: str  # on both outputs
     calls: int  # that would have changed something
+    unsynced: str  # the last file that got its name before the disk had its content
 
 
 def run_with(fault: Fault, folder: Path, work: Callable[[], int], log: Path) -> Outcome:
     """`work` in a child of this process, in which calls fail."""
     shim = ctypes.CDLL(None)
-    shim.fault_calls.restype = ctypes.c_long
+    shim.fault_calls.restype, shim.fault_unsynced.restype = ctypes.c_long, ctypes.c_char_p
     shim.fault_arm.argtypes = [ctypes.c_char_p, ctypes.c_long, ctypes.c_int, ctypes.c_int]
     sys.stdout.flush()
     shim.fault_arm(b"", 0, 0, 0)
@@ -52,7 +53,9 @@ def run_with(fault: Fault, folder: Path, work: Callable[[], int], log: Path) -> 
     if child == 0:
         _as_child(work, log, lambda: shim.fault_arm(bytes(folder), fault.number, fault.error, fault.lasting))
     status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
-    return Outcome(status, log.read_text(encoding="utf-8", errors="replace"), shim.fault_calls())
+    return Outcome(
+        status, log.read_text(encoding="utf-8", errors="replace"), shim.fault_calls(), shim.fault_unsynced().decode()
+    )
 
 
 def _as_child(work: Callable[[], int], log: Path, arm: Callable[[], None]) -> None:

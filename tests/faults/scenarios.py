@@ -28,6 +28,7 @@ class Scenario:
     together: bool = True
     fresh: bool = False
     before: tuple[tuple[str, ...], ...] = ()  # commands whose results it reads
+    cold: bool = False  # nothing is compiled yet
     slow: bool = False
 
 
@@ -35,11 +36,12 @@ _SIMULATE = ("simulate", "Decay.mo", "--out", "out")
 _PREPARE = ("maps", "--prepare", "--out", "map", "--settings", "settings.toml")
 _CASE = "missing-physics"
 SCENARIOS = {
+    "compile": Scenario(_SIMULATE, cold=True),
     "simulate": Scenario((*_SIMULATE, "--event-rows")),
     "simulate-plot": Scenario((*_SIMULATE, "--plot"), together=False),
     "simulate-parquet": Scenario((*_SIMULATE, "--format", "parquet")),
     "simulate-mat": Scenario((*_SIMULATE, "--format", "mat")),
-    "format": Scenario(("format", "place/Decay.mo"), out="place"),
+    "format": Scenario(("format", "place/Decay.mo"), out="place", fresh=True),
     "convert": Scenario(("convert", "test.csv", "out/test.mat"), fresh=True),
     "convert-parquet": Scenario(("convert", "test.csv", "out/test.parquet"), fresh=True),
     "convert-xlsx": Scenario(("convert", "test.csv", "out/test.xlsx"), fresh=True),
@@ -52,14 +54,14 @@ SCENARIOS = {
     "prepare": Scenario((*_PREPARE[:-4], "--out", "out", "--settings", "settings.toml"), together=False, slow=True),
     "assess": Scenario(("assess", "test.csv", "--map", "map", "--out", "out"), before=(_PREPARE,), slow=True),
     "assess-store": Scenario(
-        ("assess", "test.csv", "--map", "map", "--out", "out", "--store", "store.db", "--actuator", "a", "--cycles", "7"),
+        ("assess", "test.csv", "--map", "map", "--out", "out", "--store", "x.db", "--actuator", "a", "--cycles", "7"),
         before=(_PREPARE,), slow=True,
     ),
     "sweep": Scenario(
         ("sweep", "--points", "8", "--chunk", "4", "--out", "out", "--settings", "settings.toml"), together=False,
         slow=True,
     ),
-    "compare": Scenario(("compare", "--scenario", "start", "--out", "out"), slow=True),
+    "compare": Scenario(("compare", "Decay.mo", "--step", "0.01", "--out", "out"), slow=True),
     "fit": Scenario(("fit", _CASE, "--out", "out"), together=False, slow=True),
     "explain": Scenario(("explain", _CASE, "--out", "out"), together=False, slow=True),
 }  # fmt: skip
@@ -68,11 +70,11 @@ SCENARIOS = {
 def lay_out(place: Path, settings: str) -> None:
     """What the commands read, in `place`."""
     for folder in ("place", "tmp", "cache"):
-        (place / folder).mkdir(parents=True)
+        (place / folder).mkdir(parents=True, exist_ok=True)
     (place / "Decay.mo").write_text(DECAY)
     (place / "place" / "Decay.mo").write_text(DECAY)
     (place / "history.csv").write_text(HISTORY)
     (place / "Decay.csv").write_text("time,x\n" + "".join(f"{0.01 * k:.2f},{0.99**k:.6f}\n" for k in range(100)))
     (place / "settings.toml").write_text(settings)
     shutil.copy(EXAMPLES / "preflight" / "test.csv", place)
-    shutil.copytree(EXAMPLES / _CASE, place / _CASE)
+    shutil.copytree(EXAMPLES / _CASE, place / _CASE, dirs_exist_ok=True)

@@ -1,5 +1,6 @@
-/* Preloaded: the k-th call that would change something below a watched folder fails, once or from then on.
-   The count lives in memory that forked children share. */
+/* Preloaded: the k-th call that would change something below a watched folder fails, once or from then on; and a file
+   that is renamed although its last write was not synced is noted: a power cut would leave its name without content.
+   What is counted and noted lives in memory that forked children share. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -11,14 +12,20 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/types.h>
 #include <sys/uio.h>
 #include <unistd.h>
+
+enum { MOST_SYNCED = 4096 };
 
 typedef struct {
   atomic_long calls, fails_at;
   int error, lasting; /* errno; whether the later calls fail, too */
   char below[PATH_MAX];
+  atomic_int n_synced;
+  struct stat synced[MOST_SYNCED]; /* as they were when they were synced */
+  char unsynced[PATH_MAX];
 } faults;
 
 static faults *state;
@@ -35,14 +42,20 @@ __attribute__((constructor)) static void begin(void) {
 
 /* Fails call `number` (0: none; from 1) below `folder`; forgets what was counted. */
 void fault_arm(const char *folder, long number, int error, int lasting) {
-  state->calls = 0;
+  state->calls = state->n_synced = 0;
+  state->unsynced[0] = 0;
   state->error = error;
   state->lasting = lasting;
   snprintf(state->below, sizeof state->below, "%s", folder);
   state->fails_at = number;
 }
 
-long fault_calls(void) { return state->calls; }
+long fault_calls(void) {
+  return state->calls;
+}
+const char *fault_unsynced(void) {
+  return state->unsynced;
+}
 
 static int watched(const char *path) {
   const size_t n = state ? strlen(state->below) : 0;
@@ -80,8 +93,28 @@ static int fd_fails(int fd) {
   return state && state->below[0] && watched(path_of(fd, path, sizeof path)) && fails();
 }
 
+static int same(const struct stat *a, const struct stat *b) {
+  return a->st_ino == b->st_ino && a->st_size == b->st_size && a->st_mtim.tv_sec == b->st_mtim.tv_sec &&
+         a->st_mtim.tv_nsec == b->st_mtim.tv_nsec;
+}
+
+static void note_sync(int fd) {
+  const int k = state->n_synced++ % MOST_SYNCED;
+  fstat(fd, &state->synced[k]);
+}
+
+static int renaming_fails(int from, const char *old, int to, const char *new) {
+  struct stat now;
+  if (at_fails(to, new)) return 1;
+  if (!state || !state->below[0] || fstatat(from, old, &now, AT_SYMLINK_NOFOLLOW) || !S_ISREG(now.st_mode)) return 0;
+  for (int k = 0; k < state->n_synced && k < MOST_SYNCED; ++k)
+    if (same(&now, &state->synced[k])) return 0;
+  snprintf(state->unsynced, sizeof state->unsynced, "%s", new);
+  return 0;
+}
+
 #define REAL(name, type) ((type)dlsym(RTLD_NEXT, #name))
-#define CHANGES(flags) ((flags) & (O_WRONLY | O_RDWR | O_CREAT | O_TRUNC))
+#define CHANGES(flags)   ((flags) & (O_WRONLY | O_RDWR | O_CREAT | O_TRUNC))
 
 #define OPEN(name)                                                                                                     \
   int name(const char *path, int flags, ...) {                                                                         \
@@ -117,7 +150,11 @@ ON_FD(ssize_t, pwrite, (int fd, const void *b, size_t n, off_t at), (fd, b, n, a
 ON_FD(ssize_t, pwrite64, (int fd, const void *b, size_t n, off64_t at), (fd, b, n, at),
       (int, const void *, size_t, off64_t))
 ON_FD(ssize_t, writev, (int fd, const struct iovec *v, int n), (fd, v, n), (int, const struct iovec *, int))
-ON_FD(int, fsync, (int fd), (fd), (int))
+int fsync(int fd) {
+  if (fd_fails(fd)) return -1;
+  if (state && state->below[0]) note_sync(fd);
+  return REAL(fsync, int (*)(int))(fd);
+}
 ON_FD(int, fdatasync, (int fd), (fd), (int))
 ON_FD(int, ftruncate, (int fd, off_t n), (fd, n), (int, off_t))
 ON_FD(int, ftruncate64, (int fd, off64_t n), (fd, n), (int, off64_t))
@@ -129,9 +166,14 @@ ON_FD(int, ftruncate64, (int fd, off64_t n), (fd, n), (int, off64_t))
   }
 ON_PATH(mkdir, AT_FDCWD, p, (const char *p, mode_t m), (p, m), (const char *, mode_t))
 ON_PATH(mkdirat, d, p, (int d, const char *p, mode_t m), (d, p, m), (int, const char *, mode_t))
-ON_PATH(rename, AT_FDCWD, q, (const char *p, const char *q), (p, q), (const char *, const char *))
-ON_PATH(renameat, e, q, (int d, const char *p, int e, const char *q), (d, p, e, q),
-        (int, const char *, int, const char *))
+int rename(const char *p, const char *q) {
+  if (renaming_fails(AT_FDCWD, p, AT_FDCWD, q)) return -1;
+  return REAL(rename, int (*)(const char *, const char *))(p, q);
+}
+int renameat(int d, const char *p, int e, const char *q) {
+  if (renaming_fails(d, p, e, q)) return -1;
+  return REAL(renameat, int (*)(int, const char *, int, const char *))(d, p, e, q);
+}
 ON_PATH(link, AT_FDCWD, q, (const char *p, const char *q), (p, q), (const char *, const char *))
 ON_PATH(linkat, e, q, (int d, const char *p, int e, const char *q, int f), (d, p, e, q, f),
         (int, const char *, int, const char *, int))
