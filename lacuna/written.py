@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-import errno
 import fcntl
 from functools import lru_cache
 import os
@@ -22,7 +21,6 @@ import time
 _SCRATCH = ".partial-"
 _BEFORE = ".before"  # in the scratch folder: what is replaced, until all has been
 _YOUNG = 60  # s: one that was made so lately may not be locked yet
-_NOT_FOR_FOLDERS = (errno.EINVAL, errno.ENOTSUP, errno.EACCES, errno.EPERM)  # file systems that sync no folders
 
 
 @contextmanager
@@ -127,9 +125,7 @@ def _sync(path: Path) -> None:
 
 
 def _sync_names(folder: Path) -> None:
-    """Have the disk hold the names in `folder`, where its file system can."""
-    try:
+    """Have the disk hold the names in `folder`, where its file system can. Where not, a power cut may bring back the
+    files that were there before, whole: nothing to fail for."""
+    with suppress(OSError):
         _sync(folder)
-    except OSError as error:
-        if error.errno not in _NOT_FOR_FOLDERS:
-            raise

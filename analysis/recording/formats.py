@@ -42,7 +42,12 @@ def write_recorded(recorded: Recorded, path: Path) -> None:
     """Write the channels in the format of the path's suffix, whole or not at all. Raises RecordingError for others."""
     kind = _kind(path)
     with whole_file(path) as partial:
-        import_module(f"lacuna.analysis.recording.{kind}").write(recorded, partial)
+        try:
+            import_module(f"lacuna.analysis.recording.{kind}").write(recorded, partial)
+        except (RecordingError, OSError, ImportError):
+            raise
+        except Exception as error:  # every library has errors of its own for a disk that is full
+            raise RecordingError(f"{path}: cannot be written: {error}") from error
 
 
 def _reader(path: Path) -> Reader:
