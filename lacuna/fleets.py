@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from lacuna.degradation import degradation_laws
 from lacuna.extras import names_missing_packages
-from lacuna.prognosis import OPTIONS, limits_of, map_settings
+from lacuna.prognosis import OPTIONS, files_of, limits_of, map_settings
 from lacuna.progress import Progress, silent
 from lacuna.written import write_whole
 
@@ -51,8 +51,7 @@ def fleet(
     table = run_fleet(
         read, work, folder, scheduler=scheduler, progress=lambda done, count: tell("forecasts", done / count)
     )
-    page = overview(table, next(iter(limits.values())).names[-1], title=f"Fleet: {Path(histories).name}")
-    write_whole(folder / "fleet.html", page)
+    write_whole(folder / "fleet.html", overview(table, limits, f"Fleet: {Path(histories).name}", files_of(histories)))
     return table
 
 
