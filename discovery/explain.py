@@ -26,6 +26,7 @@ from lacuna.discovery.fit.evidence import (
     pays,
     settled,
     whiteness,
+    within_instruments,
 )
 from lacuna.discovery.fit.time_limit import within
 from lacuna.discovery.naming.comparison import Ranked
@@ -192,7 +193,7 @@ def _quiet(result: Explanation) -> bool:
 
     Instruments drift and are off by parts of their noise: what is left of that size, and of no form, is theirs."""
     final = result.final
-    return nearly_noise(final) or like_noise(final) or settled(final, rough=not result.lead.direct)
+    return within_instruments(final) or like_noise(final) or settled(final, rough=not result.lead.direct)
 
 
 def experiment_for(best: Ranked, rivals: list[Ranked]) -> str:

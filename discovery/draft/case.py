@@ -17,11 +17,10 @@ from lacuna.discovery.case.cases import CaseError
 from lacuna.discovery.draft.match import Match, Target, matched
 from lacuna.discovery.draft.recorded import Recording, parted, read_recording, write_recorded
 from lacuna.discovery.draft.write import Column, Draft, case_toml
-from lacuna.recorded_units import to_si
+from lacuna.recorded_units import ZERO_CELSIUS, to_si
 from lacuna.runtime import Model
 from lacuna.written import whole_files
 
-ZERO_CELSIUS = 273.15  # K
 AT_REST = 3.0  # standard deviations of its noise that the first sample of a machine at rest may be away from zero
 JUDGES = 4  # one of so many recordings is kept to judge
 

@@ -79,7 +79,7 @@ def write_next(case: Case, proposal: Proposal | None, out: Path) -> list[Path]:
 
 def _write_inputs(case: Case, waveform: Waveform, path: Path) -> None:
     """The inputs in the units of the case's own columns."""
-    columns = [waveform.columns[s.column] / s.scale for s in case.inputs]
+    columns = [(waveform.columns[s.column] - s.offset) / s.scale for s in case.inputs]
     _write(path, ["time", *(s.column for s in case.inputs)], [waveform.time, *columns])
 
 
@@ -89,7 +89,7 @@ def _write_prediction(case: Case, proposal: Proposal, path: Path) -> None:
     for name, number in (("first", 0), ("rival", proposal.hardest)):
         for s in case.outputs:
             head.append(f"{s.column} {name}")
-            columns.append(proposal.predictions[number][s.column] / s.scale)
+            columns.append((proposal.predictions[number][s.column] - s.offset) / s.scale)
     _write(path, head, columns)
 
 
