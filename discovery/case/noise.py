@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 _THIRD = np.array([1.0, -3.0, 3.0, -1.0])
-_MAD_TO_SIGMA = 1.4826
+_MAD_TO_SIGMA = 1.4826  # of a normal distribution
 MANY, DIGITS, FINE = 100, 9, 1e-6  # values of a column, digits, and share of the range, for a last digit to matter
 PARTS = 8  # steps that the least difference may have: of a shaft that turns on, no two angles need be neighbours
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from html import escape
 import io
 from pathlib import Path
@@ -9,6 +10,7 @@ import re
 
 from markupsafe import Markup
 from matplotlib.figure import Figure
+import numpy as np
 
 from lacuna.analysis.report.figures.data import drawn_data
 from lacuna.analysis.report.page import code, page, table
@@ -22,9 +24,16 @@ from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.explanation.figures import Curve, courses, missing
 from lacuna.discovery.explanation.wording import action, equation_of, with_error
 from lacuna.discovery.fit.fit import Fit
-from lacuna.discovery.naming.judge import Judgement
+from lacuna.discovery.fit.objective import noise_of
+from lacuna.discovery.naming.judge import Judgement, noise_floor
 from lacuna.discovery.naming.name import Naming
 from lacuna.drawn import save
+from lacuna.written import write_whole
+
+_NRMSE = (
+    "<p>Normalised root mean square error: of what is measured and not simulated, over the standard deviation of the "
+    "measured signal; <em>unseen</em> are recordings that nothing was fitted to.</p>"
+)
 
 
 def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
@@ -35,17 +44,13 @@ def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
         parts += _parameters(result) + _rivals(result) + _left(result)
     if amended is not None:
         parts += ["<h2>The amended model</h2>", code(amended.read_text(encoding="utf-8"), "amended model")]
-    return _page(parts, result.case.title, folder, f"{sentence(result)} {certainty(result)}", action(result, amended))
+    verdict = f"{sentence(result)} {certainty(result)}"
+    return _page(parts, result.case.title, folder, verdict, action(result, amended), result.case.files)
 
 
-def _page(parts: list[str], title: str, folder: Path, verdict: str = "", action: str = "") -> Path:
+def _page(parts: list[str], title: str, folder: Path, verdict: str, action: str, inputs: Sequence[Path]) -> Path:
     path = folder / "report.html"
-    partial = path.with_suffix(".tmp")
-    written = [folder / "diagnosis.json", *sorted(folder.glob("*.mo"))]
-    partial.write_text(
-        page(title, Markup("\n".join(parts)), verdict=verdict, action=action, inputs=written), encoding="utf-8"
-    )
-    partial.replace(path)
+    write_whole(path, page(title, Markup("\n".join(parts)), verdict=verdict, action=action, inputs=inputs))
     return path
 
 
@@ -84,11 +89,8 @@ def _quality(result: Explanation) -> list[str]:
         ["all", result.before.validate[""], result.after.validate[""], "", result.before.fit[""], result.after.fit[""]]
     )
     header = ["signal", "unseen: before", "after", "noise alone", "fitted: before", "after"]
-    note = (
-        "<p>Root mean square of measured minus simulated over the standard deviation of the signal (NRMSE); "
-        "<em>before</em> is the believed model with its parameters already refitted.</p>"
-    )
-    return ["<h2>How well it fits</h2>", _table(header, rows), note]
+    note = "<p><em>Before</em> is the believed model with its parameters already refitted.</p>"
+    return ["<h2>How well it fits</h2>", _table(header, rows), _NRMSE, note]
 
 
 def _overlays(result: Explanation) -> list[str]:
@@ -108,12 +110,22 @@ def _overlay(case: Case, curves: list[Curve], noise: dict[str, float]) -> list[s
     ]
 
 
-def write_judgement(case: Case, judged: Judgement, folder: Path, model: str) -> Path:
+def write_judgement(case: Case, judged: Judgement, folder: Path, model: Path) -> Path:
     """The page of one judged model file: its errors and its course on a validation recording."""
-    rows = [[column or "all", judged.validate[column], judged.fit[column]] for column in judged.validate]
-    parts = [_table(["signal", "NRMSE, unseen", "fitted"], rows)]
-    parts += _overlay(case, [(model, "C0", judged.residuals[case.validate[0].name])], {})
-    return _page(parts, f"{case.title}: {model}", folder)
+    levels = noise_of(case)
+    floor = noise_floor(case, case.validate, levels)
+    rows = [[c or "all", judged.validate[c], floor.get(c, ""), judged.fit[c]] for c in judged.validate]
+    parts = _overlay(
+        case, [(model.name, "C0", judged.residuals[case.validate[0].name])], {c: n.std for c, n in levels.items()}
+    )
+    parts += ["<h2>How well it fits</h2>", _table(["signal", "unseen", "noise alone", "fitted"], rows), _NRMSE]
+    noise = float(np.sqrt(np.mean(np.square(list(floor.values())))))
+    verdict = (
+        f"As it is written, {model.name} misses the recordings that nothing was fitted to by "
+        f"{100 * judged.validate['']:.3g} % of how much they vary; noise alone would be {100 * noise:.3g} %."
+    )
+    following = f"lacuna explain {case.folder.name} says whether what is left is physics that the equations lack"
+    return _page(parts, f"{case.title}: {model.name}", folder, verdict, following, (*case.files, model))
 
 
 def _located(result: Explanation) -> list[str]:

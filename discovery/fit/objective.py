@@ -12,7 +12,7 @@ from lacuna.discovery.catalogue.amend import tracker_name
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.solver.least_squares import Estimate, Problem, solve
 
-STAGES = 10
+STAGES = 10  # of weights, at most: levels that have not settled by then do not
 WORTH = 1.0  # of the weighted cost, that a stage of a fit has to win for another to follow
 SETTLED = 0.02  # relative change of a signal's level at which weights are taken to have settled
 

@@ -16,7 +16,7 @@ from lacuna.discovery.naming.screen import Candidate
 MIN_GAIN = 20.0  # drop of the deviance, prices paid, below which nothing is believed missing
 CLOSE = 0.3  # share of the best gain within which hypotheses are cross-validated against each other
 DECIDED = 20.0  # difference of two scores that decides, where the better one leaves noise
-CONTENDERS = 4
+CONTENDERS = 4  # hypotheses that are told apart by recordings left out
 TIE = 8.0  # difference of two scores below which the data does not tell them apart
 TEMPER = 4.0  # of scores to twice the logarithm of odds: misfit makes likelihoods surer than they should be
 COLOUR = 30.0  # samples at most that count as one
@@ -110,7 +110,8 @@ def price(parameters: int, base: Fit, correlation: dict[str, float]) -> float:
 
 
 def score(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> float:
-    paid = candidate.fit.deviance(correlation) + price(len(candidate.free), base, correlation)
+    """Deviance, less the base's, with the price of its parameters and of having been picked among many."""
+    paid = candidate.fit.deviance(correlation) + price(len(candidate.free), base, correlation) + 2 * candidate.pick
     return paid - base.deviance(correlation)
 
 

@@ -12,7 +12,7 @@ from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.naming.screen import Candidate
 
 ROUNDS = ((2, 2, 100), (2, 3, 10), (3, 3, 4), (10, 4, 2))  # (stages, iterations, fits): successive halving
-FIRST_ROUND = 8
+FIRST_ROUND = 8  # hypotheses at least that are fitted: a budget of time
 LEADING = 2  # hypotheses that are fitted before the others
 ENOUGH = 0.9  # of the promise of a law, that one which it contains must have to be tried in its stead,
 LEAVES = 1.5  # while it leaves at most so many times the misfit

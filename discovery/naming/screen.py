@@ -23,7 +23,7 @@ from lacuna.discovery.fit.solver.least_squares import bounded_linear
 from lacuna.discovery.naming.shapes import limits_of, shape_starts
 
 RESPONSE = 0.1  # of the residual: size of the response from which a column is taken
-PROBES = 5
+PROBES = 5  # runs at most, in which a fair size of a response is sought: each corrects it by up to 10 000
 TELLING = 0.5  # share of the misfit that screened recordings hold
 ABSURD = 1e30  # misfit in units of its level, from which a simulation has run away
 
@@ -39,6 +39,7 @@ class Candidate:
     start: dict[str, float] = field(default_factory=dict)
     shift: dict[str, float] = field(default_factory=dict)  # of the base's parameters: where they would go with it
     predicted: float = 0.0  # share of the cost that it is expected to explain
+    pick: float = 0.0  # nats that say which it is among all that it was picked from
     fit: Fit | None = None
 
 

@@ -16,6 +16,8 @@ from scipy.signal import lfilter
 
 import lacuna
 from lacuna.codegen.compile import compile_model
+from lacuna.discovery.case.cases import load
+from lacuna.discovery.case.recordings_check import check_case
 from lacuna.runtime import Model, RecordedInput, simulate
 
 from .conftest import BELIEVED, NOISE
@@ -79,6 +81,19 @@ def test_stretches_may_be_missing(friction_case: Path, tmp_path: Path) -> None:
     """Of outputs, of an input, and of everything: after the last two a recording goes on with states nobody knows."""
     found = assert_finds_friction(spoiled(friction_case, tmp_path / "case", holed), tmp_path / "out")
     assert {(p["kind"], p["column"]) for p in found["recordings"]} >= {("gap", "u"), ("gap", "time")}
+
+
+@pytest.mark.parametrize(
+    ("column", "first", "end", "kind"), [("u", 300, 340, "gap"), ("i", 300, 700, "missing_samples")]
+)
+def test_stretches_without_samples_are_said(
+    consistent_case: Path, column: str, first: int, end: int, kind: str
+) -> None:
+    case = load(consistent_case)
+    case.fit[1].columns[column][first:end] = np.nan
+    (found,) = check_case(case)
+    assert (found.kind, found.column, found.recording, found.fatal) == (kind, column, "r2.csv", False)
+    assert found.time == pytest.approx(case.fit[1].time[first - 1])
 
 
 def late(name: str, table: Table) -> Table:

@@ -24,11 +24,9 @@ from lacuna.discovery.naming.screen import Candidate, Screen, prepare
 from lacuna.discovery.steps import fit_believed
 from lacuna.runtime import SimulationError
 
-from .conftest import BELIEVED, attachment
+from .conftest import attachment
 
 Prepared = Callable[[str], Candidate]
-
-FAR_OFF = {"R": 5.0, "Ke": 0.05, "b": 2e-4}
 
 
 @pytest.fixture(scope="module")
@@ -56,14 +54,6 @@ def prepared(case: Case, base: Fit) -> Prepared:
 def fitted(case: Case, base: Fit, candidate: Candidate, **how: object) -> Candidate:
     free = [*base.estimate.free, *candidate.free]
     return replace(candidate, fit=fit(candidate.machine, case.fit, base.noise, free, base.fixed, **how))
-
-
-def watched(monkeypatch: pytest.MonkeyPatch, name: str) -> list[tuple]:
-    """The arguments of each call of a function of `restarts` from now on."""
-    calls: list[tuple] = []
-    function = getattr(restarts, name)
-    monkeypatch.setattr(restarts, name, lambda *args: calls.append(args) or function(*args))
-    return calls
 
 
 def test_a_rival_that_ended_in_a_dip_is_begun_again_from_where_the_best_hypothesis_ended(
@@ -99,37 +89,6 @@ def test_a_rival_that_does_not_run_where_it_is_begun_again_stays_as_it_is(
     monkeypatch.setattr(restarts, "prepare", chatters)
     restarts._contend(case, base, [best, rival], lambda text: None)
     assert rival.fit is own
-
-
-def test_the_best_begins_again_with_what_is_believed_of_parameters_unless_it_has_converged(
-    case: Case, base: Fit, prepared: Prepared, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    again = watched(monkeypatch, "_fit_again")
-    best = fitted(case, base, prepared("CoulombFriction"))
-    away = best.fit.point | {n: 1.2 * best.fit.point[n] for n in ("R", "Ke", "J")}
-    stuck = fitted(case, base, prepared("CoulombFriction"), start=away, stages=1, iterations=0)
-    assert best.fit.estimate.converged and stuck.fit.deviance() > best.fit.deviance() + 1000
-    own = best.fit
-    restarts._believe(case, base, [stuck, best], lambda text: None)
-    level = stuck.attachment.full_name("tau_c")
-    assert again[0][2].start == {f.name: f.centre for f in base.estimate.free} | {level: away[level]}
-    assert stuck.fit.deviance() == pytest.approx(own.deviance(), abs=1.0)
-    assert best.fit is own
-
-
-def test_what_promised_most_and_ended_worse_than_nothing_is_led_from_what_is_believed(
-    case: Case, base: Fit, prepared: Prepared, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Without friction the fitted parameters stand for it as well as they can: nothing to begin a way back from."""
-    led = watched(monkeypatch, "_fit_led")
-    friction, drag = prepared("CoulombFriction"), prepared("QuadraticDrag")
-    right = fitted(case, base, friction)
-    stuck = replace(right, fit=fitted(case, base, friction, stages=1, iterations=0, start=FAR_OFF).fit)
-    other = fitted(case, base, replace(drag, predicted=friction.predicted / 2), stages=1, iterations=1)
-    assert stuck.fit.deviance() > base.deviance()
-    restarts._lead(case, base, [other, stuck], lambda text: None)
-    assert led[-1][-1]["R"] == BELIEVED["R"] != pytest.approx(base.point["R"], rel=1e-3)
-    assert stuck.fit.deviance() == pytest.approx(right.fit.deviance(), abs=1.0)
 
 
 def raced(case: Case, base: Fit, prepared: Prepared, effect: str, monkeypatch: pytest.MonkeyPatch) -> Naming:

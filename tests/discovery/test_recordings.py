@@ -68,10 +68,6 @@ def repeated(r: Recording) -> None:
     r.time[700] = r.time[699]
 
 
-def gap(r: Recording) -> None:
-    r.time[900:] += 0.4
-
-
 def no_time(r: Recording) -> None:
     r.time[700] = np.nan
 
@@ -176,25 +172,6 @@ def test_broken_recordings_are_seen_without_a_model(
     assert (first.kind, first.column, first.recording, first.fatal) == (kind, column, "r2.csv", True)
     assert time is None or first.time == pytest.approx(time, abs=2e-3)
     diagnosed(case, column)
-
-
-@pytest.mark.parametrize(
-    ("spoil", "kind", "column", "time"),
-    [
-        (gap, "gap", "time", 0.899),
-        (changed("u", between(300, 340, np.nan)), "gap", "u", 0.299),
-        (changed("i", between(300, 700, np.nan)), "missing_samples", "i", 0.299),
-    ],
-)
-def test_stretches_without_samples_are_said(
-    consistent_case: Path, spoil: Spoil, kind: str, column: str, time: float
-) -> None:
-    """`test_as_they_are` has what becomes of them."""
-    case = load(consistent_case)
-    spoil(case.fit[1])
-    (found,) = check_case(case)
-    assert (found.kind, found.column, found.recording, found.fatal) == (kind, column, "r2.csv", False)
-    assert found.time == pytest.approx(time, abs=2e-3)
 
 
 @pytest.mark.parametrize(("spoil", "text", "column"), AGAINST_THE_MODEL)
