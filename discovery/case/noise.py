@@ -58,13 +58,19 @@ def level(pieces: list[np.ndarray]) -> float:
 
     Differences are those of the signal's own samples: between them other signals of a recording may have theirs."""
     seen = [p[np.isfinite(p)] for p in pieces]
-    differences = np.concatenate([np.convolve(p, _THIRD, mode="valid") if len(p) > 3 else p[:0] for p in seen])
+    differences = np.concatenate([_third_differences(p) if len(p) > 3 else p[:0] for p in seen])
     if not len(differences):
         return 0.0
     spread = float(np.median(np.abs(differences)))
     if spread == 0.0:  # quantised and mostly at rest: the few moving samples decide
         spread = float(np.mean(np.abs(differences)))
     return _MAD_TO_SIGMA * spread / float(np.linalg.norm(_THIRD))
+
+
+def _third_differences(values: np.ndarray) -> np.ndarray:
+    """Those of a signal, without stretches that stand at zero: a machine at rest may have a sensor without noise."""
+    rest = np.convolve(values == 0.0, np.ones(4), mode="valid") == 4
+    return np.convolve(values, _THIRD, mode="valid")[~rest]
 
 
 def estimate(pieces: list[np.ndarray], given: float | None = None) -> Noise:

@@ -95,8 +95,7 @@ def _contend(case: Case, base: Fit, candidates: list[Candidate], progress: Progr
     """
     best = min(candidates, key=lambda c: c.fit.deviance())
     near = _near(base, best)
-    rivals = [c for c in candidates if not c.attachment.contains(best.attachment)]  # those have begun where it ended
-    close = sorted([c for c in rivals if c.fit.deviance() <= near], key=lambda c: c.fit.deviance())
+    close = sorted([c for c in candidates if c.fit.deviance() <= near], key=lambda c: c.fit.deviance())
     if len(close) < 2:
         return
     there = linearised(base.machine, case.fit, base.noise, base.estimate.free, base.fixed, best.fit.point)
