@@ -13,13 +13,13 @@ from typing import Any
 
 import numpy as np
 
-from lacuna.analysis.files import published_together
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.draft.write import key, string
 from lacuna.discovery.experiment.picture import picture
 from lacuna.discovery.experiment.proposal import Proposal
 from lacuna.discovery.experiment.waveforms import Waveform
 from lacuna.drawn import save
+from lacuna.written import whole_files
 
 FOLDER = "next"
 OWN = ("case.toml", "prediction.csv", "prediction.svg")
@@ -67,7 +67,7 @@ def write_next(case: Case, proposal: Proposal | None, out: Path) -> list[Path]:
         if folder.is_dir() and not any(folder.iterdir()):
             folder.rmdir()
         return []
-    with published_together(folder) as scratch:
+    with whole_files(folder) as scratch:
         for name, waveform in zip(names, (proposal.waveform, proposal.judging), strict=True):
             _write_inputs(case, waveform, scratch / played(name))
         (scratch / "case.toml").write_text(_case_toml(case, proposal, folder, names), encoding="utf-8")
