@@ -180,6 +180,11 @@ def test_what_cannot_be_exported_is_refused(tmp_path: Path) -> None:
     with pytest.raises(Exception, match=r"2\.0 and 3\.0"):
         lacuna.export_fmu(OWN["Dahlquist"], tmp_path / "x.fmu", version="1.0")
     assert list(tmp_path.iterdir()) == []
+    delayed = tmp_path / "Late.mo"
+    delayed.write_text("model Late\n  Real y = delay(time, 0.1);\nend Late;\n", encoding="utf-8")
+    with pytest.raises(Exception, match=r"delay\(\) is not exported") as refused:
+        lacuna.export_fmu(delayed, tmp_path / "x.fmu")
+    assert lacuna.is_user_error(refused.value) and not (tmp_path / "x.fmu").exists()
 
 
 @pytest.mark.slow
