@@ -20,6 +20,7 @@ from lacuna.fmi.errors import FmuError
 from lacuna.fmi.sources import OPTIONS, collect, compile_sources, configuration, identifier_of
 from lacuna.fmi.variables import FmiVariables
 import lacuna.runtime as runtime
+from lacuna.written import whole_file
 
 Version = Literal["3.0", "2.0"]
 Kind = Literal["me", "cs", "both"]
@@ -128,12 +129,9 @@ def _platform(version: str) -> str:
 
 
 def _zip(root: Path, path: Path) -> None:
-    """Everything below `root`, in the order of names, beside and renamed."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_suffix(".fmu.part")
-    with zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED) as archive:
+    """Everything below `root`, in the order of names."""
+    with whole_file(path) as partial, zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED) as archive:
         for file in sorted(p for p in root.rglob("*") if p.is_file()):
             entry = zipfile.ZipInfo(file.relative_to(root).as_posix(), _MOMENT)
             entry.compress_type, entry.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
             archive.writestr(entry, file.read_bytes())
-    partial.replace(path)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from datetime import datetime
 from pathlib import Path
+import re
+from zipfile import ZipFile, ZipInfo
 
 import numpy as np
 
@@ -16,6 +18,9 @@ from lacuna.analysis.recording.channel import (
     named_columns,
     on_one_time,
 )
+
+_ABOUT = "docProps/core.xml"
+_MOMENT, _EPOCH = re.compile(rb"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?"), b"1980-01-01T00:00:00"
 
 
 def read(path: Path) -> Recorded:
@@ -79,7 +84,22 @@ def write(recorded: Recorded, path: Path) -> None:
     """Names in the first row, units in the second."""
     import pandas
 
+    if path.suffix.lower() != ".xlsx":
+        raise RecordingError(f"{path}: spreadsheets are written as .xlsx only")
+
     time, columns = on_one_time(recorded.channels)
     rows = [["time", *(c.name for c in recorded.channels)], ["s", *(c.unit for c in recorded.channels)]]
     rows += [list(row) for row in zip(time.tolist(), *(column.tolist() for column in columns), strict=True)]
     pandas.DataFrame(rows).to_excel(path, header=False, index=False)
+    _without_dates(path)
+
+
+def _without_dates(path: Path) -> None:
+    """Take out when it was made, so that equal recordings are equal bytes."""
+    with ZipFile(path) as archive:
+        entries = [(entry, archive.read(entry)) for entry in archive.infolist()]
+    with ZipFile(path, "w") as archive:
+        for entry, content in entries:
+            plain = ZipInfo(entry.filename)
+            plain.compress_type = entry.compress_type
+            archive.writestr(plain, _MOMENT.sub(_EPOCH, content) if plain.filename == _ABOUT else content)

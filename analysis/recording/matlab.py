@@ -15,6 +15,7 @@ import numpy as np
 from lacuna.analysis.recording.channel import Recorded, RecordingError, from_table, left_out, on_one_time
 
 _HDF5 = b"\x89HDF\r\n\x1a\n"
+_DESCRIPTION = 116  # bytes of text at the head of version 5
 
 
 def read(path: Path) -> Recorded:
@@ -146,3 +147,5 @@ def write(recorded: Recorded, path: Path) -> None:
         "data": np.column_stack(columns),
     }
     savemat(path, content, appendmat=False, oned_as="column", do_compression=True)
+    with path.open("r+b") as file:  # where scipy says what day it is
+        file.write(b"MATLAB 5.0 MAT-file, written by lacuna".ljust(_DESCRIPTION))

@@ -7,6 +7,7 @@ applied, here, and any other is refused by name.
 from __future__ import annotations
 
 from pathlib import Path
+import struct
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,8 @@ from lacuna.analysis.recording.channel import Channel, Recorded, RecordingError,
 from lacuna.analysis.recording.heads import read_head
 
 _NONE_OF_VERSION_3 = 65535
+
+_HEADER = 64
 
 
 def read(path: Path) -> Recorded:
@@ -75,3 +78,16 @@ def write(recorded: Recorded, path: Path) -> None:
         for c in recorded.channels:
             file.append([Signal(c.values, c.time, name=c.name, unit=c.unit)])
         file.save(path, overwrite=True)
+    _without_dates(path)
+
+
+def _without_dates(path: Path) -> None:
+    """Take out when it was made, so that equal recordings are equal bytes: in the header, which stands at byte 64, and
+    in the chain of histories that it points to."""
+    content = bytearray(path.read_bytes())
+    content[_HEADER + 72 : _HEADER + 80] = bytes(8)
+    (history,) = struct.unpack_from("<Q", content, _HEADER + 32)
+    while history:
+        content[history + 40 : history + 48] = bytes(8)
+        (history,) = struct.unpack_from("<Q", content, history + 24)
+    path.write_bytes(content)

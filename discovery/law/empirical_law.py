@@ -76,7 +76,7 @@ def fitted_law(
     free = _free(law, attachment, start)
     first = (believed or base.point) | {attachment.full_name(n): v for n, v in start.items()}
     found = fit(machine, case.fit, base.noise, [*base.estimate.free, *free], base.fixed, start=first)
-    return None if found is None else Candidate(attachment, machine, free, start=first, fit=found)
+    return None if found is None else Candidate(attachment, machine, free, start=first, fit=found, pick=law.pick())
 
 
 def _free(law: Law, attachment: Attachment, start: dict[str, float]) -> list[Free]:

@@ -23,7 +23,8 @@ Progress = Callable[[str], None]
 
 
 def explain_open(search: Search, unbegun: Search, library: Library, progress: Progress) -> Found | None:
-    """Locate and explain what `unbegun`, the believed model, lacks, unless `search` has explained it in its equations.
+    """Locate and explain what `unbegun`, the believed model, lacks, unless `search` has explained it in its equations;
+    where what it found there leaves more than noise, laws at other places beside it.
 
     None where that is so, or where fits need shafts held near their motion: those are left to the catalogue.
     """
@@ -34,7 +35,9 @@ def explain_open(search: Search, unbegun: Search, library: Library, progress: Pr
     if explained and any(not f.ranked.attachment.variable for f in search.findings):
         return None
     found = find(search.case, unbegun.amendment, unbegun.fit, library, progress)
-    if found.laws and _take(search, unbegun, found, progress):
+    taken = bool(found.laws) and _take(search, unbegun, found, progress)
+    physics = any(not f.ranked.attachment.variable for f in search.findings) and not search.amendment.trackers
+    if taken or physics:
         go_on(search, library, progress)
     return found
 
