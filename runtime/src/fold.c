@@ -50,8 +50,8 @@ void rt_fold_restart(rt_session *s) {
     f->rate[k] = NAN;
 }
 
-/* The step from t_previous to t: sensitivities end where an unknown jumps in it. */
-void rt_fold_follow(rt_session *s) {
+/* Whether an unknown jumps in the step from t_previous to t: sensitivities end there. */
+bool rt_fold_follow(rt_session *s) {
   rt_sensitivities *f = s->sensitivities;
   double h = s->t - s->t_previous;
   bool jumped = false;
@@ -63,5 +63,5 @@ void rt_fold_follow(rt_session *s) {
   }
   if (s->d->n_u) rt_inputs_at(s, s->t);
   memcpy(f->v_previous, s->data.v, (size_t)s->d->n_v * sizeof(double));
-  if (jumped) rt_tangent_lose(s, RT_FLAG_FOLD, -1);
+  return jumped;
 }

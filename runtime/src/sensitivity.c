@@ -235,7 +235,7 @@ rt_status rt_tangent_evaluate(rt_session *s) {
 rt_status rt_tangent_follow(rt_session *s) {
   rt_sensitivities *f = s->sensitivities;
   if (!f || f->lost) return RT_OK;
-  rt_fold_follow(s);
+  if (rt_fold_follow(s)) rt_tangent_lose(s, RT_FLAG_FOLD, -1);
   if (f->lost || (s->t == s->t_end && !s->in_pieces)) return RT_OK;
   rt_tangent_inside(s, s->t);
   memcpy(f->at.x, f->inside.x, (size_t)(s->d->n_x * f->columns) * sizeof(double));

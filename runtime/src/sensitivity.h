@@ -64,7 +64,7 @@ void rt_tangent_check_finite(rt_session *s);
 
 /* fold.c */
 void rt_fold_restart(rt_session *s);
-void rt_fold_follow(rt_session *s);
+bool rt_fold_follow(rt_session *s);
 
 /* jump.c */
 rt_status rt_jump_measure(rt_session *s);
