@@ -8,8 +8,10 @@ from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.expressions.constants import AtRunTime, evaluate
 from lacuna.codegen.flatten.expressions.elements import element, local_value
-from lacuna.codegen.flatten.functions.locals import Signature
+from lacuna.codegen.flatten.functions.interpret import interpret
+from lacuna.codegen.flatten.functions.locals import Signature, signature_of
 from lacuna.codegen.flatten.functions.parts import matched, parts, rebuilt, variables_of
+from lacuna.codegen.flatten.functions.whole_calls import element_name
 from lacuna.codegen.flatten.functions.writer import Writer
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
@@ -17,6 +19,7 @@ from lacuna.codegen.flatten.names.values import Array, Value, indices, scalars, 
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr
 from lacuna.codegen.symbolic.rewrite import Rewriter
+from lacuna.codegen.syntax import ast
 
 DONE = "done"  # the result of a function that has none
 
@@ -37,10 +40,33 @@ class Sources(dict[str, Source]):
     """Of the kept functions, by their names."""
 
 
+def run(name: str, arguments: list[Expr], context: Context, span: Span) -> Expr:
+    """A kept function on constant arguments: its (first) result as a constant."""
+    source = context.table(Sources)[name]
+    variables = [v for n, whole in source.inputs.items() for v in parts(n, whole).values()]
+    given = (Array(v.shape, a.args) if isinstance(v, Array) else a for v, a in zip(variables, arguments, strict=True))
+    bound = {n: rebuilt(whole, given) for n, whole in source.inputs.items()}
+    try:
+        results = interpret(source.signature, bound, context, span)
+    except AtRunTime as reason:
+        message = f"{name} cannot be evaluated at translation: {reason.args[0]}"
+        raise Diagnostic("F021", message, span, "give it constants and parameters only") from None
+    found = [part for result in results for part in parts("", result).values()]
+    return scalars(found[source.output])[source.element]
+
+
 def is_done(value: Value, context: Context) -> bool:
     """Does `value` only say that a function without results has run?"""
     called = context.functions.get(str(value.value)) if isinstance(value, Expr) and value.op == "call" else None
     return called is not None and called.outputs == (DONE,)
+
+
+def run_or_emit(cls: ast.Class, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
+    """The results of a function of our own: evaluated where all is constant, else computed at run time."""
+    signature = signature_of(cls, context)
+    if all(isinstance(s, Expr) and s.op == "const" for v in arguments.values() for s in scalars(v)):
+        return interpret(signature, arguments, context, span)
+    return emitted_call(signature, arguments, context, span)
 
 
 def emitted_call(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
@@ -83,8 +109,7 @@ def _selected(
     function: flat.Function, source: Source, name: str, index: tuple[int, ...], unit: str, context: Context
 ) -> str:
     """A function that calls `function` and gives one scalar of one of its results."""
-    text = "[" + ",".join(map(str, index)) + "]" if index else ""
-    selected = f"{function.name}.{name}{text}"
+    selected = element_name(function.name, name, index)
     if selected in context.functions:
         return selected
     kind, shape = function.types[name], function.shapes[name]
@@ -140,10 +165,11 @@ def _emit(name: str, signature: Signature, inputs: dict[str, Value], context: Co
         results = {d.name: writer.scope.locals[d.name] for d in signature.outputs} or {DONE: ex.var(DONE, BOOLEAN)}
         function.outputs = tuple(n for d, v in results.items() for n in parts(d, v))
         source.results = list(results.values())
-        if cls.external is not None:
-            order = [str(a) for a in cls.external.args]
+        if signature.external is not None:
+            external = signature.external.external
+            order = [str(a) for a in external.args]
             given, wanted = (tuple(n for n in order if (n in inputs) == asked) for asked in (True, False))
-            function.body.append(flat.Native(cls.external.function, given, wanted, cls.span))
+            function.body.append(flat.Native(external.function, given, wanted, cls.span))
         function.body += writer.block(signature.body)
         constant = Rewriter(lambda e: None if e.value in function.shapes else _package_constant(e, context, span))
         function.body = constant.statements(function.body)

@@ -79,6 +79,7 @@ class Signature:
     cls: ast.Class
     locals: tuple[Local, ...]
     body: tuple[ast.Item, ...]
+    external: ast.Class | None = None  # the class, itself or a base, that names external code
 
     @property
     def inputs(self) -> list[Local]:
@@ -144,7 +145,8 @@ def signature_of(cls: ast.Class, context: Context) -> Signature:
             _check_function(cls, instance)
             _check_components(cls, declared)
         body = tuple(item for section, _ in instance.sections for item in section.items)
-        found = signatures[id(cls)] = Signature(cls, tuple(declared), body)
+        external = next((c for c in instance.classes if c.external is not None), None)
+        found = signatures[id(cls)] = Signature(cls, tuple(declared), body, external)
     return found
 
 

@@ -24,9 +24,7 @@ def column_of_file(values: list[Value], context: Context, span: Span) -> list[Va
         raise Diagnostic("R062", f"{CSV_COLUMN} takes the names of a file and of a column", span, "two Strings")
     name, column = values
     path = locate(name, context, span)
-    text = _read(path, span)
-    context.files[str(path)] = hashlib.sha256(text.encode()).hexdigest()
-    return [csv_column(text, path, column, span)]
+    return [csv_column(text_of(path, context, span), path, column, span)]
 
 
 def locate(name: str, context: Context, span: Span) -> Path:
@@ -51,11 +49,15 @@ def locate(name: str, context: Context, span: Span) -> Path:
     raise Diagnostic("F040", f"there is no data file {name}", span, f"looked in and below {searched}")
 
 
-def _read(path: Path, span: Span) -> str:
+def text_of(path: Path, context: Context, span: Span) -> str:
+    """The text of a file, on which the model depends from now on. Raises F040."""
     try:
-        return path.read_bytes().decode("utf-8-sig")
+        content = path.read_bytes()
+        text = content.decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise Diagnostic("F040", f"cannot read {path}: {error}", span, "save it as UTF-8 text") from None
+    context.files[str(path)] = hashlib.sha256(content).hexdigest()
+    return text
 
 
 @lru_cache(maxsize=64)
