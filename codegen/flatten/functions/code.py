@@ -9,6 +9,8 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.expressions.constants import AtRunTime, evaluate
 from lacuna.codegen.flatten.expressions.elements import element, local_value
 from lacuna.codegen.flatten.functions.interpret import interpret
+from lacuna.codegen.flatten.functions.library.foreign import foreign_call
+from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
 from lacuna.codegen.flatten.functions.locals import Signature, signature_of
 from lacuna.codegen.flatten.functions.parts import matched, parts, rebuilt, variables_of
 from lacuna.codegen.flatten.functions.whole_calls import element_name
@@ -136,20 +138,29 @@ def _argument(name: str, function: flat.Function) -> Expr:
 
 def _base(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> str:
     cls, kinds = signature.cls, {local.name: local.type for local in signature.inputs}
-    inputs = {n: variables_of(n, kinds[n], v, context, span) for n, v in arguments.items()}
+    texts = [v for v in arguments.values() if isinstance(v, str)] if _is_foreign(signature) else []
+    numbers = {n: v for n, v in arguments.items() if not (texts and isinstance(v, str))}
+    inputs = {n: variables_of(n, kinds[n], v, context, span) for n, v in numbers.items()}
     shapes = [shape_of(v) for n, whole in inputs.items() for v in parts(n, whole).values()]
     sizes = ",".join("x".join(map(str, s)) for s in shapes if s)
-    name = f"{cls.path}[{sizes}]" if sizes else cls.path
+    name = (f"{cls.path}[{sizes}]" if sizes else cls.path) + (f"({', '.join(map(repr, texts))})" if texts else "")
     if name not in context.functions:
-        for n, v in arguments.items():
+        for n, v in numbers.items():
             if any(isinstance(s, str) for s in scalars(v)):
                 hint = "decide by an enumeration or a Boolean"
                 raise Diagnostic("F036", f"{cls.name} has the String input {n} and runs at run time", span, hint)
-        _emit(name, signature, inputs, context, span)
+        _emit(name, signature, inputs, arguments, context, span)
     return name
 
 
-def _emit(name: str, signature: Signature, inputs: dict[str, Value], context: Context, span: Span) -> None:
+def _is_foreign(signature: Signature) -> bool:
+    """Whether the function is external C that is not of the library."""
+    return signature.external is not None and signature.external.external.function not in GENERATORS
+
+
+def _emit(
+    name: str, signature: Signature, inputs: dict[str, Value], arguments: dict[str, Value], context: Context, span: Span
+) -> None:
     cls = signature.cls
     names = tuple(n for i, v in inputs.items() for n in parts(i, v))
     function = flat.Function(name, names, (), {}, {}, {}, [], cls.span)
@@ -157,7 +168,7 @@ def _emit(name: str, signature: Signature, inputs: dict[str, Value], context: Co
     source = context.table(Sources)[name] = Source(signature, inputs, [])
     writer = Writer(function, Scope(context, cls, None, {}, in_function=True))
     try:
-        for local in signature.locals:
+        for local in (x for x in signature.locals if not isinstance(arguments.get(x.name), str)):
             writer.declare_local(local, inputs)
         if not signature.outputs:
             writer.declare(DONE, local_value(DONE, BOOLEAN, ()))
@@ -165,7 +176,9 @@ def _emit(name: str, signature: Signature, inputs: dict[str, Value], context: Co
         results = {d.name: writer.scope.locals[d.name] for d in signature.outputs} or {DONE: ex.var(DONE, BOOLEAN)}
         function.outputs = tuple(n for d, v in results.items() for n in parts(d, v))
         source.results = list(results.values())
-        if signature.external is not None:
+        if _is_foreign(signature):
+            function.body += foreign_call(signature, arguments, writer, span)
+        elif signature.external is not None:
             external = signature.external.external
             order = [str(a) for a in external.args]
             given, wanted = (tuple(n for n in order if (n in inputs) == asked) for asked in (True, False))

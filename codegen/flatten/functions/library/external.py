@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.expressions.lower import lower
+from lacuna.codegen.flatten.functions.code import emitted_call
 from lacuna.codegen.flatten.functions.library import impure, objects, spectrum, streams, strings
 from lacuna.codegen.flatten.functions.library.data_files import CSV_COLUMN, column_of_file
+from lacuna.codegen.flatten.functions.library.foreign import check_foreign
 from lacuna.codegen.flatten.functions.library.objects import ExternalCall, Handler
 from lacuna.codegen.flatten.functions.locals import Signature
 from lacuna.codegen.flatten.names.scope import Scope
@@ -31,8 +32,8 @@ def call_external(signature: Signature, arguments: dict[str, Value], e: ast.Call
         return [lower(call, inner)]
     handler = HANDLERS.get(external.function or cls.name)
     if handler is None:
-        hint = f"write it as a function of the language; data comes in by {CSV_COLUMN}(fileName, column)"
-        raise Diagnostic("R094", f"the external function {cls.name} is outside the subset", e.span, hint)
+        check_foreign(signature, scope, e.span)
+        return emitted_call(signature, arguments, scope.context, e.span)
     own = {local.name for local in signature.locals} - set(arguments)  # results, and what only the C works with
     given = [a for a in external.args if not any(r.names[0] in own for r in references(a))]
     values = [lower(a, inner) for a in given] if external.function else list(arguments.values())

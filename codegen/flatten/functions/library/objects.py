@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-import hashlib
 import itertools
 
 from lacuna.codegen.errors import Diagnostic, Span
@@ -124,7 +123,7 @@ def _from_file(file: str, name: str, rest: list[Value], call: ExternalCall) -> l
         rows = read_matrix(path, name, delimiter, lines)
     except (OSError, UnicodeDecodeError, FileError) as reason:
         raise Diagnostic("F041", f"{path.name}: {reason}", call.span, "correct the file, or its name") from None
-    call.scope.context.files[str(path)] = hashlib.sha256(content).hexdigest()
+    call.scope.context.note_file(path, content)
     return rows
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from pathlib import Path
 
 from lacuna.codegen.errors import Diagnostic
@@ -46,11 +45,11 @@ def _matrix_of(a: list[Value], call: ExternalCall) -> list[list[float]]:
     if not isinstance(name, str):
         raise Diagnostic("R062", f"{call.cls.name} takes the name of a matrix", call.span, "give a String")
     try:
-        digest = hashlib.sha256(path.read_bytes()).hexdigest()
+        content = path.read_bytes()
         rows = read_matrix(path, name)
     except (OSError, UnicodeDecodeError, FileError) as reason:
         raise Diagnostic("F041", f"{path.name}: {reason}", call.span, "correct the file, or its name") from None
-    call.scope.context.files[str(path)] = digest
+    call.scope.context.note_file(path, content)
     return rows
 
 
