@@ -31,6 +31,7 @@ from lacuna.codegen.structure.aliases import eliminate_aliases
 from lacuna.codegen.structure.causal import causalise
 from lacuna.codegen.structure.constants import precompute, precompute_inverses
 from lacuna.codegen.structure.index.index_reduction import reduce_index
+from lacuna.codegen.structure.insisted import insist
 from lacuna.codegen.structure.nominal import infer
 from lacuna.codegen.structure.residual_form import jacobian, residual_form
 from lacuna.codegen.structure.sorting.tearing import Tearing
@@ -89,6 +90,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     model = report.run("initial system", discrete_starts, frozen.model)
     continuous, discrete = report.run("hybrid", events.split, model)
     system = report.run("index reduction", reduce_index, model, continuous, len(frozen.relations))
+    insist(declared, aliases, system)
     system = report.run("aliases", precompute, system)
     relations = report.run("hybrid", hybrid.rename, frozen.relations, system.renamed)
     relations += [Relation(s.left, s.right, s.source, text=s.text) for s in system.switches]
