@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import csv
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+
+from lacuna.rows import rows_of
 
 JUMP = 1e-4  # of a signal's range: what two rows at one time differ by where the signal is discontinuous
 CONSTANT = 1e-6  # of its magnitude: a signal that varies by less is judged by its magnitude
@@ -36,10 +37,8 @@ class Reference:
 
 def read_reference(path: Path) -> Reference:
     """A CSV file with a row of names; the first column is the time (s)."""
-    with path.open(newline="") as file:
-        rows = csv.reader(file)
-        names = next(rows)
-        written = list(rows)
+    (_, names), *rows = rows_of(path.read_text(encoding="utf-8"))
+    written = [row for _, row in rows]
     table = np.array([[float(x) for x in row] for row in written])
     digits = max(len(row[0].lower().split("e")[0].replace(".", "").lstrip("0")) for row in written)
     return Reference(table[:, 0], {name: table[:, k] for k, name in enumerate(names) if k}, digits)

@@ -22,7 +22,7 @@ def compare(
     class_name: ClassName = "",
     library: Libraries = None,
     against: Annotated[
-        Path | None, typer.Option(help="A CSV (header: time and full names) or an .fmu of another tool")
+        Path | None, typer.Option(help="A recording (time and full names as heads) or an .fmu of another tool")
     ] = None,
     tolerance: Annotated[float, typer.Option(help="Largest deviation from the file, of a signal's magnitude")] = 1e-3,
     only: Annotated[list[str] | None, typer.Option(help="Only this scenario; repeat for more")] = None,

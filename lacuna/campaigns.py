@@ -106,10 +106,11 @@ def sweep(
 
     chosen = load_settings(settings or PAPER)
     compiled = Source.of(actuator or chosen.disturbed_model, class_name, libraries).compiled()
-    design = sobol_points(chosen, points, ModelPlant.of(compiled, chosen))
+    plant = ModelPlant.of(compiled, chosen)
+    design = sobol_points(chosen, points, plant)
     work = Work(compiled.name, Path(compiled.path).read_bytes(), compiled.hash, chosen.text, solver)
     folder = Path(out) if out else Path("out/sweeps") / chosen.path.stem
     tell = counted(f"sweep of {compiled.name}", progress)
     results = run_campaign(work, design, folder, scheduler=scheduler, chunk=chunk, progress=tell)
-    report.write(results, compiled.name, chosen)
+    report.write(results, compiled.name, chosen, plant.units)
     return Sweep(results)

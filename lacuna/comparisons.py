@@ -124,8 +124,8 @@ def _own(
     tried = tuple(steps or [interval / k for k in (1, 2, 4)])
     short, shown = file_name(model.name), tuple(model.states)[:4]
     return Scenario(
-        short, model.name, name, end, interval, tried, shown, dict(parameters), as_inputs(inputs),
-        reference_rtol=OWN_REFERENCE,
+        short, model.name, name, end, interval, tried, shown, dict(parameters),
+        as_inputs(inputs, model.variables), reference_rtol=OWN_REFERENCE,
     )  # fmt: skip
 
 
@@ -157,10 +157,11 @@ def compare_with_file(
 ) -> Agreement:
     """Simulate a model on the instants of a file produced elsewhere and compare.
 
-    `file` is a CSV (header: time and full names), or an .fmu, which is simulated up to `stop` (s; default: the model's)
-    beside the model, with the same parameters and inputs where it has them, and compared in all variables whose names
-    are the model's (extra `fmi`). `tolerance`: the largest deviation that agrees, of a signal's magnitude. Raises
-    AnalysisError where the file is no such table or FMU or the run ends early.
+    `file` is a recording in any format that is read (full names as heads; units, where it says them, are turned into
+    those of the model), or an .fmu, which is simulated up to `stop` (s; default: the model's) beside the model, with
+    the same parameters and inputs where it has them, and compared in all variables whose names are the model's (extra
+    `fmi`). `tolerance`: the largest deviation that agrees, of a signal's magnitude. Raises AnalysisError where the file
+    is no such table or FMU or the run ends early.
     """
     from lacuna.analysis.comparison.compare import compare_with_file as compared
     from lacuna.analysis.comparison.compare import read_columns
@@ -169,7 +170,7 @@ def compare_with_file(
     if Path(file).suffix == ".fmu":
         time, columns = _simulated(loaded, Path(file), stop, parameters or {}, inputs or {})
     else:
-        time, columns = read_columns(Path(file))
+        time, columns = read_columns(Path(file), {name: v.unit for name, v in loaded.variables.items()})
     result = loaded.run_at(time, list(columns), inputs or {}, progress)
     found = compared(result, time, columns)
     rows = tuple((d.name, d.maximum, d.rms, d.relative, d.at_time) for d in found)
@@ -186,5 +187,5 @@ def _simulated(
     names = {name for name, v in model.variables.items() if v.type == "Real" and not v.is_parameter}
     return simulate_fmu(
         file, names, model.start_time, end, model.interval or (end - model.start_time) / POINTS,
-        min(model.tolerance or 1e-6, 1e-6), dict(parameters), as_inputs(inputs),
+        min(model.tolerance or 1e-6, 1e-6), dict(parameters), as_inputs(inputs, model.variables),
     )  # fmt: skip

@@ -232,7 +232,7 @@ class Case:
         found: Judgement = judge_file(
             self._case, Amendment(places.read(self._case.library(), self._case.base)), path, {}
         )
-        report = write_judgement(self._case, found, self._out("judge", out), path.name)
+        report = write_judgement(self._case, found, self._out("judge", out), path)
         return Judged(found.fit, found.validate, report)
 
     def _out(self, step: str, out: str | Path | None) -> Path:

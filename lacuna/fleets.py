@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from lacuna.degradation import degradation_laws
 from lacuna.extras import names_missing_packages
-from lacuna.prognosis import OPTIONS, limits_of, map_settings
+from lacuna.prognosis import OPTIONS, files_of, limits_of, map_settings
 from lacuna.progress import Progress, silent
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def fleet(
     table = run_fleet(
         read, work, folder, scheduler=scheduler, progress=lambda done, count: tell("forecasts", done / count)
     )
-    page = overview(table, next(iter(limits.values())).names[-1], title=f"Fleet: {Path(histories).name}")
+    page = overview(table, limits, f"Fleet: {Path(histories).name}", files_of(histories))
     partial = folder / "fleet.html.partial"
     partial.write_text(page, encoding="utf-8")
     partial.replace(folder / "fleet.html")

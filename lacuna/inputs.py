@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -10,8 +11,18 @@ import numpy as np
 
 from lacuna.analysis.recording.formats import read_recorded
 from lacuna.errors import UserError, nearest
-from lacuna.recorded_units import to_si
+from lacuna.recorded_units import UnitError, factor_into, to_si
 from lacuna.runtime import RecordedInput
+from lacuna.runtime.model import Variable
+
+
+@dataclass(frozen=True, eq=False)
+class Measured(RecordedInput):
+    """Samples of a file: `values` in `unit`, which is SI, or "" where the file says none."""
+
+    unit: str = ""
+    source: str = ""
+
 
 Input = float | RecordedInput | tuple[Any, Any]
 """A constant, a recording, or a pair (times in s, values): linear between samples, the first and last hold outside."""
@@ -20,8 +31,8 @@ Input = float | RecordedInput | tuple[Any, Any]
 def recorded(file: str | Path, column: str, *, hold: bool = False) -> RecordedInput:
     """A channel of a recording, in any format that is read, as an input; linear between samples, or held with `hold`.
 
-    Values are converted to SI where the file says a unit. Raises UserError with the nearest names where there is none
-    of this name.
+    Values are converted to SI where the file says a unit, and by a run into the unit that the input declares. Raises
+    UserError with the nearest names where there is none of this name.
     """
     found = read_recorded(file)
     try:
@@ -30,17 +41,25 @@ def recorded(file: str | Path, column: str, *, hold: bool = False) -> RecordedIn
         names = [c.name for c in found.channels]
         raise UserError(f"{file} has no column called {column}{nearest(column, names)}") from None
     present = np.isfinite(channel.values)
-    values = channel.values[present] * to_si(channel.unit or "1")[0]
-    return RecordedInput(channel.time[present], values, "hold" if hold else "linear")
+    factor, unit = to_si(channel.unit) if channel.unit else (1.0, "")
+    values = channel.values[present] * factor
+    return Measured(channel.time[present], values, "hold" if hold else "linear", unit, f"{file}: {column}")
 
 
-def as_inputs(given: Mapping[str, Input]) -> dict[str, RecordedInput | float]:
-    """In the form that the runtime takes."""
-    return {name: _one(value) for name, value in given.items()}
+def as_inputs(given: Mapping[str, Input], variables: Mapping[str, Variable]) -> dict[str, RecordedInput | float]:
+    """In the form that the runtime takes; samples with a unit in the unit of the variable that they drive. Raises
+    UserError where they are another quantity."""
+    return {name: _one(name, value, variables) for name, value in given.items()}
 
 
-def _one(value: Input) -> RecordedInput | float:
+def _one(name: str, value: Input, variables: Mapping[str, Variable]) -> RecordedInput | float:
     if isinstance(value, tuple):
         times, values = value
         return RecordedInput(np.asarray(times, dtype=float), np.asarray(values, dtype=float))
+    if isinstance(value, Measured) and value.unit and name in variables:
+        try:
+            factor = factor_into(variables[name].unit, value.unit)
+        except UnitError as error:
+            raise UserError(f"{value.source} cannot drive {name}: {error}") from None
+        return RecordedInput(value.time, factor * value.values, value.interpolation)
     return value if isinstance(value, RecordedInput) else float(value)

@@ -197,8 +197,9 @@ class Model:
         self._refuse_parameters(inputs)
         begin, end = float(times[0]), float(times[-1])
         return runtime.simulate(
-            self._model, parameters=self._values, inputs=as_inputs(inputs), start=begin, stop=end, output_times=times,
-            outputs=outputs, events=False, watch=watching(f"simulating {self.name}", begin, end, progress),
+            self._model, parameters=self._values, inputs=as_inputs(inputs, self.variables), start=begin, stop=end,
+            output_times=times, outputs=outputs, events=False,
+            watch=watching(f"simulating {self.name}", begin, end, progress),
         )  # fmt: skip
 
     def with_parameters(self, parameters: Mapping[str, float]) -> Model:
@@ -257,8 +258,8 @@ class Model:
         clock = time.perf_counter()
         run = runtime.simulate(
             model.differentiated if sensitivities else model._model, parameters=model._values,
-            inputs=as_inputs(inputs or {}), initial=initial, start=begin, stop=end, solver=solver, rtol=rtol,
-            atol=atol, step=step, locate_events=locate_events, outputs=outputs, events=event_rows,
+            inputs=as_inputs(inputs or {}, model.variables), initial=initial, start=begin, stop=end, solver=solver,
+            rtol=rtol, atol=atol, step=step, locate_events=locate_events, outputs=outputs, events=event_rows,
             interval=interval if interval is not None else model.interval or (end - begin) / POINTS,
             sensitivities=sensitivities, watch=watching(f"simulating {self.name}", begin, end, progress),
         )  # fmt: skip

@@ -12,7 +12,7 @@ from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis import diagnoses
 from lacuna.analysis.prognosis.filter.bank import Bank
 from lacuna.analysis.prognosis.forecast import Forecast, Limits, Options, forecasts
-from lacuna.analysis.prognosis.history import Assess, History, read_histories
+from lacuna.analysis.prognosis.history import FILES, Assess, History, read_histories
 from lacuna.analysis.prognosis.pages.telling import counted_verdicts, forecast_json, sentence, urgency
 from lacuna.analysis.settings import PAPER, Settings, load_settings
 from lacuna.degradation import degradation_laws
@@ -88,7 +88,9 @@ def forecast(
     settings = map_settings(map)
     options = Options(risk, horizon)
     spoken(progress)("reading the history")
+    inputs = []
     if isinstance(history, Path | str):
+        inputs = files_of(history)
         if "://" in str(history) or Path(history).suffix in (".db", ".sqlite"):
             from lacuna.analysis.prognosis.store import Store
 
@@ -104,8 +106,14 @@ def forecast(
     if out is not None:
         from lacuna.analysis.prognosis.pages.publish import publish
 
-        publish(said, bank, Path(out), risk, version("lacuna"))
+        publish(said, bank, Path(out), risk, version("lacuna"), inputs)
     return Prognosis(said, risk)
+
+
+def files_of(history: Path | str) -> list[Path]:
+    """The file that a history is read from; none of a store."""
+    path = Path(history)
+    return [file for file in (path, *(path / name for name in FILES)) if file.is_file()][:1]
 
 
 def map_settings(map: Path | str | None) -> Settings:
@@ -124,7 +132,8 @@ def limits_of(settings: Settings, fault: str = "") -> Limits:
     bands = settings.bands[1:]
     names = tuple(band.name for band in bands)
     if fault in ("", own.symbol, own.parameter):
-        return Limits(names, tuple(band.first for band in bands), own.first, own.last, own.healthy)
+        begins = tuple(band.first for band in bands)
+        return Limits(names, begins, own.first, own.last, own.healthy, own.unit, own.scale)
     others = {entry["symbol"]: entry for entry in settings.raw.get("combined", [])}
     entry = others.get(fault)
     if entry is None:
@@ -137,6 +146,8 @@ def limits_of(settings: Settings, fault: str = "") -> Limits:
         float(entry["first"]),
         float(entry["last"]),
         float(entry.get("healthy", 0.0)),
+        str(entry["unit"]),
+        float(entry["scale"]),
     )
 
 

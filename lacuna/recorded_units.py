@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 import math
-import re
 
-from lacuna.units import format_unit, parse_unit
+from lacuna.units import factors_of, format_unit, parse_unit
 
 # Symbols whose SI unit keeps the radian or the degree Celsius, which exponents do not show.
 _ATOMS: dict[str, tuple[float, str]] = {
     "deg": (math.pi / 180, "rad"), "rev": (2 * math.pi, "rad"), "rpm": (math.pi / 30, "rad/s"),
     "%": (0.01, "1"), "degC": (1.0, "degC"), "ohm": (1.0, "ohm"),
 }  # fmt: skip
-_FACTOR = re.compile(r"^(?P<symbol>[A-Za-z%]+|1)(?P<power>-?\d+)?$")
 
 
 class UnitError(ValueError):
@@ -45,23 +43,39 @@ def to_si(unit: str) -> tuple[float, str]:
     text = unit.strip().replace("*", ".").replace("^", "")
     if not text:
         raise UnitError('unit "" is empty; write "1" for a quantity without unit')
-    numerator, *denominators = text.replace("(", "").replace(")", "").split("/")
-    if len(denominators) > 1:
-        raise UnitError(f'unit "{unit}" has more than one "/"')
-    factor, parts = 1.0, []
-    for sign, side in ((1, numerator), (-1, denominators[0] if denominators else "")):
-        symbols = []
-        for piece in filter(None, side.split(".")):
-            match = _FACTOR.match(piece)
-            if not match:
-                raise UnitError(f'unit "{unit}" is not understood at "{piece}"')
-            power = int(match["power"] or 1)
-            scale, si = _atom(match["symbol"])
-            factor *= scale ** (sign * power)
-            symbols.append(si if power == 1 else f"{si}{power}")
-        parts.append(".".join(symbols))
-    below = f"({parts[1]})" if "." in parts[1] else parts[1]
-    return factor, (parts[0] or "1") + (f"/{below}" if below else "")
+    try:
+        symbols = factors_of(text)
+    except ValueError as error:
+        raise UnitError(str(error)) from None
+    factor = 1.0
+    powers: dict[str, int] = {}
+    for symbol, power in symbols:
+        scale, si = _atom(symbol)
+        factor *= scale**power
+        for base, inner in factors_of(si):
+            powers[base] = powers.get(base, 0) + inner * power
+    return factor, _written(powers)
+
+
+def _written(powers: dict[str, int]) -> str:
+    above, below = (
+        [base if abs(p) == 1 else f"{base}{abs(p)}" for base, p in powers.items() if sign * p > 0 and base != "1"]
+        for sign in (1, -1)
+    )
+    quotient = ".".join(below)
+    return (".".join(above) or "1") + (f"/({quotient})" if len(below) > 1 else f"/{quotient}" if below else "")
+
+
+def factor_into(declared: str, si: str) -> float:
+    """By what a value in the SI unit `si` of a column is multiplied to be one in the unit that a variable declares; 1
+    where it declares none. Raises UnitError where the two are of other quantities, or of temperatures with other
+    zeros."""
+    if not declared:
+        return 1.0
+    unit = parse_unit(declared)
+    if ("degC" in declared) != ("degC" in si) or unit.exponents != parse_unit(si.replace("ohm", "Ohm")).exponents:
+        raise UnitError(f"{si} is no {declared}")
+    return 1.0 / (unit.factor or 1.0)
 
 
 def same_unit(model: str, column: str) -> bool:

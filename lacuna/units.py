@@ -13,8 +13,8 @@ import math
 import re
 
 _BASE = ("m", "kg", "s", "A", "K", "mol", "cd")
-Exponents = tuple[Fraction, ...]
-_NONE: Exponents = (Fraction(0),) * len(_BASE)
+Exponents = tuple[int | Fraction, ...]  # a Fraction only where it is no whole number: those are a tenth as fast
+_NONE: Exponents = (0,) * len(_BASE)
 
 
 @dataclass(frozen=True)
@@ -30,14 +30,14 @@ class Unit:
 
     def __mul__(self, other: Unit) -> Unit:
         pairs = zip(self.exponents, other.exponents, strict=True)
-        return Unit(tuple(a + b for a, b in pairs), _product(self.factor, other.factor))
+        return Unit(tuple(_whole(a + b) for a, b in pairs), _product(self.factor, other.factor))
 
     def __truediv__(self, other: Unit) -> Unit:
-        return self * other ** Fraction(-1)
+        return self * other**-1
 
-    def __pow__(self, power: Fraction) -> Unit:
+    def __pow__(self, power: int | Fraction) -> Unit:
         factor = None if self.factor is None else self.factor ** float(power)
-        return Unit(tuple(a * power for a in self.exponents), factor)
+        return Unit(tuple(_whole(a * power) for a in self.exponents), factor)
 
     @property
     def dimensionless(self) -> bool:
@@ -61,11 +61,15 @@ def _product(a: float | None, b: float | None) -> float | None:
     return None if a is None or b is None else a * b
 
 
+def _whole(a: int | Fraction) -> int | Fraction:
+    return a.numerator if a.denominator == 1 else a
+
+
 DIMENSIONLESS = Unit(_NONE)
 
 
 def _unit(factor: float = 1.0, **powers: int) -> Unit:
-    return Unit(tuple(Fraction(powers.get(b, 0)) for b in _BASE), factor)
+    return Unit(tuple(powers.get(b, 0) for b in _BASE), factor)
 
 
 _SYMBOLS: dict[str, Unit] = {
@@ -101,26 +105,30 @@ def symbols() -> list[str]:
 @lru_cache(maxsize=1024)
 def parse_unit(text: str) -> Unit:
     """The unit that `text` means. Raises ValueError with a sentence for what cannot be read."""
+    result = DIMENSIONLESS
+    for symbol, power in factors_of(text):
+        result = result * _symbol(symbol, text) ** power
+    return replace(result, text=text)
+
+
+def factors_of(text: str) -> list[tuple[str, int]]:
+    """The symbols of a unit with their powers, those below the stroke negative. Raises ValueError as parse_unit does,
+    but for symbols that are not known."""
     numerator, slash, denominator = text.strip().partition("/")
-    if not slash:
-        return replace(_group(numerator, text), text=text)
     if "/" in denominator:
         raise ValueError(f"{text!r} has two '/': put the denominator in parentheses, as in W/(m2.K)")
-    return replace(_group(numerator, text) / _group(denominator, text), text=text)
+    below = [(symbol, -power) for symbol, power in _group(denominator, text)] if slash else []
+    return _group(numerator, text) + below
 
 
-def _group(part: str, whole: str) -> Unit:
+def _group(part: str, whole: str) -> list[tuple[str, int]]:
     inner = part.strip()
     if inner.startswith("(") and inner.endswith(")"):
         inner = inner[1:-1]
-    result = DIMENSIONLESS
-    for factor in inner.split("."):
-        found = _FACTOR.fullmatch(factor.strip())
-        if not found:
-            raise ValueError(f"{whole!r} is no unit: write products as N.m, quotients as rad/s, powers as m2")
-        symbol, power = found.groups()
-        result = result * _symbol(symbol, whole) ** Fraction(int(power or 1))
-    return result
+    found = [_FACTOR.fullmatch(factor.strip()) for factor in inner.split(".")]
+    if not all(found):
+        raise ValueError(f"{whole!r} is no unit: write products as N.m, quotients as rad/s, powers as m2")
+    return [(f[1], int(f[2] or 1)) for f in found if f]
 
 
 def _symbol(symbol: str, whole: str) -> Unit:

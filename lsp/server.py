@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+import gc
 from pathlib import Path
 from urllib.parse import unquote, urlparse
 
@@ -36,17 +39,30 @@ def make_server(search_path: list[str]) -> LanguageServer:
     return server
 
 
+@contextmanager
+def _answering() -> Iterator[None]:
+    """Garbage is collected behind an answer, not within it."""
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.enable()
+
+
 def _documents(server: LanguageServer, workspace: Workspace) -> None:
     def publish(uri: str) -> None:
         path = path_of(uri)
-        found = features.in_file(workspace.view(path).findings, path)
-        diagnostics = [_diagnostic(finding, span) for finding, span in found]
-        server.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, diagnostics))
+        with _answering():
+            found = features.in_file(workspace.view(path).findings, path)
+            diagnostics = [_diagnostic(finding, span) for finding, span in found]
+            server.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(uri, diagnostics))
 
     @server.feature(lsp.TEXT_DOCUMENT_DID_OPEN)
     def opened(params: lsp.DidOpenTextDocumentParams) -> None:
         workspace.change(path_of(params.text_document.uri), params.text_document.text)
         publish(params.text_document.uri)
+        gc.collect()
+        gc.freeze()  # the parsed library stays: it need not be looked at again
 
     @server.feature(lsp.TEXT_DOCUMENT_DID_CHANGE)
     def changed(params: lsp.DidChangeTextDocumentParams) -> None:

@@ -1,7 +1,7 @@
 """Run generated models: load one, simulate it, read and write results."""
 
 from lacuna.runtime.errors import SimulationError, UnknownNameError
-from lacuna.runtime.files import metadata, read_csv, write_csv, write_parquet
+from lacuna.runtime.files import metadata, write_csv, write_parquet
 from lacuna.runtime.model import Equation, Model, Variable
 from lacuna.runtime.modelica_mat import write_mat
 from lacuna.runtime.result import EventEntry, Failure, Flag, Result
@@ -21,7 +21,6 @@ __all__ = [
     "UnknownNameError",
     "Variable",
     "metadata",
-    "read_csv",
     "simulate",
     "write_csv",
     "write_mat",

@@ -131,35 +131,6 @@ def _finite(value: object) -> object:
     return None if isinstance(value, float) and not np.isfinite(value) else value
 
 
-def read_csv(path: str | Path) -> tuple[dict[str, np.ndarray], dict]:
-    """Columns by name (with `time` and, where there is one, `event`) and the metadata ({} where there is none).
-
-    An empty field is NaN. Raises SimulationError naming file and line or column where the file is not such a table.
-    """
-    import csv
-
-    path = Path(path)
-    with path.open(newline="", encoding="utf-8-sig") as file:
-        lines = csv.reader(file)
-        header = [name.strip() for name in next(lines, [])]
-        if not header or header[0] != "time":
-            raise SimulationError(f"{path}: the first column must be called time")
-        if len(set(header)) != len(header):
-            raise SimulationError(f"{path}: two columns have the same name")
-        rows = [_numbers(line, len(header), f"{path}:{lines.line_num}") for line in lines if line]
-    columns = np.array(rows).T if rows else np.empty((len(header), 0))
-    return dict(zip(header, columns, strict=True)), read_metadata(path)
-
-
-def _numbers(line: Sequence[str], width: int, place: str) -> list[float]:
-    if len(line) != width:
-        raise SimulationError(f"{place}: {len(line)} fields for {width} names")
-    try:
-        return [float(field.replace("_", "?")) if field.strip() else np.nan for field in line]
-    except ValueError as error:
-        raise SimulationError(f"{place}: {error}") from None
-
-
 def read_metadata(path: Path) -> dict:
     """What the .meta.json beside `path` says; {} where there is none, or where it is not one of ours.
 

@@ -76,7 +76,7 @@ class CCounters(Structure):
 
 
 class CEvent(Structure):
-    _fields_ = [("time", c_double), ("kind", c_int), ("index", c_int), ("direction", c_int)]
+    _fields_ = [("time", c_double), ("kind", c_int), ("index", c_int), ("direction", c_int), ("reach", c_double)]
 
 
 class CFlag(Structure):

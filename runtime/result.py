@@ -38,6 +38,7 @@ class EventEntry:
     text: str  # the relation as the model has it, in full names (or the call that jumped, or the message)
     file: str = ""  # of a relation: where it is written
     line: int = 0
+    reach: float = 1.0  # of a state event: how far the guard had been from zero since it last switched, of its size
 
     def __str__(self) -> str:
         became = {1: " becomes true", -1: " becomes false"}.get(self.direction, "")
@@ -236,4 +237,4 @@ class Result:
         if kind == "terminate":
             return EventEntry(e.time, kind, e.index, e.direction, self.model.messages[e.index])
         relation = self.model.relations[e.index]
-        return EventEntry(e.time, kind, e.index, e.direction, relation.text, relation.file, relation.line)
+        return EventEntry(e.time, kind, e.index, e.direction, relation.text, relation.file, relation.line, e.reach)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 import csv
 from pathlib import Path
 
@@ -13,7 +13,10 @@ from lacuna.analysis.comparison.deviation import SignalDeviation, signal_deviati
 from lacuna.analysis.comparison.scenarios import Scenario
 from lacuna.analysis.comparison.study import Lane, Study, rows, run
 from lacuna.analysis.errors import AnalysisError
-from lacuna.analysis.files import check_file, published_together
+from lacuna.analysis.files import published_together
+from lacuna.analysis.recording.channel import on_one_time
+from lacuna.analysis.recording.formats import read_recorded
+from lacuna.recorded_units import UnitError, factor_into, to_si
 
 
 def compare_lanes(
@@ -70,15 +73,24 @@ def compare_with_file(
     ]
 
 
-def read_columns(path: Path) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """`time` and the other columns of a CSV with one header line; empty fields are NaN. `event` is left out."""
-    check_file(path)
-    columns, _ = runtime.read_csv(path)
-    time = columns.pop("time")
-    columns.pop("event", None)
+def read_columns(path: Path, units: Mapping[str, str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """`time` and the channels of a recording in the `units` that the variables of these names declare; missing samples
+    are NaN. `event` is left out. Raises AnalysisError where a channel is of another quantity."""
+    channels = [channel for channel in read_recorded(path).channels if channel.name != "event"]
+    if not channels:
+        raise AnalysisError(f"{path}: there is no signal in it")
+    time, values = on_one_time(channels)
+    columns = {}
+    for channel, column in zip(channels, values, strict=True):
+        factor, si = to_si(channel.unit) if channel.unit else (1.0, "")
+        try:
+            into = factor_into(units.get(channel.name, ""), si) if si else 1.0
+        except UnitError as error:
+            raise AnalysisError(f"{path}: {channel.head.text}: {error}, which {channel.name} is in") from None
+        columns[channel.name] = column if factor * into == 1.0 else factor * into * column
     if len(time) < 2:
         raise AnalysisError(f"{path}: at least two lines are needed")
     if not np.all(np.diff(time) >= 0):
-        row = int(np.flatnonzero(~(np.diff(time) >= 0))[0]) + 3
-        raise AnalysisError(f"{path}:{row}: time must not decrease")
+        row = int(np.flatnonzero(~(np.diff(time) >= 0))[0])
+        raise AnalysisError(f"{path}: time must not decrease: {time[row + 1]:g} s comes after {time[row]:g} s")
     return time, columns

@@ -15,6 +15,7 @@ from lacuna.analysis.comparison.study import LaneResult, Study
 from lacuna.analysis.report.page import figure_in, page
 from lacuna.analysis.report.page import table as _table
 
+_ACTION = "of the runs in a table below whose largest deviation is small enough for you, take the fastest"
 _TEMPLATE = Path(__file__).with_name("report.html.in")
 
 
@@ -23,13 +24,17 @@ def report_html(studies: Sequence[Study], figures: dict[str, list[str]], folder:
     sections = "\n".join(_section(study, figures[study.scenario.name], folder) for study in studies)
     said = findings(studies)
     body = Template(_TEMPLATE.read_text(encoding="utf-8")).substitute(
-        count=len(studies), summary=_summary(studies), sections=sections,
+        count=_scenarios(len(studies)), summary=_summary(studies), sections=sections,
         findings="\n".join(f"<li>{escape(text)}</li>" for text in said),
     )  # fmt: skip
     return page(
-        "Variable step against fixed step", Markup(body), verdict=said[0] if said else "",
+        "Variable step against fixed step", Markup(body), verdict=said[0] if said else "", action=_ACTION,
         inputs=[folder / "deviations.csv"],
     )  # fmt: skip
+
+
+def _scenarios(count: int) -> str:
+    return f"{count} scenario{'s' * (count != 1)}"
 
 
 def order_text(study: Study, family: str) -> str:
@@ -48,12 +53,12 @@ def findings(studies: Sequence[Study]) -> list[str]:
         known = [order for order in on_course if not np.isnan(order)]
         if known:
             said.append(
-                f"{family}: order {min(known):.2f} to {max(known):.2f}, {len(known)} of {len(studies)} scenarios"
+                f"{family}: order {min(known):.2f} to {max(known):.2f}, {len(known)} of {_scenarios(len(studies))}"
             )
     finest = [min((r for r in s.lanes if r.lane.family == "rk4"), key=lambda r: r.lane.step) for s in studies]
     if finest:
         worst = max(r.events.maximum for r in finest)
-        said.append(f"rk4 at the finest step: event times within {worst:.1e} s in all of {len(finest)} scenarios")
+        said.append(f"rk4 at the finest step: event times within {worst:.1e} s in all of {_scenarios(len(finest))}")
     checked = [(study, lane) for study in studies for lane in study.lanes if _counts(lane)]
     late = [_late(study, lane) for study, lane in checked if _is_late(study, lane)]
     said.append(
@@ -96,8 +101,13 @@ def _section(study: Study, stems: Sequence[str], folder: Path) -> str:
     return (
         f"<h2>{escape(scenario.title)}</h2><p><code>{escape(scenario.model)}</code>, {scenario.stop:g} s; "
         f"parameters: {escape(settings)}; reference: IDA at rtol {scenario.reference_rtol:g}.</p>"
-        f"{_lanes(study)}{images}"
+        f"{_lanes(study)}{_failures(study)}{images}"
     )
+
+
+def _failures(study: Study) -> str:
+    failed = [(lane.lane.label, lane.failure) for lane in study.lanes if lane.failure is not None]
+    return "".join(f"<p class=warn>{escape(label)} failed: {escape(why)}</p>" for label, why in failed)
 
 
 def _lanes(study: Study) -> str:
@@ -110,7 +120,7 @@ def _lanes(study: Study) -> str:
 
 def _lane_row(result: LaneResult) -> list[str]:
     if result.failure is not None:
-        return [result.lane.label, f"{result.seconds:.3f}", f"failed: {result.failure}", "", "", "", "", "", ""]
+        return [result.lane.label, f"{result.seconds:.3f}", "failed", "", "", "", "", "", ""]
     worst = max(result.signals, key=lambda s: s.relative)
     return [
         result.lane.label, f"{result.seconds:.3f}", worst.name, f"{worst.maximum:.2e}", f"{worst.relative:.2e}",

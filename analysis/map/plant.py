@@ -80,6 +80,11 @@ class ModelPlant:
             SourceEquation(e.text, e.origin, f"{Path(e.file).name}:{e.line}") for e in self._model.equations
         ]
 
+    @property
+    def units(self) -> dict[str, str]:
+        """The unit of each variable; "1" without one."""
+        return {name: variable.shown_unit for name, variable in self._model.variables.items()}
+
     @classmethod
     def of(cls, compiled, settings: Settings, solver: str | None = None) -> ModelPlant:
         """Of what the compiler returns: name, path, hash and a report with the seconds of its passes."""

@@ -16,7 +16,7 @@ from lacuna.analysis.prognosis.forecast import Limits
 from lacuna.analysis.prognosis.history import TWO_SIDED_95
 
 FILE = "diagnosis.json"
-SHARES = Limits(("limit",), (1.0,), -math.inf, math.inf)
+SHARES = Limits(("limit",), (1.0,), -math.inf, math.inf, unit="% of the way to the limit", scale=100.0)
 Quantities = dict[str, tuple[float, float, float]]  # name: value, standard deviation, value of a healthy machine
 
 

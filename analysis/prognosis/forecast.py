@@ -27,7 +27,8 @@ FLEET = 20  # ended lives from which on a fleet has a prior of its own
 class Limits:
     """Severities at which bands begin, rising; the last one is where a part is removed.
 
-    `first`, `last`: ends of the map. `healthy`: severity of a new part, from which the laws count.
+    `first`, `last`: ends of the map. `healthy`: severity of a new part, from which the laws count. People read a
+    severity times `scale` in `unit`.
     """
 
     names: tuple[str, ...]
@@ -35,6 +36,8 @@ class Limits:
     first: float
     last: float
     healthy: float = 0.0
+    unit: str = ""
+    scale: float = 1.0
 
     def __post_init__(self):
         if not all(a < b for a, b in zip((self.first, *self.values), (*self.values, np.inf), strict=True)):
@@ -43,6 +46,9 @@ class Limits:
     @property
     def removal(self) -> float:
         return self.values[-1]
+
+    def text(self, severity: float) -> str:
+        return f"{self.scale * severity:.3g} {self.unit}".rstrip()
 
     def only_last(self) -> Limits:
         """The removal alone, which is all that a fleet is sorted by."""

@@ -10,14 +10,15 @@ the test.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-import csv
 from dataclasses import dataclass, field
+from itertools import zip_longest
 import math
 from pathlib import Path
 
 import numpy as np
 
 from lacuna.analysis.errors import AnalysisError
+from lacuna.rows import rows_of
 from lacuna.texts import decimal
 
 UNITS = ("cycles", "hours")
@@ -102,21 +103,18 @@ def _table(file: Path) -> list[tuple[int, Row]]:
             raise AnalysisError(f"{file}: not a Parquet table: {error}") from None
         return [(k + 1, {n: "" if v is None else v for n, v in row.items()}) for k, row in enumerate(table.to_pylist())]
     try:
-        with file.open(encoding="utf-8-sig", newline="") as stream:
-            reader = csv.DictReader(stream, restkey="?", strict=True)
-            names = [(name or "").strip() for name in reader.fieldnames or []]
-            if len(set(names)) != len(names):
-                raise AnalysisError(f"{file}: a column occurs twice")
-            reader.fieldnames = names
-            rows = [(reader.line_num, row) for row in reader]
+        found = list(rows_of(file.read_text(encoding="utf-8-sig")))
     except FileNotFoundError:
         raise AnalysisError(f"{file} is missing") from None
-    except (UnicodeDecodeError, csv.Error) as error:
+    except ValueError as error:
         raise AnalysisError(f"{file}: not a table: {error}") from None
+    names, rows = (found[0][1], found[1:]) if found else ([], [])
+    if len(set(names)) != len(names):
+        raise AnalysisError(f"{file}: a column occurs twice")
     for line, row in rows:
-        if "?" in row and len(names) > 1:
+        if len(row) > len(names) > 1:
             raise AnalysisError(f"{file}:{line}: more cells than columns")
-    return [(line, {name: (value or "").strip() for name, value in row.items()}) for line, row in rows]
+    return [(line, dict(zip_longest(names, row[: len(names)], fillvalue=""))) for line, row in rows]
 
 
 def _unit(file: Path, rows: list[tuple[int, Row]], wanted: str | None) -> str:

@@ -18,6 +18,7 @@ import re
 import numpy as np
 
 from lacuna.analysis.recording.channel import Recorded, RecordingError, from_table, on_one_time
+from lacuna.rows import rows_of
 from lacuna.runtime.errors import SimulationError
 from lacuna.runtime.files import read_metadata
 
@@ -119,7 +120,10 @@ def _decoded(path: Path) -> tuple[str, str]:
 
 
 def _fields(line: str, separator: str) -> list[str]:
-    return [field.strip() for field in next(csv.reader([line], delimiter=separator), [])]
+    try:
+        return next((row for _, row in rows_of(line, separator)), [])
+    except ValueError:
+        return [line]  # a quotation without end: no row of numbers
 
 
 def _is_row_of_numbers(fields: list[str], decimal: str) -> bool:

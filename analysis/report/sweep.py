@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 import io
 from pathlib import Path
 
@@ -19,18 +20,20 @@ from lacuna.drawn import save
 SHOWN = 4000  # points of the figure and of its data; beyond, every n-th test (the sequence fills the range evenly)
 
 
-def report_html(results: pa.Table, model: str, settings: Settings) -> str:
-    """The page, of a table as `run_campaign` gives it."""
+def report_html(results: pa.Table, model: str, settings: Settings, units: Mapping[str, str]) -> str:
+    """The page, of a table as `run_campaign` gives it; `units` of the model's variables."""
     failures = Counter(text for text in results["failure"].to_pylist() if text is not None)
     failed = sum(failures.values())
-    body = [_cloud(results, settings), heading("What was drawn"), _ranges(results, settings)]
+    body = [_cloud(results, settings), heading("What was drawn"), _ranges(results, units)]
     if failures:
         body += [heading("What failed"), table(("why", "tests"), failures.most_common())]
     body += [paragraph("results.parquet has one row a test: parameters, features, and why a test failed.")]
-    verdict = f"{len(results) - failed} of {len(results)} tests of {model} were simulated and analysed."
-    action = f"see below why {failed} are missing" if failed else ""
-    notes = [f"Settings: {settings.path.name}"]
-    return page(f"Sweep: {model}", Markup("\n").join(body), verdict=verdict, action=action, notes=notes)
+    name = model.rsplit(".", 1)[-1]
+    verdict = f"{len(results) - failed} of {len(results)} tests of {name} were simulated and analysed."
+    action = f"see below why {failed} are missing" if failed else "lacuna.Sweep in Python reads and draws the columns"
+    notes = [f"Model: {model}"]
+    body_text = Markup("\n").join(body)
+    return page(f"Sweep: {name}", body_text, verdict=verdict, action=action, inputs=[settings.path], notes=notes)
 
 
 def _column(results: pa.Table, name: str) -> np.ndarray:
@@ -54,29 +57,30 @@ def _cloud(results: pa.Table, settings: Settings) -> Markup:
     return figure(buffer.getvalue(), "Mean RMS over the fault, one point a test", caption, ("sweep.csv", data))
 
 
-def _ranges(results: pa.Table, settings: Settings) -> Markup:
+def _ranges(results: pa.Table, units: Mapping[str, str]) -> Markup:
     names = [name for name in results.column_names if name != "failure" and results[name].type == pa.float64()]
     rows = []
     for name in names:
         values = _column(results, name)
         values = values[np.isfinite(values)]
         if values.size:
-            rows.append((name, _unit(name), *(f"{v:.5g}" for v in (values.min(), np.median(values), values.max()))))
+            unit = units.get(name) or _unit(name)
+            rows.append((name, unit, *(f"{v:.5g}" for v in (values.min(), np.median(values), values.max()))))
     return table(("column", "unit", "least", "median", "greatest"), rows, numbers=range(2, 5))
 
 
 def _unit(name: str) -> str:
-    """Of a feature; a parameter has the SI unit of its declaration."""
+    """Of a feature."""
     found = [unit for head, unit in (("rms_", "A"), ("peak_hz", "Hz"), ("speed_", "rad/s")) if name.startswith(head)]
-    return found[0] if found else "SI, as declared"
+    return found[0] if found else ""
 
 
-def write(results: Path, model: str, settings: Settings) -> Path:
+def write(results: Path, model: str, settings: Settings, units: Mapping[str, str]) -> Path:
     """Write the page beside results.parquet."""
     import pyarrow.parquet as pq
 
     path = results.with_name("report.html")
     partial = path.with_suffix(".partial")
-    partial.write_text(report_html(pq.read_table(results), model, settings), encoding="utf-8")
+    partial.write_text(report_html(pq.read_table(results), model, settings, units), encoding="utf-8")
     partial.replace(path)
     return path

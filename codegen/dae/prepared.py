@@ -13,8 +13,8 @@ from lacuna.codegen.dae.operators.delays import Delay
 from lacuna.codegen.dae.relations import Relation
 from lacuna.codegen.dae.storage import Storage
 from lacuna.codegen.structure.causal import Step
-from lacuna.codegen.structure.nominal import Size
 from lacuna.codegen.structure.residual_form import Jacobian, ResidualForm
+from lacuna.codegen.structure.sizes import Size
 from lacuna.codegen.structure.system import System
 from lacuna.codegen.symbolic.expr import Expr
 

@@ -8,7 +8,8 @@ In this order, for each continuous variable:
    Parameters have the size of their values, sin and cos 1, and first of all what stands in them has. Of several
    balances the smallest counts. What is found serves in the next round. Where a round finds nothing, sums inside
    products are looked at, then numbers that stand as terms (a threshold of 1e-6 says less than a parameter, but more
-   than nothing);
+   than nothing). A relation makes a size smaller than the equations alone do, never larger. A limit (in min and max, or
+   a branch that its condition compares with) counts only beside other limits;
 3. then the length of the experiment links a variable and its derivative;
 4. an angle (unit rad) without a declared nominal has size 1, at which it acts, however many turns it makes and however
    small a play is that it is compared with;
@@ -21,28 +22,11 @@ quantity. It is an expression in the parameters, computed for the values of each
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
-import math
 
 from lacuna.codegen import flat
+from lacuna.codegen.structure.sizes import Size, combined, largest, named, raised, sized
 from lacuna.codegen.structure.system import DeclaredValues, System
-from lacuna.codegen.symbolic.expr import (  # fmt: skip
-    BOOLEAN,
-    ONE,
-    ZERO,
-    Expr,
-    call,
-    const,
-    der,
-    div,
-    if_else,
-    is_const,
-    mul,
-    power,
-    relation,
-    var,
-    walk,
-)
+from lacuna.codegen.symbolic.expr import BOOLEAN, ONE, ZERO, Expr, call, const, der, is_const, var, walk
 from lacuna.codegen.symbolic.leaves import leaves
 
 BOUNDED = frozenset(("sin", "cos", "tanh", "sign", "asin", "acos", "atan", "atan2"))
@@ -50,38 +34,28 @@ ANGLES = frozenset(("sin", "cos", "tan", "tanh", "exp"))  # their argument is of
 _SUMS = ("+", "-")
 
 
-@dataclass(frozen=True)
-class Size:
-    """The size of a quantity: as an expression in parameters, with the declared values, and by which rule."""
+def infer(system: System, relations: Sequence[tuple[Expr, Expr, str]]) -> dict[Expr, Size]:
+    """Sizes by variable and derivative. `relations`: (left, right, where), each compares two quantities of one size.
 
-    expression: Expr
-    value: float
-    reason: str = ""
-    terms: int = 1  # that the expression is made of
-
-    def smaller(self, other: Size) -> bool:
-        """Whether it is the smaller estimate, or as large and simpler."""
-        if math.isclose(self.value, other.value, rel_tol=1e-9):
-            return self.terms < other.terms
-        return self.value < other.value
+    A limit may lie far beyond what a quantity ever reaches (one that is switched off, 1e60): what the equations alone
+    make of a size, or 1 where they make nothing, relations make smaller, never larger."""
+    sizes = _balanced(system, relations, False)
+    for e, size in _balanced(system, relations, True).items() if relations else ():
+        if size.smaller(sizes[e]) if e in sizes else size.value < 1:
+            sizes[e] = size
+    return {e: _angle(size, e, system.model) for e, size in sizes.items()}
 
 
-def infer(system: System, relations: Iterable[tuple[Expr, Expr, str]]) -> dict[Expr, Size]:
-    """Sizes by variable and derivative. `relations`: (left, right, where), each compares two quantities of one size."""
-    balances = [(row.lhs, row.rhs, f"line {row.source.span.line}") for row in system.rows] + list(relations)
-    inference = _Inference(system.model, [b for b in balances if BOOLEAN not in (b[0].type, b[1].type)])
+def _balanced(system: System, relations: Sequence[tuple[Expr, Expr, str]], count: bool) -> dict[Expr, Size]:
+    """`count`: relations are balances, too."""
+    balances = [(row.lhs, row.rhs, f"line {row.source.span.line}") for row in system.rows]
+    balances += relations if count else ()
+    inference = _Inference(system.model, [b for b in balances if BOOLEAN not in (b[0].type, b[1].type)], relations)
     inference.seed(system)
     span = abs(system.model.experiment.stop_time - system.model.experiment.start_time) or 1.0
     while inference.balance() or inference.link(system.states, span):
         pass
-    return {e: _angle(size, e, system.model) for e, size in inference.sizes.items()}
-
-
-def told(size: Size) -> Expr:
-    """For the parameters of a run; a parameter that is set to zero says nothing, and then the declared ones count."""
-    if is_const(size.expression):
-        return size.expression
-    return if_else(relation(">", size.expression, ZERO), size.expression, const(size.value))
+    return inference.sizes
 
 
 def difference(left: Expr, right: Expr, sizes: dict[Expr, Size], model: flat.FlatModel) -> Size | None:
@@ -90,23 +64,32 @@ def difference(left: Expr, right: Expr, sizes: dict[Expr, Size], model: flat.Fla
     compared = [
         n for n in leaves(left) | leaves(right) if n.op == "var" and model.variables[str(n.value)].type == "Real"
     ]
-    if compared and all(model.variables[str(n.value)].unit == "rad" for n in compared):
+    if compared and all(_is_angle(n, model) for n in compared):
         return Size(ONE, 1.0, "an angle")
-    inference = _Inference(model, [])
+    inference = _Inference(model, [], [])
     inference.sizes = sizes
-    return _largest([s for s in (inference.size(left), inference.size(right)) if s])
+    return largest([s for s in (inference.size(left), inference.size(right)) if s])
 
 
 def _angle(size: Size, e: Expr, model: flat.FlatModel) -> Size:
     """An angle acts at 1 rad, however many turns it makes and however small a play is that it is compared with."""
-    told = e.op == "var" and model.variables[str(e.value)].unit == "rad" and size.reason != "declared"
+    told = _is_angle(e, model) and size.reason != "declared"
     return Size(ONE, 1.0, "an angle") if told else size
 
 
+def _is_angle(e: Expr, model: flat.FlatModel) -> bool:
+    return e.op == "var" and model.variables[str(e.value)].unit == "rad"
+
+
 class _Inference:
-    def __init__(self, model: flat.FlatModel, balances: Sequence[tuple[Expr, Expr, str]]):
+    def __init__(
+        self,
+        model: flat.FlatModel,
+        balances: Sequence[tuple[Expr, Expr, str]],
+        relations: Sequence[tuple[Expr, Expr, str]],
+    ):
         self.sizes: dict[Expr, Size] = {}
-        self._model, self._balances = model, balances
+        self._model, self._balances, self._relations = model, balances, relations
         self._values = DeclaredValues(model)
         self._memo: dict[Expr, Size | None] = {}
         self._found: dict[Expr, Size] = {}
@@ -130,7 +113,7 @@ class _Inference:
 
     def _parametric(self, e: Expr, reason: str = "") -> Size | None:
         value = self._values.parametric(e)
-        return _size(call("abs", e), abs(value), reason) if value is not None else None
+        return sized(call("abs", e), abs(value), reason) if value is not None else None
 
     # -- the size of an expression ----------------------------------------------------------------------------
 
@@ -144,24 +127,41 @@ class _Inference:
         known = self.sizes.get(e)
         if known is not None or e.op in ("var", "der", "pre", "const", "time"):
             return known or (self._leaf(e))
-        if e.op in _SUMS or e.op in ("min", "max", "if"):
-            return _largest([s for a in (e.args[1:] if e.op == "if" else e.args) if (s := self.size(a))])
+        if e.op in _SUMS:
+            return largest([s for a in e.args if (s := self.size(a))])
+        if e.op in ("min", "max", "if"):
+            return self._choice(e)
         if e.op == "call" and e.value in BOUNDED:
             return Size(ONE, 1.0)
         if e.op == "neg" or (e.op == "call" and e.value == "abs"):
             return self.size(e.args[0])
         if e.op == "call" and e.value == "sqrt":
-            return _power(self.size(e.args[0]), const(0.5))
+            return raised(self.size(e.args[0]), const(0.5))
         if e.op == "^" and is_const(e.args[1]):
-            return _power(self.size(e.args[0]), e.args[1])
+            return raised(self.size(e.args[0]), e.args[1])
         if e.op in ("*", "/"):
-            return _combine(e.op, self.size(e.args[0]), self.size(e.args[1]))
+            return combined(e.op, self.size(e.args[0]), self.size(e.args[1]))
         return None
+
+    def _choice(self, e: Expr) -> Size | None:
+        """The largest of what may be chosen, but for limits: numbers that what else may be chosen is compared with."""
+        values = [a for a in (e.args[1:] if e.op == "if" else e.args) if a != ZERO]
+        compared = set(leaves(e.args[0])) if e.op == "if" else set()
+        for n in [n for n in compared if n.op == "rel" and int(n.value) < len(self._relations)]:
+            compared.update(*(walk(side) for side in self._relations[int(n.value)][:2]))
+        limits = [
+            a
+            for a in values
+            if self._values.parametric(a) is not None
+            and (e.op != "if" or a in compared or (leaves(a) and leaves(a) <= compared))
+        ]
+        counted = limits if len(limits) == len(values) else [a for a in values if a not in limits]
+        return largest([s for a in counted if (s := self.size(a))])
 
     def _leaf(self, e: Expr) -> Size | None:
         if e.op == "time":
             end = max(abs(self._model.experiment.stop_time), abs(self._model.experiment.start_time))
-            return _size(const(end), end)
+            return sized(const(end), end)
         if e.op == "pre":
             e = e.args[0]
         if e.op == "var" and self._model.variables[str(e.value)].type != "Real":
@@ -203,11 +203,11 @@ class _Inference:
                 self._sum(list(_terms(n)), where)
 
     def _sum(self, terms: Sequence[Expr], where: str) -> None:
-        sized = [t for t in terms if self._numbers or t.op != "const"]
-        largest = _largest([s for t in sized if (s := self.size(t))])
-        for t in terms if largest else ():
+        counted = [t for t in terms if self._numbers or t.op != "const"]
+        most = largest([s for t in counted if (s := self.size(t))])
+        for t in terms if most else ():
             if self.size(t) is None:
-                self._assign(t, _named(largest, where))
+                self._assign(t, named(most, where))
 
     def _assign(self, e: Expr, size: Size | None) -> None:
         """What is unknown in `e` is such that `e` has this size."""
@@ -226,7 +226,7 @@ class _Inference:
         elif e.op in ("*", "/"):
             self._factor(e, size)
         elif e.op == "^" and is_const(e.args[1]) and e.args[1].value != 0:
-            self._assign(e.args[0], _named(_power(size, const(1 / e.args[1].value)), size.reason))
+            self._assign(e.args[0], named(raised(size, const(1 / e.args[1].value)), size.reason))
         elif e.op in _SUMS:
             for t in _terms(e):
                 if self.size(t) is None:
@@ -236,25 +236,27 @@ class _Inference:
         a, b = e.args
         known_a, known_b = self.size(a), self.size(b)
         if known_b is not None and known_a is None:
-            self._assign(a, _named(_combine("/" if e.op == "*" else "*", size, known_b), size.reason))
+            self._assign(a, named(combined("/" if e.op == "*" else "*", size, known_b), size.reason))
         elif known_a is not None and known_b is None:
             pair = (size, known_a) if e.op == "*" else (known_a, size)
-            self._assign(b, _named(_combine("/", *pair), size.reason))
+            self._assign(b, named(combined("/", *pair), size.reason))
 
     def _is_continuous(self, e: Expr) -> bool:
         v = self._model.variables[str((e.args[0] if e.op == "der" else e).value)]
         return v.type == "Real" and v.variability == flat.CONTINUOUS
 
     def link(self, states: Iterable[str], span: float) -> bool:
-        """States of which only the value or only the derivative has a size get the other one."""
+        """States of which only the value or only the derivative has a size get the other one; an angle has one."""
         found = {}
         for x in map(var, states):
             rate = der(x)
+            if x not in self.sizes and rate not in self.sizes and _is_angle(x, self._model):
+                found[x] = Size(ONE, 1.0, "an angle")
             if (x in self.sizes) != (rate in self.sizes):
                 known, unknown = (x, rate) if x in self.sizes else (rate, x)
-                size = _combine("*" if unknown is x else "/", self.sizes[known], Size(const(span), span))
+                size = combined("*" if unknown is x else "/", self.sizes[known], Size(const(span), span))
                 if size is not None:
-                    found[unknown] = _named(size, "length of the experiment")
+                    found[unknown] = named(size, "length of the experiment")
         self._accept(found)
         return bool(found)
 
@@ -265,31 +267,3 @@ def _terms(e: Expr) -> Iterator[Expr]:
             yield from _terms(a)
     elif e.op != "const" or e.value != 0:
         yield e
-
-
-def _size(expression: Expr, value: float, reason: str = "", terms: int = 1) -> Size | None:
-    return Size(expression, value, reason, terms) if 0 < value < math.inf else None
-
-
-def _named(size: Size | None, reason: str) -> Size | None:
-    return replace(size, reason=reason) if size else None
-
-
-def _largest(sizes: Sequence[Size]) -> Size | None:
-    return max(sizes, key=lambda s: (s.value, -s.terms)) if sizes else None
-
-
-def _power(size: Size | None, exponent: Expr) -> Size | None:
-    if size is None:
-        return None
-    try:
-        return _size(power(size.expression, exponent), size.value ** float(exponent.value))
-    except (OverflowError, ZeroDivisionError):
-        return None
-
-
-def _combine(op: str, a: Size | None, b: Size | None) -> Size | None:
-    if a is None or b is None:
-        return None
-    value = a.value * b.value if op == "*" else a.value / b.value
-    return _size((mul if op == "*" else div)(a.expression, b.expression), value, "", a.terms + b.terms)

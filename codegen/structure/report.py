@@ -9,7 +9,8 @@ from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.emit.source import generate
 from lacuna.codegen.flat.text import dump_flat
 from lacuna.codegen.structure.causal import Division, LinearBlock, NonlinearBlock, Step
-from lacuna.codegen.structure.nominal import Size, difference
+from lacuna.codegen.structure.nominal import difference
+from lacuna.codegen.structure.sizes import Size
 from lacuna.codegen.structure.sorting.tearing import Assignment
 from lacuna.codegen.structure.system import Row
 from lacuna.codegen.symbolic.expr import Expr, relation, to_text, var

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable
-from fractions import Fraction
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
@@ -210,7 +209,7 @@ class _Check:
         a, b = e.args
         known_a, known_b = inference.of(a), inference.of(b)
         if known_b != UNKNOWN and known_a == UNKNOWN:
-            inverse = known_b ** Fraction(-1) if isinstance(known_b, Unit) else known_b
+            inverse = known_b**-1 if isinstance(known_b, Unit) else known_b
             wanted = over(unit, known_b if e.op == "*" else inverse)
             return self._solve(a, wanted, inference)
         if known_a != UNKNOWN and known_b == UNKNOWN:

@@ -159,7 +159,7 @@ def times(a: Finding, b: Finding) -> Finding:
 
 
 def over(a: Finding, b: Finding) -> Finding:
-    return times(a, b ** Fraction(-1) if isinstance(b, Unit) else b)
+    return times(a, b**-1 if isinstance(b, Unit) else b)
 
 
 def disagreement(code: str, how: str, a: Expr, unit_a: Unit, b: Expr, unit_b: Unit) -> UnitError:

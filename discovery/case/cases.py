@@ -91,6 +91,7 @@ class Case:
     found: CaseModel | None = None  # where the class `model` is
     own: dict[str, Own] = field(default_factory=dict)  # what holds in one recording only, by its file
     limits: dict[str, Limit] = field(default_factory=dict)  # of inputs, for a proposed experiment
+    files: tuple[Path, ...] = ()  # what was read: case.toml, the user's model, the recordings
 
     @property
     def base(self) -> str:
@@ -149,6 +150,8 @@ def load(folder: str | Path, libraries: Sequence[str | Path] = ()) -> Case:
         own=_own(path, raw.get("recording", {}), [*names["fit"], *names["validate"]]),
         limits=_limits(path, raw.get("limits", {}), signals),
     )
+    own_model = (case.found.file,) if case.found and case.found.file else ()
+    case.files = (path, *own_model, *(folder / name for name in (*names["fit"], *names["validate"])))
     case.fit = [read_recording(folder / name, signals) for name in names["fit"]]
     case.validate = [read_recording(folder / name, signals) for name in names["validate"]]
     return case

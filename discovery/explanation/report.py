@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from html import escape
 import io
 from pathlib import Path
@@ -22,11 +23,16 @@ from lacuna.discovery.experiment.files import FOLDER
 from lacuna.discovery.experiment.picture import picture
 from lacuna.discovery.explanation.diagnosis import build, left_over, sentence
 from lacuna.discovery.explanation.explanation import Explanation
-from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.fit.fit import Fit, noise_of
 from lacuna.discovery.law.locate import Located
-from lacuna.discovery.naming.judge import Judgement
+from lacuna.discovery.naming.judge import Judgement, noise_floor
 from lacuna.discovery.naming.name import Naming
 from lacuna.drawn import save
+
+_NRMSE = (
+    "<p>Normalised root mean square error: of what is measured and not simulated, over the standard deviation of the "
+    "measured signal; <em>unseen</em> are recordings that nothing was fitted to.</p>"
+)
 
 
 def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
@@ -39,16 +45,14 @@ def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
     if amended is not None:
         parts += ["<h2>The amended model</h2>", code(amended.read_text(encoding="utf-8"), "amended model")]
     action = result.experiment or ""
-    return _page(parts, result.case.title, folder, sentence(result), action)
+    return _page(parts, result.case.title, folder, sentence(result), action, result.case.files)
 
 
-def _page(parts: list[str], title: str, folder: Path, verdict: str = "", action: str = "") -> Path:
+def _page(parts: list[str], title: str, folder: Path, verdict: str, action: str, inputs: Sequence[Path]) -> Path:
     path = folder / "report.html"
     partial = path.with_suffix(".tmp")
-    written = [folder / "diagnosis.json", *sorted(folder.glob("*.mo"))]
-    partial.write_text(
-        page(title, Markup("\n".join(parts)), verdict=verdict, action=action, inputs=written), encoding="utf-8"
-    )
+    text = page(title, Markup("\n".join(parts)), verdict=verdict, action=action, inputs=inputs)
+    partial.write_text(text, encoding="utf-8")
     partial.replace(path)
     return path
 
@@ -89,8 +93,8 @@ def _quality(result: Explanation) -> list[str]:
         ["all", result.before.validate[""], result.after.validate[""], "", result.before.fit[""], result.after.fit[""]]
     )
     header = ["signal", "unseen: before", "after", "noise floor", "fitted: before", "after"]
-    note = "<p>NRMSE; <em>before</em> is the believed model with its parameters already refitted.</p>"
-    return ["<h2>How well it fits</h2>", _table(header, rows), note]
+    note = "<p><em>Before</em> is the believed model with its parameters already refitted.</p>"
+    return ["<h2>How well it fits</h2>", _table(header, rows), _NRMSE, note]
 
 
 def _overlays(result: Explanation) -> list[str]:
@@ -125,12 +129,19 @@ def _overlay(case: Case, curves: list[tuple[str, str, dict[str, np.ndarray]]]) -
     ]
 
 
-def write_judgement(case: Case, judged: Judgement, folder: Path, model: str) -> Path:
+def write_judgement(case: Case, judged: Judgement, folder: Path, model: Path) -> Path:
     """The page of one judged model file: its errors and its course on a validation recording."""
-    rows = [[column or "all", judged.validate[column], judged.fit[column]] for column in judged.validate]
-    parts = [_table(["signal", "NRMSE, unseen", "fitted"], rows)]
-    parts += _overlay(case, [(model, "C0", judged.residuals[case.validate[0].name])])
-    return _page(parts, f"{case.title}: {model}", folder)
+    floor = noise_floor(case, case.validate, noise_of(case))
+    rows = [[c or "all", judged.validate[c], floor.get(c, ""), judged.fit[c]] for c in judged.validate]
+    parts = _overlay(case, [(model.name, "C0", judged.residuals[case.validate[0].name])])
+    parts += ["<h2>How well it fits</h2>", _table(["signal", "unseen", "noise alone", "fitted"], rows), _NRMSE]
+    noise = float(np.sqrt(np.mean(np.square(list(floor.values())))))
+    verdict = (
+        f"As it is written, {model.name} misses the recordings that nothing was fitted to by "
+        f"{100 * judged.validate['']:.3g} % of how much they vary; noise alone would be {100 * noise:.3g} %."
+    )
+    action = f"lacuna explain {case.folder.name} says whether what is left is physics that the equations lack"
+    return _page(parts, f"{case.title}: {model.name}", folder, verdict, action, (*case.files, model))
 
 
 def _located(located: Located) -> list[str]:

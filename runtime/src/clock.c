@@ -63,7 +63,7 @@ int rt_clock_due(rt_session *s) {
 static void log_time_relations(rt_session *s) {
   for (int r = 0; r < s->d->n_rel; r++)
     if (s->d->relations[r].is_time && s->data.rel[r] != s->rel_before[r])
-      rt_result_log(s->result, s->t, RT_EVENT_TIME, r, s->data.rel[r] ? 1 : -1);
+      rt_result_log(s->result, s->t, RT_EVENT_TIME, r, s->data.rel[r] ? 1 : -1, 1);
 }
 
 /* Time relations with the discrete variables as they are now, and when the next one switches. Whether any changed. What
@@ -93,7 +93,7 @@ void rt_clock_tick(rt_session *s) {
   for (int i = 0; i < s->d->n_sample; i++) {
     if (tick_time(c, i) > now) continue;
     s->data.tick[i] = 1;
-    rt_result_log(s->result, s->t, RT_EVENT_SAMPLE, i, 1);
+    rt_result_log(s->result, s->t, RT_EVENT_SAMPLE, i, 1, 1);
     s->result->counters.sample_events++;
     while (tick_time(c, i) <= now)
       c->next[i]++;

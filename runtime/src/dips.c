@@ -12,17 +12,19 @@ static double lowest(double a, double b, double c, double *where) {
   return a + *where * (slope + 0.5 * c * *where);
 }
 
-/* Could a guard have crossed twice inside the step? Judged by the parabola through the last three points with four
- * times its curvature; there is no third point after a restart, so then it could. */
-bool rt_may_dip(const rt_session *s) {
+/* Could a guard have crossed twice in the step up to `end`, besides those that cross there? Judged by the parabola
+ * through the last three points with four times its curvature; there is no third point after a restart, so then it
+ * could. */
+bool rt_may_dip(const rt_session *s, double end) {
   if (isnan(s->t_before)) return true;
-  double h = s->t - s->t_previous, before = s->t_previous - s->t_before, where;
+  double h = end - s->t_previous, before = s->t_previous - s->t_before, where;
   double weight = 2 * h / (h + before), back = weight * h / before;
   for (int r = 0; r < s->d->n_rel; r++) {
     double sign = s->data.rel[r] ? 1 : -1, a = sign * s->g_previous[r], b = sign * s->g[r];
     double c = weight * (b - a) - back * (a - sign * s->g_before[r]);
     double least = a < b ? a : b;
-    if (c > 1.5 * least && c > 0 && rt_is_state_relation(s, r) && lowest(a, b, 4 * c, &where) < 0.25 * least)
+    if (c > 1.5 * least && c > 0 && rt_is_state_relation(s, r) && !s->flip[r] &&
+        lowest(a, b, 4 * c, &where) < 0.25 * least)
       return true;
   }
   return false;
@@ -31,9 +33,9 @@ bool rt_may_dip(const rt_session *s) {
 /* The return of a guard that an event has thrown back: it lies anywhere from the start of the step on, so the step is
  * halved towards its start until the guard is on the other side. */
 static int find_return(rt_session *s, double *inside) {
-  double h = s->t - s->t_previous, least = rt_smallest_step(s);
+  double h = *inside - s->t_previous, least = rt_smallest_step(s);
   for (int r = 0; r < s->d->n_rel; r++) {
-    if (s->due_back[r] < s->t_previous) continue;
+    if (s->due_back[r] < s->t_previous || s->flip[r]) continue;
     double sign = s->data.rel[r] ? 1 : -1;
     for (double part = 0.5 * h; part > least; part *= 0.5) {
       int status = rt_guards_at(s, s->t_previous + part, s->g_trial);
@@ -47,17 +49,17 @@ static int find_return(rt_session *s, double *inside) {
   return 0;
 }
 
-/* Look inside the step for a guard that crossed twice: at the middle, then at the bottom of each parabola through three
- * points. Where one is found s->g belongs to *inside, otherwise *inside stays as it is. */
+/* Look in the step up to *inside for a guard that crossed twice: at the middle, then at the bottom of each parabola
+ * through three points. Where one is found s->g belongs to *inside, otherwise *inside stays as it is. */
 int rt_find_dip(rt_session *s, double *inside) {
-  double h = s->t - s->t_previous, where;
+  double end = *inside, h = end - s->t_previous, where;
   rt_dense_prepare(s);
   memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
   int status = find_return(s, inside);
-  if (status || *inside < s->t) return status;
+  if (status || *inside < end) return status;
   status = rt_guards_at(s, s->t_previous + 0.5 * h, s->g_low);
   for (int r = 0; !status && r < s->d->n_rel; r++) {
-    if (!rt_is_state_relation(s, r)) continue;
+    if (!rt_is_state_relation(s, r) || s->flip[r]) continue;
     double sign = s->data.rel[r] ? 1 : -1, a = sign * s->g_previous[r], middle = sign * s->g_low[r], b = sign * s->g[r];
     if (middle > 0) rt_extend_guard(s, r, middle);
     double eps = rt_hysteresis(s, r);

@@ -154,7 +154,8 @@ static void switch_relations(rt_session *s) {
     if (!s->flip[r]) continue;
     s->data.rel[r] = !s->data.rel[r];
     s->result->counters.state_events++;
-    rt_result_log(s->result, s->t, RT_EVENT_STATE, r, s->data.rel[r] ? 1 : -1);
+    double size = rt_max(s->g_nominal[r], s->g_span[r]), reach = size > 0 ? s->g_travel[r] / size : 0;
+    rt_result_log(s->result, s->t, RT_EVENT_STATE, r, s->data.rel[r] ? 1 : -1, reach);
   }
 }
 
@@ -235,7 +236,7 @@ rt_status rt_event(rt_session *s) {
   if (rt_follow_switches(s, since)) return rt_fail_model(s, s->t, "looking ahead from an event");
   memset(s->flip, 0, (size_t)s->d->n_rel);
   if (record && (status = rt_record_event_row(s))) return status;
-  if (s->data.terminated) rt_result_log(s->result, s->t, RT_EVENT_TERMINATE, s->data.terminated - 1, 1);
+  if (s->data.terminated) rt_result_log(s->result, s->t, RT_EVENT_TERMINATE, s->data.terminated - 1, 1, 1);
   if (is_inconsequential(s)) return RT_OK;
   s->result->counters.restarts++;
   s->t_before = NAN;

@@ -47,7 +47,7 @@ bool rt_result_reserve(rt_result *r, size_t rows) {
   return done;
 }
 
-void rt_result_log(rt_result *r, double time, int kind, int index, int direction) {
+void rt_result_log(rt_result *r, double time, int kind, int index, int direction, double reach) {
   if (r->n_events == r->events_capacity) {
     size_t capacity = r->events_capacity ? 2 * r->events_capacity : 64;
     if (!grow(&r->events, capacity * sizeof *r->events)) {
@@ -56,7 +56,8 @@ void rt_result_log(rt_result *r, double time, int kind, int index, int direction
     }
     r->events_capacity = capacity;
   }
-  r->events[r->n_events++] = (rt_event_entry){.time = time, .kind = kind, .index = index, .direction = direction};
+  r->events[r->n_events++] =
+      (rt_event_entry){.time = time, .kind = kind, .index = index, .direction = direction, .reach = reach};
 }
 
 void rt_result_flag(rt_result *r, double time, rt_flag_kind kind, int relation, int other) {

@@ -26,7 +26,7 @@ struct rt_result {
 };
 rt_result *rt_result_new(int columns, int sensitivities, int parameters, size_t capacity);
 bool rt_result_reserve(rt_result *r, size_t rows);
-void rt_result_log(rt_result *r, double time, int kind, int index, int direction);
+void rt_result_log(rt_result *r, double time, int kind, int index, int direction, double reach);
 void rt_result_flag(rt_result *r, double time, rt_flag_kind kind, int relation, int other);
 
 #endif

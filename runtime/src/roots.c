@@ -10,17 +10,22 @@
 
 #include "looks.h"
 
-static bool any_changed(const rt_session *s) {
+/* Relations whose guards g are past zero by more than the hysteresis are added to flip; whether there are any. */
+static bool add_changed(rt_session *s, const double *g) {
+  bool any = false;
   for (int r = 0; r < s->d->n_rel; r++) {
-    double held = s->data.rel[r] ? s->g[r] : -s->g[r];
-    if (held < 0 && held < -rt_hysteresis(s, r) && rt_is_state_relation(s, r)) return true;
+    double held = s->data.rel[r] ? g[r] : -g[r];
+    if (!(held < 0 && held < -rt_hysteresis(s, r) && rt_is_state_relation(s, r))) continue;
+    s->flip[r] = any = true;
   }
-  return false;
+  return any;
 }
 
-static bool any_negative(const rt_session *s, const double *g) {
+/* Whether one of flip has crossed. Guards that are past zero by rounding alone are none of them, whatever crosses
+ * beside them. */
+static bool any_crossed(const rt_session *s, const double *g) {
   for (int r = 0; r < s->d->n_rel; r++)
-    if (rt_is_state_relation(s, r) && rt_margin(s, r, g[r]) < 0) return true;
+    if (s->flip[r] && rt_margin(s, r, g[r]) < 0) return true;
   return false;
 }
 
@@ -30,7 +35,7 @@ static double first_secant(const rt_session *s, const double *ga, double wa, con
   double fraction = 1;
   for (int r = 0; r < s->d->n_rel; r++) {
     double ma = wa * rt_margin(s, r, ga[r]), mb = wb * rt_margin(s, r, gb[r]);
-    if (rt_is_state_relation(s, r) && mb < 0) fraction = rt_min(fraction, rt_max(0, ma) / (rt_max(0, ma) - mb));
+    if (s->flip[r] && mb < 0) fraction = rt_min(fraction, rt_max(0, ma) / (rt_max(0, ma) - mb));
   }
   return fraction;
 }
@@ -46,7 +51,8 @@ typedef struct {
 static int narrow(rt_session *s, bracket *k, double t) {
   int status = rt_guards_at(s, t, s->g_trial);
   if (status) return status;
-  bool crossed = any_negative(s, s->g_trial);
+  add_changed(s, s->g_trial);
+  bool crossed = any_crossed(s, s->g_trial);
   memcpy(crossed ? s->g : s->g_low, s->g_trial, (size_t)s->d->n_rel * sizeof *s->g);
   *(crossed ? &k->b : &k->a) = t;
   k->wa = crossed && k->side == 1 ? 0.5 * k->wa : 1;
@@ -111,18 +117,21 @@ static rt_status follow(rt_session *s) {
   return RT_OK;
 }
 
+/* The first crossing in the step. Before one that the end of the step shows, other guards may have crossed twice. */
 static int search(rt_session *s, double *crossing) {
-  bool located = s->options.locate_events, changed = any_changed(s);
-  int status = 0;
-  if (!changed && located && rt_may_dip(s)) {
-    status = rt_find_dip(s, crossing);
-    changed = *crossing < s->t;
+  for (;;) {
+    if (add_changed(s, s->g)) {
+      s->pending |= RT_PENDING_STATE;
+      if (!s->options.locate_events) return 0;
+      rt_dense_prepare(s);
+      int status = locate(s, crossing);
+      if (status) return status;
+    }
+    double inside = *crossing;
+    int status = s->options.locate_events && rt_may_dip(s, *crossing) ? rt_find_dip(s, &inside) : 0;
+    if (status || !(inside < *crossing)) return status;
+    *crossing = inside;
   }
-  if (!changed) return status;
-  s->pending |= RT_PENDING_STATE;
-  if (!located) return 0;
-  rt_dense_prepare(s);
-  return locate(s, crossing);
 }
 
 /* Guards at the end of the step; where a relation has changed, move the end of the step back to the first change. */
@@ -140,7 +149,7 @@ rt_status rt_find_state_event(rt_session *s) {
   if (search(s, &crossing)) return rt_fail_model(s, s->t, "locating an event");
   if (s->pending) {
     for (int r = 0; r < d->n_rel; r++)
-      s->flip[r] = rt_is_state_relation(s, r) && rt_margin(s, r, s->g[r]) < 0;
+      s->flip[r] = s->flip[r] && rt_margin(s, r, s->g[r]) < 0;
     if (crossing < s->t && move_back(s, crossing)) return s->failure.status;
   }
   s->t_before = s->t_previous;

@@ -28,7 +28,7 @@ PYTHON_MAY_IMPORT = {
 }
 PROJECT = {*STAGES, "lacuna", "cli", "bench", "tests"}
 # What every stage may know of the package: its name, where its libraries are, what an extra brings, units of measure,
-# what becomes of texts, names that may be meant, figures as files, programs that end with us.
+# what becomes of texts, rows of tables, names that may be meant, figures as files, programs that end with us.
 FACE = {
     "lacuna",
     "lacuna.native",
@@ -36,6 +36,7 @@ FACE = {
     "lacuna.units",
     "lacuna.recorded_units",
     "lacuna.texts",
+    "lacuna.rows",
     "lacuna.suggest",
     "lacuna.drawn",
     "lacuna.children",

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from lacuna import runtime
 from lacuna.cli.main import app
+from tests.results import read_result
 
 ROOT = Path(__file__).parents[2]
 SERVO = str(ROOT / "tests" / "models" / "SquareWaveServo.mo")
@@ -105,7 +105,7 @@ def test_compile_reports_the_passes_once(monkeypatch: pytest.MonkeyPatch, tmp_pa
 def test_simulate_writes_csv_metadata_and_figure(tmp_path: Path) -> None:
     result = lacuna("simulate", SERVO, "--stop", "0.05", "-p", "U=6", "--signal", "w", "--plot", "--out", "run")
     assert result.exit_code == 0, result.output
-    columns, meta = runtime.read_csv(tmp_path / "run" / "SquareWaveServo.csv")
+    columns, meta = read_result(tmp_path / "run" / "SquareWaveServo.csv")
     assert columns["time"][-1] == 0.05
     assert meta["complete"]
     assert meta["parameters"]["U"] == 6.0
@@ -115,7 +115,7 @@ def test_simulate_writes_csv_metadata_and_figure(tmp_path: Path) -> None:
 def test_structural_parameter_is_translated_anew(tmp_path: Path) -> None:
     for pairs in (2, 3):
         assert lacuna("simulate", MOTOR, "--stop", "0.05", "-p", f"pp={pairs}", "--out", f"pp{pairs}").exit_code == 0
-    speeds = [runtime.read_csv(tmp_path / f"pp{pairs}" / "SixStepMotor.csv")[0]["w"][-1] for pairs in (2, 3)]
+    speeds = [read_result(tmp_path / f"pp{pairs}" / "SixStepMotor.csv")[0]["w"][-1] for pairs in (2, 3)]
     assert abs(speeds[0] - speeds[1]) > 0.1
 
 
@@ -127,7 +127,7 @@ def test_recorded_input_drives_a_model(tmp_path: Path) -> None:
     np.savetxt(tmp_path / "ramp.csv", np.column_stack([time, time]), delimiter=",", header="time,u", comments="")
     words = ["simulate", "Lag.mo", "-u", "u=ramp.csv", "--rtol", "1e-9", "--out", "run"]
     assert lacuna(*words).exit_code == 0
-    y = runtime.read_csv(tmp_path / "run" / "Lag.csv")[0]["y"][-1]
+    y = read_result(tmp_path / "run" / "Lag.csv")[0]["y"][-1]
     assert y == pytest.approx(np.exp(-1.0), rel=1e-6)  # y = t - 1 + exp(-t)
 
 
@@ -175,7 +175,7 @@ def test_failed_run_keeps_what_it_has(tmp_path: Path) -> None:
         "  annotation(experiment(StopTime=2, Interval=0.1));\nend Escape;\n"
     )
     refused("simulate", "Escape.mo", "--out", "run")
-    columns, meta = runtime.read_csv(tmp_path / "run" / "Escape.csv")
+    columns, meta = read_result(tmp_path / "run" / "Escape.csv")
     assert not meta["complete"]
     assert 0.5 < columns["time"][-1] < 1.0
 

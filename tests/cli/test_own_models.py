@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 
 from lacuna import runtime
 from lacuna.cli.main import app
+from tests.results import read_result
 
 SETTINGS = Path(__file__).parents[2] / "analysis" / "settings" / "paper.toml"
 FILES = {
@@ -75,7 +76,7 @@ def test_one_model_by_its_names(model: list[str]) -> None:
     done = answer("simulate", *model, "-u", "u=12", "-p", "k=2", "--rtol", "1e-8", "--out", "run")
     assert done["last"]["y"] == pytest.approx(12 * (1 - 0.1353352832366127), rel=1e-6)  # 12 (1 - exp(-2))
     assert done["last"]["z"] == -done["last"]["y"]
-    columns, meta = runtime.read_csv(done["written"][0])
+    columns, meta = read_result(done["written"][0])
     assert {"time", "y", "z", "u"} <= set(columns)
     assert len(columns["time"]) == 501
     assert meta["solver"]["rtol"] == 1e-8
@@ -86,7 +87,7 @@ def test_one_model_by_its_names(model: list[str]) -> None:
 
 def test_every_declared_variable_is_in_the_file_with_what_is_known_of_it() -> None:
     written = answer("simulate", "Names.mo", "--out", "run")["written"][0]
-    columns, meta = runtime.read_csv(written)
+    columns, meta = read_result(written)
     assert list(columns) == ["time", "v", "back", "a", "e"]  # neither parameters nor constants
     assert (columns["back"] == -columns["v"]).all()
     assert (columns["a"] == 4).all()  # which parameters alone decide

@@ -99,3 +99,50 @@ def test_a_guard_far_below_its_nominal_value_still_switches(tmp_path: Path, solv
         result = runtime.simulate(model, solver=solver, parameters={"s": size}, stop=20.0, interval=0)
         assert result.complete, result.failure
         assert result["n"][-1] == 4, size
+
+
+LIMITS = {
+    "relation": "y = if x > most then most else x; der(x) = u",
+    "branch": "y = if u > most then most elseif u < -most then -most else u; der(x) = y",
+    "min_and_max": "y = max(-most, min(most, u)); der(x) = y",
+}
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("limit", LIMITS)
+def test_a_limit_that_is_switched_off_loosens_no_tolerance(tmp_path: Path, limit: str, solver: str) -> None:
+    text = f"""model Limited
+  parameter Real most = 1e60;
+  Real x(start=0, fixed=true), y, u = cos(time);
+equation
+  {LIMITS[limit]};
+end Limited;
+"""
+    result = runtime.simulate(compiled(tmp_path, text), solver=solver, rtol=1e-6, stop=5.0, interval=0.1)
+    assert result.complete, result.failure
+    assert np.abs(result["x"] - np.sin(result.time)).max() < 1e-6 * result.counters["steps"]
+
+
+CLUTCH = """model Clutch "Two shafts that turn alike: their slip is rounding, while another guard is passed"
+  Real w1(start=0, fixed=true), w2(start=0, fixed=true), slip(nominal=1);
+  Integer passed(start=0, fixed=true), turned(start=0, fixed=true);
+equation
+  der(w1) = cos(time);
+  der(w2) = cos(time);
+  slip = w1 - w2 + 1e-14*sin(97*time);
+  when w1 > 0.5 then
+    passed = pre(passed) + 1;
+  end when;
+  when {slip > 0, slip < 0} then
+    turned = pre(turned) + 1;
+  end when;
+end Clutch;
+"""
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_guard_of_rounding_does_not_switch_beside_another(tmp_path: Path, solver: str) -> None:
+    result = runtime.simulate(compiled(tmp_path, CLUTCH), solver=solver, rtol=1e-6, stop=50.0, interval=0)
+    assert result.complete, result.failure
+    assert result["passed"][-1] == 8
+    assert result["turned"][-1] == 0

@@ -10,6 +10,7 @@ from scipy.io import loadmat
 
 from lacuna import runtime
 from lacuna.codegen.compile import compile_model
+from tests.results import read_result
 
 MODEL = """model Box "Two names for one current"
   parameter Real R(unit="Ohm") = 2 "Widerstand, Ω";
@@ -68,7 +69,7 @@ def test_parquet_has_columns_and_units(result: runtime.Result, tmp_path: Path) -
 
 def test_a_number_in_csv_is_short_and_exact(result: runtime.Result, tmp_path: Path) -> None:
     path = runtime.write_csv(result, tmp_path / "Box.csv", ["i", "j", "high"])
-    columns, meta = runtime.read_csv(path)
+    columns, meta = read_result(path)
     np.testing.assert_array_equal(columns["i"], result["i"])
     np.testing.assert_array_equal(columns["j"], -result["i"])
     assert path.read_text(encoding="utf-8").splitlines()[1] == "0,1,-1,1"

@@ -2,59 +2,60 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 import csv
 from html import escape
 import io
 import math
+from pathlib import Path
 
 from markupsafe import Markup
 import pyarrow as pa
 
-from lacuna.analysis.prognosis.pages.telling import use
+from lacuna.analysis.prognosis.forecast import Limits
+from lacuna.analysis.prognosis.pages.telling import Advice, removals, use, whom
 from lacuna.analysis.report.page import figure, page
 
 SHOWN = 60  # actuators at greatest risk
+MARGIN = 30  # at the right, for half of the last number
 WIDTH, ROW, FONT = 720, 20, 13  # of the drawing: its text can be read where it is as narrow as figures get
 
 _COUNTS = Markup("""<p class="counts"><span><b>{total}</b> actuators</span> <span><b>{now}</b> remove now</span>
 <span><b>{forecast}</b> with a forecast</span> <span><b>{early}</b> too early to say</span>
-<span><b>{steady}</b> steady</span></p>
-<p>{shown} at greatest risk: use that remains to {limit} (median, 80 % and 95 % intervals), and the last advised test
-(red).</p>""")
+<span><b>{steady}</b> steady</span></p>""")
+_ABOVE = Markup(
+    "<p>{shown} at greatest risk, with their severity: use that remains to {limit} (median, 80 % and 95 % intervals), "
+    "and the last advised test (red).</p>"
+)
 
 
-def overview(table: pa.Table, limit: str, title: str = "Fleet") -> str:
-    """The page, of a table as `run_fleet` gives it."""
+def overview(table: pa.Table, limits: Mapping[str, Limits], title: str = "Fleet", inputs: Sequence[Path] = ()) -> str:
+    """The page, of a table as `run_fleet` gives it; `limits` by fault, `inputs` the files that were read."""
     rows = table.slice(0, SHOWN).to_pylist()
     first = [r for r in rows if r["verdict"] == "forecast"]
     verdicts = table["verdict"].to_pylist()
-    now = sum(v == "forecast" and a is not None and a <= at for v, a, at in zip(
-        verdicts, table["advised_last_test"].to_pylist(), table["at"].to_pylist(), strict=True))  # fmt: skip
+    names = ("actuator", "fault", "advised_last_test", "at", "unit", "verdict")
+    columns = zip(*(table[name].to_pylist() for name in names), strict=True)
+    advised = [Advice(whom(a, fault), last, at, unit) for a, fault, last, at, unit, v in columns if v == "forecast"]
+    verdict, action = removals(advised, len(table))
     counts = _COUNTS.format(
-        total=len(table), now=now, limit=limit, shown=len(first), forecast=verdicts.count("forecast"),
+        total=len(table), now=verdict.split(" ", 1)[0], forecast=verdicts.count("forecast"),
         early=verdicts.count("too_early"), steady=verdicts.count("steady"),
     )  # fmt: skip
-    drawn = _drawing(first)
-    picture = figure(drawn, "Use that remains, by actuator", data=("fleet.csv", _data(first))) if drawn else Markup("")
-    verdict = f"{now} of {len(table)} actuators are to be removed now."
-    return page(title, counts + picture, verdict=verdict, notes=["The whole table is in fleet.parquet."])
+    parts = [counts]
+    if first:
+        parts += [
+            _ABOVE.format(shown=len(first), limit=next(iter(limits.values())).names[-1]),
+            figure(_drawing(first, limits), "Use that remains, by actuator", data=("fleet.csv", _data(first))),
+        ]
+    notes = ["The whole table is in fleet.parquet."]
+    return page(title, Markup("").join(parts), verdict=verdict, action=action, notes=notes, inputs=inputs)
 
 
 def _data(rows: list[dict]) -> str:
     """What the drawing shows, as CSV."""
-    names = (
-        "actuator",
-        "fault",
-        "severity",
-        "median",
-        "low80",
-        "high80",
-        "low95",
-        "high95",
-        "at",
-        "advised_last_test",
-        "unit",
-    )
+    names = ["actuator", "fault", "severity", "median", "low80", "high80", "low95", "high95"]
+    names += ["at", "advised_last_test", "unit"]
     text = io.StringIO()
     lines = csv.writer(text, lineterminator="\n")
     lines.writerows([names, *([row[name] for name in names] for row in rows)])
@@ -67,29 +68,26 @@ def _round(value: float) -> float:
     return max(m * power for m in (1, 2, 5) if m * power <= value)
 
 
-def _drawing(rows: list[dict]) -> str:
+def _drawing(rows: list[dict], limits: Mapping[str, Limits]) -> str:
     """A bar for each actuator, by remaining use; what is beyond the axis runs out of it."""
-    if not rows:
-        return ""
     ends = sorted(r["high80"] if r["high80"] is not None else r["median"] or 0 for r in rows)
     top = max(ends[int(0.9 * (len(ends) - 1))], 1e-12) * 1.1
     left, height = 190, ROW * (len(rows) + 2)
     step = _round(top / 4)
 
     def at(left_over: float | None) -> float:
-        return left + (WIDTH - left) * min(1.0, (top if left_over is None else left_over) / top)
+        return left + (WIDTH - MARGIN - left) * min(1.0, (top if left_over is None else left_over) / top)
 
     parts = [f'<svg viewBox="0 0 {WIDTH} {height}" font-size="{FONT}" font-family="system-ui,sans-serif">']
     for k in range(int(top / step) + 1):
         x = at(k * step)
-        parts.append(f'<path d="M{x:.1f} 0V{height - ROW}" stroke="#ddd"/><text x="{x:.1f}" y="{height - 4}">'
+        parts.append(f'<path d="M{x:.1f} 0V{height - ROW}" stroke="#ddd"/><text x="{x:.1f}" y="{height - 4}"'
+                     f'{" text-anchor=" + chr(34) + "middle" + chr(34) if k else ""}>'
                      f'{use(k * step)}{" " + escape(rows[0]["unit"]) if not k else ""}</text>')  # fmt: skip
     for k, r in enumerate(rows):
         y = ROW * (k + 0.5) + 4
-        name = escape(r["actuator"] + (f" {r['fault']}" if r["fault"] else ""))
-        parts.append(
-            f'<text x="{left - 8}" y="{y + 4:.1f}" text-anchor="end">{name}, {100 * r["severity"]:.0f} %</text>'
-        )
+        name = escape(f"{whom(r['actuator'], r['fault'])}, {limits[r['fault']].text(r['severity'])}")
+        parts.append(f'<text x="{left - 8}" y="{y + 4:.1f}" text-anchor="end">{name}</text>')
         for low, high, colour in (("low95", "high95", "#c9d8e8"), ("low80", "high80", "#6f9cc6")):
             x, end = at(r[low]), at(r[high])
             parts.append(

@@ -19,7 +19,16 @@ from lacuna.analysis.prognosis.filter.smoother import tracked
 from lacuna.analysis.prognosis.forecast import LEVELS as PROBABILITIES
 from lacuna.analysis.prognosis.forecast import Forecast
 from lacuna.analysis.prognosis.pages.figure import LEVELS, draw
-from lacuna.analysis.prognosis.pages.telling import counted_verdicts, forecast_json, sentence, urgency, use
+from lacuna.analysis.prognosis.pages.telling import (
+    Advice,
+    counted_verdicts,
+    forecast_json,
+    removals,
+    sentence,
+    urgency,
+    use,
+    whom,
+)
 from lacuna.analysis.prognosis.series import last_error, series_of
 from lacuna.analysis.prognosis.verdict import FORECAST
 from lacuna.analysis.report.page import figure, heading, page, table
@@ -28,8 +37,11 @@ from lacuna.drawn import save
 DRAWN = 40  # actuators that get a figure; of more, those at greatest risk
 
 
-def publish(said: Sequence[Forecast], bank: Bank, out: Path, risk: float, version: str) -> None:
-    """Write forecast.json, report.html and figures into `out`, together or not at all."""
+def publish(
+    said: Sequence[Forecast], bank: Bank, out: Path, risk: float, version: str, inputs: Sequence[Path] = ()
+) -> None:
+    """Write forecast.json, report.html and figures into `out`, together or not at all; `inputs` are files that were
+    read."""
     from lacuna.analysis.report.figures.data import drawn_data
     from lacuna.analysis.report.figures.style import in_style, new_figure
 
@@ -49,13 +61,23 @@ def publish(said: Sequence[Forecast], bank: Bank, out: Path, risk: float, versio
             save(drawn, picture, "svg")
             parts.append(_part(f, picture.getvalue(), (f"{name}.csv", drawn_data(drawn)), risk))
         shown = f"{len(first)} of {len(said)} shown, those at greatest risk first." if len(said) > DRAWN else ""
-        limits = ", ".join(f"{n} from {v:g}" for n, v in zip(said[0].limits.names, said[0].limits.values, strict=True))
-        notes = ["Intervals are of remaining use; the fan shows when each severity is reached.", f"Limits: {limits}."]
+        limits = dict.fromkeys(f"Limits{f' of {f.history.fault}' * bool(f.history.fault)}: {_begins(f)}." for f in said)
+        notes = ["Intervals are of remaining use; the fan shows when each severity is reached.", *limits]
+        advised = [
+            Advice(whom(f.history.actuator, f.history.fault), f.advised, f.at, f.history.unit)
+            for f in first if f.verdict == FORECAST
+        ]  # fmt: skip
+        verdict, action = removals(advised, len(said))
+        counted = f"{counted_verdicts(said)} {shown}".strip()
         whole = page(
-            "Flights that remain", Markup("").join(parts), verdict=f"{counted_verdicts(said)} {shown}".strip(),
-            notes=notes, inputs=[scratch / "forecast.json"],
+            "Flights that remain", Markup("").join(parts), verdict=f"{verdict} {counted}", action=action,
+            notes=notes, inputs=inputs,
         )  # fmt: skip
         (scratch / "report.html").write_text(whole, encoding="utf-8")
+
+
+def _begins(f: Forecast) -> str:
+    return ", ".join(f"{n} from {f.limits.text(v)}" for n, v in zip(f.limits.names, f.limits.values, strict=True))
 
 
 def _part(f: Forecast, svg: str, data: tuple[str, str], risk: float) -> Markup:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 import math
 
 import numpy as np
@@ -11,11 +12,12 @@ from lacuna.analysis.prognosis.forecast import Forecast
 from lacuna.analysis.prognosis.verdict import FORECAST, STEADY
 
 FORMAT = 1  # of forecast.json
+NAMED = 8  # parts that an action names
 
 
 def sentence(f: Forecast, risk: float) -> str:
     """For the technician: what remains, how sure, and until when."""
-    who = f"Actuator {f.history.actuator}" + (f" ({f.history.fault})" if f.history.fault else "")
+    who = f"Actuator {whom(f.history.actuator, f.history.fault)}"
     unit, limit = f.history.unit, f.limits.names[-1]
     if f.verdict == STEADY:
         return f"{who} is steady: {f.reason}."
@@ -31,6 +33,39 @@ def sentence(f: Forecast, risk: float) -> str:
     if f.advised <= f.at:
         return f"{text} Remove it now: at the next test the risk of {limit} is above {100 * risk:g} %."
     return f"{text} Until the test at {_grouped(f.advised, 6)} {unit} the risk of {limit} stays below {100 * risk:g} %."
+
+
+@dataclass(frozen=True)
+class Advice:
+    """Of one actuator (and fault): its last advised test, None where there is none as far as is listed; `at` is the
+    use at its last test."""
+
+    who: str
+    advised: float | None
+    at: float
+    unit: str
+
+
+def whom(actuator: str, fault: str) -> str:
+    return f"{actuator} ({fault})" if fault else actuator
+
+
+def removals(advised: Sequence[Advice], count: int) -> tuple[str, str]:
+    """(verdict, next action) over `count` parts, of those with a forecast."""
+    now = [a.who for a in advised if a.advised is not None and a.advised <= a.at]
+    verdict = f"{len(now)} of {count} {'actuator is' if count == 1 else 'actuators are'} to be removed now."
+    if now:
+        more = f" and {len(now) - NAMED} more" if len(now) > NAMED else ""
+        return verdict, f"remove {', '.join(now[:NAMED])}{more}"
+    left = [(a.advised - a.at, a) for a in advised if a.advised is not None]
+    if not left:
+        return verdict, "go on testing: no removal is due as far as tests are listed"
+    soonest, part = min(left, key=lambda pair: pair[0])
+    last = f"{_grouped(part.advised or 0, 6)} {part.unit}"
+    return (
+        verdict,
+        f"go on testing; {part.who} is the first to be removed, after its test at {last} (in {use(soonest)})",
+    )
 
 
 def use(value: float) -> str:

@@ -6,8 +6,8 @@ from pathlib import Path
 from string import ascii_lowercase
 
 from matplotlib.figure import Figure
-import numpy as np
 
+from lacuna.analysis.recording.text import read_text
 from lacuna.analysis.report.figures.style import (
     INK,
     MUTED,
@@ -28,7 +28,8 @@ from lacuna.analysis.spectra.chain import Features
 def draw(settings: Settings, map_csv: Path, features: Features, estimate: Estimate) -> Figure:
     figure = new_figure()
     axes = figure.subplots()
-    rows = np.genfromtxt(map_csv, delimiter=",", names=True)
+    table = read_text(map_csv)
+    rows = dict(zip(table.header, table.values, strict=True))
     severity = settings.fault.shown(rows[settings.fault.symbol])
     found = settings.fault.shown(estimate.severity)
     low, high = settings.fault.shown(estimate.low), settings.fault.shown(estimate.high)

@@ -16,7 +16,8 @@ from lacuna.codegen.emit.text.rolled import Rolled, assignment, in_parts
 from lacuna.codegen.emit.text.steps import comment
 from lacuna.codegen.structure.causal import Assignment, Division, Step
 from lacuna.codegen.structure.constants import dependency_order
-from lacuna.codegen.structure.nominal import difference, told
+from lacuna.codegen.structure.nominal import difference
+from lacuna.codegen.structure.sizes import told
 from lacuna.codegen.symbolic.expr import ZERO, Expr, var
 from lacuna.codegen.symbolic.leaves import leaves
 

@@ -12,8 +12,8 @@ from lacuna.codegen.emit.text.body import Body
 from lacuna.codegen.emit.text.names import Names
 from lacuna.codegen.emit.text.steps import StepWriter, comment, place
 from lacuna.codegen.structure.causal import Step, unknowns_of
-from lacuna.codegen.structure.nominal import told
 from lacuna.codegen.structure.residual_form import CJ, needed
+from lacuna.codegen.structure.sizes import told
 from lacuna.codegen.structure.sorting.tearing import Assignment
 from lacuna.codegen.symbolic.expr import ONE, Expr, sub, var
 from lacuna.codegen.symbolic.leaves import leaves

@@ -18,7 +18,8 @@ from lacuna.codegen.structure.aliases import STATE_SELECT
 from lacuna.codegen.structure.constants import is_parametric
 from lacuna.codegen.structure.index.dynamic_states import Group, Selection
 from lacuna.codegen.structure.index.pivots import Elimination, Pivot, base_of, text_of
-from lacuna.codegen.structure.nominal import infer, told
+from lacuna.codegen.structure.nominal import infer
+from lacuna.codegen.structure.sizes import told
 from lacuna.codegen.structure.system import DeclaredValues, DefinedValues, GenericValues, Row, System
 from lacuna.codegen.symbolic.differentiate import partial
 from lacuna.codegen.symbolic.expr import ONE, Expr, add, const, der, maximum, mul, relation, var

@@ -83,7 +83,7 @@ def test_killed_and_resumed_gives_equal_bytes(tmp_path, monkeypatch):
 def test_the_page_stands_alone_and_escapes_names(tmp_path, monkeypatch):
     monkeypatch.setattr(module, "_results", here)
     found = run_fleet(histories_of(table(), "table"), work(), tmp_path)
-    page = overview(found, "violet")
+    page = overview(found, {"": LIMITS})
     assert "<A0>" not in page and "&lt;A" in page
     assert not re.search(r"""src=|href="(?!data:text/csv)|<script(?!>// Figures)|url\(|@import""", page)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from functools import lru_cache
 from pathlib import Path
 
@@ -10,6 +9,7 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.values import Array, Value
 from lacuna.codegen.symbolic import expr as ex
+from lacuna.rows import rows_of
 from lacuna.suggest import did_you_mean
 from lacuna.texts import decimal
 
@@ -78,15 +78,18 @@ def text_of(path: Path, context: Context, span: Span) -> str:
 @lru_cache(maxsize=64)
 def _rows(text: str) -> list[list[str]]:
     lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
-    return list(csv.reader(lines))
+    return [row for _, row in rows_of("\n".join(lines))]
 
 
 def csv_column(text: str, path: Path, column: str, span: Span) -> Array:
     """The numbers under the heading `column`; lines starting with # are comments. Those under `time` increase."""
-    rows = _rows(text)
+    try:
+        rows = _rows(text)
+    except ValueError as error:
+        raise Diagnostic("F041", f"{path.name} is no table: {error}", span, "end the quotation") from None
     if not rows:
         raise Diagnostic("F041", f"{path.name} is empty", span, "the first line names the columns")
-    heading = [h.strip() for h in rows[0]]
+    heading = rows[0]
     if column not in heading:
         hint = did_you_mean(column, heading, f"it has {', '.join(heading)}")
         raise Diagnostic("F041", f"{path.name} has no column {column}", span, hint)
@@ -95,7 +98,7 @@ def csv_column(text: str, path: Path, column: str, span: Span) -> Array:
     at = heading.index(column)
     numbers: list[float] = []
     for number, row in enumerate(rows[1:], 2):
-        found = row[at].strip() if at < len(row) else "nothing"
+        found = row[at] if at < len(row) else "nothing"
         wrong = _objection(found, numbers[-1:] if column == "time" else [])
         if wrong:
             message = f"{path.name}, data line {number}, column {column}: {found!r} {wrong}"

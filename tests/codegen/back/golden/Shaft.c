@@ -177,8 +177,8 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
   if (der_w1_divisor != 0.0) der_w1 /= der_w1_divisor;
   else if (der_w1 != 0.0) return mdl_fail(m, MDL_FAILURE_SINGULAR, 2, 0.0);
   else {
-    const double tmp1 = fabs(tau_max) / fabs(J1);
-    der_w1 = m->shift * (tmp1 > 0.0 ? tmp1 : 5.0);
+    const double tmp1 = fabs(k) * fabs(w_ref) / fabs(J1);
+    der_w1 = m->shift * (tmp1 > 0.0 ? tmp1 : 2.5);
     m->undetermined = 3;
   }
   /* Shaft.mo:19  J1*der(w1) = drive - tau */

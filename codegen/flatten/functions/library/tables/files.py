@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import csv
 import math
 from pathlib import Path
 import re
 
+from lacuna.rows import rows_of
 from lacuna.texts import decimal
 
 _HEAD = re.compile(r"\s*(?:double|float)\s+(\S+?)\s*\(\s*(\d+)\s*,\s*(\d+)\s*\)\s*(?:#.*)?$")
@@ -74,7 +74,12 @@ def _number(word: str, name: str) -> float:
 
 def _csv(text: str, delimiter: str, header_lines: int) -> list[list[float]]:
     lines = text.splitlines()[header_lines:]
-    rows = [[_number(w.strip(), "of the file") for w in row] for row in csv.reader(lines, delimiter=delimiter) if row]
+    try:
+        rows = [[_number(w, "of the file") for w in row] for _, row in rows_of("\n".join(lines), delimiter)]
+    except FileError:
+        raise
+    except ValueError as error:
+        raise FileError(f"it is no table: {error}") from None
     if not rows or len({len(r) for r in rows}) > 1:
         raise FileError("its rows differ in length" if rows else "it holds no data")
     return rows

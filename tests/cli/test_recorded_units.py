@@ -1,0 +1,60 @@
+"""Recordings in units of their own beside models in theirs: inputs are driven, signals compared, in the model's."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import lacuna
+
+MODEL = """model Turn
+  input Real u(unit="{unit}");
+  Real y(unit="{unit}");
+equation
+  y = 2*u;
+  annotation(experiment(StopTime=1, Interval=0.1));
+end Turn;
+"""
+
+
+def turn(folder: Path, unit: str) -> Path:
+    path = folder / "Turn.mo"
+    path.write_text(MODEL.format(unit=unit), encoding="utf-8")
+    return path
+
+
+def recording(folder: Path, head: str, factor: float = 1.0) -> Path:
+    path = folder / "r.csv"
+    path.write_text(f"time [s];{head}\n0;0\n1;{60 * factor:g}\n".replace(".", ","), encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize(("unit", "last"), [("rad/s", 4 * np.pi), ("rpm", 120.0)])
+def test_an_input_is_driven_in_the_unit_that_it_declares(tmp_path: Path, unit: str, last: float) -> None:
+    given = lacuna.recorded(recording(tmp_path, "n (rpm)"), "n")
+    result = lacuna.load(turn(tmp_path, unit)).simulate(inputs={"u": given})
+    assert result["y"][-1] == pytest.approx(last, rel=1e-12)
+
+
+def test_an_input_is_not_driven_by_another_quantity(tmp_path: Path) -> None:
+    given = lacuna.recorded(recording(tmp_path, "i [mA]"), "i")
+    with pytest.raises(lacuna.UserError, match=r"r\.csv: i cannot drive u: A is no rad/s"):
+        lacuna.load(turn(tmp_path, "rad/s")).simulate(inputs={"u": given})
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".mat", ".parquet", ".xlsx"])
+def test_a_file_is_compared_in_the_units_of_the_model(tmp_path: Path, suffix: str) -> None:
+    model, file = turn(tmp_path, "rad/s"), recording(tmp_path, "y (rpm)", factor=2)
+    if suffix != ".csv":
+        pytest.importorskip({".xlsx": "openpyxl", ".parquet": "pyarrow"}.get(suffix, "scipy"))
+        lacuna.convert(file, file := file.with_suffix(suffix))
+    drive = {"u": (np.array([0, 1.0]), np.array([0, 2 * np.pi]))}
+    assert lacuna.compare_with_file(model, file, inputs=drive, tolerance=1e-12).beyond == []
+
+
+def test_a_file_is_not_compared_in_another_quantity(tmp_path: Path) -> None:
+    with pytest.raises(Exception, match=r"y \[V\]: V is no rad/s, which y is in") as refused:
+        lacuna.compare_with_file(turn(tmp_path, "rad/s"), recording(tmp_path, "y [V]"))
+    assert lacuna.is_user_error(refused.value)
