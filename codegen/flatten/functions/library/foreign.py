@@ -31,7 +31,7 @@ def check_foreign(signature: Signature, scope: Scope, span: Span) -> None:
     """Refuses what the interface to C does not carry here: R094."""
     external = signature.external.external
     if not scope.context.library.access.external:
-        hint = "--allow-external compiles the C that the model names; or write it as a function of the language"
+        hint = "--allow-external compiles the C that it names; data comes in by csvColumn(fileName, column)"
         raise Diagnostic("R094", f"the external function {signature.cls.name} is outside the subset", span, hint)
     if external.language != "C":
         hint = "give it an interface in C"
