@@ -6,7 +6,7 @@ from collections.abc import Callable
 import math
 
 from lacuna.codegen import flat
-from lacuna.codegen.emit.text.c_text import c_string
+from lacuna.codegen.emit.text.c_text import LONGEST, c_string
 from lacuna.codegen.flat.foreign import Foreign, ForeignCode
 from lacuna.codegen.symbolic.expr import REAL
 
@@ -79,7 +79,7 @@ def foreign_lines(s: Foreign, f: flat.Function, c_name: Callable[[str], str], fa
     arguments, types = [], []
     for number, (kind, what) in enumerate(s.arguments):
         if kind != "variable":
-            arguments.append(c_string(str(what)) if kind == "text" else str(what))
+            arguments.append(_c_text(str(what)) if kind == "text" else str(what))
             types.append("const char *" if kind == "text" else "int")
             continue
         name, base = str(what), _c_type(f, str(what))
@@ -108,6 +108,12 @@ def foreign_lines(s: Foreign, f: flat.Function, c_name: Callable[[str], str], fa
         stored = f"{c_name(s.result)} = {call} != 0"
     inner = [*declaration, *before, f"if (setjmp(mdl_escape)) {{ {failed} }}", f"{stored};", *after]
     return ["{", *(f"  {line}" for line in inner), "}"]
+
+
+def _c_text(text: str) -> str:
+    """A literal of any length, in pieces that are not cut."""
+    pieces = [text[k : k + LONGEST] for k in range(0, len(text), LONGEST)] or [""]
+    return " ".join(map(c_string, pieces))
 
 
 def _c_type(f: flat.Function, name: str) -> str:
