@@ -1,12 +1,9 @@
-"""Files that are complete or not there at all."""
+"""Files that come in: of a size that can be read, and whole."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
-import shutil
-import tempfile
 import zipfile
 
 import numpy as np
@@ -22,20 +19,6 @@ def check_file(path: Path, error: type[Exception] = AnalysisError) -> None:
         raise error(f"{path}: {'is not a file' if path.exists() else 'there is no such file'}")
     if path.stat().st_size > LARGEST:
         raise error(f"{path}: larger than {LARGEST >> 20} MB")
-
-
-@contextmanager
-def published_together(folder: Path) -> Iterator[Path]:
-    """A scratch folder whose files replace those of the same name in `folder` when the block ends without an
-    exception; otherwise `folder` keeps what it had."""
-    folder.mkdir(parents=True, exist_ok=True)
-    scratch = Path(tempfile.mkdtemp(prefix=".partial-", dir=folder))
-    try:
-        yield scratch
-        for path in sorted(scratch.iterdir()):
-            path.replace(folder / path.name)
-    finally:
-        shutil.rmtree(scratch, ignore_errors=True)
 
 
 def load_arrays(path: Path, names: Sequence[str]) -> dict[str, np.ndarray]:

@@ -94,13 +94,17 @@ def _words(context: typer.Context) -> list[str]:
 
 def _unexpected(error: Exception) -> NoReturn:
     """A fault of ours, said in two lines, with its traceback in a file; 70 is the status for such (sysexits.h)."""
-    with tempfile.NamedTemporaryFile(
-        "w", prefix="lacuna-fault-", suffix=".txt", delete=False, encoding="utf-8"
-    ) as file:
-        file.write(f"lacuna {lacuna.__version__}\n{' '.join(sys.argv)}\n\n")
-        traceback.print_exception(error, file=file)
+    details = f"lacuna {lacuna.__version__}\n{' '.join(sys.argv)}\n\n{''.join(traceback.format_exception(error))}"
+    try:
+        with tempfile.NamedTemporaryFile(
+            "w", prefix="lacuna-fault-", suffix=".txt", delete=False, encoding="utf-8", errors="backslashreplace"
+        ) as file:
+            file.write(details)
+        where = file.name
+    except OSError as refused:
+        where = f"cannot be written ({refused.strerror}):\n{details}"
     typer.echo(f"error: this is a fault of Lacuna ({type(error).__name__}), not yours: please report it", err=True)
-    typer.echo(f"details: {file.name}", err=True)
+    typer.echo(f"details: {where}", err=True)
     raise typer.Exit(70) from None
 
 
@@ -130,6 +134,7 @@ def _show(answer: Answer, silent: bool) -> None:
 
 
 def _fail(message: str, data: dict[str, Any], json: bool) -> None:
+    sys.unraisablehook = lambda _: None  # of half-written files that writers try to close while they are taken away
     typer.echo(message, err=True)
     if json:
         _echo(data | {"error": message.removeprefix("error: ")})

@@ -29,13 +29,7 @@ def format(
     check: Annotated[bool, typer.Option("--check", help="Write nothing; status 1 where a file would change")] = False,
 ) -> Answer:
     """Format Modelica files in place: indentation by nesting and empty lines, nothing that has a meaning."""
-    changed = []
-    for path in (p for f in files for p in (sorted(f.rglob("*.mo")) if f.is_dir() else [f])):
-        text = path.read_text(encoding="utf-8")
-        formatted = lacuna.format_model(text, str(path))
-        if formatted != text:
-            changed.append(path)
-            if not check:
-                path.write_text(formatted, encoding="utf-8")
+    found = [p for f in files for p in (sorted(f.rglob("*.mo")) if f.is_dir() else [f])]
+    changed = [path for path in found if lacuna.format_file(path, check=check)]
     failure = f"not formatted: {', '.join(map(str, changed))}" if check and changed else ""
     return Answer({"changed": [str(path) for path in changed]}, [], [] if check else changed, failure=failure)

@@ -8,15 +8,19 @@ written beside its place and renamed, so that processes may share the cache.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+import contextlib
 from dataclasses import dataclass
 from functools import lru_cache
 import hashlib
+import itertools
 import json
 import os
 from pathlib import Path
+import platform
 import shutil
 import stat
-import tempfile
+import time
+from typing import Any
 
 from lacuna.children import run
 from lacuna.codegen import flat
@@ -28,11 +32,16 @@ from lacuna.codegen.library.search_path import names_in, split_name
 from lacuna.codegen.library.search_path import search_path as default_path
 import lacuna.texts
 import lacuna.units
+from lacuna.written import whole_files, write_whole
 
 COMPILER = (
     "cc", "-std=c11", "-O2", "-fPIC", "-shared", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic", "-Werror",
 )  # fmt: skip
 STRICT = ("-Werror=implicit-function-declaration", "-Werror=int-conversion", "-Wl,-z,defs")  # C of others
+LARGEST = 2 << 30  # bytes that are kept: some 10 000 models of the size of an actuator
+RECENT = 3600  # s
+TRIM_EVERY = 64  # libraries that are built between two looks at the size of the folder
+_builds = itertools.count()
 _HERE = Path(__file__).resolve().parent
 INCLUDE = _HERE.parent / "runtime" / "include"
 
@@ -111,13 +120,14 @@ def content_hash(
 
 @lru_cache(maxsize=1)
 def compiler() -> str:
-    """Which program `cc` is: its path after links, its size and time. Another one makes all libraries new."""
+    """Which program `cc` is: its path after links, its size and time; and which machine this is. Another one makes all
+    libraries new."""
     found = shutil.which(COMPILER[0])
     if found is None:
         return ""
     path = Path(found).resolve()
     status = path.stat()
-    return f"{path} {status.st_size} {status.st_mtime_ns}"
+    return f"{path} {status.st_size} {status.st_mtime_ns} {platform.machine()}"
 
 
 def _folders(files: Iterable[str], search_path: Sequence[str] | None) -> dict[str, str]:
@@ -149,9 +159,22 @@ def _sum_of(library: Path) -> Path:
 def _is_whole(library: Path) -> bool:
     """Whether a library is there as it was compiled: neither cut nor exchanged, which loading it would not notice."""
     try:
-        return _sum_of(library).read_text(encoding="ascii") == _file_digest(str(library))
+        whole = _sum_of(library).read_text(encoding="ascii") == _file_digest(str(library))
     except (OSError, ValueError):
         return False
+    if whole:
+        with contextlib.suppress(OSError):  # a folder that is only read
+            os.utime(_sum_of(library))  # when it was last used: `trim`
+    return whole
+
+
+def _is_current(entry: Mapping[str, Any]) -> bool:
+    """Whether nothing has changed of what an entry of the index was made from."""
+    return (
+        entry["generator"] == [generator_version(), compiler()]
+        and all(_names(folder) == digest for folder, digest in entry["folders"].items())
+        and all(_file_digest(path) == digest for path, digest in entry["files"].items())
+    )
 
 
 def _refuse_shared(folder: Path) -> None:
@@ -162,13 +185,6 @@ def _refuse_shared(folder: Path) -> None:
             f"{folder}: others can write to this folder of compiled models, and code is loaded from it; "
             f"run `chmod go-w {folder}`, or set LACUNA_CACHE to a folder of your own"
         )
-
-
-def _write(path: Path, text: str) -> None:
-    """Write beside and rename."""
-    with tempfile.NamedTemporaryFile("w", dir=path.parent, prefix=path.name, suffix=".tmp", delete=False) as f:
-        f.write(text)
-    Path(f.name).replace(path)
 
 
 class Cache:
@@ -184,20 +200,16 @@ class Cache:
     def find(self, request: str) -> Found | None:
         """The compiled model of a request, if nothing that it was made from has changed."""
         try:
-            entry = json.loads(self._index(request).read_text())
-        except (OSError, ValueError):
-            return None
-        if entry["generator"] != [generator_version(), compiler()]:
-            return None
-        if not _is_whole(Path(entry["library"])):
-            return None
-        if any(_names(folder) != digest for folder, digest in entry["folders"].items()):
-            return None
-        if any(_file_digest(path) != digest for path, digest in entry["files"].items()):
-            return None
-        warnings = [Diagnostic(w[0], w[1], Span(*w[2]) if w[2] else None, w[3], severity="warning")
-                    for w in entry["warnings"]]  # fmt: skip
-        return Found(entry["name"], entry["library"], entry["hash"], warnings)
+            entry = json.loads(self._index(request).read_text(encoding="utf-8"))
+            library = self.private() / entry["library"]
+            if library.parent != self.directory or not _is_current(entry) or not _is_whole(library):
+                return None
+            os.utime(self._index(request))  # when it was last used: `trim`
+            warnings = [Diagnostic(w[0], w[1], Span(*w[2]) if w[2] else None, w[3], severity="warning")
+                        for w in entry["warnings"]]  # fmt: skip
+            return Found(entry["name"], str(library), entry["hash"], warnings)
+        except (OSError, ValueError, KeyError, TypeError, AttributeError, IndexError):
+            return None  # never made, or damaged
 
     def remember(
         self,
@@ -207,16 +219,14 @@ class Cache:
         warnings: Sequence[Diagnostic],
         search_path: Sequence[str] | None,
     ) -> None:
-        index = self._index(request)
-        index.parent.mkdir(parents=True, exist_ok=True)
         spans = [(w, [w.span.file, w.span.line, w.span.column, w.span.length] if w.span else None) for w in warnings]
         entry = {
-            "name": prepared.declared.name, "library": library, "hash": prepared.hash,
+            "name": prepared.declared.name, "library": Path(library).name, "hash": prepared.hash,
             "generator": [generator_version(), compiler()], "files": prepared.declared.files,
             "folders": _folders(prepared.declared.files, search_path),
             "warnings": [[w.code, w.message, span, w.hint] for w, span in spans],
         }  # fmt: skip
-        _write(index, json.dumps(entry))
+        write_whole(self._index(request), json.dumps(entry))
 
     def private(self) -> Path:
         """The directory, made where it is missing. Raises CompilerError where others can write to it."""
@@ -231,13 +241,31 @@ class Cache:
         library, c_file = self.directory / f"{digest[:32]}.so", self.directory / f"{digest[:32]}.c"
         if _is_whole(library):
             return str(library)
-        _write(c_file, source)
-        with tempfile.TemporaryDirectory(dir=self.directory) as scratch:
-            output = Path(scratch) / "model.so"
+        write_whole(c_file, source)
+        with whole_files(self.directory) as scratch:
+            output = scratch / library.name
             compile_c(c_file, output, foreign)
-            _write(_sum_of(library), str(_file_digest(str(output))))
-            output.replace(library)
+            _sum_of(output).write_text(str(_file_digest(str(output))), encoding="ascii")
+        if next(_builds) % TRIM_EVERY == 0:
+            trim(self.directory)
         return str(library)
+
+
+def trim(folder: Path, largest: int = LARGEST) -> None:
+    """Remove what was not used for longest until what is left takes no more than `largest` bytes. What was used within
+    the hour stays: another process may be about to load it."""
+    groups: dict[Path, list[os.stat_result]] = {}
+    for path in (p for p in folder.rglob("*") if p.is_file() and not p.relative_to(folder).parts[0].startswith(".")):
+        with contextlib.suppress(OSError):  # another process removed it
+            groups.setdefault(path.with_suffix(""), []).append(path.stat())
+    held = sum(status.st_size for group in groups.values() for status in group)
+    old = time.time() - RECENT
+    for last, stem in sorted((max(s.st_mtime for s in group), stem) for stem, group in groups.items()):
+        if held <= largest or last > old:
+            return
+        for path in sorted(stem.parent.glob(f"{stem.name}.*")):  # the sum before the library: never half a one
+            path.unlink(missing_ok=True)
+        held -= sum(status.st_size for status in groups[stem])
 
 
 def compile_c(c_file: Path, output: Path, foreign: flat.ForeignCode | None = None) -> None:

@@ -26,12 +26,14 @@ from lacuna.discovery.fit.evidence import (
     pays,
     settled,
     whiteness,
+    within_instruments,
 )
 from lacuna.discovery.fit.time_limit import within
 from lacuna.discovery.naming.comparison import Ranked
 from lacuna.discovery.naming.foretold import foretold
 from lacuna.discovery.naming.judge import judge_file
 from lacuna.discovery.steps import add_findings, add_fit, add_location, add_scatter, opened
+from lacuna.written import write_whole
 
 LEAST_TAKEN = 0.2  # of the NRMSE on unseen recordings, that findings which leave far more than noise must take away
 
@@ -191,7 +193,7 @@ def _quiet(result: Explanation) -> bool:
 
     Instruments drift and are off by parts of their noise: what is left of that size, and of no form, is theirs."""
     final = result.final
-    return nearly_noise(final) or like_noise(final) or settled(final, rough=not result.lead.direct)
+    return within_instruments(final) or like_noise(final) or settled(final, rough=not result.lead.direct)
 
 
 def experiment_for(best: Ranked, rivals: list[Ranked]) -> str:
@@ -218,10 +220,8 @@ def write_amended(result: Explanation, folder: Path) -> Path | None:
     effects = {k: v for k, v in point.items() if k not in believed_names}
     titles = ", ".join(f.ranked.attachment.effect.title.lower() for f in result.findings)
     path = folder / f"{name}.mo"
-    partial = path.with_suffix(".tmp")
     comment = f"{result.case.model} with {titles or 'fitted parameters'}"
-    partial.write_text(amendment.text(name, effects, comment), encoding="utf-8")
-    partial.replace(path)
+    write_whole(path, amendment.text(name, effects, comment))
     _beside(result.case, folder)
     return path
 
@@ -230,7 +230,7 @@ def _beside(case: Case, folder: Path) -> None:
     """The file that holds the believed model, put beside the amended one, so that both open together."""
     file = case.found.file if case.found else None
     if file is not None and file.parent != folder.resolve():
-        (folder / file.name).write_bytes(file.read_bytes())
+        write_whole(folder / file.name, file.read_bytes())
 
 
 def judge_written(result: Explanation, path: Path) -> None:

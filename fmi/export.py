@@ -21,6 +21,7 @@ from lacuna.fmi.errors import FmuError
 from lacuna.fmi.sources import OPTIONS, collect, compile_sources, configuration, identifier_of
 from lacuna.fmi.variables import FmiVariables
 import lacuna.runtime as runtime
+from lacuna.written import whole_file
 
 Version = Literal["3.0", "2.0"]
 Kind = Literal["me", "cs", "both"]
@@ -62,15 +63,18 @@ def export_fmu(request: FmuRequest, path: Path) -> Fmu:
     """Translate, describe, compile, pack. Raises FmuError for what FMI cannot carry, Diagnostic and CompilerError as
     any translation does."""
     _check(request, path)
-    compiled = compile_model(
-        request.name, search_path=list(request.search_path), modifications=dict(request.fixed), units=request.units,
-        sensitivities=True, access=request.access,
-    )  # fmt: skip
+    given = {
+        "search_path": list(request.search_path), "modifications": dict(request.fixed), "units": request.units,
+        "access": request.access,
+    }  # fmt: skip
     with own_table():
-        prepared, _ = translate(
-            request.name, search_path=list(request.search_path), modifications=dict(request.fixed), units=request.units,
-            access=request.access,
-        )  # fmt: skip
+        prepared, _ = translate(request.name, **given)
+        if prepared.delays:
+            raise FmuError(
+                f"{request.name}: delay() is not exported: an FMU would have to keep the past of a solver that is not "
+                "its own; put a first-order lag or a Pad\u00e9 approximation in its place"
+            )
+        compiled = compile_model(request.name, sensitivities=True, **given)
         return _pack(request, compiled, prepared, path)
 
 
@@ -139,12 +143,9 @@ def _platform(version: str) -> str:
 
 
 def _zip(root: Path, path: Path) -> None:
-    """Everything below `root`, in the order of names, beside and renamed."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_suffix(".fmu.part")
-    with zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED) as archive:
+    """Everything below `root`, in the order of names."""
+    with whole_file(path) as partial, zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED) as archive:
         for file in sorted(p for p in root.rglob("*") if p.is_file()):
             entry = zipfile.ZipInfo(file.relative_to(root).as_posix(), _MOMENT)
             entry.compress_type, entry.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
             archive.writestr(entry, file.read_bytes())
-    partial.replace(path)

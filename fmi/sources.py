@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import contextlib
 import hashlib
 from pathlib import Path
 import re
-import tempfile
 
 from lacuna.children import run
 from lacuna.codegen.cache import Cache, CompilerError, compiler
 from lacuna.fmi.errors import FmuError
+from lacuna.written import whole_files
 
 _HERE = Path(__file__).resolve().parent
 _RUNTIME = _HERE.parent / "runtime"
@@ -80,15 +79,12 @@ def _common(folder: Path, files: list[str]) -> list[Path]:
         if path.name not in OWN:
             digest.update(path.name.encode() + b"\0" + path.read_bytes())
     kept = Cache().private() / f"fmi-{digest.hexdigest()[:32]}"
-    if not kept.is_dir():
-        with tempfile.TemporaryDirectory(dir=kept.parent) as scratch:
-            objects = Path(scratch) / "objects"
-            objects.mkdir()
+    objects = [kept / f"{name}.o" for name in files]
+    if not all(path.exists() for path in objects):
+        with whole_files(kept) as scratch:
             for name in files:
-                _run("cc", *OPTIONS, *_WARNINGS, "-c", "-I.", "-o", objects / f"{name}.o", name, folder=folder)
-            with contextlib.suppress(OSError):  # another process was first
-                objects.rename(kept)
-    return [kept / f"{name}.o" for name in files]
+                _run("cc", *OPTIONS, *_WARNINGS, "-c", "-I.", "-o", scratch / f"{name}.o", name, folder=folder)
+    return objects
 
 
 def _run(*command: str | Path, folder: Path) -> None:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from lacuna.degradation import degradation_laws
     from lacuna.diagnoses import Case, Explanation, Verdict, explain, open_case
     from lacuna.drafts import Drafted, convert, new_case
-    from lacuna.editor import format_model, serve_editor
+    from lacuna.editor import format_file, format_model, serve_editor
     from lacuna.errors import UserError, is_user_error, message_of, nearest
     from lacuna.examples import copy_examples
     from lacuna.faults import (
@@ -49,7 +49,7 @@ _HOMES = {
     "comparisons": ("Agreement", "Comparison", "compare", "compare_with_file"),
     "diagnoses": ("Case", "Explanation", "Verdict", "explain", "open_case"),
     "drafts": ("Drafted", "convert", "new_case"),
-    "editor": ("format_model", "serve_editor"),
+    "editor": ("format_file", "format_model", "serve_editor"),
     "errors": ("UserError", "is_user_error", "message_of", "nearest"),
     "examples": ("copy_examples",),
     "faults": (
@@ -116,6 +116,7 @@ __all__ = [
     "export_history",
     "fleet",
     "forecast",
+    "format_file",
     "format_model",
     "growing_map",
     "is_user_error",

@@ -8,6 +8,7 @@ from pathlib import Path
 from lacuna.codegen.library.search_path import search_path
 from lacuna.extras import names_missing_packages
 from lacuna.lsp.format import format_text
+from lacuna.written import write_whole
 
 
 @names_missing_packages
@@ -22,3 +23,12 @@ def format_model(text: str, file: str = "") -> str:
     """The text of a .mo file, formatted: indentation and empty lines only, so that its meaning stays. Raises
     Diagnostic where it does not parse."""
     return format_text(text, file)
+
+
+def format_file(path: Path, *, check: bool = False) -> bool:
+    """Format a .mo file in place, or with `check` only say whether it would change; True where it does."""
+    text = path.read_text(encoding="utf-8")
+    formatted = format_model(text, str(path))
+    if formatted != text and not check:
+        write_whole(path, formatted)
+    return formatted != text

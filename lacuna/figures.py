@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 import numpy as np
 
 from lacuna.drawn import save
+from lacuna.written import whole_file
 
 MOST_SIGNALS = 8  # more lines than this in one panel tell a reader nothing
 MOST_PANELS = 6
@@ -72,7 +73,6 @@ def trajectories(time: np.ndarray, columns: Mapping[str, np.ndarray], units: Map
 
 def write(figure: Figure, path: Path) -> Path:
     """As SVG; complete or not there."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    partial = path.with_suffix(".part")
-    save(figure, partial, "svg")
-    return partial.replace(path)
+    with whole_file(path) as partial:
+        save(figure, partial, "svg")
+    return path

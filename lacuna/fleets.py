@@ -10,6 +10,7 @@ from lacuna.degradation import degradation_laws
 from lacuna.extras import names_missing_packages
 from lacuna.prognosis import OPTIONS, files_of, limits_of, map_settings
 from lacuna.progress import Progress, silent
+from lacuna.written import write_whole
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -50,10 +51,7 @@ def fleet(
     table = run_fleet(
         read, work, folder, scheduler=scheduler, progress=lambda done, count: tell("forecasts", done / count)
     )
-    page = overview(table, limits, f"Fleet: {Path(histories).name}", files_of(histories))
-    partial = folder / "fleet.html.partial"
-    partial.write_text(page, encoding="utf-8")
-    partial.replace(folder / "fleet.html")
+    write_whole(folder / "fleet.html", overview(table, limits, f"Fleet: {Path(histories).name}", files_of(histories)))
     return table
 
 

@@ -7,6 +7,8 @@ import math
 
 from lacuna.units import factors_of, format_unit, parse_unit
 
+ZERO_CELSIUS = 273.15  # K
+
 # Symbols whose SI unit keeps the radian or the degree Celsius, which exponents do not show.
 _ATOMS: dict[str, tuple[float, str]] = {
     "deg": (math.pi / 180, "rad"), "rev": (2 * math.pi, "rad"), "rpm": (math.pi / 30, "rad/s"),

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import hashlib
 from importlib.metadata import version
 import json
-import os
 from pathlib import Path
 import sys
 import tempfile
@@ -16,6 +15,7 @@ from typing import Any
 from lacuna.children import run
 from lacuna.errors import UserError
 from lacuna.progress import Progress, spoken
+from lacuna.written import write_whole
 
 MADE_BY = "made-by.json"
 FORMAT = "lacuna-made-by-1"
@@ -51,9 +51,7 @@ def record_making(command: Sequence[str], written: Sequence[Path]) -> None:
         "format": FORMAT, "version": version("lacuna"), "command": list(command), "inputs": inputs,
         "files": sorted(path.relative_to(folder).as_posix() for path in files),
     }  # fmt: skip
-    partial = folder / f".{MADE_BY}.{os.getpid()}"
-    partial.write_text(json.dumps(made, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    partial.replace(folder / MADE_BY)
+    write_whole(folder / MADE_BY, json.dumps(made, indent=1, ensure_ascii=False) + "\n")
 
 
 def _results_in(folder: Path) -> list[Path]:

@@ -2,35 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict
 import json
-import os
 from pathlib import Path
-import tempfile
 
 import numpy as np
 
 from lacuna.runtime.errors import SimulationError
 from lacuna.runtime.model import Variable
 from lacuna.runtime.result import Result
+from lacuna.written import whole_files
 
 FORMAT = "lacuna-result-1"
 _CHUNK = 4096  # rows that are turned into text at once
-
-
-def replace(path: Path, write: Callable[[Path], None]) -> None:
-    """Write to a temporary file in the same folder, then rename: nobody sees half a file."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    os.close(handle)
-    temporary = Path(name)
-    try:
-        write(temporary)
-        temporary.chmod(0o644)
-        temporary.replace(path)
-    finally:
-        temporary.unlink(missing_ok=True)
 
 
 def metadata(result: Result, names: Sequence[str] | None = None) -> dict:
@@ -64,10 +50,13 @@ def meta_path(path: Path) -> Path:
     return path.with_name(path.name.removesuffix(path.suffix) + ".meta.json")
 
 
-def write_metadata(result: Result, path: Path, names: Sequence[str]) -> None:
-    """The .meta.json beside `path`."""
-    text = json.dumps(_finite(metadata(result, names)), indent=1, ensure_ascii=False) + "\n"
-    replace(meta_path(path), lambda p: p.write_text(text, encoding="utf-8"))
+@contextmanager
+def with_metadata(result: Result, path: Path, names: Sequence[str]) -> Iterator[Path]:
+    """Where to write what then stands at `path`, together with its .meta.json."""
+    with whole_files(path.parent) as scratch:
+        yield scratch / path.name
+        text = json.dumps(_finite(metadata(result, names)), indent=1, ensure_ascii=False) + "\n"
+        meta_path(scratch / path.name).write_text(text, encoding="utf-8")
 
 
 def write_csv(result: Result, path: str | Path, names: Sequence[str] | None = None) -> Path:
@@ -78,16 +67,11 @@ def write_csv(result: Result, path: str | Path, names: Sequence[str] | None = No
     columns = [result.time, *(result[name] for name in names)]
     ending = [f",{flag:d}\n" for flag in result.event] if result.event.any() else ["\n"] * len(result)
     header = ["time", *map(_field, names), *(["event"] if result.event.any() else [])]
-
-    def write(place: Path) -> None:
-        with place.open("w", encoding="utf-8") as file:
-            file.write(",".join(header) + "\n")
-            for k in range(0, len(result), _CHUNK):
-                rows = zip(*(column[k : k + _CHUNK].tolist() for column in columns), strict=True)
-                file.writelines(",".join(map(_number, row)) + ending[k + i] for i, row in enumerate(rows))
-
-    replace(path, write)
-    write_metadata(result, path, names)
+    with with_metadata(result, path, names) as place, place.open("w", encoding="utf-8") as file:
+        file.write(",".join(header) + "\n")
+        for k in range(0, len(result), _CHUNK):
+            rows = zip(*(column[k : k + _CHUNK].tolist() for column in columns), strict=True)
+            file.writelines(",".join(map(_number, row)) + ending[k + i] for i, row in enumerate(rows))
     return path
 
 
@@ -107,8 +91,8 @@ def write_parquet(result: Result, path: str | Path, names: Sequence[str] | None 
         fields.append(pa.field("event", pa.bool_()))
         arrays.append(pa.array(result.event))
     table = pa.Table.from_arrays(arrays, schema=pa.schema(fields))
-    replace(path, lambda p: pq.write_table(table, p, compression="zstd"))
-    write_metadata(result, path, names)
+    with with_metadata(result, path, names) as place:
+        pq.write_table(table, place, compression="zstd")
     return path
 
 

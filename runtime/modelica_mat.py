@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lacuna.runtime.files import replace, write_metadata
+from lacuna.runtime.files import with_metadata
 from lacuna.runtime.result import Result
 
 _HEADER = ("Atrajectory", "1.1", "", "binTrans")
@@ -38,8 +38,8 @@ def write_mat(result: Result, path: str | Path, names: Sequence[str] | None = No
         "data_1": np.array(table.constant, dtype=float),
         "data_2": np.array(table.varying, dtype=float),
     }
-    replace(path, lambda p: savemat(p, content, appendmat=False, format="4"))
-    write_metadata(result, path, names)
+    with with_metadata(result, path, names) as place:
+        savemat(place, content, appendmat=False, format="4")
     return path
 
 

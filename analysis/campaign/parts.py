@@ -10,6 +10,7 @@ import pyarrow.parquet as pq
 
 from lacuna.analysis.campaign.points import Points
 from lacuna.analysis.campaign.work import Work
+from lacuna.written import whole_file
 
 
 class Parts:
@@ -25,17 +26,14 @@ class Parts:
         return [k for k, path in enumerate(self.paths) if not path.exists()]
 
     def write(self, k: int, table: pa.Table) -> None:
-        partial = self.paths[k].with_suffix(".partial")
-        pq.write_table(table, partial)
-        partial.replace(self.paths[k])
+        with whole_file(self.paths[k]) as partial:
+            pq.write_table(table, partial)
 
     def combine(self, path: Path) -> None:
         """All parts in order as one file, one row group a part: memory holds one part at a time."""
-        partial = path.with_suffix(".partial")
-        with pq.ParquetWriter(partial, pq.read_schema(self.paths[0])) as writer:
+        with whole_file(path) as partial, pq.ParquetWriter(partial, pq.read_schema(self.paths[0])) as writer:
             for part in self.paths:
                 writer.write_table(pq.read_table(part))
-        partial.replace(path)
 
 
 def _hash(work: Work, piece: Points) -> str:

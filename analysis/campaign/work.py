@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 import hashlib
-import os
 from pathlib import Path
 import tempfile
 
@@ -16,7 +15,7 @@ from lacuna import runtime
 from lacuna.analysis.campaign.points import Points
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.map.plant import ModelPlant
-from lacuna.analysis.settings import Settings, load_settings
+from lacuna.analysis.settings import load_settings
 from lacuna.analysis.spectra.chain import Chain
 
 
@@ -38,28 +37,26 @@ class Work:
 
 def run_chunk(work: Work, points: Points) -> pa.Table:
     """One row for each point: its parameters, features, and `failure` (null where the run completed)."""
-    plant, chain, settings = _tools(work)
+    tools = _tools(work)
     names = list(points)
-    rows = [
-        _row(plant, chain, settings, dict(zip(names, map(float, p), strict=True)))
-        for p in zip(*points.values(), strict=True)
-    ]
-    return pa.Table.from_pylist(rows, schema=_schema(names, chain.channels))
+    rows = [_row(tools, dict(zip(names, map(float, p), strict=True))) for p in zip(*points.values(), strict=True)]
+    return pa.Table.from_pylist(rows, schema=_schema(names, tools.chain.channels))
 
 
-@lru_cache(maxsize=4)
-def _tools(work: Work) -> tuple[ModelPlant, Chain, Settings]:
-    """Plant, chain and settings of `work`, set up once in a process."""
-    folder = Path(tempfile.gettempdir()) / f"lacuna-{os.getuid()}" / work.key
-    library, text = folder / "model.so", folder / "settings.toml"
-    folder.mkdir(parents=True, exist_ok=True)
-    for path, content in ((library, work.library), (text, work.settings.encode())):
-        if not path.exists():
-            partial = path.with_suffix(f".{os.getpid()}")
-            partial.write_bytes(content)
-            partial.replace(path)
-    settings = load_settings(text)
-    return ModelPlant(work.name, library, work.model_hash, settings, solver=work.solver), Chain(settings), settings
+class _Tools:
+    """Plant, chain and settings of `work`, in a folder that nobody else can write to: code is loaded from it."""
+
+    def __init__(self, work: Work):
+        self._folder = tempfile.TemporaryDirectory(prefix="lacuna-")
+        library, text = Path(self._folder.name) / "model.so", Path(self._folder.name) / "settings.toml"
+        library.write_bytes(work.library)
+        text.write_text(work.settings, encoding="utf-8")
+        self.settings = load_settings(text)
+        self.plant = ModelPlant(work.name, library, work.model_hash, self.settings, solver=work.solver)
+        self.chain = Chain(self.settings)
+
+
+_tools = lru_cache(maxsize=4)(_Tools)  # set up once in a process
 
 
 def _schema(parameters: list[str], channels: int) -> pa.Schema:
@@ -72,7 +69,8 @@ def _feature_names(channels: int) -> list[str]:
     return [*rms, "rms_mean", *(f"peak_hz_{k + 1}" for k in range(channels)), "speed_mean"]
 
 
-def _row(plant: ModelPlant, chain: Chain, settings: Settings, point: dict[str, float]) -> dict[str, object]:
+def _row(tools: _Tools, point: dict[str, float]) -> dict[str, object]:
+    plant, chain, settings = tools.plant, tools.chain, tools.settings
     others = {name: value for name, value in point.items() if name != settings.fault.parameter}
     names = _feature_names(chain.channels)
     try:

@@ -13,10 +13,10 @@ from lacuna.analysis.comparison.deviation import SignalDeviation, signal_deviati
 from lacuna.analysis.comparison.scenarios import Scenario
 from lacuna.analysis.comparison.study import Lane, Study, rows, run
 from lacuna.analysis.errors import AnalysisError
-from lacuna.analysis.files import published_together
 from lacuna.analysis.recording.channel import on_one_time
 from lacuna.analysis.recording.formats import read_recorded
 from lacuna.recorded_units import UnitError, factor_into, to_si
+from lacuna.written import whole_files
 
 
 def compare_lanes(
@@ -36,7 +36,7 @@ def compare_lanes(
             model.variable(name)
         studies.append(run(scenario, model, lambda lane, s=scenario: tick(s, lane)))
         units[scenario.name] = {name: v.unit for name, v in model.variables.items()}
-    with published_together(out) as folder:
+    with whole_files(out) as folder:
         _write_csv(folder / "deviations.csv", [row for study in studies for row in rows(study)])
         _write_report(studies, units, folder)
     return studies

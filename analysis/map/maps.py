@@ -14,12 +14,12 @@ from string import ascii_lowercase
 from time import perf_counter
 from typing import Any
 
-from lacuna.analysis.files import published_together
 from lacuna.analysis.map.plant import Plant
 from lacuna.analysis.map.rows import Row, RowStore
 from lacuna.analysis.map.summary import summarise
 from lacuna.analysis.map.sweep import Progress, sweep
 from lacuna.analysis.settings import Settings
+from lacuna.written import whole_files
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ def build_map(
     }
     if resume and _is_drawn(out, summary):
         return Map(out, rows, summary, seconds)
-    with published_together(out) as scratch:
+    with whole_files(out) as scratch:
         (scratch / "map.csv").write_text(map_csv(settings, rows), encoding="utf-8")
         (scratch / "settings.toml").write_text(settings.text, encoding="utf-8")
         (scratch / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")

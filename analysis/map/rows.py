@@ -5,10 +5,8 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 import hashlib
 import json
-import os
 from pathlib import Path
 import re
-import threading
 from time import perf_counter
 import zipfile
 
@@ -18,6 +16,7 @@ from lacuna.analysis.map.plant import Plant
 from lacuna.analysis.settings import Settings
 from lacuna.analysis.spectra.chain import Chain
 from lacuna.analysis.spectra.library import library_path
+from lacuna.written import whole_file
 
 TRACE_RATE = 5000.0  # Hz, of the signals kept for figures: 25 times the sixth harmonic of the commutation
 _OURS = re.compile(r"[0-9a-f]{32}\.(npz|\d+\.\d+\.partial)")  # names of the rows that are kept, whole and begun
@@ -92,13 +91,9 @@ class RowStore:
             return None
 
     def save(self, row: Row) -> None:
-        self._folder.mkdir(parents=True, exist_ok=True)
         fields = {name: value for name, value in asdict(row).items() if name != "traces"}
-        path = self._path(row.severity)
-        partial = path.with_suffix(f".{os.getpid()}.{threading.get_ident()}.partial")
-        with partial.open("wb") as file:
-            np.savez(file, fields=json.dumps(fields), **row.traces)
-        partial.replace(path)
+        with whole_file(self._path(row.severity)) as partial:
+            np.savez(partial, fields=json.dumps(fields), **row.traces)
 
     def prune(self, severities: list[float]) -> None:
         """Remove the rows of other models and settings, and what an interrupted run left; nothing that is not ours."""

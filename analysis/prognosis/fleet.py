@@ -21,6 +21,7 @@ from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis.filter.bank import Bank
 from lacuna.analysis.prognosis.forecast import Forecast, Limits, Options, fleet_prior, forecasts
 from lacuna.analysis.prognosis.history import UNITS, History
+from lacuna.written import whole_file
 
 CHUNK = 512  # histories: some seconds of work
 IN_FLIGHT = 2  # chunks a worker
@@ -129,9 +130,8 @@ def run_fleet(
     todo = [k for k, path in enumerate(paths) if not path.exists()]
     done = len(pieces) - len(todo)
     for k, table in _results(work, pieces, todo, scheduler):
-        partial = paths[k].with_suffix(".partial")
-        pq.write_table(table, partial)
-        partial.replace(paths[k])
+        with whole_file(paths[k]) as partial:
+            pq.write_table(table, partial)
         done += 1
         if progress:
             progress(done, len(pieces))
@@ -139,9 +139,8 @@ def run_fleet(
     whole = whole.sort_by([("order", "ascending"), ("median", "ascending"), ("actuator", "ascending")]).drop_columns(
         "order"
     )
-    partial = folder / "fleet.partial"
-    pq.write_table(whole, partial)
-    partial.replace(folder / "fleet.parquet")
+    with whole_file(folder / "fleet.parquet") as partial:
+        pq.write_table(whole, partial)
     return whole
 
 

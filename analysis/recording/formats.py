@@ -12,11 +12,11 @@ from __future__ import annotations
 
 from importlib import import_module
 from pathlib import Path
-import tempfile
 
 from lacuna.analysis.files import check_file
 from lacuna.analysis.recording.channel import Reader, Recorded, RecordingError
 from lacuna.extras import names_missing_packages
+from lacuna.written import whole_file
 
 _READERS = {
     "text": (".csv", ".txt", ".tsv", ".dat", ".asc"),
@@ -41,10 +41,13 @@ def read_recorded(path: Path | str) -> Recorded:
 def write_recorded(recorded: Recorded, path: Path) -> None:
     """Write the channels in the format of the path's suffix, whole or not at all. Raises RecordingError for others."""
     kind = _kind(path)
-    with tempfile.TemporaryDirectory(dir=path.parent, prefix=".convert") as scratch:
-        partial = Path(scratch) / path.name
-        import_module(f"lacuna.analysis.recording.{kind}").write(recorded, partial)
-        partial.replace(path)
+    with whole_file(path) as partial:
+        try:
+            import_module(f"lacuna.analysis.recording.{kind}").write(recorded, partial)
+        except (RecordingError, OSError, ImportError):
+            raise
+        except Exception as error:  # every library has errors of its own for a disk that is full
+            raise RecordingError(f"{path}: cannot be written: {error}") from error
 
 
 def _reader(path: Path) -> Reader:

@@ -73,14 +73,14 @@ Strangers = list[tuple[str, Results]]  # by name
 
 def write_study(settings: Settings, results: Results, strangers: Strangers, docs: Path) -> None:
     """docs/robustness.md and docs/figures/robustness.svg."""
-    from lacuna.analysis.files import published_together
     from lacuna.analysis.report.figures.robustness import draw
     from lacuna.analysis.report.figures.style import in_style
+    from lacuna.written import whole_files
 
-    with published_together(docs / "figures") as scratch, in_style():
+    with whole_files(docs / "figures") as scratch, in_style():
         figure = draw(settings, results)
         save(figure, scratch / "robustness.svg", "svg")
-    with published_together(docs) as scratch:
+    with whole_files(docs) as scratch:
         (scratch / "robustness.md").write_text(page(settings, results, strangers), encoding="utf-8")
 
 

@@ -16,6 +16,7 @@ from lacuna.analysis.report.figures.style import in_style, new_figure
 from lacuna.analysis.report.page import figure, heading, page, paragraph, table
 from lacuna.analysis.settings import Settings
 from lacuna.drawn import save
+from lacuna.written import write_whole
 
 SHOWN = 4000  # points of the figure and of its data; beyond, every n-th test (the sequence fills the range evenly)
 
@@ -80,7 +81,5 @@ def write(results: Path, model: str, settings: Settings, units: Mapping[str, str
     import pyarrow.parquet as pq
 
     path = results.with_name("report.html")
-    partial = path.with_suffix(".partial")
-    partial.write_text(report_html(pq.read_table(results), model, settings, units), encoding="utf-8")
-    partial.replace(path)
+    write_whole(path, report_html(pq.read_table(results), model, settings, units))
     return path

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from lacuna.analysis.files import published_together
 from lacuna.analysis.recording.recordings import Recording, read_recording
 from lacuna.analysis.settings import Band, Settings
 from lacuna.analysis.severity.prepared import Prepared
 from lacuna.analysis.severity.severity_table import Estimate
 from lacuna.analysis.spectra.chain import Chain, Features
 from lacuna.drawn import save
+from lacuna.written import whole_files
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -113,7 +113,7 @@ def _write(done: Assessment, settings: Settings, folder: Path, features: Feature
     from lacuna.analysis.report.figures.style import in_style
 
     content = asdict(done) | {"map": str(folder), "model": settings.model}
-    with published_together(out) as scratch:
+    with whole_files(out) as scratch:
         (scratch / "assessment.json").write_text(
             json.dumps(content, indent=2, ensure_ascii=False) + "\n", encoding="utf-8"
         )

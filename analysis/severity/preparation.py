@@ -10,13 +10,13 @@ from pathlib import Path
 import numpy as np
 from scipy.stats import chi2
 
-from lacuna.analysis.files import published_together
 from lacuna.analysis.map.maps import Map
 from lacuna.analysis.map.plant import Plant
 from lacuna.analysis.settings import Settings
 from lacuna.analysis.severity.sensitivities import Surroundings, conditions, covariances
 from lacuna.analysis.severity.severity_table import TableContents, table_bytes
 from lacuna.analysis.spectra.chain import Chain
+from lacuna.written import whole_files
 
 TABLE_FILE, MODEL_FILE = "severity.table", "expected.npz"
 START = 0.03  # s, of a test: long enough for all three currents to show their sign and order
@@ -41,7 +41,7 @@ def prepare_assessment(plant: Plant, settings: Settings, finished: Map, *, jobs:
         covariance.append(covariances(about, severities, jobs))
     rms_mean = [row.rms_mean for row in finished.rows]
     contents = _contents(settings, chain, rms_mean, np.array(signatures), np.array(covariance))
-    with published_together(finished.folder) as scratch:
+    with whole_files(finished.folder) as scratch:
         (scratch / TABLE_FILE).write_bytes(table_bytes(contents))
         chosen = severities[:: max(1, len(severities) // 5)]
         starts = np.array([start_of(plant, settings, severity) for severity in chosen])

@@ -24,6 +24,7 @@ from lacuna.analysis.settings import Settings
 from lacuna.analysis.severity.prepared import Prepared
 from lacuna.analysis.severity.sensitivities import moved
 from lacuna.analysis.spectra.chain import Chain
+from lacuna.written import whole_file
 
 CHUNK = 50  # tests
 SEED = 2024
@@ -73,10 +74,8 @@ def run_tests(
         if not path.exists():
             numbers = range(start, min(start + CHUNK, count))
             done = np.array([study.test(design[k], k) for k in numbers])
-            partial = path.with_suffix(".partial")
-            with partial.open("wb") as file:
-                np.save(file, done)
-            partial.replace(path)
+            with whole_file(path) as partial:
+                np.save(partial, done)
         return start, np.load(path)
 
     pool = ThreadPoolExecutor(max_workers=jobs or os.cpu_count())

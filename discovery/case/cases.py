@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 import math
 from pathlib import Path
 import tomllib
@@ -13,10 +13,11 @@ import numpy as np
 from lacuna.analysis.files import check_file
 from lacuna.analysis.recording.channel import RecordingError, on_one_time
 from lacuna.analysis.recording.formats import read_recorded
+from lacuna.codegen.flatten.model import flatten
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.case_keys import KeyProblem, check
 from lacuna.discovery.case.case_model import CaseModel, case_model
-from lacuna.recorded_units import UnitError, to_si
+from lacuna.recorded_units import ZERO_CELSIUS, UnitError, to_si
 
 DEFAULT_UNCERTAINTY = 0.05  # believed relative 1-sigma of a parameter that case.toml does not mention
 
@@ -29,7 +30,7 @@ class CaseError(Exception):
 
 @dataclass(frozen=True)
 class Signal:
-    """One column: what it records and in which unit; `scale` turns the column into SI."""
+    """One column: what it records and in which unit; times `scale` and plus `offset` it is in SI."""
 
     column: str
     role: str  # input | output
@@ -39,6 +40,7 @@ class Signal:
     scale: float
     interpolation: str = "linear"
     noise_std: float | None = None  # SI; None where case.toml does not give it
+    offset: float = 0.0  # of a column in degrees Celsius that records a variable in kelvin
 
 
 @dataclass
@@ -150,6 +152,7 @@ def load(folder: str | Path, libraries: Sequence[str | Path] = ()) -> Case:
         own=_own(path, raw.get("recording", {}), [*names["fit"], *names["validate"]]),
         limits=_limits(path, raw.get("limits", {}), signals),
     )
+    case.signals = signals = _in_kelvin(case)
     own_model = (case.found.file,) if case.found and case.found.file else ()
     case.files = (path, *own_model, *(folder / name for name in (*names["fit"], *names["validate"])))
     case.fit = [read_recording(folder / name, signals) for name in names["fit"]]
@@ -215,6 +218,18 @@ def _signal(path: Path, column: str, table: dict) -> Signal:
     )  # fmt: skip
 
 
+def _in_kelvin(case: Case) -> dict[str, Signal]:
+    """The signals; columns in degrees Celsius that record variables in kelvin are read as kelvin."""
+    if all(s.si_unit != "degC" for s in case.signals.values()):
+        return case.signals
+    variables = flatten(case.library(), case.base, units="warn").variables
+    kelvin = {n for n, v in variables.items() if v.unit == "K"}
+    return {
+        c: replace(s, si_unit="K", offset=ZERO_CELSIUS) if s.si_unit == "degC" and s.variable in kelvin else s
+        for c, s in case.signals.items()
+    }
+
+
 def read_recording(path: Path, signals: dict[str, Signal]) -> Recording:
     """Read one file: `time` in s and a column for each signal; an empty field is a missing sample. Raises CaseError."""
     try:
@@ -228,5 +243,8 @@ def read_recording(path: Path, signals: dict[str, Signal]) -> Recording:
         has = ", ".join(c.head.text for c in recorded.channels)
         raise CaseError(f"{path}: column `{(missing or list(signals))[0]}` is missing (beside time there are {has})")
     time, columns = on_one_time([recorded[column] for column in signals])
-    scaled = {name: values * signal.scale for (name, signal), values in zip(signals.items(), columns, strict=True)}
+    scaled = {
+        name: values * signal.scale + signal.offset
+        for (name, signal), values in zip(signals.items(), columns, strict=True)
+    }
     return Recording(path.name, time.copy(), scaled)

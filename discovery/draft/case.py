@@ -17,10 +17,10 @@ from lacuna.discovery.case.cases import CaseError
 from lacuna.discovery.draft.match import Match, Target, matched
 from lacuna.discovery.draft.recorded import Recording, parted, read_recording, write_recorded
 from lacuna.discovery.draft.write import Column, Draft, case_toml
-from lacuna.recorded_units import to_si
+from lacuna.recorded_units import ZERO_CELSIUS, to_si
 from lacuna.runtime import Model
+from lacuna.written import whole_files
 
-ZERO_CELSIUS = 273.15  # K
 AT_REST = 3.0  # standard deviations of its noise that the first sample of a machine at rest may be away from zero
 JUDGES = 4  # one of so many recordings is kept to judge
 
@@ -172,21 +172,10 @@ def _at_rest(model: Model, outputs: Iterable[Match], recorded: Sequence[Recordin
 
 
 def _write(out: Path, text: str, recorded: Sequence[Recording], kept: Sequence[int], file: Path | None) -> None:
-    """All of it, or nothing: in a folder beside, which is then renamed."""
-    out.parent.mkdir(parents=True, exist_ok=True)
-    scratch = out.with_name(f".{out.name}.partial")
-    shutil.rmtree(scratch, ignore_errors=True)
-    scratch.mkdir()
-    try:
+    """All of it, or nothing."""
+    with whole_files(out) as scratch:
         (scratch / "case.toml").write_text(text, encoding="utf-8")
         for one in recorded:
             write_recorded(one, kept, scratch / one.name)
         if file is not None:
             (shutil.copytree if file.is_dir() else shutil.copy2)(file, scratch / file.name)
-        if out.exists():
-            for made in scratch.iterdir():
-                made.replace(out / made.name)
-        else:
-            scratch.rename(out)
-    finally:
-        shutil.rmtree(scratch, ignore_errors=True)

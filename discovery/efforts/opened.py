@@ -117,19 +117,27 @@ def opened(case: Case, amendment: Amendment, library: Library, parameters: list[
     """The amended model with an input at every site where one can act."""
     found = read(library, amendment.structure.model)
     closed = list(found.closed)
-    sites = []
-    for site in found.places:
-        attachment, name = probe(site, 0)
-        trial = replace(amendment, attachments=[*amendment.attachments, attachment], inputs=(name,))
-        try:
-            translate(str(write_source(trial)), search_path=case.search_path)
-        except (Diagnostic, CompilerError) as reason:
-            closed.append((site.label, str(reason).split(": error", 1)[-1].split("\n")[0]))
-        else:
-            sites.append(site)
-    pairs = [probe(site, k) for k, site in enumerate(sites)]
-    whole = replace(
-        amendment, attachments=[*amendment.attachments, *(a for a, _ in pairs)], inputs=tuple(n for _, n in pairs)
-    )
+    sites = _openable(case, amendment, list(found.places), closed)
+    whole = _with_probes(amendment, sites)
     machine = Machine(case, whole)
     return Opened(machine, Linear(machine, list(whole.inputs), parameters), sites, closed)
+
+
+def _openable(case: Case, amendment: Amendment, sites: list[Site], closed: list[tuple[str, str]]) -> list[Site]:
+    """Sites where an input can act, tried together and, where that is no model, in halves; the others are `closed`."""
+    try:
+        translate(str(write_source(_with_probes(amendment, sites))), search_path=case.search_path)
+    except (Diagnostic, CompilerError) as reason:
+        if len(sites) == 1:
+            closed.append((sites[0].label, str(reason).split(": error", 1)[-1].split("\n")[0]))
+            return []
+        middle = len(sites) // 2
+        halves = [_openable(case, amendment, half, closed) for half in (sites[:middle], sites[middle:])]
+        return [site for half in halves for site in half]
+    return sites
+
+
+def _with_probes(amendment: Amendment, sites: list[Site]) -> Amendment:
+    pairs = [probe(site, k) for k, site in enumerate(sites)]
+    attachments = [*amendment.attachments, *(a for a, _ in pairs)]
+    return replace(amendment, attachments=attachments, inputs=tuple(n for _, n in pairs))

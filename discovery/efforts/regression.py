@@ -14,7 +14,7 @@ import numpy as np
 
 from lacuna.discovery.efforts.located import Guided, thinned_all
 from lacuna.discovery.efforts.smoother import Latent, Piece, Whitener
-from lacuna.discovery.law.law import Site
+from lacuna.discovery.law.law import Law, Site
 from lacuna.discovery.law.law_terms import Group
 
 DISCREPANCIES = (0.3, 0.03)  # of the located effort's size, that a law may leave
@@ -35,6 +35,7 @@ class Regression:
         self.thin = thinned_all(guided.pieces)
         self.every = -(-len(guided.pieces[0].along.time) // len(self.thin[0].along.time))
         self.groups: list[Group] = []
+        self._picks: dict[tuple[str, ...], float] = {}
         self.metrics = [_Metric(self.thin, guided.latent, share) for share in DISCREPANCIES]
         self.rows = len(self.metrics[0].target)
         self.driven = np.abs(guided.mean)
@@ -43,7 +44,7 @@ class Regression:
         """Take groups in; their numbers."""
         answers = []
         for piece in self.guided.pieces:
-            path = {v.local: piece.along.values[v.name] for v in self.place.variables} | {"time": piece.along.time}
+            path = {v.local: v.course(piece.along.values) for v in self.place.variables} | {"time": piece.along.time}
             with np.errstate(all="ignore"):
                 courses = np.column_stack([c for group in groups for c in group.values(path, self.place.sizes)])
             courses = np.nan_to_num(courses, nan=0.0, posinf=0.0, neginf=0.0)
@@ -56,13 +57,17 @@ class Regression:
         return range(begin, len(self.groups))
 
     def scores(self, chosen: tuple[int, ...], others: Sequence[int]) -> list[float]:
-        """Deviance of the chosen groups with each of `others`, and ln(rows) for each number in them."""
-        base = sum(map(self._numbers, chosen))
+        """Deviance of the chosen groups with each of `others`, and their prices: ln(rows) for each number in them, and
+        for having been picked among many."""
+        base = sum(map(self._price, chosen))
         best = np.min([metric.deviances(chosen, others) for metric in self.metrics], axis=0)
-        return [float(d) + (base + self._numbers(g)) * np.log(self.rows) for d, g in zip(best, others, strict=True)]
+        return [float(d) + base + self._price(g) for d, g in zip(best, others, strict=True)]
 
-    def _numbers(self, group: int) -> int:
-        return len(self.groups[group].texts) + len(self.groups[group].shapes)
+    def _price(self, number: int) -> float:
+        group = self.groups[number]
+        if group.texts not in self._picks:
+            self._picks[group.texts] = Law(self.place, (group,)).pick()
+        return (len(group.texts) + len(group.shapes)) * float(np.log(self.rows)) + 2 * self._picks[group.texts]
 
     def coefficients(self, chosen: tuple[int, ...]) -> np.ndarray:
         return self._best_metric(chosen).coefficients(chosen)

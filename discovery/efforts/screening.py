@@ -9,7 +9,7 @@ import numpy as np
 from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.located import Guided, Locator, Site
 from lacuna.discovery.efforts.regression import Regression
-from lacuna.discovery.efforts.terms import groups, variables
+from lacuna.discovery.efforts.terms import counts, groups, variables
 from lacuna.discovery.law.law import Law
 from lacuna.discovery.law.law import Site as LawSite
 from lacuna.discovery.law.law_screen import Proposal
@@ -31,13 +31,14 @@ def proposals(locator: Locator, site: Site, guided: Guided, most: int) -> list[P
     found = variables(
         along, site.location, locator.base.machine.model.variables, locator.opened.linear.states, answering
     )
-    courses = {v.local: np.concatenate([a.values[v.name] for a in along]) / v.size for v in found}
+    courses = {v.local: np.concatenate([v.course(a.values) for a in along]) / v.size for v in found}
     ranges = {local: (float(c.min()), float(c.max())) for local, c in courses.items()}
-    place = LawSite(site.place.sites[0], site.location, site.place.unit, tuple(found))
-    regression = Regression(guided, place, site.place.column)
     longest = max((a.time for a in along), key=lambda t: t[-1] - t[0])
     interval, duration = float(np.median(np.diff(longest))), float(longest[-1] - longest[0])
-    every = regression.add(groups(found, ranges, interval, duration))
+    offered = groups(found, ranges, interval, duration)
+    place = LawSite(site.place.sites[0], site.location, site.place.unit, tuple(found), counts(found, offered))
+    regression = Regression(guided, place, site.place.column)
+    every = regression.add(offered)
     single = _refined(regression, every)
     double = _doubled(regression, single, every)
     chosen = (*_distinct(regression, single, most), *_distinct(regression, double, most))

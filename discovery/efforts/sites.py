@@ -7,8 +7,10 @@ potential; which is which the declaration says. Nothing is known here of domains
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+import re
 
 from lacuna.codegen.errors import Span
 from lacuna.codegen.flatten.classes.inheritance import written
@@ -17,6 +19,8 @@ from lacuna.codegen.flatten.language import LOWERING
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.syntax import ast
+
+DEFINITION = "it only says that one variable is the rate of another"
 
 
 @dataclass(frozen=True)
@@ -30,8 +34,8 @@ class Port:
 
 @dataclass(frozen=True)
 class Site:
-    """A place. `ends` are those of its connection (of a node one suffices); `span` is where its equation stands, in
-    the class or in one that it declares and has one `instance` of."""
+    """A place. `ends` are those of its connection, or all of a node's, of which one suffices; `span` is where its
+    equation stands, in the class or in one that it declares and has one `instance` of."""
 
     kind: str  # node | edge | equation
     label: str
@@ -58,18 +62,26 @@ def read(library: Library, name: str) -> Sites:
     closed: list[tuple[str, str]] = []
     group: dict[str, str] = {}
     ports: dict[str, Port] = {}
+    states = _states(section for section, _ in top.sections)
     for section, owner in top.sections:
         for item in section.items:
             if isinstance(item, ast.Connect):
                 found += _connection(item, top, group, ports, closed)
             elif isinstance(item, ast.Equality) and not section.algorithm and not section.initial:
-                if owner is cls:
+                if _is_definition(item, states):
+                    closed.append((item.text, DEFINITION))
+                elif owner is cls:
                     found.append(Site("equation", item.text, span=item.span))
                 else:
                     closed.append((item.text, f"the equation stands in {owner.path}"))
     found += _inside(top)
-    roots = dict.fromkeys(_root(group, end) for end in ports)
-    nodes = [Site("node", root, (root,), ports[root]) for root in roots if root in ports]
+    joined: dict[str, list[str]] = {}
+    for end in ports:
+        joined.setdefault(_root(group, end), []).append(end)
+    nodes = [
+        Site("node", root, (root, *(e for e in ends if e != root)), ports[root])
+        for root, ends in joined.items() if root in ports
+    ]  # fmt: skip
     return Sites(cls, (*nodes, *found), tuple(closed))
 
 
@@ -82,12 +94,30 @@ def _inside(top: Instance) -> list[Site]:
         if isinstance(node, Instance) and node.cls.parent is top.cls and node.cls.kind in ("model", "block"):
             users.setdefault(node.cls.name, []).append(name)
             classes[node.cls.name] = node.cls
-    return [
-        Site("equation", f"{names[0]}: {item.text}", span=item.span, instance=names[0])
-        for name, names in users.items() if len(names) == 1
-        for section in classes[name].sections if not section.algorithm and not section.initial
-        for item in section.items if isinstance(item, ast.Equality)
-    ]  # fmt: skip
+    found = []
+    for name, names in users.items():
+        sections = [s for s in classes[name].sections if not s.algorithm and not s.initial]
+        states = _states(sections)
+        equations = [i for s in sections for i in s.items if isinstance(i, ast.Equality)]
+        found += [
+            Site("equation", f"{names[0]}: {item.text}", span=item.span, instance=names[0])
+            for item in equations if len(names) == 1 and not _is_definition(item, states)
+        ]  # fmt: skip
+    return found
+
+
+def _is_definition(item: ast.Equality, states: set[str]) -> bool:
+    """Whether an equation only says that one variable is the rate of another, which has a balance of its own: nothing
+    of a machine is in it."""
+    sides = [item.left, item.right]
+    rates = [s for s in sides if isinstance(s, ast.Call) and written(s.function) == "der"]
+    return len(rates) == 1 and any(isinstance(s, ast.Ref) and written(s) in states for s in sides)
+
+
+def _states(sections: Iterable[ast.Section]) -> set[str]:
+    """Names that occur differentiated in these sections."""
+    texts = [i.text for s in sections for i in s.items if isinstance(i, ast.Equality)]
+    return {name for text in texts for name in re.findall(r"\bder\(\s*([\w.]+)\s*\)", text)}
 
 
 def _connection(

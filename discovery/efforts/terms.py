@@ -18,12 +18,15 @@ from lacuna.runtime.model import Variable as ModelVariable
 from lacuna.units import parse_unit
 
 MOST = 12  # variables at a place, the nearest first: their pairs are what a search costs
+APART = 6  # differences of variables at most: of three places with their surroundings all
 SAME = 1e-3  # of their largest value, within which a variable is a polynomial of another one
 DEGREE = 3  # of that polynomial
 MOVES = 1e-6  # share of its largest value that a variable must move by
 LEAST = 1.5  # cycles over the range: less of a wave is a bend, which powers say with fewer numbers
 CYCLES = 30  # of a wave along a variable, over the range that it has
 TURN = 1.6  # rad from one wave number to the next at the ends of the range: so that none is missed
+AWAY = 0.05  # of its largest value, that a variable stays above for laws that divide by it
+BEYOND = (1.5, 2.0)  # powers of what is beyond a threshold: weirs, contacts
 EXPONENTS = (0.5, 1.5, 2.0, 3.0, 4.0)
 OCTAVES = 3.0  # from one time constant of a relaxation to the next: half a bandwidth either way
 _WHOLE = (1 / 3, 2 / 3, 1.0, 7 / 4, *EXPONENTS, 5.0)
@@ -69,7 +72,36 @@ def variables(
         courses.append(scaled)
         if len(kept) == MOST:
             break
-    return kept
+    return [*kept, *_differences(along, kept, units, location)]
+
+
+def _differences(
+    along: Sequence[Along], kept: list[Variable], units: Mapping[str, str], location: str
+) -> list[Variable]:  # fmt: skip
+    """What drives a flow between two places: states less states, inputs and parameters of the same unit; those that are
+    no multiple of a variable that is there. The ones that hold the place's own state come first."""
+    fixed = {n for n, v in along[0].values.items() if np.ndim(v) == 0 and units.get(n) and v != 0}
+    states = [v for v in kept if v.kind == "state" and v.unit]
+    pairs = [(a.name, b.name) for k, a in enumerate(states) for b in states[k + 1 :] if a.unit == b.unit]
+    pairs += [(a.name, b.name) for a in states for b in kept if b.kind == "other" and a.unit == b.unit]
+    pairs += [(a.name, n) for a in states for n in sorted(fixed) if a.unit == units[n]]
+    pairs.sort(key=lambda pair: not any(n == location or n.rpartition(".")[0] == location for n in pair))
+    courses = [np.concatenate([v.course(a.values) for a in along]) for v in kept]
+    found: list[Variable] = []
+    for name, minus in pairs:
+        course = np.concatenate([a.values[name] - a.values[minus] for a in along])
+        size = float(np.abs(course).max(initial=0.0))
+        if not np.isfinite(size) or size <= MOVES * np.abs(np.concatenate([a.values[name] for a in along])).max():
+            continue
+        if any(abs(course @ c) > (1 - SAME**2) * np.linalg.norm(course) * np.linalg.norm(c) for c in courses):
+            continue
+        kind = "apart" if np.ndim(along[0].values[minus]) else "above"
+        number = len(kept) + len(found) + 1
+        found.append(Variable(f"x{number}", name, units[name], kind, float(f"{size:.2g}"), minus=minus))
+        courses.append(course)
+        if len(found) == APART:
+            break
+    return found
 
 
 def _says_nothing_new(course: np.ndarray, known: np.ndarray) -> bool:
@@ -89,25 +121,34 @@ def groups(
     (s) those of the samples and of the longest recording."""
     result = [Group(("1",))]
     for v in found:
-        result += _remembering(v, interval, duration) if v.kind != "rate" else []
+        result += _remembering(v, interval, duration) if v.kind not in ("rate", "above") else []
         low, high = ranges[v.local]
         if v.switch:
             result.append(Group((v.scaled,)))
         elif v.kind != "rate":
-            result += _alone(v) if low < 0 < high else _of_one_sign(v)
+            result += _alone(v) if low < 0 < high else _of_one_sign(v, low > AWAY or high < -AWAY)
         if v.kind == "state":
-            result += _waves(v, high - low)
-    for a in found:
-        for b in found:
+            result += _waves(v, high - low) + _varying(v, interval, duration)
+    plain = [v for v in found if v.kind not in ("apart", "above")]
+    for a in plain:
+        for b in plain:
             if a is not b and b.kind != "rate":
                 both = a.kind != "rate" and a.local > b.local
                 result += _together(a, b, ranges[a.local][0] < 0 < ranges[a.local][1], not both)
     return result
 
 
-def _of_one_sign(v: Variable) -> list[Group]:
+def counts(found: Sequence[Variable], offered: Sequence[Group]) -> tuple[int, int]:
+    """Kinds of groups of one variable and of several."""
+    kinds = {group.texts for group in offered}
+    several = sum(sum(any(f"{v.local}_ref" in text for text in texts) for v in found) > 1 for texts in kinds)
+    return len(kinds) - several, several
+
+
+def _of_one_sign(v: Variable, away: bool) -> list[Group]:
+    """`away`: from zero, so that one may divide by it."""
     x = v.scaled
-    power = _powers(f"abs{x}")
+    power = _powers(f"abs{x}") + ([Group((f"1/{x}",))] if away else [])
     bend = [
         Group((f"exp({{q}}*{x})",), (Shape("q", "1", q, min(q / 9, q * 9), max(q / 9, q * 9), (), 3.0),))
         for q in (-4, 4)
@@ -116,6 +157,10 @@ def _of_one_sign(v: Variable) -> list[Group]:
         Group((f"(abs({x} - {{q}}) + {x} - {{q}})",), (Shape("q", "1", q, -0.99, 0.99, (), 0.25),))
         for q in (0.25, 0.5, 0.75)
     ]
+    ends += [
+        Group((f"abs(abs({x} - {{q}}) + {x} - {{q}})^{p}",), (Shape("q", "1", q, -0.99, 0.99, (), 0.25),))
+        for p in BEYOND for q in (0.25, 0.5, 0.75)
+    ]  # fmt: skip
     return [Group((x,)), *power, *bend, *ends]
 
 
@@ -127,9 +172,8 @@ def _powers(base: str) -> list[Group]:
 
 def _alone(v: Variable) -> list[Group]:
     x, sign = v.scaled, f"sign({v.local})"
-    power = [
-        Group((f"{sign}*abs{x}^{{p}}",), (Shape("p", "1", p, 0.1, 8.0, _WHOLE, 0.75),)) for p in (0.5, 2.0, 3.0, 4.0)
-    ]
+    power = [Group((f"{sign}*abs{x}^{p:.4g}",)) for p in EXPONENTS]
+    power += [Group((f"{sign}*abs{x}^{{p}}",), (Shape("p", "1", p, 0.1, 8.0, _WHOLE, 0.75),)) for p in (0.75, 2.5, 5.0)]
     bend = [
         Group((f"exp({{q}}*{x})",), (Shape("q", "1", q, min(q / 9, q * 9), max(q / 9, q * 9), (), 3.0),))
         for q in (-4, 4)
@@ -141,6 +185,10 @@ def _alone(v: Variable) -> list[Group]:
         Group((f"(abs({side}{x} - {{q}}) + {side}{x} - {{q}})",), (Shape("q", "1", q, -0.99, 0.99, (), 0.25),))
         for side in ("", "-") for q in (0.0, 0.5)
     ]  # fmt: skip
+    ends += [
+        Group((f"({x} - 0.5*abs({x} + {{q}}) + 0.5*abs({x} - {{q}}))",), (Shape("q", "1", q, 0.01, 0.99, (), 0.25),))
+        for q in (0.25, 0.5, 0.75)
+    ]  # both ways
     stribeck = Group(
         (DRY.format(x=x), f"{DRY.format(x=x)}*exp(-abs{x}/{{q}})"), (Shape("q", "1", 0.1, 0.01, 1.0, (), 0.08),)
     )
@@ -151,12 +199,19 @@ def _alone(v: Variable) -> list[Group]:
 def _remembering(v: Variable, interval: float, duration: float) -> list[Group]:
     """A relaxation: storage behind a resistance, a damper behind a spring, a winding around a core; all that is faster
     than the samples or slower than a recording is something else."""
+    return [Group((f"({v.scaled} - lag({v.scaled}, {{t}}))",), (s,)) for s in _times(interval, duration)]
+
+
+def _varying(v: Variable, interval: float, duration: float) -> list[Group]:
+    """A coefficient that varies with what it has carried of late, as a winding's resistance does when it warms."""
+    return [Group((f"{v.scaled}*lag({v.scaled}^2, {{t}})",), (s,)) for s in _times(interval, duration)]
+
+
+def _times(interval: float, duration: float) -> list[Shape]:
+    """Time constants between the samples' interval and a recording's duration."""
     count = max(2, int(np.ceil(np.log(duration / interval) / np.log(OCTAVES))))
-    times = interval * OCTAVES ** (np.arange(count) + 0.5)
-    return [
-        Group((f"({v.scaled} - lag({v.scaled}, {{t}}))",), (Shape("t", "s", float(t), t / 9, t * 9, (), 0.6 * t),))
-        for t in times if t < duration
-    ]  # fmt: skip
+    times = [float(t) for t in interval * OCTAVES ** (np.arange(count) + 0.5) if t < duration]
+    return [Shape("t", "s", t, max(t / 9, interval), t * 9, (), 0.6 * t) for t in times]
 
 
 def _waves(v: Variable, span: float) -> list[Group]:

@@ -13,13 +13,13 @@ from typing import Any
 
 import numpy as np
 
-from lacuna.analysis.files import published_together
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.draft.write import key, string
 from lacuna.discovery.experiment.picture import picture
 from lacuna.discovery.experiment.proposal import Proposal
 from lacuna.discovery.experiment.waveforms import Waveform
 from lacuna.drawn import save
+from lacuna.written import whole_files
 
 FOLDER = "next"
 OWN = ("case.toml", "prediction.csv", "prediction.svg")
@@ -67,7 +67,7 @@ def write_next(case: Case, proposal: Proposal | None, out: Path) -> list[Path]:
         if folder.is_dir() and not any(folder.iterdir()):
             folder.rmdir()
         return []
-    with published_together(folder) as scratch:
+    with whole_files(folder) as scratch:
         for name, waveform in zip(names, (proposal.waveform, proposal.judging), strict=True):
             _write_inputs(case, waveform, scratch / played(name))
         (scratch / "case.toml").write_text(_case_toml(case, proposal, folder, names), encoding="utf-8")
@@ -79,7 +79,7 @@ def write_next(case: Case, proposal: Proposal | None, out: Path) -> list[Path]:
 
 def _write_inputs(case: Case, waveform: Waveform, path: Path) -> None:
     """The inputs in the units of the case's own columns."""
-    columns = [waveform.columns[s.column] / s.scale for s in case.inputs]
+    columns = [(waveform.columns[s.column] - s.offset) / s.scale for s in case.inputs]
     _write(path, ["time", *(s.column for s in case.inputs)], [waveform.time, *columns])
 
 
@@ -89,7 +89,7 @@ def _write_prediction(case: Case, proposal: Proposal, path: Path) -> None:
     for name, number in (("first", 0), ("rival", proposal.hardest)):
         for s in case.outputs:
             head.append(f"{s.column} {name}")
-            columns.append(proposal.predictions[number][s.column] / s.scale)
+            columns.append((proposal.predictions[number][s.column] - s.offset) / s.scale)
     _write(path, head, columns)
 
 

@@ -16,6 +16,7 @@ from lacuna.discovery.fit.evidence import whiteness
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.least_squares import Free
 from lacuna.discovery.naming.search import Finding
+from lacuna.written import write_whole
 
 PARTIAL = 0.9  # share of the misfit, below which an explanation is called partial
 
@@ -56,9 +57,7 @@ def build(result: Explanation, amended: Path | None) -> dict[str, Any]:
 
 def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
     path = folder / "diagnosis.json"
-    partial = path.with_suffix(".tmp")
-    partial.write_text(json.dumps(build(result, amended), indent=2) + "\n", encoding="utf-8")
-    partial.replace(path)
+    write_whole(path, json.dumps(build(result, amended), indent=2) + "\n")
     return path
 
 

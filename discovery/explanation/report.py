@@ -28,6 +28,7 @@ from lacuna.discovery.law.locate import Located
 from lacuna.discovery.naming.judge import Judgement, noise_floor
 from lacuna.discovery.naming.name import Naming
 from lacuna.drawn import save
+from lacuna.written import write_whole
 
 _NRMSE = (
     "<p>Normalised root mean square error: of what is measured and not simulated, over the standard deviation of the "
@@ -50,10 +51,7 @@ def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
 
 def _page(parts: list[str], title: str, folder: Path, verdict: str, action: str, inputs: Sequence[Path]) -> Path:
     path = folder / "report.html"
-    partial = path.with_suffix(".tmp")
-    text = page(title, Markup("\n".join(parts)), verdict=verdict, action=action, inputs=inputs)
-    partial.write_text(text, encoding="utf-8")
-    partial.replace(path)
+    write_whole(path, page(title, Markup("\n".join(parts)), verdict=verdict, action=action, inputs=inputs))
     return path
 
 

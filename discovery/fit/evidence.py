@@ -16,6 +16,7 @@ ROUNDING = 2.5  # allowance for rounding errors of a slow signal, which are alik
 GROWTH = 1.3  # of the power of block means from one block length to the next that colour may still explain
 HALF_STEP = 3**0.5  # of resolution, in units of the standard deviation of rounding
 LEFT = 1.2  # RMS in units of the noise, up to which a model stands for all of the misfit
+INSTRUMENTS = 1.28  # the same, of what may be left unexplained: hypot(1, 0.8), drift and offset of 0.8 of the noise
 ROUGH_SLACK = 0.3  # RMS misfit, in units of the noise, that the end of a fit on rough ground may leave
 FAR = 10.0  # level of a signal, in units of its noise, from which the best hypothesis is taken to have lost its way
 SPREAD = 0.005  # relative spread of an RMS over 20 000 samples of noise: a smaller gain is none
@@ -122,6 +123,11 @@ def _at_most(noise: Noise) -> float:
 def nearly_noise(fit: Fit) -> bool:
     """Whether no signal leaves much more than its noise: what may still be there is too little to be told apart."""
     return max(fit.level.values()) < LEFT
+
+
+def within_instruments(fit: Fit) -> bool:
+    """Whether what is left, in which nothing was found, may be what instruments are off by beside their noise."""
+    return max(fit.level.values()) < INSTRUMENTS
 
 
 def astray(fit: Fit) -> bool:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 import hashlib
-import os
 from pathlib import Path
 import queue
 import threading
 
 import numpy as np
 
-from lacuna.codegen.cache import CompilerError
+from lacuna.codegen.cache import Cache, CompilerError
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.errors import Diagnostic
 from lacuna.discovery.case.cases import Case, CaseError, Recording, Signal
@@ -22,6 +21,7 @@ from lacuna.discovery.fit.tracking import Motion, recorded_column, recorded_moti
 from lacuna.recorded_units import same_unit
 from lacuna.runtime import Model, RecordedInput, Session, SimulationError
 from lacuna.suggest import did_you_mean
+from lacuna.written import write_whole
 
 RTOL, LEAST_RTOL, FINER = 1e-6, 1e-9, 0.1  # of the solver: usual, least, and the step from one to the next finer one
 NEGLIGIBLE = 1e-3  # RMS of the solver's errors, in units of noise; friction that is added makes ten times as much of it
@@ -262,14 +262,11 @@ def _recorded(signal: Signal, recording: Recording) -> RecordedInput:
 def write_source(amendment: Amendment) -> Path:
     """The search model as a file in the cache, named by its content, so equal hypotheses share one compiled model."""
     text = amendment.text("Candidate")
-    folder = Path(os.environ.get("LACUNA_CACHE", Path.home() / ".cache" / "lacuna")) / "candidates"
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = Cache().private() / "candidates"
     name = "Candidate_" + hashlib.sha256(text.encode()).hexdigest()[:16]
-    path = folder / f"{name}.mo"
-    if not path.exists():
-        partial = path.with_suffix(f".{os.getpid()}.{threading.get_ident()}.tmp")
-        partial.write_text(text.replace("Candidate", name), encoding="utf-8")
-        partial.rename(path)
+    path, named = folder / f"{name}.mo", text.replace("Candidate", name)
+    if not path.exists() or path.read_bytes() != named.encode("utf-8"):  # a damaged one would be no hypothesis
+        write_whole(path, named)
     return path
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import fields, is_dataclass
 import json
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 import numpy as np
 
@@ -61,11 +61,11 @@ def from_tree(tree: Any, arrays: list[np.ndarray]) -> Any:
     raise ValueError(f"{kind} is no kind of value")
 
 
-def save(file: IO[bytes], value: Any) -> None:
+def save(path: Path, value: Any) -> None:
     """Raises TypeError for what is no plain value."""
     arrays: list[np.ndarray] = []
     tree = to_tree(value, arrays)
-    np.savez(file, tree=np.array(json.dumps(tree)), **{f"a{k}": array for k, array in enumerate(arrays)})
+    np.savez(path, tree=np.array(json.dumps(tree)), **{f"a{k}": array for k, array in enumerate(arrays)})
 
 
 def load(path: Path) -> Any:

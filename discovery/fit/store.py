@@ -10,16 +10,15 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 import hashlib
 import json
-import os
 from pathlib import Path
 import shutil
-import threading
 from typing import Any
 import zipfile
 
 import numpy as np
 
 from lacuna.discovery.fit.plain_values import load, save, to_tree
+from lacuna.written import whole_file
 
 _folder: Path | None = None
 _version = ""  # of this package's sources
@@ -57,10 +56,8 @@ def remembered(parts: Callable[[], tuple[Any, ...]], compute: Callable[[], Any])
     except (OSError, EOFError, ValueError, KeyError, TypeError, zipfile.BadZipFile):
         pass
     value = compute()
-    partial = path.with_suffix(f".{os.getpid()}.{threading.get_ident()}.tmp")
-    with partial.open("wb") as file:
-        save(file, value)
-    partial.replace(path)
+    with whole_file(path) as partial:
+        save(partial, value)
     return value
 
 

@@ -76,7 +76,7 @@ def fitted_law(
     free = _free(law, attachment, start)
     first = (believed or base.point) | {attachment.full_name(n): v for n, v in start.items()}
     found = fit(machine, case.fit, base.noise, [*base.estimate.free, *free], base.fixed, start=first)
-    return None if found is None else Candidate(attachment, machine, free, start=first, fit=found)
+    return None if found is None else Candidate(attachment, machine, free, start=first, fit=found, pick=law.pick())
 
 
 def _free(law: Law, attachment: Attachment, start: dict[str, float]) -> list[Free]:
@@ -85,8 +85,8 @@ def _free(law: Law, attachment: Attachment, start: dict[str, float]) -> list[Fre
     free = [Free(attachment.full_name(c), start[c], max(abs(start[c]), 0.1 * scale)) for c, _, _ in law.numbered()]
     for name, shape in law.shapes().items():
         step = 1e-3 if shape.name == "omega" else 1e-2
-        free.append(Free(attachment.full_name(name), start[name], 0.3 * abs(shape.start), shape.lower, shape.upper,
-                         step=step))  # fmt: skip
+        scale = 0.3 * abs(shape.start) or shape.step  # a threshold may start at zero
+        free.append(Free(attachment.full_name(name), start[name], scale, shape.lower, shape.upper, step=step))
     return free
 
 

@@ -2,13 +2,18 @@
 
 Units tell the domain (Paynter 1961: effort, flow and their integrals); sources of the forms: radiation Stefan 1879,
 natural convection Churchill and Chu 1975, dry friction Coulomb 1785 and Stribeck 1902, drag Newton 1687, leakage
-Hagen-Poiseuille and Torricelli, diode Shockley 1949, relaxation Maxwell 1867.
+Hagen-Poiseuille and Torricelli, losses of pipes Darcy 1857, weirs Poleni 1717, diode Shockley 1949, relaxation Maxwell
+1867.
+
+A law that was picked among many has to pay for the pick: the length of its name in a two-part code (Rissanen 1978), in
+which known forms have short names.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+import math
 import re
 
 from lacuna.discovery.law.law_terms import Variable
@@ -21,6 +26,7 @@ HEAT, WARMTH, FLOW, LEVEL = ("W",), ("K",), ("m3/s", "kg/s"), ("Pa", "m")
 CURRENT, VOLTAGE = ("A",), ("V",)
 POWER = r"^(?:sign\(\w+\)\*)?abs\(X\)\^({p}|[\d.]+)$"
 ANY = ("",)
+BEYOND = r"^(?:\(abs\(-?X - \S+\) [+-] X - \S+\)|\(X - 0.5\*abs\(X \+ \S+\) \+ 0.5\*abs\(X - \S+\)\))$"
 
 
 @dataclass(frozen=True)
@@ -51,7 +57,16 @@ FORMS = (
     Form("torque.cogging", r"^(sin|cos)\(\S+\*X\)$", FORCE, PLACE),
     Form("relaxation", r"^\(X - lag\(X, ", ANY, ANY),
     Form("motor.saturation", r"^\(X/\(1 \+ \S+Y\^2\) - X\)$", VOLTAGE, ("A/s",)),
+    Form("motor.heating", r"^X\*lag\(X\^2, ", VOLTAGE, CURRENT),
+    Form("load.power", r"^1/X$", CURRENT, VOLTAGE),
+    Form("clamp", BEYOND, CURRENT, VOLTAGE),
+    Form("end_stop", BEYOND, FORCE, PLACE),
+    Form("overflow", BEYOND, FLOW, LEVEL),
+    Form("overflow", r"^abs\(abs\(X - \S+\) \+ X - \S+\)\^1.5$", ("m3/s",), ("m",)),
+    Form("loss.turbulent", POWER, LEVEL, FLOW, 2.0),
 )
+
+KINDS = 3  # of groups, each as likely before: of a known form, a function of one variable, one of several
 
 
 Term = tuple[str, Mapping[str, str]]  # text, and the names that its shapes have among the values
@@ -67,6 +82,18 @@ def form_of(terms: Sequence[Term], variables: Sequence[Variable], gives: str, va
     if "friction.stribeck" in names:
         return "friction.stribeck"
     return names.pop() if len(names) == 1 else ""
+
+
+def picked(
+    texts: Sequence[str], variables: Sequence[Variable], gives: str, offered: tuple[int, int]
+) -> float:  # fmt: skip
+    """Nats of a group's name among all groups that a law at a place may have; `offered`: how many kinds there are of
+    one variable and of several. A constant, where the zero of the others lies, is of the known ones."""
+    if tuple(texts) == ("1",) or any(_named(text, variables, gives, {}) for text in texts):
+        known = sum(_alike(gives, f.gives) and _alike(v.unit, f.of) for f in FORMS for v in variables)
+        return math.log(KINDS * (1 + known))
+    several = len({v.local for v in variables for text in texts if f"{v.local}_ref" in text}) > 1
+    return math.log(KINDS * max(offered[several], 1))
 
 
 def _named(text: str, variables: Sequence[Variable], gives: str, shapes: Mapping[str, float]) -> str:
@@ -88,6 +115,8 @@ def _named(text: str, variables: Sequence[Variable], gives: str, shapes: Mapping
 def _has(form: Form, found: re.Match, shapes: Mapping[str, float]) -> bool:
     if not form.exponent:
         return True
+    if found[1] == "{p}" and "p" not in shapes:
+        return False
     exponent = shapes["p"] if found[1] == "{p}" else float(found[1])
     return abs(exponent - form.exponent) <= NEAR * form.exponent
 

@@ -10,18 +10,20 @@ from lacuna.discovery.catalogue.catalogue import Effect, EffectParameter
 from lacuna.discovery.catalogue.places import Device, Line, Shaft
 from lacuna.discovery.efforts import sites
 from lacuna.discovery.efforts.insertion import Lag, component
-from lacuna.discovery.law.forms import form_of
+from lacuna.discovery.law.forms import form_of, picked
 from lacuna.discovery.law.law_terms import Group, Shape, Variable
 
 
 @dataclass(frozen=True)
 class Site:
-    """A place with the variables that a law there may use and the unit of the effort that it gives."""
+    """A place with the variables that a law there may use and the unit of the effort that it gives; `offered` are the
+    kinds of groups of one variable and of several that laws are picked from, where the pick has a price."""
 
     place: Shaft | Line | Device | sites.Site
     location: str
     unit: str
     variables: tuple[Variable, ...]
+    offered: tuple[int, int] | None = None
 
     @property
     def sizes(self) -> dict[str, float]:
@@ -66,6 +68,12 @@ class Law:
             whole = whole.replace(f"{v.local}_ref", f"{v.size:g}")
             whole = _renamed(whole, v.local, v.reading)
         return whole
+
+    def pick(self) -> float:
+        """Nats that say which groups these are among all that there are; 0 where the pick has no price."""
+        if self.site.offered is None:
+            return 0.0
+        return sum(picked(g.texts, self.site.variables, self.site.unit, self.site.offered) for g in self.groups)
 
     def form(self, values: dict[str, float]) -> str:
         """The name of a known form that the law has; "" where it has none."""

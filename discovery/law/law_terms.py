@@ -23,7 +23,10 @@ OCTAVE = 1.6  # times pi over the longest recording: spacing of the frequencies 
 
 @dataclass(frozen=True)
 class Variable:
-    """A quantity at a place: its name in the law's component and in the model; `size` makes it dimensionless."""
+    """A quantity at a place: its name in the law's component and in the model; `size` makes it dimensionless.
+
+    `minus` is a quantity of the same unit that it is taken against: what drives a flow is often a difference.
+    """
 
     local: str
     name: str
@@ -31,11 +34,18 @@ class Variable:
     kind: str  # speed | position | current
     size: float
     switch: bool = False  # a Boolean of the model: 1 while it is true
+    minus: str = ""
 
     @property
     def reading(self) -> str:
         """What the law's component reads of the model, in Modelica."""
+        if self.minus:
+            return f"({self.name} - {self.minus})"
         return f"(if {self.name} then 1.0 else 0.0)" if self.switch else self.name
+
+    def course(self, values: Mapping[str, np.ndarray | float]) -> np.ndarray:
+        """(n,) along a trajectory, whose variables and parameters `values` holds."""
+        return values[self.name] - values[self.minus] if self.minus else values[self.name]
 
     @property
     def scaled(self) -> str:

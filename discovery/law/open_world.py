@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.efforts.find import Found, find
-from lacuna.discovery.fit.evidence import like_noise, nearly_noise
+from lacuna.discovery.fit.evidence import like_noise, nearly_noise, within_instruments
 from lacuna.discovery.law.beyond import MARGIN
 from lacuna.discovery.law.several import go_on
 from lacuna.discovery.naming.comparison import MIN_GAIN, TIE, Ranked, confidences, held_out_deviance, price, score
@@ -23,18 +23,21 @@ Progress = Callable[[str], None]
 
 
 def explain_open(search: Search, unbegun: Search, library: Library, progress: Progress) -> Found | None:
-    """Locate and explain what `unbegun`, the believed model, lacks, unless `search` has explained it in its equations.
+    """Locate and explain what `unbegun`, the believed model, lacks, unless `search` has explained it in its equations;
+    where what it found there leaves more than noise, laws at other places beside it.
 
     None where that is so, or where fits need shafts held near their motion: those are left to the catalogue.
     """
     quiet = nearly_noise(unbegun.fit) and like_noise(unbegun.fit)  # colour alone may also be a misfit of fast motion
     if not unbegun.lead.direct or unbegun.amendment.trackers or quiet:
         return None
-    explained = search.settled() or nearly_noise(search.fit)
+    explained = search.settled() or within_instruments(search.fit)
     if explained and any(not f.ranked.attachment.variable for f in search.findings):
         return None
     found = find(search.case, unbegun.amendment, unbegun.fit, library, progress)
-    if found.laws and _take(search, unbegun, found, progress):
+    taken = bool(found.laws) and _take(search, unbegun, found, progress)
+    physics = any(not f.ranked.attachment.variable for f in search.findings) and not search.amendment.trackers
+    if taken or physics:
         go_on(search, library, progress)
     return found
 

@@ -13,8 +13,9 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.find import find
-from lacuna.discovery.fit.evidence import nearly_noise, pays
+from lacuna.discovery.fit.evidence import pays, within_instruments
 from lacuna.discovery.fit.fit import Fit, linearised
+from lacuna.discovery.law.beyond import MARGIN
 from lacuna.discovery.naming.comparison import MIN_GAIN, Ranked, score
 from lacuna.discovery.naming.judge import Judgement, try_judge
 from lacuna.discovery.naming.left_out import left_out
@@ -26,8 +27,9 @@ Progress = Callable[[str], None]
 
 
 def go_on(search: Search, library: Library, progress: Progress) -> None:
-    """Add laws at other places while the model leaves more than noise and they pay; find earlier ones anew."""
-    while len(search.findings) < MAX_FINDINGS and not nearly_noise(search.fit):
+    """Add laws at other places while the model leaves more than instruments are off by and they pay; find earlier ones
+    anew."""
+    while len(search.findings) < MAX_FINDINGS and not within_instruments(search.fit):
         progress("looking for a law at another place")
         law = _best(search, search.amendment, search.fit, library, progress, _elsewhere(search.amendment))
         if law is None or not _pays(search, search.fit, law):
@@ -42,7 +44,7 @@ def go_on(search: Search, library: Library, progress: Progress) -> None:
 
 
 def _find_anew(search: Search, k: int, library: Library, progress: Progress) -> None:
-    """Find law k anew, given the others: taken where deviance and price fall."""
+    """Find law k anew, given the others: taken where deviance and price fall, and clearly so for what has a name."""
     old = search.findings[k].ranked
     progress(f"looking again at {old.attachment.location}")
     amendment = replace(
@@ -57,7 +59,8 @@ def _find_anew(search: Search, k: int, library: Library, progress: Progress) -> 
     correlation = law.fit.correlation()
     present = score(replace(old.candidate, fit=search.fit), base, correlation)
     after = try_judge(law.machine, law.fit.point)
-    if after is None or score(law, base, correlation) >= present:
+    margin = MARGIN if old.attachment.effect.identifier != "unknown" else 0.0
+    if after is None or score(law, base, correlation) >= present - margin:
         return
     search.findings[k] = _finding(law, base, search.findings[k].before, after)
     search.take([*amendment.attachments, law.attachment], law.fit, after)

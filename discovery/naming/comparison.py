@@ -123,7 +123,8 @@ def price(parameters: int, base: Fit, correlation: dict[str, float]) -> float:
 
 
 def score(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> float:
-    paid = candidate.fit.deviance(correlation) + price(len(candidate.free), base, correlation)
+    """Deviance, less the base's, with the price of its parameters and of having been picked among many."""
+    paid = candidate.fit.deviance(correlation) + price(len(candidate.free), base, correlation) + 2 * candidate.pick
     return paid - base.deviance(correlation)
 
 

@@ -38,6 +38,7 @@ class Candidate:
     start: dict[str, float] = field(default_factory=dict)
     shift: dict[str, float] = field(default_factory=dict)  # of the base's parameters: where they would go with it
     predicted: float = 0.0  # share of the cost that it is expected to explain
+    pick: float = 0.0  # nats that say which it is among all that it was picked from
     fit: Fit | None = None
 
 

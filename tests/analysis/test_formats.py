@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+import time
 
 import numpy as np
 import pytest
@@ -109,6 +110,23 @@ def test_what_is_written_in_a_format_reads_back_the_same(name: str, tmp_path: Pa
         assert np.array_equal(again[channel.name].values, channel.values)
         assert np.array_equal(again[channel.name].time, channel.time)
         assert again[channel.name].unit == channel.unit
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a.mat", "a.parquet", "a.mf4", "a.tdms", "a.xlsx"])
+def test_equal_recordings_are_equal_bytes(name: str, tmp_path: Path) -> None:
+    FORMATS[name](tmp_path / name).unlink()  # skips where its package is missing
+    source, made = read_recorded(csv(tmp_path / "source.csv")), []
+    for _ in range(2):
+        write_recorded(source, tmp_path / name)
+        made.append((tmp_path / name).read_bytes())
+        time.sleep(2.1)  # the resolution of times in an archive
+    assert made[0] == made[1]
+
+
+def test_a_spreadsheet_of_another_kind_is_not_written_under_its_name(tmp_path: Path) -> None:
+    with pytest.raises(RecordingError, match="only"):
+        write_recorded(read_recorded(csv(tmp_path / "source.csv")), tmp_path / "a.ods")
+    assert not (tmp_path / "a.ods").exists()
 
 
 @pytest.mark.parametrize("name", FORMATS)

@@ -28,7 +28,8 @@ PYTHON_MAY_IMPORT = {
 }
 PROJECT = {*STAGES, "lacuna", "cli", "bench", "tests"}
 # What every stage may know of the package: its name, where its libraries are, what an extra brings, units of measure,
-# what becomes of texts, rows of tables, names that may be meant, figures as files, programs that end with us.
+# what becomes of texts, rows of tables, names that may be meant, figures as files, programs that end with us, files
+# that are written whole.
 FACE = {
     "lacuna",
     "lacuna.native",
@@ -40,6 +41,7 @@ FACE = {
     "lacuna.suggest",
     "lacuna.drawn",
     "lacuna.children",
+    "lacuna.written",
 }
 
 C_MAY_INCLUDE = {

@@ -135,7 +135,7 @@ def killed_twice(base: Path, count: int, chunk: int) -> Path:
     scheduler = ["-m", "distributed.cli.dask_scheduler", "--port", "0", "--no-dashboard"]
     start(*scheduler, "--scheduler-file", str(address_file))
     try:
-        _wait(address_file.exists)
+        _wait(lambda: address_file.exists() and address_file.stat().st_size > 0)
         address = json.loads(address_file.read_text())["address"]
         worker = ["-m", "distributed.cli.dask_worker", address, "--no-nanny", "--nthreads", "1", "--no-dashboard"]
         run = ["-c", CLIENT, str(folder), address, str(count), str(chunk)]

@@ -49,3 +49,21 @@ def test_slips_in_the_description_are_named(
             (tmp_path / file.name).write_text(text.replace(old, new, 1) if file.suffix == ".toml" else text)
     with pytest.raises(CaseError, match=message):
         load(tmp_path)
+
+
+def test_degrees_celsius_are_read_as_the_kelvin_of_the_variable(tmp_path: Path) -> None:
+    """A variable that is in degrees Celsius itself keeps them; the noise is a difference of temperatures."""
+    (tmp_path / "Plate.mo").write_text(
+        'model Plate\n  Real T(unit="K", start=293, fixed=true);\n  Real C(unit="degC", start=20, fixed=true);\n'
+        "  parameter Real r = 1;\nequation\n  der(T) = -r*(T - 293);\n  der(C) = -r*(C - 20);\nend Plate;\n"
+    )
+    (tmp_path / "r.csv").write_text("time,T,C\n0,20,20\n1,26.85,30\n2,,40\n")
+    signal = '[signals.{0}]\nrole = "output"\nunit = "degC"\nnoise_std = 0.5\n'
+    (tmp_path / "r2.csv").write_text("time,T,C\n0,20,20\n1,20,20\n")
+    files = '[recordings]\nfit = ["r.csv"]\nvalidate = ["r2.csv"]\n'
+    (tmp_path / "case.toml").write_text('model = "Plate.mo"\n' + signal.format("T") + signal.format("C") + files)
+    case = load(tmp_path)
+    assert (case.signals["T"].si_unit, case.signals["C"].si_unit) == ("K", "degC")
+    np.testing.assert_allclose(case.fit[0].columns["T"], [293.15, 300.0, np.nan])
+    np.testing.assert_allclose(case.fit[0].columns["C"], [20, 30, 40])
+    assert case.signals["T"].noise_std == 0.5

@@ -224,6 +224,18 @@ def test_places_of_a_bench_and_what_is_closed() -> None:
     assert any("shaft.flange_b" in s.ends for s in found.places if s.kind == "node")
 
 
+def test_an_equation_that_only_names_a_rate_is_no_place(tmp_path: Path) -> None:
+    """What is missing in a motion is missing in its balance; a rate that is an input is a balance."""
+    file = tmp_path / "Free.mo"
+    file.write_text(
+        'model Free\n  input Real q(unit="m3/s");\n  Real x;\n  Real v;\n  Real h;\nequation\n  der(x) = v;\n'
+        "  2*der(v) = -x;\n  der(h) = q;\nend Free;\n"
+    )
+    found = read(Library([str(file)]), "Free")
+    assert [s.label for s in found.places] == ["2*der(v) = -x", "der(h) = q"]
+    assert [label for label, _ in found.closed] == ["der(x) = v"]
+
+
 def test_the_right_side_of_an_equation() -> None:
     for text, expected in (
         ("a = b + c;", " b + c"),

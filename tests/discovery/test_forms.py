@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from lacuna.discovery.efforts.sites import Site as Place
+from lacuna.discovery.law.forms import FORMS
 from lacuna.discovery.law.law import Law, Site, attach
 from lacuna.discovery.law.law_terms import Group, Shape, Variable, lagged
 
@@ -64,3 +65,18 @@ def test_what_lags_becomes_a_state_of_the_law_once() -> None:
     assert "z_2" not in source
     assert "t_1*der(z_1) = (x1/x1_ref) - z_1;" in source
     assert "z_1 = (x1/x1_ref);" in source.partition("initial equation")[2].partition("\nequation")[0]
+
+
+def test_a_law_pays_for_having_been_picked_and_a_known_form_pays_least() -> None:
+    """A two-part code: ln of how many laws there are of each kind; a constant is a known one."""
+    variables = tuple(Variable(f"x{k}", f"body.T{k}", "K", "state", 300.0) for k in (1, 2))
+    place = Site(Place("equation", "a = b"), "body", "W", variables, (60, 40))
+
+    def pick(*texts: str) -> float:
+        return Law(place, tuple(Group((text,)) for text in texts)).pick()
+
+    known = 2 * sum(f.gives == ("W",) or f.gives == ("",) for f in FORMS)
+    assert pick("1") == pick("abs(x1/x1_ref)^4") == pytest.approx(np.log(3 * (1 + known)))
+    assert pick("abs(x1/x1_ref)^5") == pytest.approx(np.log(3 * 60))
+    assert pick("(x1/x1_ref)*(x2/x2_ref)") == pytest.approx(np.log(3 * 40))
+    assert pick("abs(x1/x1_ref)^5", "(x1/x1_ref)*(x2/x2_ref)") == pytest.approx(np.log(3 * 60) + np.log(3 * 40))

@@ -11,7 +11,6 @@ import re
 from markupsafe import Markup
 import numpy as np
 
-from lacuna.analysis.files import published_together
 from lacuna.analysis.prognosis.filter.bank import Bank
 from lacuna.analysis.prognosis.filter.crossing import remaining
 from lacuna.analysis.prognosis.filter.filter import run
@@ -33,6 +32,7 @@ from lacuna.analysis.prognosis.series import last_error, series_of
 from lacuna.analysis.prognosis.verdict import FORECAST
 from lacuna.analysis.report.page import figure, heading, page, table
 from lacuna.drawn import save
+from lacuna.written import whole_files
 
 DRAWN = 40  # actuators that get a figure; of more, those at greatest risk
 
@@ -47,7 +47,7 @@ def publish(
 
     first = sorted(said, key=urgency)[:DRAWN]
     parts = []
-    with published_together(out) as scratch, in_style():
+    with whole_files(out) as scratch, in_style():
         text = json.dumps(forecast_json(said, risk, version), indent=2, ensure_ascii=False, allow_nan=False)
         (scratch / "forecast.json").write_text(text + "\n", encoding="utf-8")
         for f in first:

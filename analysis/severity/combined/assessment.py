@@ -8,7 +8,6 @@ import json
 from pathlib import Path
 from typing import Any
 
-from lacuna.analysis.files import published_together
 from lacuna.analysis.recording.recordings import Refusal, check_phases, read_recording
 from lacuna.analysis.settings import Band
 from lacuna.analysis.severity.assessment import chain_at, features_of, filtered, sentence, write_drawn
@@ -16,6 +15,7 @@ from lacuna.analysis.severity.combined.estimate import JointEstimate, JointEstim
 from lacuna.analysis.severity.combined.grid import load_grid
 from lacuna.analysis.severity.preparation import START_RATE
 from lacuna.analysis.spectra.chain import signature
+from lacuna.written import whole_files
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ def _write(done: JointAssessment, estimator: JointEstimator, folder: Path, out: 
     content = asdict(done) | {"map": str(folder), "model": estimator.grid.settings.model}
     del content["estimate"]["density"]
     content["faults"] = [estimator.grid.settings.fault.name, estimator.grid.other.name]
-    with published_together(out) as scratch:
+    with whole_files(out) as scratch:
         text = json.dumps(content, indent=2, ensure_ascii=False)
         (scratch / "assessment.json").write_text(text + "\n", encoding="utf-8")
         with in_style():

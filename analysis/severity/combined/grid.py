@@ -13,13 +13,14 @@ import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
 from lacuna.analysis.errors import AnalysisError
-from lacuna.analysis.files import load_arrays, published_together
+from lacuna.analysis.files import load_arrays
 from lacuna.analysis.map.plant import Plant
 from lacuna.analysis.map.sweep import Progress
 from lacuna.analysis.settings import Fault, Settings, load_settings
 from lacuna.analysis.severity.preparation import start_of
 from lacuna.analysis.severity.sensitivities import Surroundings, conditions
 from lacuna.analysis.spectra.chain import Chain
+from lacuna.written import whole_files
 
 GRID_FILE, SETTINGS_FILE = "combined.npz", "settings.toml"
 STEP = 0.05  # of the severity of the map's own fault, from node to node
@@ -91,7 +92,7 @@ def build_grid(
     covariance = np.array([RegularGridInterpolator(knots, level)(nodes) for level in corners])
     starts = np.array([start_of(plant, settings, float(severity)) for severity in x])
     arrays = {"x": x, "y": y, "mean": mean, "covariance": covariance, "starts": starts}
-    with published_together(folder) as scratch:
+    with whole_files(folder) as scratch:
         np.savez(scratch / GRID_FILE, other=other.symbol, **arrays)
         (scratch / SETTINGS_FILE).write_text(settings.text, encoding="utf-8")
     return Grid(settings, other, **arrays)

@@ -50,15 +50,15 @@ ROWS = (
 
 
 def write_studies(studies: list[Study], docs: Path) -> None:
-    from lacuna.analysis.files import published_together
     from lacuna.analysis.report.figures.style import in_style
     from lacuna.analysis.severity.combined.figures import draw_limits
+    from lacuna.written import whole_files
 
-    with published_together(docs / "figures") as scratch, in_style():
+    with whole_files(docs / "figures") as scratch, in_style():
         for study in studies:
             figure = draw_limits(study)
             save(figure, scratch / f"combined_{study.grid.other.symbol}.svg", "svg")
-    with published_together(docs) as scratch:
+    with whole_files(docs) as scratch:
         (scratch / "combined.md").write_text(page(studies), encoding="utf-8")
 
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
+import os
 from pathlib import Path
 import shutil
 import subprocess
 import sys
 import threading
+import time
 
 import pytest
 
@@ -65,7 +68,7 @@ def _checkout(folder: Path, gain: int) -> Path:
     shutil.copytree(ROOT / "codegen", package / "codegen", ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copytree(ROOT / "runtime" / "include", package / "runtime" / "include")
     (package / "__init__.py").touch()
-    for needed in ("units.py", "texts.py", "children.py", "suggest.py"):
+    for needed in ("units.py", "texts.py", "children.py", "suggest.py", "written.py"):
         shutil.copy(ROOT / "lacuna" / needed, package)
     (package / "model").mkdir()
     (package / "model" / "package.mo").write_text("package Lacuna\nend Lacuna;\n")
@@ -177,3 +180,52 @@ def test_a_folder_that_others_can_write_to_is_refused(model: str, tmp_path: Path
     shared.chmod(0o777)
     with pytest.raises(cache.CompilerError, match="others can write"):
         compile_model(model, cache_directory=str(shared))
+
+
+def index_of(folder: Path) -> Path:
+    (index,) = (folder / "index").iterdir()
+    return index
+
+
+@pytest.mark.parametrize("spoilt", ["null", "[]", "{}", '{"generator": 1}', "\udcff"])
+def test_an_index_that_is_none_of_ours_is_made_anew(model: str, tmp_path: Path, spoilt: str) -> None:
+    compile_model(model, cache_directory=str(tmp_path))
+    index_of(tmp_path).write_text(spoilt, encoding="utf-8", errors="surrogateescape")
+    assert not compile_model(model, cache_directory=str(tmp_path)).report.cached
+
+
+def test_an_index_does_not_lead_to_a_library_elsewhere(model: str, tmp_path: Path) -> None:
+    """Whoever can write one small file must not be able to have code loaded from a place of his own."""
+    store, elsewhere = tmp_path / "store", tmp_path / "elsewhere"
+    found = compile_model(model, cache_directory=str(store))
+    elsewhere.mkdir()
+    for path in store.glob(f"{Path(found.path).stem}.*"):
+        shutil.copy(path, elsewhere)
+    for there in (str(elsewhere / Path(found.path).name), f"../elsewhere/{Path(found.path).name}"):
+        entry = json.loads(index_of(store).read_text())
+        index_of(store).write_text(json.dumps(entry | {"library": there}))
+        again = compile_model(model, cache_directory=str(store))
+        assert (again.report.cached, again.path) == (False, found.path)
+
+
+def test_what_is_found_in_a_folder_that_others_can_write_to_is_not_loaded(model: str, tmp_path: Path) -> None:
+    store = tmp_path / "store"
+    compile_model(model, cache_directory=str(store))
+    store.chmod(0o777)
+    with pytest.raises(cache.CompilerError, match="others can write"):
+        compile_model(model, cache_directory=str(store))
+
+
+def test_the_folder_is_bounded_and_what_was_used_last_stays(tmp_path: Path) -> None:
+    day = 86400
+    for k in range(10):
+        for suffix in (".so", ".c", ".sha256"):
+            path = tmp_path / f"{k:032x}{suffix}"
+            path.write_bytes(bytes(1000))
+            os.utime(path, (0, time.time() - (10 - k) * day))
+    os.utime(tmp_path / f"{0:032x}.sha256")  # used just now
+    cache.trim(tmp_path, largest=10_000)
+    assert {int(path.stem, 16) for path in tmp_path.iterdir()} == {0, 8, 9}
+    assert len(list(tmp_path.iterdir())) == 9
+    cache.trim(tmp_path, largest=0)
+    assert {int(path.stem, 16) for path in tmp_path.iterdir()} == {0}
