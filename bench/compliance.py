@@ -86,10 +86,9 @@ def table(verdicts: dict[str, bool], results: dict[str, dict[str, object]]) -> s
 
 HEAD = """# The Modelica Association's compliance library
 
-Written by `make compliance`: every case translated at default settings, but with external C allowed, and run to its stop
-time. One that should fail
-counts where it is refused with code and place, or stopped by its own assertion. Below is what is left, and why; a test
-fails where any other case goes wrong.
+Written by `make compliance`: every case translated at default settings, but with external C allowed, and run to its
+stop time. One that should fail counts where it is refused with code and place, or stopped by its own assertion. Below
+is what is left, and why; a test fails where any other case goes wrong.
 
 """
 
