@@ -120,11 +120,16 @@ def files_of(history: Path | str) -> list[Path]:
 
 
 def _read(
-    path: Path, assess: Assess | None, unit: str | None, limits: Mapping[str, float], kept: Path, progress: Any
+    path: Path,
+    assess: Assess | None,
+    unit: str | None,
+    limits: Mapping[str, float],
+    kept: Path,
+    progress: Progress | None,
 ) -> list[History]:
     """Raises AnalysisError where there are diagnoses and no limit: it tells what drifts."""
     read = diagnoses.Reader(limits, explained(kept, progress))
-    histories = read_histories(path, assess, unit, read)
+    histories: list[History] = read_histories(path, assess, unit, read)
     if read.healthy and not limits:
         raise AnalysisError(f"{path}: which quantity has what limit? There are {read.drifts(histories)}")
     return histories
