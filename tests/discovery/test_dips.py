@@ -37,7 +37,7 @@ def fitted(
     [
         (lambda x: 10.0 * (x - 2.0) + NOISE, True),
         (lambda x: 10.0 * (x**2 - 4.0) + NOISE, True),
-        (lambda x: 10.0 * (x - 2.0) + NOISE + 0.3 * np.sin(1e5 * x), False),  # dips of the width of 1e-2 sigma
+        (lambda x: 10.0 * (x - 2.0) + NOISE + np.sin(1e5 * x), False),  # dips of the width of 1e-2 sigma
         (lambda x: 10.0 * np.round(x - 2.0, 1) + NOISE, False),
     ],
 )
