@@ -17,7 +17,7 @@ FUZZ_TARGETS := stream table inputs
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*' ':!:fmi/standard/*')
 
 .PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined prognosis tolerance-study \
-        prove-machines prove-experiments figures docs wheel vsix examples belts hybrid units msl compliance format lint sanitize ctest pytest lock clean
+        prove-machines prove-experiments figures docs wheel vsix examples belts hybrid automata units msl compliance format lint sanitize sanitize-models threads ctest pytest lock clean
 
 help: ## Print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -133,9 +133,18 @@ lint: setup
 	  | xargs -P 2 -n 4 clang-tidy -p $(BUILD) --quiet 2>&1 | { grep -vE '^[0-9]+ warnings? (generated|treated)' || true; }
 
 sanitize: $(BUILD)/.debian
-	@cmake -S . -B $(BUILD)/sanitize -G Ninja -DCMAKE_BUILD_TYPE=Debug -DLACUNA_SANITIZE=ON > $(BUILD)/sanitize.log
+	@cmake -S . -B $(BUILD)/sanitize -G Ninja -DCMAKE_BUILD_TYPE=Debug -DLACUNA_SANITIZE=address,undefined > $(BUILD)/sanitize.log
 	@ninja -C $(BUILD)/sanitize --quiet | sed '/no work to do/d'
 	@$(call run_ctest,$(BUILD)/sanitize)
+
+sanitize-models: sanitize threads ## Generated models in four threads under the address, undefined and thread sanitizers (minutes)
+	@$(PYTHON) -m tests.sanitize $(BUILD)/sanitize
+	@$(PYTHON) -m tests.sanitize $(BUILD)/thread
+
+threads: $(BUILD)/.debian ## The C and C++ tests under the thread sanitizer
+	@cmake -S . -B $(BUILD)/thread -G Ninja -DCMAKE_BUILD_TYPE=Debug -DLACUNA_SANITIZE=thread > $(BUILD)/thread.log
+	@ninja -C $(BUILD)/thread --quiet | sed '/no work to do/d'
+	@$(call run_ctest,$(BUILD)/thread)
 
 fuzz: setup ## [FUZZ_SECONDS=180] each of: models through the parser, systems by three solvers, libFuzzer's targets (clang)
 	@$(PYTHON) -m tests.codegen.fuzz --seconds $(FUZZ_SECONDS)
@@ -154,6 +163,9 @@ units: setup ## T1, T2, FlightControlEma and ten circuits in other units: events
 
 hybrid: setup ## 20 000 runs of random hybrid systems against closed-form switching times (a quarter of an hour)
 	@$(PYTHON) -m tests.events systems
+
+automata: setup ## 6000 runs of random automata against a program that plays them on closed forms (a quarter of an hour)
+	@$(PYTHON) -m tests.events automata
 
 format: setup ## Format all sources
 	@$(PYTHON) -m ruff format .

@@ -29,6 +29,12 @@ class Editor:
             if params.uri == self.uri:
                 self._found.put_nowait(list(params.diagnostics))
 
+    def busy(self) -> float:
+        """Processor time of the server's main thread so far, s; Linux counts it."""
+        server = self.client._server
+        assert server is not None
+        return int(Path(f"/proc/{server.pid}/schedstat").read_text(encoding="ascii").split()[0]) * 1e-9
+
     async def open(self, text: str) -> list[lsp.Diagnostic]:
         self.text = text
         item = lsp.TextDocumentItem(self.uri, "modelica", 0, text)

@@ -61,14 +61,15 @@ def export_fmu(request: FmuRequest, path: Path) -> Fmu:
     """Translate, describe, compile, pack. Raises FmuError for what FMI cannot carry, Diagnostic and CompilerError as
     any translation does."""
     _check(request, path)
-    compiled = compile_model(
-        request.name, search_path=list(request.search_path), modifications=dict(request.fixed), units=request.units,
-        sensitivities=True,
-    )  # fmt: skip
+    given = {"search_path": list(request.search_path), "modifications": dict(request.fixed), "units": request.units}
     with own_table():
-        prepared, _ = translate(
-            request.name, search_path=list(request.search_path), modifications=dict(request.fixed), units=request.units
-        )
+        prepared, _ = translate(request.name, **given)
+        if prepared.delays:
+            raise FmuError(
+                f"{request.name}: delay() is not exported: an FMU would have to keep the past of a solver that is not "
+                "its own; put a first-order lag or a Pad\u00e9 approximation in its place"
+            )
+        compiled = compile_model(request.name, sensitivities=True, **given)
         return _pack(request, compiled, prepared, path)
 
 

@@ -7,13 +7,14 @@ from dataclasses import dataclass, field, replace
 import math
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis.filter.bank import Bank, Beliefs, in_use
 from lacuna.analysis.prognosis.filter.crossing import Remaining, remaining
 from lacuna.analysis.prognosis.filter.filter import Series, Step, run
 from lacuna.analysis.prognosis.history import History
-from lacuna.analysis.prognosis.series import joined, last_error, series_of
+from lacuna.analysis.prognosis.series import last_error, series_of
 from lacuna.analysis.prognosis.verdict import FEWEST, FORECAST, verdict_on
 
 LEVELS = (0.025, 0.1, 0.5, 0.9, 0.975)
@@ -121,9 +122,7 @@ def forecasts(
     for rows in _batches(histories):
         batch = [histories[k] for k in rows]
         scale = [of(h) for h in batch]
-        series = joined(
-            [series_of([h], one.span, bank.settings.floor, one.healthy) for h, one in zip(batch, scale, strict=True)]
-        )
+        series = _series(batch, scale, bank)
         outliers = []
         for step in run(bank, series):
             outliers.append(step.outlier)
@@ -148,24 +147,32 @@ def fleet_prior(histories: Sequence[History], bank: Bank, of: Callable[[History]
     weights = []
     for rows in _batches(chosen):
         batch = [chosen[k] for k in rows]
-        *_, last = run(bank, joined([series_of([h], of(h).span, bank.settings.floor, of(h).healthy) for h in batch]))
+        *_, last = run(bank, _series(batch, [of(h) for h in batch], bank))
         weights.append(last.filtered.w)
     bank.learn(np.concatenate(weights, axis=1))
 
 
+def _series(batch: Sequence[History], scale: Sequence[Limits], bank: Bank) -> Series:
+    return series_of(batch, [one.span for one in scale], bank.settings.floor, [one.healthy for one in scale])
+
+
 def _ended(h: History, limits: Limits) -> list[History]:
-    """The ended lives of a history, each as one of its own."""
+    """The ended lives of a history, each as one of its own, up to the first test beyond the limit: what a part does
+    that should have been removed tells no life, and towards the end of the map its severity is cut."""
     result = []
     for k, life in enumerate(h.lives):
-        known = h.severity[life][np.isfinite(h.severity[life])]
+        rows = np.arange(life.start, life.stop)
+        known = rows[np.isfinite(h.severity[rows])]
+        if len(known) < FEWEST:
+            continue
+        middle = np.median(sliding_window_view(h.severity[known], FEWEST), axis=1)
         share = 1.0 if k == len(h.lives) - 1 else 0.5
-        if len(known) >= FEWEST and np.median(known[-FEWEST:]) >= limits.healthy + share * limits.span:
-            none = np.zeros(life.stop - life.start, bool)
-            result.append(
-                replace(
-                    h, use=h.use[life], severity=h.severity[life], low=h.low[life], high=h.high[life], replaced=none
-                )
-            )
+        if middle[-1] < limits.healthy + share * limits.span:
+            continue
+        beyond = np.flatnonzero((middle >= limits.removal) & (h.severity[known[: len(middle)]] >= limits.removal))
+        own = slice(life.start, known[beyond[0]] + 1 if len(beyond) else life.stop)
+        columns = {name: getattr(h, name)[own] for name in ("use", "severity", "low", "high")}
+        result.append(replace(h, **columns, replaced=np.zeros(own.stop - own.start, bool)))
     return result
 
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import zip_longest
 import math
 from pathlib import Path
@@ -47,7 +48,7 @@ class History:
     warnings: tuple[str, ...] = ()
     doubts: tuple[str, ...] = ()  # why no number may be trusted, where the table contradicts itself
 
-    @property
+    @cached_property
     def lives(self) -> list[slice]:
         """Rows of each part in turn; the last one is in service."""
         starts = [0, *(k for k in np.flatnonzero(self.replaced).tolist() if k)]

@@ -110,6 +110,36 @@ def seconds(path: Path, head: Head, values: np.ndarray) -> tuple[np.ndarray, lis
     return (values if factor == 1.0 else values * factor), notes
 
 
+def from_clock(instants: np.ndarray) -> tuple[np.ndarray, list[str]]:
+    """Seconds since the first of datetime64 `instants`, and what was assumed; NaN where one is missing."""
+    if not len(instants):
+        return np.zeros(0), []
+    known = instants[~np.isnat(instants)]
+    first = known[0] if len(known) else instants[0]
+    return (instants - first) / np.timedelta64(1, "s"), [f"time begins at 0, which is {first}"]
+
+
+def clock_name(name: str, others: Sequence[str]) -> str:
+    """Instants are the time of a recording, whatever they are called, where nothing else is called so."""
+    return name if any(read_head(other).is_time for other in (name, *others)) else "time"
+
+
+def named_columns(path: Path, header: Sequence[str], values: np.ndarray) -> list[int]:
+    """The columns with a name. A column without one may only be empty, as after a separator at the ends of lines, or
+    count the rows, as pandas writes."""
+    count = np.arange(values.shape[1])
+    for k, name in enumerate(header):
+        counts = np.array_equal(values[k], count) or np.array_equal(values[k], count + 1)
+        if not name and not counts and np.isfinite(values[k]).any():
+            raise RecordingError(f"{path}: column {k + 1} has no name")
+    return [k for k, name in enumerate(header) if name]
+
+
+def left_out(names: Sequence[str]) -> list[str]:
+    """What is said of columns that are no channels of a recording."""
+    return [f"left out, for they hold no series of numbers: {', '.join(names)}"] if names else []
+
+
 def distinct(heads: Sequence[Head]) -> list[str]:
     """Names without units; those that then occur twice (I [A], I [mA]) stay as they were written."""
     names = [head.name for head in heads]

@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+from datetime import datetime
 from pathlib import Path
 import re
 from zipfile import ZipFile, ZipInfo
 
 import numpy as np
 
-from lacuna.analysis.recording.channel import Recorded, RecordingError, from_table, on_one_time
+from lacuna.analysis.recording.channel import (
+    Recorded,
+    RecordingError,
+    clock_name,
+    from_clock,
+    from_table,
+    named_columns,
+    on_one_time,
+)
 
 _ABOUT = "docProps/core.xml"
 _MOMENT, _EPOCH = re.compile(rb"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d(\.\d+)?"), b"1980-01-01T00:00:00"
@@ -24,16 +33,38 @@ def read(path: Path) -> Recorded:
     except Exception as error:  # a damaged file may trip its parser anywhere
         raise RecordingError(f"{path}: not a spreadsheet that can be read: {error}") from None
     rows = sheet.to_numpy(dtype=object)
+    clocks, notes = _clocks(rows)
     first = next((k for k, row in enumerate(rows) if _numbers(row)), None)
     if not first:
         raise RecordingError(f"{path}: its first sheet has no rows of numbers below a row of names")
-    header = [str(cell).strip() for cell in rows[max(first - 2, 0) if _are_units(rows, first) else first - 1]]
-    units = [_text(cell) for cell in rows[first - 1]] if _are_units(rows, first) else [""] * len(header)
+    above = rows[first - 1]
+    if any(isinstance(cell, int | float) and cell == cell for cell in above):
+        texts = [number for number, cell in enumerate(above, 1) if isinstance(cell, str)]
+        where = f"column {texts[0]} of its row {first}" if texts else f"row {first}"
+        raise RecordingError(f"{path}: {where} holds something that is no number among numbers")
+    header = [_text(cell) for cell in (rows[first - 2] if _are_units(rows, first) else above)]
+    units = [_text(cell) for cell in above] if _are_units(rows, first) else [""] * len(header)
+    for k in clocks:
+        header[k], units[k] = clock_name(header[k], header), "s"
     for number, row in enumerate(rows[first:], first + 1):
         if not _numbers(row):
             raise RecordingError(f"{path}: row {number} of its first sheet holds something that is no number")
     values = np.array([[np.nan if cell is None else float(cell) for cell in row] for row in rows[first:]]).T
-    return from_table(path, header, units, values)
+    kept = named_columns(path, header, values)
+    return from_table(path, [header[k] for k in kept], [units[k] for k in kept], values[kept], notes)
+
+
+def _clocks(rows: np.ndarray) -> tuple[list[int], list[str]]:
+    """The columns that hold dates, which become seconds since the first; and what was assumed."""
+    found, notes = [], []
+    for k, column in enumerate(rows.T):
+        dates = [number for number, cell in enumerate(column) if isinstance(cell, datetime)]
+        if dates:
+            time, said = from_clock(np.array([column[number] for number in dates], dtype="datetime64[ns]"))
+            rows[dates, k] = time.tolist()
+            found.append(k)
+            notes += said
+    return found, notes
 
 
 def _numbers(row: np.ndarray) -> bool:

@@ -14,12 +14,13 @@ from lacuna.recorded_units import UnitError, to_si
 
 # How loggers write units that the language writes otherwise.
 _SPELLINGS = {
-    "°C": "degC", "℃": "degC", "C°": "degC", "grad C": "degC", "°": "deg", "Ω": "Ohm", "Nm": "N.m", "mNm": "mN.m",
-    "Nmm": "N.mm", "1/min": "rpm", "min-1": "rpm", "min^-1": "rpm", "U/min": "rpm", "r/min": "rpm",
-    "rev/min": "rpm", "RPM": "rpm", "sec": "s", "secs": "s", "seconds": "s", "msec": "ms", "µs": "us", "μs": "us",
-    "-": "1", "": "1", "Volt": "V", "Amp": "A", "Amps": "A", "lpm": "l/min",
+    "°C": "degC", "℃": "degC", "C°": "degC", "grad C": "degC", "°": "deg", "Ω": "Ohm", "1/min": "rpm", "min-1": "rpm",
+    "min^-1": "rpm", "U/min": "rpm", "r/min": "rpm", "rev/min": "rpm", "RPM": "rpm", "sec": "s", "secs": "s",
+    "seconds": "s", "msec": "ms", "-": "1", "": "1", "Volt": "V", "Amp": "A", "Amps": "A", "lpm": "l/min",
     "ltr/min": "l/min", "hours": "h", "minutes": "min",
 }  # fmt: skip
+_SIGNS = str.maketrans("µμ⁰¹²³⁴⁵⁶⁷⁸⁹⁻·⋅∙×−", "uu0123456789-....-")
+_TORQUE = re.compile(r"Nm(?![a-ln-z])")  # with any prefix, but for Nms, which could be read in two ways
 _BRACKETS = re.compile(
     r"^(?P<name>.*?\S)\s*(?:\[(?P<a>[^\]]*)\]|\((?P<b>[^)]*(?:\([^)]*\)[^)]*)?)\)|\{(?P<c>[^}]*)\}|<(?P<d>[^>]*)>)$"
 )
@@ -45,15 +46,8 @@ class Head:
 
 def known_unit(text: str) -> str | None:
     """`text` as the language writes it, or None where it is no unit."""
-    spelt = text.strip()
-    spelt = (
-        _SPELLINGS.get(spelt, spelt)
-        .replace("µ", "u")
-        .replace("μ", "u")
-        .replace("²", "2")
-        .replace("³", "3")
-        .replace("·", ".")
-    )
+    spelt = text.strip().translate(_SIGNS)
+    spelt = _TORQUE.sub("N.m", _SPELLINGS.get(spelt, spelt))
     try:
         to_si(spelt)
     except UnitError:

@@ -6,12 +6,13 @@ A table is what Lacuna writes (`time`, `names`, `units`, `data`), or a Modelica 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from lacuna.analysis.recording.channel import Recorded, RecordingError, from_table, on_one_time
+from lacuna.analysis.recording.channel import Recorded, RecordingError, from_table, left_out, on_one_time
 
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 _DESCRIPTION = 116  # bytes of text at the head of version 5
@@ -48,17 +49,26 @@ def _content(path: Path) -> dict[str, Any]:
 def _hdf5(path: Path) -> dict[str, Any]:
     import h5py
 
+    content: dict[str, Any] = {}
+
+    def keep(name: str, item: Any) -> None:
+        if isinstance(item, h5py.Dataset) and not name.startswith("#"):
+            numeric = item.dtype.kind in "fiub" and item.attrs.get("MATLAB_class") != b"char"
+            content[name.replace("/", ".")] = np.asarray(item[()], float).T if numeric else None  # columns come first
+
     try:
         with h5py.File(path) as file:
-            numeric = {n: d for n, d in file.items() if isinstance(d, h5py.Dataset) and d.dtype.kind in "fiu"}
-            return {n: np.asarray(d[()], float).T for n, d in numeric.items()}  # MATLAB writes columns first
+            file.visititems(keep)
     except OSError as error:
         raise RecordingError(f"{path}: not a MAT file that can be read: {error}") from None
+    return content
 
 
 def _vectors(path: Path, content: dict[str, Any]) -> Recorded:
-    arrays = {n: np.asarray(v) for n, v in content.items() if isinstance(v, np.ndarray) and v.dtype.kind in "fiu"}
-    vectors = {n: v.ravel().astype(float) for n, v in arrays.items() if v.size > 1 and v.size == max(v.shape)}
+    """Vectors beside a vector of time, in the file or in one structure; of a matrix each column, numbered."""
+    flat = _without_common_head(dict(_fields(content)))
+    arrays = {n: v for n, v in flat.items() if isinstance(v, np.ndarray) and v.dtype.kind in "fiub" and v.size > 1}
+    vectors = {n: v.ravel().astype(float) for n, v in arrays.items() if v.size == max(v.shape)}
     if not vectors:
         raise RecordingError(f"{path}: holds no vectors of numbers; it has {', '.join(content) or 'nothing'}")
     lengths = {n: len(v) for n, v in vectors.items()}
@@ -66,7 +76,32 @@ def _vectors(path: Path, content: dict[str, Any]) -> Recorded:
         raise RecordingError(
             f"{path}: its vectors differ in length: " + ", ".join(f"{n} {k}" for n, k in lengths.items())
         )
-    return from_table(path, list(vectors), [""] * len(vectors), np.array(list(vectors.values())))
+    rows = next(iter(lengths.values()))
+    for name, matrix in arrays.items():
+        if name not in vectors and matrix.ndim == 2 and matrix.shape.count(rows) == 1:
+            columns = matrix.T if matrix.shape[0] == rows else matrix
+            vectors |= {f"{name}[{k}]": column.astype(float) for k, column in enumerate(columns, 1)}
+    taken = {name.split("[")[0] for name in vectors}
+    notes = left_out([name for name in flat if name not in vectors and name not in taken])
+    return from_table(path, list(vectors), [""] * len(vectors), np.array(list(vectors.values())), notes)
+
+
+def _fields(content: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
+    """What is in a file or a structure of it, by dotted names."""
+    for name, value in content.items():
+        names = value.dtype.names if isinstance(value, np.ndarray) and value.size == 1 else None
+        if names:
+            inner = value.ravel()[0]
+            yield from _fields({n: inner[n] for n in names}, f"{before}{name}.")
+        else:
+            yield before + name, value
+
+
+def _without_common_head(flat: dict[str, Any]) -> dict[str, Any]:
+    """Without the name of the one structure that holds everything."""
+    heads = {name.partition(".")[0] for name in flat}
+    inside = len(heads) == 1 and all("." in name for name in flat)
+    return _without_common_head({n.partition(".")[2]: v for n, v in flat.items()}) if inside else flat
 
 
 def _trajectories(path: Path, content: dict[str, Any]) -> Recorded:

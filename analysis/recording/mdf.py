@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from lacuna.analysis.recording.channel import Channel, Recorded, RecordingError, distinct
+from lacuna.analysis.recording.channel import Channel, Recorded, RecordingError, distinct, left_out
 from lacuna.analysis.recording.heads import read_head
 
 _NONE_OF_VERSION_3 = 65535
@@ -33,21 +33,32 @@ def read(path: Path) -> Recorded:
             ]
     except Exception as error:  # a damaged file may trip its parser anywhere
         raise RecordingError(f"{path}: not an MDF file that can be read: {error}") from None
-    signals = [s for s in signals if len(s.samples) and s.samples.dtype.kind in "fiu" and s.samples.ndim == 1]
+    whole = signals
+    signals = [s for s in whole if len(s.samples) and s.samples.dtype.kind in "fiu" and s.samples.ndim == 1]
+    notes = left_out([s.name for s in whole if all(s is not kept for kept in signals)])
     if not signals:
         raise RecordingError(f"{path}: holds no channels of numbers")
     heads = [read_head(s.name, s.unit or "") for s in signals]
     twice = {s.name for s in signals if sum(other.name == s.name for other in signals) > 1}
     if twice:
         raise RecordingError(f"{path}: {', '.join(sorted(twice))} occurs more than once; export one group of channels")
+    physical = [_physical(s) for s in signals]
+    bent = [s.name for s, values in zip(signals, physical, strict=True) if values is None]
+    if bent:
+        said = f"{', '.join(bent)} {'is' if len(bent) == 1 else 'are'} converted by more than a straight line"
+        if len(bent) == len(signals):
+            raise RecordingError(f"{path}: {said}; export it converted")
+        notes.append(f"left out: {said}; export it converted")
     channels = tuple(
-        Channel(name, head.unit or "", np.asarray(s.timestamps, float), _physical(path, s), head)
-        for name, head, s in zip(distinct(heads), heads, signals, strict=True)
+        Channel(name, head.unit or "", np.asarray(s.timestamps, float), values, head)
+        for name, head, s, values in zip(distinct(heads), heads, signals, physical, strict=True)
+        if values is not None
     )
-    return Recorded(path, channels)
+    return Recorded(path, channels, tuple(notes))
 
 
-def _physical(path: Path, signal: Any) -> np.ndarray:
+def _physical(signal: Any) -> np.ndarray | None:
+    """Values in the channel's unit; None where they are converted by more than a straight line."""
     raw, conversion = np.asarray(signal.samples, float), signal.conversion
     if signal.invalidation_bits is not None:
         raw = np.where(np.asarray(signal.invalidation_bits, bool), np.nan, raw)
@@ -56,9 +67,7 @@ def _physical(path: Path, signal: Any) -> np.ndarray:
         return raw
     if kind in (0, 1) and hasattr(conversion, "a"):  # linear: 0 in version 3, 1 in version 4
         return conversion.a * raw + conversion.b
-    raise RecordingError(
-        f"{path}: channel {signal.name} is converted by more than a straight line; export it converted"
-    )
+    return None
 
 
 def write(recorded: Recorded, path: Path) -> None:

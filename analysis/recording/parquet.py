@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from lacuna.analysis.recording.channel import Recorded, RecordingError, from_table, on_one_time
+from lacuna.analysis.recording.channel import (
+    Recorded,
+    RecordingError,
+    clock_name,
+    from_clock,
+    from_table,
+    left_out,
+    on_one_time,
+)
 
 
 def read(path: Path) -> Recorded:
@@ -15,15 +25,31 @@ def read(path: Path) -> Recorded:
 
     try:
         table = parquet.read_table(path)
-        fields = [f for f in table.schema if pyarrow.types.is_floating(f.type) or pyarrow.types.is_integer(f.type)]
+        fields = [f for f in table.schema if any(is_kind(f.type) for is_kind in _kinds(pyarrow.types))]
+        others = [f.name for f in table.schema if f not in fields]
         names = [f.name for f in fields]
     except (pyarrow.ArrowException, OSError, UnicodeDecodeError) as error:
         raise RecordingError(f"{path}: not a Parquet file that can be read: {error}") from None
     if not fields:
         raise RecordingError(f"{path}: none of its columns holds numbers")
     units = [(f.metadata or {}).get(b"unit", b"").decode("utf-8", "replace") for f in fields]
-    values = np.array([table.column(name).cast("float64").to_numpy() for name in names])
-    return from_table(path, names, units, values)
+    columns, notes = [], left_out(others)
+    for k, field in enumerate(fields):
+        column = table.column(field.name)
+        if pyarrow.types.is_timestamp(field.type):
+            values, said = from_clock(column.cast(pyarrow.timestamp("ns")).to_numpy())
+            notes, units[k] = [*notes, *said], "s"
+            names[k] = clock_name(names[k], names)
+        else:
+            numbers = column.cast("uint8") if pyarrow.types.is_boolean(field.type) else column
+            values = numbers.cast("float64").to_numpy()
+        columns.append(values)
+    return from_table(path, names, units, np.array(columns), notes)
+
+
+def _kinds(types: Any) -> tuple[Callable[[Any], bool], ...]:
+    """Of numbers, of truth values (0 and 1), and of instants."""
+    return types.is_floating, types.is_integer, types.is_boolean, types.is_timestamp
 
 
 def write(recorded: Recorded, path: Path) -> None:

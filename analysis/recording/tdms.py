@@ -3,10 +3,21 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from lacuna.analysis.recording.channel import Channel, Recorded, RecordingError, distinct, from_table, on_one_time
+from lacuna.analysis.recording.channel import (
+    Channel,
+    Recorded,
+    RecordingError,
+    clock_name,
+    distinct,
+    from_clock,
+    from_table,
+    left_out,
+    on_one_time,
+)
 from lacuna.analysis.recording.heads import read_head
 
 
@@ -17,24 +28,42 @@ def read(path: Path) -> Recorded:
         file = TdmsFile.read(path)
     except Exception as error:  # a damaged file may trip its parser anywhere
         raise RecordingError(f"{path}: not a TDMS file that can be read: {error}") from None
-    found = [c for group in file.groups() for c in group.channels() if len(c) and c.data.dtype.kind in "fiu"]
+    every = [c for group in file.groups() for c in group.channels()]
+    found = [c for c in every if len(c) and c.data.dtype.kind in "fiubM"]
+    notes = left_out([c.name for c in every if all(c is not kept for kept in found)])
+    if all("wf_increment" in c.properties for c in found):
+        found = [c for c in found if c.data.dtype.kind != "M"]
     if not found:
         raise RecordingError(f"{path}: holds no channels of numbers")
     heads = [read_head(c.name, str(c.properties.get("unit_string", ""))) for c in found]
     if all("wf_increment" in c.properties for c in found):
         names = distinct(heads)
         return Recorded(path, tuple(
-            Channel(name, head.unit or "", c.time_track(), np.asarray(c.data, float), head)
+            Channel(name, head.unit or "", _waveform_time(c), np.asarray(c.data, float), head)
             for name, head, c in zip(names, heads, found, strict=True)
-        ))  # fmt: skip
+        ), tuple(notes))  # fmt: skip
     lengths = {c.name: len(c) for c in found}
     if len(set(lengths.values())) > 1:
         raise RecordingError(
             f"{path}: its channels have no waveform time and differ in length: "
             + ", ".join(f"{n} {k}" for n, k in lengths.items())
         )
-    units = [str(c.properties.get("unit_string", "")) for c in found]
-    return from_table(path, [c.name for c in found], units, np.array([np.asarray(c.data, float) for c in found]))
+    names = [c.name for c in found]
+    units, columns = [str(c.properties.get("unit_string", "")) for c in found], []
+    for k, c in enumerate(found):
+        if c.data.dtype.kind == "M":
+            values, said = from_clock(c.data)
+            notes, units[k] = [*notes, *said], "s"
+            names[k] = clock_name(c.name, names)
+        else:
+            values = np.asarray(c.data, float)
+        columns.append(values)
+    return from_table(path, names, units, np.array(columns), notes)
+
+
+def _waveform_time(channel: Any) -> np.ndarray:
+    said = channel.properties
+    return float(said.get("wf_start_offset", 0.0)) + float(said["wf_increment"]) * np.arange(len(channel))
 
 
 def write(recorded: Recorded, path: Path) -> None:

@@ -11,18 +11,25 @@ from collections.abc import Sequence
 import csv
 from dataclasses import dataclass
 import io
-from itertools import islice
+from itertools import islice, product
 from pathlib import Path
 import re
 
 import numpy as np
 
-from lacuna.analysis.recording.channel import Recorded, RecordingError, from_table, on_one_time
+from lacuna.analysis.recording.channel import (
+    Recorded,
+    RecordingError,
+    from_table,
+    named_columns,
+    on_one_time,
+)
 from lacuna.rows import rows_of
 from lacuna.runtime.errors import SimulationError
 from lacuna.runtime.files import read_metadata
 
-_SEPARATORS = (",", ";", "\t", "|")
+_BLANKS = " "  # stands for any number of them
+_SEPARATORS = (",", ";", "\t", "|", _BLANKS)
 _SAMPLE = 200  # lines that decide the dialect
 _NAN = re.compile(r"(?<![A-Za-z])nan(?![A-Za-z])", re.IGNORECASE)
 _NUMBER = {mark: re.compile(rf"[+-]?(\d+[{mark}]?\d*|[{mark}]\d+)([eE][+-]?\d+)?|(?i:nan)|") for mark in ".,"}
@@ -88,7 +95,7 @@ def read_text(path: Path) -> TextTable:
     if any(_NO_NAME.fullmatch(name) for name in (*header, *(unit for unit in units or () if unit != "1"))):
         raise RecordingError(f"{path}:{first}: numbers where names of columns or units should be")
     values = _numbers(path, lines, first, Dialect(separator, decimal, encoding), width)
-    kept = _named_columns(path, header, values)
+    kept = named_columns(path, header, values)
     return TextTable(
         path,
         tuple(header[k] for k in kept),
@@ -120,6 +127,8 @@ def _decoded(path: Path) -> tuple[str, str]:
 
 
 def _fields(line: str, separator: str) -> list[str]:
+    if separator == _BLANKS:
+        return line.split()
     try:
         return next((row for _, row in rows_of(line, separator)), [])
     except ValueError:
@@ -141,7 +150,19 @@ def _marks(path: Path, lines: list[str]) -> tuple[str, str]:
             if rows > most:
                 best, most = (separator, decimal), rows
     if not most:
-        raise RecordingError(f"{path}: no row of numbers in its first {_SAMPLE} lines; is it a recording?")
+        raise RecordingError(f"{path}: no row of numbers in its first {_SAMPLE} lines{_nearest_to_one(lines)}")
+    return best
+
+
+def _nearest_to_one(lines: list[str]) -> str:
+    """The line with the most numbers, and what in it is none."""
+    best, most = "; is it a recording?", 0
+    for number, line in enumerate(lines[:_SAMPLE], 1):
+        for decimal, separator in product(".,", _SEPARATORS):
+            fields = _fields(line, separator) if separator != decimal else []
+            strange = [field for field in fields if not _NUMBER[decimal].fullmatch(field)]
+            if strange and len(fields) - len(strange) > most:
+                best, most = f": in line {number} `{strange[0][:40]}` is none", len(fields) - len(strange)
     return best
 
 
@@ -159,14 +180,16 @@ def _numbers(path: Path, lines: list[str], first: int, dialect: Dialect, width: 
     mark = re.escape(dialect.separator)
     body = "\n".join(line for line in lines[first:] if line.strip())
     plain = body.replace('"', "")
-    plain = re.sub(rf"(^|{mark})[ ]*(?={mark}|$)", r"\1nan", plain, flags=re.MULTILINE)
+    if dialect.separator != _BLANKS:
+        plain = re.sub(rf"(^|{mark})[ ]*(?={mark}|$)", r"\1nan", plain, flags=re.MULTILINE)
     if dialect.decimal == ",":
         plain = plain.replace(",", ".")
     strange = re.search(rf"[^0-9eE+\-. \n{mark}]", _NAN.sub("", plain))
     try:
         if strange:
             raise ValueError
-        return np.loadtxt(io.StringIO(plain), delimiter=dialect.separator, ndmin=2).T
+        separator = None if dialect.separator == _BLANKS else dialect.separator
+        return np.loadtxt(io.StringIO(plain), delimiter=separator, ndmin=2).T
     except ValueError:
         raise _first_fault(path, lines, first, dialect, width) from None
 
@@ -183,14 +206,6 @@ def _first_fault(path: Path, lines: list[str], first: int, dialect: Dialect, wid
             if not _NUMBER[dialect.decimal].fullmatch(field):
                 return RecordingError(f"{path}:{number}: field {column}, `{field[:40]}`, is no number")
     return RecordingError(f"{path}: its rows are no table of numbers")
-
-
-def _named_columns(path: Path, header: list[str], values: np.ndarray) -> list[int]:
-    """The columns with a name. A column without one may only be empty, as after a separator at the ends of lines."""
-    for k, name in enumerate(header):
-        if not name and np.isfinite(values[k]).any():
-            raise RecordingError(f"{path}: column {k + 1} has no name")
-    return [k for k, name in enumerate(header) if name]
 
 
 def write(recorded: Recorded, path: Path) -> None:

@@ -104,6 +104,7 @@ _FUNCTIONS = {
             *[DOUBLES] * 4,
         ],
     ),
+    "lacuna_lognormals_reached": (None, [*[DOUBLES] * 3, _SIZE, _SIZE, DOUBLES, _SIZE, DOUBLES]),
     "lacuna_table_new": (_ADDRESS, [_TEXT, _SIZE, *_MESSAGE]),
     "lacuna_table_free": (None, [_ADDRESS]),
     "lacuna_table_channels": (_SIZE, [_ADDRESS]),

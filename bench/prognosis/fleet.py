@@ -33,9 +33,18 @@ class Part:
     history: History
     mean_rms: np.ndarray  # severity as the paper's mean RMS reads it, NaN where missing
 
+    @property
+    def number(self) -> int:
+        return int(self.name[1:])
+
     def severity(self, use: np.ndarray) -> np.ndarray:
         """Of the part in service, a fraction."""
         return LIMIT * np.interp((use - self.born) / self.life, self.truth.time, self.truth.severity)
+
+
+def tests_a_life(random: np.random.Generator, count: int | None = None):
+    """Tests a life: as many of 20 to 40 as of 60 to 120."""
+    return np.exp(random.uniform(np.log(20), np.log(120), count))
 
 
 class Readings:
@@ -62,7 +71,7 @@ def part(number: int, seed: int, readings: Readings) -> Part:
     random = np.random.default_rng([seed, number])
     law = str(random.choice(UNKNOWN if random.random() < OUTSIDE else KNOWN))
     truth = draw(law, random)
-    tests, gap = np.exp(random.uniform(np.log(20), np.log(120))), np.exp(random.uniform(np.log(20), np.log(500)))
+    tests, gap = tests_a_life(random), np.exp(random.uniform(np.log(20), np.log(500)))
     born = 0.0
     nuisances = np.sqrt(3) * random.uniform(-1, 1, 2)
     rows: list[tuple[float, bool, tuple]] = []

@@ -3,12 +3,16 @@ law."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 
+from bench.prognosis import truth
+
 SAMPLES = 1000
 NEVER = 1e6
+PARTICLES = 2000  # of progpy's filter: 500 are too few where the shape is one of its states
 
 
 def straight_line(use: np.ndarray, severity: np.ndarray, limit: float, seed: int) -> np.ndarray:
@@ -41,13 +45,16 @@ def progpy_version() -> str:
     return version if tuple(int(p) for p in version.split(".")[:2]) >= (1, 9) else ""
 
 
-def progpy_model(growth, wander: float, diffusion: float, scale: float):
-    """der(x) = exp(l) growth(x) for progpy, vectorised; l wanders. `scale`: use of one life, for the process noise."""
+def progpy_model(growth, shapes: int, wander: float, diffusion: float, scale: float):
+    """der(x) = exp(l) growth(x, shapes) for progpy, vectorised; l wanders, `shapes` unknown constants are states as
+    well. `scale`: use of one life, for the process noise."""
     import progpy
+
+    constants = [f"shape{k}" for k in range(shapes)]
 
     class Wear(progpy.PrognosticsModel):
         inputs: list = []  # noqa: RUF012
-        states = ["x", "l"]  # noqa: RUF012
+        states = ["x", "l", *constants]  # noqa: RUF012
         outputs = ["y"]  # noqa: RUF012
         events = ["limit"]  # noqa: RUF012
         is_vectorized = True
@@ -56,15 +63,16 @@ def progpy_model(growth, wander: float, diffusion: float, scale: float):
         def next_state(self, state, _inputs, dt):
             random = self.parameters["random"]
             x, steps = np.asarray(state["x"], dtype=float), 8
+            own = {name: np.asarray(state[name], dtype=float) for name in constants}
             rate = np.exp(np.asarray(state["l"], dtype=float)) * dt / steps
             before = x
             for _ in range(steps):
-                half = x + rate / 2 * growth(np.maximum(x, 1e-4))
-                x = x + rate * growth(np.maximum(half, 1e-4))
+                half = x + rate / 2 * growth(np.maximum(x, 1e-4), *own.values())
+                x = x + rate * growth(np.maximum(half, 1e-4), *own.values())
             x = np.clip(x, -1, 5)
             x = x + diffusion * np.sqrt(np.maximum(x - before, 0)) * random.standard_normal(x.shape)
             drift = wander * np.sqrt(dt / scale) * random.standard_normal(x.shape)
-            return self.StateContainer({"x": x, "l": np.asarray(state["l"]) + drift})
+            return self.StateContainer({"x": x, "l": np.asarray(state["l"]) + drift, **own})
 
         def output(self, state):
             return self.OutputContainer({"y": np.asarray(state["x"])})
@@ -78,8 +86,8 @@ def progpy_model(growth, wander: float, diffusion: float, scale: float):
     return Wear
 
 
-def progpy_filter(growth, particles, random, *, wander: float, diffusion: float, scale: float):
-    """progpy's ParticleFilter with `particles` {"x", "l"} as its first belief.
+def progpy_filter(growth, particles: dict[str, np.ndarray], random, *, wander: float, diffusion: float, scale: float):
+    """progpy's ParticleFilter with `particles` {"x", "l", "shape0", ...} as its first belief.
 
     Its default, filterpy's residual_resample, fails the Kalman check (version 2.0.0 draws the remainders wrongly: the
     posterior is four times too narrow after five tests); with systematic_resample, which it allows, it passes.
@@ -88,8 +96,9 @@ def progpy_filter(growth, particles, random, *, wander: float, diffusion: float,
     from progpy.state_estimators import ParticleFilter
     from progpy.uncertain_data import UnweightedSamples
 
-    model = progpy_model(growth, wander, diffusion, scale)(random=random)
-    first = UnweightedSamples([{"x": x, "l": rate} for x, rate in zip(particles["x"], particles["l"], strict=True)])
+    model = progpy_model(growth, len(particles) - 2, wander, diffusion, scale)(random=random)
+    rows = zip(*particles.values(), strict=True)
+    first = UnweightedSamples([dict(zip(particles, row, strict=True)) for row in rows])
     return model, ParticleFilter(model, first, num_particles=len(particles["x"]), measurement_noise={"y": 0.05},
                                  resample_fcn=systematic_resample)  # fmt: skip
 
@@ -117,27 +126,56 @@ def kalman_check(seed: int = 1, count: int = 5000) -> tuple[float, float]:
     return worst[0], worst[1]
 
 
-def progpy_remaining(growth, use, severity, sd, interval: float, at: list[int], seed: int, count: int = 500):
-    """{test: [count] remaining use} after the tests `at`, of parts told the law and its shape.
+@dataclass(frozen=True)
+class Readings:
+    """Tests of a part that were read: use, severity as a share of the limit, its standard deviation; `interval` is the
+    usual use between tests."""
 
-    The first belief is that of our filter: severity by the first test, a life of some tens of tests.
+    use: np.ndarray
+    severity: np.ndarray
+    sd: np.ndarray
+    interval: float
+
+
+def progpy_remaining(law: str, shape, tests: Readings, at: list[int], seed: int) -> dict[int, np.ndarray]:
+    """{test: [particles] remaining use} after the tests `at`, of parts told the law; `shape` as well, or None.
+
+    The first belief is that of our filter: severity by the first test, a life of some tens of tests. A shape that it is
+    not told is a constant among its states, drawn from where the fleet draws it.
     """
-    random = np.random.default_rng(seed)
+    random, count = np.random.default_rng(seed), PARTICLES
     np.random.seed(seed)  # noqa: NPY002
-    grid = np.geomspace(1e-3, 1.0, 400)
-    age = np.concatenate([[0.0], np.cumsum(np.diff(grid) / growth((grid[1:] + grid[:-1]) / 2))])
-    life = age[-1] - np.interp(0.05, grid, age)
-    x = severity[0] + sd[0] * random.standard_normal(count)
-    rate = np.log(life / (60 * interval)) + random.standard_normal(count)
-    _, estimator = progpy_filter(growth, {"x": x, "l": rate}, random, wander=0.15, diffusion=0.02, scale=60 * interval)
+    told = shape if shape is not None else ()
+    drawn = [random.uniform(*b, count) for b in truth.SHAPES.get(law, ())] if shape is None else []
+
+    def growth(x, *own):
+        return truth.growth(law, x, *told, *own)
+
+    nominal = _age(growth, np.array([np.median(values) for values in drawn]).reshape(-1, 1))
+    x = tests.severity[0] + tests.sd[0] * random.standard_normal(count)
+    rate = np.log(nominal(0.05)[0] / (60 * tests.interval)) + random.standard_normal(count)
+    first = {"x": x, "l": rate} | {f"shape{k}": values for k, values in enumerate(drawn)}
+    _, estimator = progpy_filter(growth, first, random, wander=0.15, diffusion=0.02, scale=60 * tests.interval)
     result = {}
-    for k in range(1, len(use)):
-        estimator.parameters["measurement_noise"] = {"y": float(sd[k])}
-        step = float(use[k] - use[k - 1])
-        estimator.estimate(float(use[k] - use[0]), {}, {"y": float(severity[k])}, dt=step)
+    for k in range(1, len(tests.use)):
+        estimator.parameters["measurement_noise"] = {"y": float(tests.sd[k])}
+        step = float(tests.use[k] - tests.use[k - 1])
+        estimator.estimate(float(tests.use[k] - tests.use[0]), {}, {"y": float(tests.severity[k])}, dt=step)
         if k in at:
-            x = np.asarray(estimator.particles["x"], dtype=float)
-            rates = np.exp(np.asarray(estimator.particles["l"], dtype=float))
-            ahead = np.maximum(age[-1] - np.interp(np.clip(x, 1e-3, 1.0), grid, age), 0) / rates
-            result[k] = np.where(x >= 1, 0.0, ahead * np.exp(0.15 * np.sqrt(1 / 3) * random.standard_normal(count)))
+            now = {name: np.asarray(estimator.particles[name], dtype=float) for name in first}
+            own = np.array([now[name] for name in list(first)[2:]]).reshape(len(drawn), count)
+            ahead = _age(growth, own)(np.clip(now["x"], 1e-3, 1.0)) / np.exp(now["l"])
+            noise = np.exp(0.15 * np.sqrt(1 / 3) * random.standard_normal(count))
+            result[k] = np.where(now["x"] >= 1, 0.0, ahead * noise)
     return result
+
+
+def _age(growth, shape: np.ndarray):
+    """Of particles with shapes [shapes, n]: the age that is left from severities x (a number, or [n]) to the limit."""
+
+    def left(x):
+        grid = np.reshape(x, (-1, 1)) ** np.linspace(1, 0, 200)
+        middle = (grid[:, 1:] + grid[:, :-1]) / 2
+        return (np.diff(grid, axis=1) / growth(middle, *shape[:, :, None])).sum(axis=1)
+
+    return left

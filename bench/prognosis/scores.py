@@ -12,6 +12,7 @@ its distribution.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,6 +37,10 @@ class Scores:
         shape = (parts, len(CHECKPOINTS))
         return cls(np.full(shape, np.nan), np.zeros(shape, bool), np.full((*shape, len(LEVELS)), np.nan),
                    np.full(shape, np.nan))  # fmt: skip
+
+    @classmethod
+    def joined(cls, several: Sequence[Scores]) -> Scores:
+        return cls(*(np.concatenate([getattr(s, n) for s in several]) for n in ("truth", "said", "quantiles", "crps")))
 
     def rows(self, select: np.ndarray) -> Scores:
         return Scores(*(getattr(self, name)[select] for name in ("truth", "said", "quantiles", "crps")))

@@ -10,14 +10,14 @@ from multiprocessing import get_context
 import numpy as np
 
 from bench.prognosis.fleet import LIMIT, Part
-from bench.prognosis.rivals import NEVER, kalman_check, progpy_remaining, progpy_version, straight_line
+from bench.prognosis.rivals import NEVER, Readings, kalman_check, progpy_remaining, progpy_version, straight_line
 from bench.prognosis.scores import CHECKPOINTS, HORIZON, LEVELS, Scores, crps_of_samples
 from lacuna.analysis.prognosis.filter.bank import Bank
 from lacuna.analysis.prognosis.filter.crossing import Remaining, remaining
 from lacuna.analysis.prognosis.filter.filter import run
 from lacuna.analysis.prognosis.forecast import LONG, Limits, forecasts
 from lacuna.analysis.prognosis.history import TWO_SIDED_95, History
-from lacuna.analysis.prognosis.series import joined, last_error, series_of
+from lacuna.analysis.prognosis.series import last_error, series_of
 from lacuna.analysis.prognosis.verdict import FORECAST, verdict_on
 
 LIMITS = Limits(("orange", "red", "violet"), (0.11, 0.27, LIMIT), 0.0, 0.5)
@@ -58,7 +58,7 @@ def walked(parts: Sequence[Part], bank: Bank, risk: float | None) -> Arm:
     """All tests of the parts in turn: a forecast at every checkpoint, as `lacuna forecast` makes it of the tests so
     far, and a removal at the first test after which the risk of violet by the next one exceeds `risk` (None: never)."""
     scores, verdicts = Scores.empty(len(parts)), np.full((len(parts), len(CHECKPOINTS)), "", dtype=object)
-    series = joined([series_of([p.history], LIMIT, bank.settings.floor) for p in parts])
+    series = series_of([p.history for p in parts], LIMIT, bank.settings.floor)
     first = np.array([p.history.lives[-1].start for p in parts])
     rows = np.array([[last_test(p, share) for share in CHECKPOINTS] for p in parts])
     removed, outliers = np.full(len(parts), np.nan), np.zeros(series.use.shape)
@@ -102,25 +102,31 @@ def _score(scores: Scores, verdicts, parts, b: int, columns, own: Remaining, out
 
 def arm(parts: Sequence[Part], bank: Bank, risk: float, tell: Tell) -> Arm:
     """`walked` over all parts, on all cores."""
-    plain = [replace(p, truth=replace(p.truth, growth=None)) for p in parts]  # a function does not travel
-    pieces = [plain[k : k + BATCH] for k in range(0, len(parts), BATCH)]
+    pieces = [parts[k : k + BATCH] for k in range(0, len(parts), BATCH)]
     done = []
     with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
         for one in pool.map(walked, pieces, [bank] * len(pieces), [risk] * len(pieces)):
             done.append(one)
             tell("forecasts", len(done) / len(pieces))
-    names = ("truth", "said", "quantiles", "crps")
-    scores = Scores(*(np.concatenate([getattr(a.scores, name) for a in done]) for name in names))
+    scores = Scores.joined([a.scores for a in done])
     removals = Removals(*(np.concatenate([getattr(a.removals, name) for a in done]) for name in ("at", "missed")))
     return Arm(scores, np.concatenate([a.verdicts for a in done]), removals)
 
 
-def sample_scores(parts: Sequence[Part], samples: Callable[[int, Part], dict[int, np.ndarray]], tell: Tell) -> Scores:
-    """Of a method that gives, for each part, {rows of history: samples of the remaining use}."""
+Samples = Callable[[Part], dict[int, np.ndarray]]  # {rows of history: samples of the remaining use}
+
+
+def sample_scores(parts: Sequence[Part], samples: Samples) -> Scores:
+    """Of a method that gives samples, on all cores."""
+    pieces = [parts[k : k + BATCH // 5] for k in range(0, len(parts), BATCH // 5)]
+    with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
+        return Scores.joined(list(pool.map(_sampled, pieces, [samples] * len(pieces))))
+
+
+def _sampled(parts: Sequence[Part], samples: Samples) -> Scores:
     scores = Scores.empty(len(parts))
     for b, p in enumerate(parts):
-        tell("rivals", b / len(parts))
-        found = samples(b, p)
+        found = samples(p)
         for j, share in enumerate(CHECKPOINTS):
             rows = last_test(p, share)
             scores.truth[b, j] = (p.born + p.life - p.history.use[rows - 1]) / p.life
@@ -137,34 +143,28 @@ def _known(p: Part, rows: int) -> np.ndarray:
     return np.arange(start, rows)[np.isfinite(p.history.severity[start:rows])] if rows > start else np.empty(0, int)
 
 
-def line_samples(seed: int) -> Callable[[int, Part], dict[int, np.ndarray]]:
-    def of(b: int, p: Part) -> dict[int, np.ndarray]:
-        result = {}
-        for share in CHECKPOINTS:
-            rows = last_test(p, share)
-            known = _known(p, rows)
-            if len(known) >= 3:
-                own = straight_line(p.history.use[known], p.history.severity[known], LIMIT, seed + b)
-                result[rows] = np.maximum(own - (p.history.use[rows - 1] - p.history.use[known[-1]]), 0)
-        return result
-
-    return of
+def line_samples(seed: int, p: Part) -> dict[int, np.ndarray]:
+    result = {}
+    for share in CHECKPOINTS:
+        rows = last_test(p, share)
+        known = _known(p, rows)
+        if len(known) >= 3:
+            own = straight_line(p.history.use[known], p.history.severity[known], LIMIT, seed + p.number)
+            result[rows] = np.maximum(own - (p.history.use[rows - 1] - p.history.use[known[-1]]), 0)
+    return result
 
 
-def progpy_samples(seed: int) -> Callable[[int, Part], dict[int, np.ndarray]]:
-    def of(b: int, p: Part) -> dict[int, np.ndarray]:
-        known = _known(p, len(p.history.use))
-        h = p.history
-        wanted = {last_test(p, share): len(_known(p, last_test(p, share))) - 1 for share in CHECKPOINTS}
-        sd = np.maximum((h.high - h.low)[known] / 2 / TWO_SIDED_95 / LIMIT, 1e-3)
-        interval = float(np.median(np.diff(h.use)))
-        found = progpy_remaining(
-            p.truth.growth, h.use[known], h.severity[known] / LIMIT, sd, interval, list(wanted.values()), seed + b
-        )
-        late = {rows: h.use[rows - 1] - h.use[known[k]] if k >= 0 else 0.0 for rows, k in wanted.items()}
-        return {rows: np.maximum(found[k] - late[rows], 0) for rows, k in wanted.items() if k in found}
-
-    return of
+def progpy_samples(seed: int, shape: bool, p: Part) -> dict[int, np.ndarray]:
+    """Told the law; with `shape` its shape too."""
+    known = _known(p, len(p.history.use))
+    h = p.history
+    wanted = {last_test(p, share): len(_known(p, last_test(p, share))) - 1 for share in CHECKPOINTS}
+    sd = np.maximum((h.high - h.low)[known] / 2 / TWO_SIDED_95 / LIMIT, 1e-3)
+    tests = Readings(h.use[known], h.severity[known] / LIMIT, sd, float(np.median(np.diff(h.use))))
+    told = p.truth.shape if shape else None
+    found = progpy_remaining(p.law, told, tests, list(wanted.values()), seed + p.number)
+    late = {rows: h.use[rows - 1] - h.use[known[k]] if k >= 0 else 0.0 for rows, k in wanted.items()}
+    return {rows: np.maximum(found[k] - late[rows], 0) for rows, k in wanted.items() if k in found}
 
 
 def progpy_verdict() -> str:

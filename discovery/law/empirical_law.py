@@ -85,8 +85,8 @@ def _free(law: Law, attachment: Attachment, start: dict[str, float]) -> list[Fre
     free = [Free(attachment.full_name(c), start[c], max(abs(start[c]), 0.1 * scale)) for c, _, _ in law.numbered()]
     for name, shape in law.shapes().items():
         step = 1e-3 if shape.name == "omega" else 1e-2
-        free.append(Free(attachment.full_name(name), start[name], 0.3 * abs(shape.start), shape.lower, shape.upper,
-                         step=step))  # fmt: skip
+        scale = 0.3 * abs(shape.start) or shape.step  # a threshold may start at zero
+        free.append(Free(attachment.full_name(name), start[name], scale, shape.lower, shape.upper, step=step))
     return free
 
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.efforts.find import Found, find
-from lacuna.discovery.fit.evidence import like_noise, nearly_noise
+from lacuna.discovery.fit.evidence import like_noise, nearly_noise, within_instruments
 from lacuna.discovery.law.beyond import MARGIN
 from lacuna.discovery.law.several import go_on
 from lacuna.discovery.naming.comparison import MIN_GAIN, TIE, Ranked, confidences, held_out_deviance, price, score
@@ -31,7 +31,7 @@ def explain_open(search: Search, unbegun: Search, library: Library, progress: Pr
     quiet = nearly_noise(unbegun.fit) and like_noise(unbegun.fit)  # colour alone may also be a misfit of fast motion
     if not unbegun.lead.direct or unbegun.amendment.trackers or quiet:
         return None
-    explained = search.settled() or nearly_noise(search.fit)
+    explained = search.settled() or within_instruments(search.fit)
     if explained and any(not f.ranked.attachment.variable for f in search.findings):
         return None
     found = find(search.case, unbegun.amendment, unbegun.fit, library, progress)

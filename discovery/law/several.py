@@ -13,7 +13,7 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.find import find
-from lacuna.discovery.fit.evidence import nearly_noise, pays
+from lacuna.discovery.fit.evidence import pays, within_instruments
 from lacuna.discovery.fit.fit import Fit, linearised
 from lacuna.discovery.law.beyond import MARGIN
 from lacuna.discovery.naming.comparison import MIN_GAIN, Ranked, score
@@ -27,8 +27,9 @@ Progress = Callable[[str], None]
 
 
 def go_on(search: Search, library: Library, progress: Progress) -> None:
-    """Add laws at other places while the model leaves more than noise and they pay; find earlier ones anew."""
-    while len(search.findings) < MAX_FINDINGS and not nearly_noise(search.fit):
+    """Add laws at other places while the model leaves more than instruments are off by and they pay; find earlier ones
+    anew."""
+    while len(search.findings) < MAX_FINDINGS and not within_instruments(search.fit):
         progress("looking for a law at another place")
         law = _best(search, search.amendment, search.fit, library, progress, _elsewhere(search.amendment))
         if law is None or not _pays(search, search.fit, law):

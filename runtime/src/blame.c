@@ -1,5 +1,8 @@
-/* Who is to blame: the rows of the table of variables, and the first equation that gives no finite number. */
+/* Who is to blame: the rows of the table of variables, lists of their names, and the first equation that gives no
+ * finite number. */
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "session.h"
 
@@ -31,4 +34,27 @@ bool rt_blame(rt_session *s, mdl_storage storage, const double *xdot, const doub
     return true;
   }
   return false;
+}
+
+static bool lists(const char *text, const char *name) {
+  size_t length = strlen(name);
+  for (const char *at = strstr(text, name); at; at = strstr(at + 1, name))
+    if ((at == text || at[-1] == ' ') && (!at[length] || at[length] == ',')) return true;
+  return false;
+}
+
+/* Add a name to the list in `text`, once. */
+void rt_append_name(char *text, size_t size, const char *name) {
+  size_t used = strlen(text);
+  if (lists(text, name) || used + 3 >= size) return;
+  snprintf(text + used, size - used, "%s%s", used ? ", " : "", name);
+}
+
+/* Add the discrete variables that the last pass changed to the list in `text`. */
+void rt_append_changed(const rt_session *s, char *text, size_t size) {
+  for (int i = 0; i < s->d->n_variables; i++) {
+    const mdl_variable *v = &s->d->variables[i];
+    if (v->storage == MDL_DISCRETE && s->data.d[v->index] != s->data.pre_d[v->index])
+      rt_append_name(text, size, v->name);
+  }
 }

@@ -104,6 +104,7 @@ int rt_follow_switches(rt_session *s, double since) {
   bool thrown = s->reinitialised && s->pending & RT_PENDING_STATE, looked = false;
   for (int r = 0; r < s->d->n_rel; r++) {
     int now = s->data.rel[r];
+    if (s->flip[r]) s->due_back[r] = -INFINITY; /* it has switched, even where the event has taken that back */
     if (now == s->rel_before[r] || !rt_is_state_relation(s, r)) continue;
     double interval = s->t - s->changed_at[now][r];
     s->changed_at[now][r] = s->t;

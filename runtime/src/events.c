@@ -1,6 +1,5 @@
 /* Events: everything that changes at one instant, iterated until nothing changes any more. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "sensitivity.h"
@@ -32,20 +31,6 @@ static bool update_relations(rt_session *s, bool singly) {
     *rel = now;
   }
   return changed;
-}
-
-static void append_name(char *text, size_t size, const char *name) {
-  size_t used = strlen(text);
-  if (strstr(text, name) || used + 3 >= size) return;
-  snprintf(text + used, size - used, "%s%s", used ? ", " : "", name);
-}
-
-/* Add the discrete variables that the last pass changed to the list in `text`. */
-static void append_changed(const rt_session *s, char *text, size_t size) {
-  for (int i = 0; i < s->d->n_variables; i++) {
-    const mdl_variable *v = &s->d->variables[i];
-    if (v->storage == MDL_DISCRETE && s->data.d[v->index] != s->data.pre_d[v->index]) append_name(text, size, v->name);
-  }
 }
 
 static bool clear_ticks(rt_session *s) {
@@ -123,7 +108,7 @@ rt_status rt_iterate_event(rt_session *s) {
     int changed = pass(s, nowhere != other_way && !singly ? MAX_SWEEPS : 1, singly);
     if (changed < 0) return rt_fail_model(s, s->t, "iterating an event");
     if (!changed && !clear_ticks(s)) return RT_OK;
-    if (i >= most - WATCHED_PASSES) append_changed(s, names, sizeof names);
+    if (i >= most - WATCHED_PASSES) rt_append_changed(s, names, sizeof names);
     memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
   }
   return rt_fail(s, RT_EVENT_CYCLE, s->t, -1, NULL,

@@ -32,7 +32,7 @@ rt_status rt_fail(rt_session *s, rt_status status, double time, int variable, co
 static const char *describe(mdl_failure_kind kind) {
   switch (kind) {
   case MDL_FAILURE_SINGULAR:
-    return "a block of linear equations has no unique solution";
+    return "linear equations have no solution, or no unique one";
   case MDL_FAILURE_NEWTON:
     return "a block of nonlinear equations did not converge";
   case MDL_FAILURE_NONFINITE:
@@ -142,9 +142,11 @@ rt_status rt_fail_model(rt_session *s, double time, const char *doing) {
   bool named = variable >= 0 && variable < d->n_variables;
   if (!named) variable = -1;
   if (f->kind == MDL_FAILURE_BOUND && named) return fail_bound(s, time, f);
-  rt_fail(s, status_of(f->kind), time, variable, where, "%s at time %.9g s: %s%s%s (value %.9g)", doing, time,
-          describe(f->kind), named ? ", variable " : "", named ? d->variables[variable].name : "",
-          isnan(f->value) ? fabs(f->value) : f->value);
+  char value[40] = "";
+  if (f->kind != MDL_FAILURE_SINGULAR && f->kind != MDL_FAILURE_NEWTON)
+    snprintf(value, sizeof value, " (value %.9g)", isnan(f->value) ? fabs(f->value) : f->value);
+  rt_fail(s, status_of(f->kind), time, variable, where, "%s at time %.9g s: %s%s%s%s", doing, time, describe(f->kind),
+          named ? ", variable " : "", named ? d->variables[variable].name : "", value);
   if (where && d->equation_first) rt_append_equation(s, f->equation);
   return s->failure.status;
 }

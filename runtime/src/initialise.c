@@ -5,7 +5,8 @@
 #include "delay.h"
 #include "sensitivity.h"
 
-enum { MAX_ITERATIONS = 50 };
+enum { MAX_ITERATIONS = 50, WATCHED_ITERATIONS = 8 };
+static const double same = 1e-9; /* of a state: far above rounding, far below any tolerance */
 
 static void clear(rt_session *s) {
   const mdl_descriptor *d = s->d;
@@ -89,6 +90,7 @@ static int solve_on_path(rt_session *s, double path) {
   memcpy(s->xdot_before, m->xdot, (size_t)d->n_x * sizeof *m->xdot);
   memcpy(s->v_before, m->v, (size_t)d->n_v * sizeof *m->v);
   m->homotopy = path;
+  m->undetermined = 0;
   int status = d->initial_system(m, s->t);
   m->homotopy = 1;
   if (!status) return 0;
@@ -116,13 +118,44 @@ static int solve_initial_system(rt_session *s) {
   return found ? 0 : status;
 }
 
+/* Initial equations that leave unknowns open (one follows from the others) must not leave a state open: its value would
+ * be anybody's choice. What is open is moved, and the states that follow are named. */
+static rt_status check_open(rt_session *s) {
+  mdl_data *m = &s->data;
+  const mdl_descriptor *d = s->d;
+  int equation = m->undetermined - 1;
+  if (equation < 0) return RT_OK;
+  char names[400] = "";
+  memcpy(s->x_trial, m->x, (size_t)d->n_x * sizeof *m->x);
+  memcpy(s->xdot_trial, m->xdot, (size_t)d->n_x * sizeof *m->xdot);
+  memcpy(s->v_trial, m->v, (size_t)d->n_v * sizeof *m->v);
+  m->shift = 1;
+  int status = solve_on_path(s, 1);
+  m->shift = 0;
+  for (int i = 0; !status && i < d->n_x; i++) {
+    int row = rt_state_variable(s, i);
+    if (fabs(m->x[i] - s->x_trial[i]) > same * rt_max(fabs(s->x_trial[i]), s->nominal[i]) && row >= 0)
+      rt_append_name(names, sizeof names, d->variables[row].name);
+  }
+  memcpy(m->x, s->x_trial, (size_t)d->n_x * sizeof *m->x);
+  memcpy(m->xdot, s->xdot_trial, (size_t)d->n_x * sizeof *m->xdot);
+  memcpy(m->v, s->v_trial, (size_t)d->n_v * sizeof *m->v);
+  if (!names[0]) return RT_OK;
+  return rt_fail(s, RT_INITIALISATION, s->t, -1, &d->equations[equation],
+                 "the initial equations at time %.9g s follow from each other and leave these open: %s; give one of "
+                 "them a start value with fixed = true in place of an initial equation",
+                 s->t, names);
+}
+
 /* Initial equations, relations and discrete equations with initial() true, until they agree. States given by the caller
  * replace what the initial equations say. */
 static rt_status solve_initial_equations(rt_session *s) {
   mdl_data *m = &s->data;
+  char names[400] = "";
   for (int i = 0; i < MAX_ITERATIONS; i++) {
     rt_inputs_at(s, s->t);
     if (solve_initial_system(s)) return fail_initialisation(s);
+    if (!s->n_initial && check_open(s)) return s->failure.status;
     if (rt_delays_start(s)) return fail_initialisation(s);
     if (rt_tangent_initial(s, true)) return s->failure.status;
     for (int k = 0; k < s->n_initial; k++)
@@ -140,11 +173,13 @@ static rt_status solve_initial_equations(rt_session *s) {
     if (s->d->event(m, s->t, m->x, m->xdot, m->v)) return fail_initialisation(s);
     if (rt_tangent_initial_event(s)) return s->failure.status;
     changed |= memcmp(m->d, m->pre_d, (size_t)s->d->n_d * sizeof *m->d) != 0;
+    if (i >= MAX_ITERATIONS - WATCHED_ITERATIONS) rt_append_changed(s, names, sizeof names);
     memcpy(m->pre_d, m->d, (size_t)s->d->n_d * sizeof *m->d);
     if (!changed) return RT_OK;
   }
-  return rt_fail(s, RT_INITIALISATION, s->t, -1, NULL, "initial equations and relations do not settle at time %.9g s",
-                 s->t);
+  return rt_fail(s, RT_INITIALISATION, s->t, -1, NULL,
+                 "the initial equations do not settle at time %.9g s; these keep changing: %s", s->t,
+                 names[0] ? names : "relations between continuous variables");
 }
 
 /* Events at the start: with initial() no longer true, then the ticks that fall on it. */

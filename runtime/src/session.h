@@ -220,6 +220,8 @@ static inline void rt_extend_guard(rt_session *s, int r, double size) {
 int rt_find_row(const rt_session *s, mdl_storage storage, int index);
 int rt_state_variable(const rt_session *s, int state);
 int rt_unknown_variable(const rt_session *s, int k);
+void rt_append_name(char *text, size_t size, const char *name);
+void rt_append_changed(const rt_session *s, char *text, size_t size);
 bool rt_blame(rt_session *s, mdl_storage storage, const double *xdot, const double *v);
 rt_status rt_fail(rt_session *s, rt_status status, double time, int variable, const mdl_equation *where,
                   const char *format, ...) __attribute__((format(printf, 6, 7)));
@@ -236,24 +238,21 @@ void rt_residual_point(rt_session *s);
 int rt_jacobian(rt_session *s, double t, double *y, double *yp, double cj, double *values);
 rt_status rt_check_forms(rt_session *s);
 
-/* scale.c */
+/* scale.c and check.c */
 rt_status rt_scale_parameters(rt_session *s);
 void rt_scale_start(rt_session *s);
 void rt_scale_grow(rt_session *s);
-/* check.c */
 rt_status rt_check_parameters(rt_session *s);
 rt_status rt_check_values(rt_session *s, double t, const double *x, const double *xdot, const double *v);
 rt_status rt_check_point(rt_session *s, bool fresh);
 
-/* inputs.c */
+/* inputs.c and clock.c */
 void rt_inputs_reset(rt_session *s);
 void rt_inputs_begin(rt_session *s, double t);
 void rt_inputs_at(rt_session *s, double t);
 double rt_inputs_next_break(rt_session *s);
 int rt_inputs_due(rt_session *s);
 double rt_input_slope(const rt_session *s, int i);
-
-/* clock.c */
 rt_status rt_clock_begin(rt_session *s);
 double rt_clock_next(const rt_session *s);
 double rt_clock_limit(rt_session *s);

@@ -17,10 +17,21 @@ static const double same = 1e-9;  /* of a derivative: far above rounding, far be
 static const double zero = 1e-10; /* of rows and columns of size 1: what rounding may leave of a pivot */
 enum { MOST_UNKNOWNS = 1000 };    /* of an elimination with full pivoting: a second */
 
-static rt_status fail(rt_session *s, int equation, int variable, const char *why) {
+static rt_status fail(rt_session *s, int equation, int variable, const char *why, const char *open) {
   const char *name = variable < 0 ? "" : s->d->variables[variable].name;
   return rt_fail(s, RT_SINGULAR, s->t, variable, &s->d->equations[equation],
-                 "a block of linear equations has no unique solution at time %.9g s%s%s", s->t, why, name);
+                 "a block of linear equations has no unique solution at time %.9g s%s%s%s%s", s->t, why, name,
+                 open[0] ? "; open are " : "", open);
+}
+
+/* The variables that differ between v_trial, where what is open has been moved, and v. */
+static void name_open(const rt_session *s, char *names, size_t size) {
+  for (int k = 0; k < s->d->n_variables; k++) {
+    const mdl_variable *v = &s->d->variables[k];
+    if (v->storage != MDL_ALGEBRAIC) continue;
+    double here = s->data.v[v->index], moved = s->v_trial[v->index];
+    if (fabs(moved - here) > same * rt_max(fabs(here), fabs(moved))) rt_append_name(names, size, v->name);
+  }
 }
 
 /* Elimination of an n x n matrix, some of whose rows and columns have had their turn. */
@@ -134,8 +145,10 @@ rt_status rt_follow_undetermined(rt_session *s) {
   if (status) return rt_fail_model(s, s->t, "evaluating the explicit form");
   for (int i = 0; i < s->d->n_x; i++) {
     double rate = s->nominal[i] / (s->stop - s->start);
-    if (!(fabs(s->xdot_trial[i] - m->xdot[i]) <= same * rt_max(fabs(m->xdot[i]), rate)))
-      return fail(s, equation, rt_state_variable(s, i), ", and what it leaves open decides the derivative of ");
+    if (fabs(s->xdot_trial[i] - m->xdot[i]) <= same * rt_max(fabs(m->xdot[i]), rate)) continue;
+    char names[200] = "";
+    name_open(s, names, sizeof names);
+    return fail(s, equation, rt_state_variable(s, i), ", and what it leaves open decides the derivative of ", names);
   }
   return find_held(s);
 }
@@ -147,5 +160,5 @@ rt_status rt_check_undetermined(rt_session *s) {
   memcpy(s->v_trial, m->v, (size_t)s->d->n_v * sizeof *m->v);
   if (rt_rhs(s, s->t, m->x, s->xdot_trial, s->v_trial)) return rt_fail_model(s, s->t, "evaluating the explicit form");
   if (m->undetermined) return RT_OK;
-  return fail(s, s->undetermined - 1, -1, ": one that it had at the last event only has no value");
+  return fail(s, s->undetermined - 1, -1, ": one that it had at the last event only has no value", "");
 }

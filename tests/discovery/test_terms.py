@@ -9,6 +9,7 @@ import numpy as np
 from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.sites import Site as Place
 from lacuna.discovery.efforts.terms import counts, groups, variables
+from lacuna.discovery.law.empirical_law import _free
 from lacuna.discovery.law.law import Law, Site, attach
 from lacuna.discovery.law.law_terms import Group, Variable
 
@@ -61,7 +62,11 @@ def test_every_term_can_be_evaluated_and_is_counted_by_how_many_variables_it_has
     ranges = {n: (float(c.min()), float(c.max())) for n, c in scaled.items()}
     every = groups(kept, ranges, 0.05, 10.0)
     sizes = {v.local: v.size for v in kept}
+    place = Site(Place("equation", "C1*der(T1) = P - q"), "T1", "W", tuple(kept))
     for group in every:
+        law = Law(place, (group,))
+        start = {n: s.start for n, s in law.shapes().items()} | {c: 1.0 for c, _, _ in law.numbered()}
+        assert all(f.scale > 0 for f in _free(law, attach(law), start)), group
         for course in group.values(paths, sizes):
             assert np.isfinite(course).all(), group.texts
     one, several = counts(kept, every)

@@ -1,5 +1,5 @@
 """Campaigns of hybrid systems with closed-form event times, and of models in other units: python -m tests.events
-belts|systems|units [--draws N]."""
+belts|systems|automata|units [--draws N]."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import numpy as np
 
 from lacuna import runtime
 from lacuna.codegen.compile import compile_model
-from tests.events import belts, hybrid, in_units
+from tests.events import belts, hybrid, in_units, play
 from tests.events.judge import wrong
 from tests.events.models import compiled
 
@@ -59,6 +59,24 @@ def run_systems(draws: int) -> int:
     return verdicts["wrong"]
 
 
+def run_automata(draws: int) -> int:
+    """Random automata against a program that plays them on their closed forms; the number of wrong runs."""
+    verdicts: Counter[str] = Counter()
+    with tempfile.TemporaryDirectory() as folder:
+        for number in range(draws):
+            automaton, expected = play.fair(np.random.default_rng([2027, number]), number)
+            model = compiled(Path(folder), automaton.text)
+            for solver in belts.SOLVERS:
+                for rtol in TOLERANCES[::3]:
+                    result = runtime.simulate(model, solver=solver, rtol=rtol, stop=automaton.stop, interval=0)
+                    said = play.wrong(automaton, expected, result, rtol)
+                    verdicts["right" if not said else "error" if said.startswith("error") else "wrong"] += 1
+                    if said:
+                        print(f"automaton {number}, {solver}, rtol {rtol:.1e}: {said}", flush=True)
+    print(", ".join(f"{count} {what}" for what, count in verdicts.items()), f"of {verdicts.total()} runs")
+    return verdicts["wrong"]
+
+
 CIRCUITS = (
     "Electrical.Analog.Examples.Rectifier", "Electrical.Analog.Examples.HeatingRectifier",
     "Electrical.Analog.Examples.ControlledSwitchWithArc", "Electrical.Analog.Examples.NandGate",
@@ -87,12 +105,15 @@ def run_units(count: int) -> int:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("campaign", choices=["belts", "systems", "units"])
+    parser.add_argument("campaign", choices=["belts", "systems", "automata", "units"])
     parser.add_argument("--draws", type=int, default=None)
     arguments = parser.parse_args()
-    run, draws = {"belts": (run_belts, 200), "systems": (run_systems, 520), "units": (run_units, 100)}[
-        arguments.campaign
-    ]
+    run, draws = {
+        "belts": (run_belts, 200),
+        "systems": (run_systems, 520),
+        "automata": (run_automata, 400),
+        "units": (run_units, 100),
+    }[arguments.campaign]
     return 1 if run(arguments.draws or draws) else 0
 
 

@@ -71,7 +71,7 @@ class _Player:
                 self.held[g] = not self.held[g]
             self._happen()
             if before != self.n:
-                done.counts.append((self.t, tuple(self.n)))
+                _add(done.counts, self.t, tuple(self.n), self.a.stop)
         raise Rejected("too many events")
 
     def _happen(self) -> None:
@@ -127,6 +127,13 @@ class _Player:
         return float(brentq(margin, times[end - 1], times[end], xtol=1e-300, rtol=1e-15)) if len(ends) else math.inf
 
 
+def _add(counts: list[tuple[float, tuple[int, ...]]], time: float, now: tuple[int, ...], stop: float) -> None:
+    """Events as close as that are one instant."""
+    if counts and time - counts[-1][0] <= 1e-9 * stop:
+        counts.pop()
+    counts.append((time, now))
+
+
 def fair(rng: np.random.Generator, number: int) -> tuple[Automaton, Play]:
     """A draw that counts something, and how it goes."""
     while True:
@@ -162,9 +169,7 @@ def _compare(a: Automaton, result: Result, expected: Play, spread: float, last: 
     n = np.array([result[f"n{c}"] for c in range(len(a.chains))])
     found: list[tuple[float, tuple[int, ...]]] = []
     for k in np.flatnonzero(np.any(np.diff(n), axis=0)) + 1:
-        if found and result.time[k] - found[-1][0] <= 1e-9 * a.stop:
-            found.pop()
-        found.append((float(result.time[k]), tuple(int(i) for i in n[:, k])))
+        _add(found, float(result.time[k]), tuple(int(i) for i in n[:, k]), a.stop)
     if [c for _, c in found] != [c for _, c in expected.counts]:
         at = next(
             (k for k, (p, q) in enumerate(zip(found, expected.counts, strict=False)) if p[1] != q[1]),

@@ -83,14 +83,14 @@ REFUSED = {
     "decides a derivative": (
         {"gap": BEFORE, "rate": "y", "sum": "1", "right": "0"},
         "Open.mo:7: a block of linear equations has no unique solution at time 0.5 s, and what it leaves open decides "
-        "the derivative of x",
+        "the derivative of x; open are y, z",
     ),
     "at one instant only": (
         {"gap": "x", "rate": "1", "sum": "1", "right": "sin(x)"},
         "one that it had at the last event only has no value",
     ),
     "contradictory": (
-        {"gap": BEFORE, "rate": "1", "sum": "1", "right": "1"}, "at time 0.5 s: a block of linear equations",
+        {"gap": BEFORE, "rate": "1", "sum": "1", "right": "1"}, "at time 0.5 s: linear equations have no solution",
     ),
 }  # fmt: skip
 

@@ -34,9 +34,11 @@ def states(fmu, version: str):
     return (fmu.getFMUState, fmu.setFMUState) if version == "3.0" else (fmu.getFMUstate, fmu.setFMUstate)
 
 
-@pytest.mark.parametrize(("name", "version"), [("Clockwork", "3.0"), ("Clockwork", "2.0"), ("FlightControlEma", "3.0")])
+@pytest.mark.parametrize(
+    ("name", "version"), [("Clockwork", "3.0"), ("Clockwork", "2.0"), ("FlightControlEma", "3.0"), ("Pendulum", "3.0")]
+)
 def test_a_state_that_is_restored_goes_on_to_the_same_bits(fmus: Fmus, name: str, version: str) -> None:
-    step = {"Clockwork": 0.07, "FlightControlEma": 3.1e-4}[name]
+    step = {"Clockwork": 0.07, "FlightControlEma": 3.1e-4, "Pendulum": 0.05}[name]
     with fmus.instance(name, "cs", version) as fmu:
         begin(fmu)
         keep, restore = states(fmu, version)
@@ -180,10 +182,15 @@ def test_what_cannot_be_exported_is_refused(tmp_path: Path) -> None:
     with pytest.raises(Exception, match=r"2\.0 and 3\.0"):
         lacuna.export_fmu(OWN["Dahlquist"], tmp_path / "x.fmu", version="1.0")
     assert list(tmp_path.iterdir()) == []
+    delayed = tmp_path / "Late.mo"
+    delayed.write_text("model Late\n  Real y = delay(time, 0.1);\nend Late;\n", encoding="utf-8")
+    with pytest.raises(Exception, match=r"delay\(\) is not exported") as refused:
+        lacuna.export_fmu(delayed, tmp_path / "x.fmu")
+    assert lacuna.is_user_error(refused.value) and not (tmp_path / "x.fmu").exists()
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["BouncingBall", "Clockwork", "FlightControlEma"])
+@pytest.mark.parametrize("name", ["BouncingBall", "Clockwork", "FlightControlEma", "Pendulum"])
 def test_a_thousand_lives_under_the_address_sanitizer(fmus: Fmus, tmp_path: Path, name: str) -> None:
     path = fmus.path(name)
     zipfile.ZipFile(path).extractall(tmp_path)

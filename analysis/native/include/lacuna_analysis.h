@@ -114,6 +114,11 @@ typedef struct {
 void lacuna_hypotheses_test(const lacuna_hypotheses *hypotheses, const lacuna_tests *tests, lacuna_beliefs *beliefs,
                             lacuna_beliefs *predicted, double *along, double *turn, double *outlier, double *evidence);
 
+/* Probability `reached` [histories][points] that a use is reached, given its logarithm `log_use` (-inf: none), by sums
+ * of lognormals [histories][lognormals]; a mean of -inf is reached already. To 4e-8 a lognormal. */
+void lacuna_lognormals_reached(const double *mean, const double *sd, const double *weight, size_t histories,
+                               size_t lognormals, const double *log_use, size_t points, double *reached);
+
 /* The implementation of the Fourier transform that this library was built with: "FFTW" or "Eigen". */
 const char *lacuna_transform_name(void);
 

@@ -1,24 +1,35 @@
 // The step of the Gaussian-sum filter from test to test: equations and sources in analysis/prognosis/filter/filter.py.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "lacuna_analysis.h"
 
 namespace {
 
 constexpr double root_2pi = 2.5066282746310002;
-constexpr double steepest = 50.0; // growth of a deviation between two tests: beyond it a Gaussian means nothing
+constexpr double impossible = 120; // square of a deviation whose density is 1e-26 of the greatest
+constexpr double steepest = 50.0;  // growth of a deviation between two tests: beyond it a Gaussian means nothing
+
+/// log2 of a positive normal number to 0.01, enough to begin a search with: exponent, and a parabola over the mantissa.
+double about_log2(double value) {
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const double m = std::bit_cast<double>((bits & 0xFFFFFFFFFFFFFULL) | 0x3FF0000000000000ULL) - 1;
+  return static_cast<double>(static_cast<std::int64_t>(bits >> 52) - 1023) + m * (1.3465 - 0.3465 * m);
+}
 
 /// Growth and age of one law between the points of its table; beyond both ends growth is constant.
 struct Law {
   const double *x, *g, *u;
   std::size_t last;
-  double per_log;
+  double per_octave;
 
   std::size_t cell(double at) const {
     if (!(at > x[0])) return 0;
-    auto k = std::min(static_cast<std::size_t>(std::log(at / x[0]) * per_log), last - 1);
+    if (at >= x[last - 1]) return last - 1;
+    auto k = std::min(static_cast<std::size_t>(about_log2(at / x[0]) * per_octave), last - 1);
     while (k > 0 && at < x[k])
       --k;
     while (k + 1 < last && at >= x[k + 1])
@@ -80,6 +91,7 @@ struct Merged {
 
   void add(double share, double miss, double pxx, double pxl, double pll, double variance) {
     const double sharpness = 1 / (pxx + variance), gain = pxx * sharpness, turned = pxl * sharpness;
+    if (miss * miss * sharpness > impossible) return;
     const double p = share / root_2pi * std::exp(-0.5 * miss * miss * sharpness) * std::sqrt(sharpness);
     const double ex = gain * miss, el = turned * miss;
     total += p;
@@ -122,11 +134,11 @@ void lacuna_hypotheses_test(const lacuna_hypotheses *hypotheses, const lacuna_te
                             lacuna_beliefs *predicted, double *along, double *turn, double *outlier, double *evidence) {
   const lacuna_hypotheses &h = *hypotheses;
   const std::size_t last = h.points - 1;
-  const double per_log = static_cast<double>(last) / std::log(h.severity[last] / h.severity[0]);
+  const double per_octave = static_cast<double>(last) / std::log2(h.severity[last] / h.severity[0]);
   for (std::size_t b = 0; b < h.histories; ++b) {
     double sum = 0, before = 0;
     for (std::size_t s = 0; s < h.laws; ++s) {
-      const Law law{h.severity, h.growth + s * h.points, h.age + s * h.points, last, per_log};
+      const Law law{h.severity, h.growth + s * h.points, h.age + s * h.points, last, per_octave};
       for (std::size_t k = 0; k < h.columns; ++k) {
         const std::size_t i = (s * h.histories + b) * h.columns + k, c = s * h.columns + k;
         if (beliefs->w[i] < h.gone) {

@@ -16,9 +16,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import ndtr
 
 from lacuna.analysis.prognosis.filter.bank import LOST, Bank, Beliefs
+from lacuna.analysis.spectra.library import library, pointer
 
 NODES = 5
 COMMON_NODES = 3
@@ -43,15 +43,13 @@ class Remaining:
         """[B, ...] probability that the limit is reached within `use` [B, ...]."""
         with np.errstate(divide="ignore"):
             ln = np.log(np.asarray(use, dtype=float))
-        shape = ln.shape
-        ln = ln.reshape(len(self.mean), -1)
-        result = np.empty(ln.shape)
-        for b, (mean, sd, weight) in enumerate(zip(self.mean, self.sd, self.weight, strict=True)):
-            gone = np.isneginf(mean)
-            some = (weight > 0) & ~gone
-            p = ndtr((ln[b, :, None] - mean[some]) / sd[some])
-            result[b] = (weight[some] * p).sum(axis=1) + weight[gone].sum()
-        return result.reshape(shape)
+        flat = np.ascontiguousarray(ln.reshape(len(self.mean), -1))
+        result = np.empty(flat.shape)
+        mean, sd, weight = (np.ascontiguousarray(a) for a in (self.mean, self.sd, self.weight))
+        library().lacuna_lognormals_reached(
+            *map(pointer, (mean, sd, weight)), *mean.shape, pointer(flat), flat.shape[1], pointer(result)
+        )
+        return result.reshape(ln.shape)
 
     def quantiles(self, probabilities, never: np.ndarray) -> np.ndarray:
         """[B, q] remaining use; inf where it is beyond `never` [B]."""

@@ -166,8 +166,8 @@ class StepWriter:
         residuals = ", ".join(body.value(r.residual) for r in step.residuals)
         body.line(f"double {block}_r[{2 * size}] = {{{residuals}}};")
         body.line(f"const int {block}_looked = mdl_newton_look(&{block}, {block}_r);")
-        body.line(f"if ({block}.phase == MDL_FAILED) return mdl_fail(m, {block}.singular ? MDL_FAILURE_SINGULAR "
-                  f": MDL_FAILURE_NEWTON, {self._equation_of(step.residuals, f'{block}.singular')}, 0.0);")  # fmt: skip
+        equation = self._equation_of(step.residuals, f"{block}.singular")
+        body.line(f"if ({block}.phase == MDL_FAILED) return mdl_fail(m, MDL_FAILURE_NEWTON, {equation}, 0.0);")
         body.line(f"if ({block}_looked) continue;")
         matrix = ", ".join(body.value(j) for line in step.jacobian for j in line)
         body.line(f"double {block}_a[{size * size}] = {{{matrix}}};")

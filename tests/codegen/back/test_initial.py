@@ -79,3 +79,55 @@ end Several;
     result = simulated(tmp_path, text, stop=0.1)
     assert result["x"][0] == pytest.approx(1.5, rel=1e-9)
     assert result["p"][-1] == pytest.approx(1.5, rel=1e-9)
+
+
+# What an engineer gets to read: the declarations and initial equations of a model, and what the run says.
+UNFIT = {
+    "steady and conserved": (
+        "Real x(start=1), y(start=1);\ninitial equation\n  der(x) = 0;\n  der(y) = 0;\nequation\n"
+        "  der(x) = y - x;\n  der(y) = x - y;",
+        "follow from each other and leave these open: x, y; give one of them a start value with fixed = true",
+    ),
+    "one says what another does": (
+        "Real x, y;\ninitial equation\n  x - y = 1;\n  2*x - 2*y = 2;\nequation\n  der(x) = -x;\n  der(y) = -y;",
+        "follow from each other and leave these open: x, y",
+    ),
+    "contradictory": (
+        "Real x, y;\ninitial equation\n  x - y = 1;\n  2*x - 2*y = 3;\nequation\n  der(x) = -x;\n  der(y) = -y;",
+        "linear equations have no solution, or no unique one; in: 2*x - 2*y = 3",
+    ),
+    "never steady": (
+        "Real x(start=1);\ninitial equation\n  der(x) = 0;\nequation\n  der(x) = x^2 + 1;",
+        "a block of nonlinear equations did not converge; in: der(x) = x^2 + 1",
+    ),
+    "never settles": (
+        "Integer count;\n  Real x(start=0, fixed=true);\ninitial equation\n  count = pre(count) + 1;\nequation\n"
+        "  der(x) = 1;\n  when x > 1 then\n    count = pre(count) + 1;\n  end when;",
+        "do not settle at time 0 s; these keep changing: count",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", UNFIT)
+def test_an_initial_system_without_an_answer_is_told_by_its_variables(tmp_path: Path, case: str) -> None:
+    body, said = UNFIT[case]
+    result = simulated(tmp_path, f"model Unfit\n  {body}\nend Unfit;\n", stop=1.0)
+    assert not result.complete
+    assert said in str(result.failure)
+
+
+def test_what_is_open_may_be_given(tmp_path: Path) -> None:
+    """The hint of the first of them, followed: one start value in place of an initial equation."""
+    text = """model Conserved
+  Real x(start=1, fixed=true), y;
+initial equation
+  der(y) = 0;
+equation
+  der(x) = y - x;
+  der(y) = x - y;
+end Conserved;
+"""
+    result = simulated(tmp_path, text, stop=1.0)
+    assert result.complete, result.failure
+    assert result["x"] == pytest.approx(1.0)
+    assert result["y"] == pytest.approx(1.0)

@@ -121,6 +121,7 @@ def _instruments(case: Drawn, rng: np.random.Generator, recordings: int) -> None
 def _sized(case: Drawn, target: float) -> tuple[dict[str, np.ndarray], dict]:
     """What is concealed scaled until the refit of the believed model errs `target` times the floor."""
     recordings = next(iter(case.drive.values())).shape[1]
+    measured: dict[str, np.ndarray] = {}
     for _ in range(SIZINGS if case.hidden else 1):
         clean = simulate(case.machine, _columns(case.true, recordings), case.drive, case.hidden)
         if not all(np.isfinite(c).all() for c in clean.values()):
@@ -134,6 +135,8 @@ def _sized(case: Drawn, target: float) -> tuple[dict[str, np.ndarray], dict]:
             break
         scale = np.sqrt((target**2 - 1) / max(ratio**2 - 1, 0.01))
         case.hidden = tuple((h, q * float(np.clip(scale, 0.1, 10.0))) for h, q in case.hidden)
+    if not measured:
+        raise ValueError(f"{case.machine.name} cannot be simulated with {[h.name for h, _ in case.hidden]}")
     return measured, ends
 
 

@@ -75,6 +75,7 @@ class Machine:
     substeps: int = 2
     samples: int = 700
     extra: Mapping[str, float] = field(default_factory=dict)
+    inner: str = ""  # the class in the file, where it is not the file's own
 
     def text(self) -> str:
         """The believed model, as its user wrote it."""

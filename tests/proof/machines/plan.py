@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tests.proof.machines import electrical, hydraulic, mechanical, rotating, thermal
+from tests.proof.machines import electrical, hydraulic, mechanical, rotating, strangers, thermal
 from tests.proof.machines.machine import Machine
 
 MACHINES: tuple[Machine, ...] = (
@@ -17,6 +17,14 @@ MACHINES: tuple[Machine, ...] = (
     mechanical.PENDULUM,
     rotating.TWO_MASS,
     *electrical.MACHINES,
+)
+STRANGERS_FROM = 201  # seeds
+STRANGE_PAIRS = (
+    ("Radiator", (0, 1)),
+    ("OrificeTanks", (0, 1)),
+    ("Solenoid", (0, 2)),
+    ("Boost", (0, 1)),
+    ("SurgeLine", (0, 1)),
 )
 PAIRS = (("House", (0, 2)), ("Cylinder", (0, 2)), ("GearedMotor", (0, 2)), ("TwoMass", (0, 3)), ("Filter", (0, 3)))
 WEAK = (("Pendulum", 0), ("ThreeTanks", 0), ("Loudspeaker", 0))
@@ -42,12 +50,15 @@ class Plan:
 
 def plan(seed: int) -> list[tuple[str, Plan, int]]:
     """Every case as (name, plan, seed of its own), in an order that tells nothing."""
-    named = {m.name: m for m in MACHINES}
-    cases = [Plan("effect", m, (k,)) for m in MACHINES for k in range(len(m.hidden))]
-    cases += [Plan(kind, m) for m in MACHINES for kind in ("consistent", "parameters")]
-    cases += [Plan("two", named[m], pair, misfit=(2.0, 7.0)) for m, pair in PAIRS]
-    cases += [Plan("weak", named[m], (k,), misfit=(1.02, 1.06)) for m, k in WEAK]
-    cases += [Plan("half", named[m], (k,), (output,)) for m, k, output in HALF]
+    strange = seed >= STRANGERS_FROM
+    machines = strangers.MACHINES if strange else MACHINES
+    named = {m.name: m for m in machines}
+    cases = [Plan("effect", m, (k,)) for m in machines for k in range(len(m.hidden))]
+    cases += [Plan(kind, m) for m in machines for kind in ("consistent", "parameters")]
+    cases += [Plan("two", named[m], pair, misfit=(2.0, 7.0)) for m, pair in (STRANGE_PAIRS if strange else PAIRS)]
+    if not strange:
+        cases += [Plan("weak", named[m], (k,), misfit=(1.02, 1.06)) for m, k in WEAK]
+        cases += [Plan("half", named[m], (k,), (output,)) for m, k, output in HALF]
     order = np.random.default_rng([seed, 2]).permutation(len(cases))
     return [(f"m{n + 1:03d}", cases[j], 1000 * seed + int(j)) for n, j in enumerate(order)]
 

@@ -27,7 +27,8 @@ def write_case(case: Drawn, measured: dict[str, np.ndarray], name: str, folder: 
     folder.mkdir(parents=True, exist_ok=True)
     machine = case.machine
     (folder / f"{machine.name}.mo").write_text(machine.text())
-    text = f'title = "{machine.name}, case {name}"\nmodel = "{machine.name}.mo"\nsource = "synthetic"\n\n'
+    file = f"{machine.name}.mo" + (f":{machine.inner}" if machine.inner else "")
+    text = f'title = "{machine.name}, case {name}"\nmodel = "{file}"\nsource = "synthetic"\n\n'
     text += _table("parameters", case.believed)
     text += _table("uncertainty", {n: p.sigma for n, p in machine.parameters.items()})
     for n, i in machine.inputs.items():

@@ -381,7 +381,7 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
     /* Diode.mo:14  u = R*i + v + u_C */
     double v_2_block_r[2] = {u - (R * i + v_2 + u_C)};
     const int v_2_block_looked = mdl_newton_look(&v_2_block, v_2_block_r);
-    if (v_2_block.phase == MDL_FAILED) return mdl_fail(m, v_2_block.singular ? MDL_FAILURE_SINGULAR : MDL_FAILURE_NEWTON, (const int[]){1, 1}[v_2_block.singular], 0.0);
+    if (v_2_block.phase == MDL_FAILED) return mdl_fail(m, MDL_FAILURE_NEWTON, (const int[]){1, 1}[v_2_block.singular], 0.0);
     if (v_2_block_looked) continue;
     double v_2_block_a[1] = {-(R * (I_s * (tmp1 * inverse_of_V_t)) + 1.0)};
     const int v_2_block_singular = mdl_solve(1, v_2_block_a, v_2_block_r);

@@ -1,0 +1,125 @@
+"""Recordings as loggers of users write them: read whole, with what was assumed, or refused by place."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lacuna.analysis.recording.channel import Recorded, RecordingError
+from lacuna.analysis.recording.formats import read_recorded
+
+TIME = np.arange(5) * 0.1
+
+
+def read(path: Path, text: str, encoding: str = "utf-8") -> Recorded:
+    path.write_bytes(text.encode(encoding))
+    return read_recorded(path)
+
+
+def found(recorded: Recorded) -> dict[str, tuple[str, list[float]]]:
+    return {c.name: (c.unit, c.values.tolist()) for c in recorded.channels}
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("time speed\n0 1\n1 2\n", {"speed": ("", [1, 2])}),
+        ("   time [s]   u[V]\n   0.0   1.5\n   0.1   2.5\n".replace(" [s]", "[s]"), {"u": ("V", [1.5, 2.5])}),
+        ("time;M [µNm];n / min⁻¹\n0;1,5;2\n1;2,5;3\n", {"M": ("uN.m", [1.5, 2.5]), "n": ("rpm", [2, 3])}),
+        (",time,u\n0,0.0,1\n1,0.1,2\n", {"u": ("", [1, 2])}),
+        ("sep=;\ntime;u\n0;1,5\n1;2,5\n", {"u": ("", [1.5, 2.5])}),
+        ('"Time (s)","Current, A","w ""rotor"" [rad/s]"\n"0","1","2"\n"1","1.5","3"\n',
+         {"Current": ("A", [1, 1.5]), 'w "rotor"': ("rad/s", [2, 3])}),
+    ],
+)  # fmt: skip
+def test_dialects_of_text(tmp_path: Path, text: str, expected: dict[str, tuple[str, list[float]]]) -> None:
+    assert found(read(tmp_path / "r.txt", text)) == expected
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("time;n;i;u\n0,0;1.234,5;1,5;2,5\n", "line 2 `1.234,5` is none"),
+        ("time,u\n2024-01-01 00:00:00,1\n", "line 2 `2024-01-01 00:00:00` is none"),
+        ("time,on\n0,true\n", "line 2 `true` is none"),
+        (",time,u\n7,0.0,1\n8,0.1,2\n", "column 1 has no name"),
+        ("time,u\n0,1\n1,2\nEnd of file\n", ":4: 1 fields"),
+    ],
+)
+def test_what_is_no_number_is_named_with_its_line(tmp_path: Path, text: str, said: str) -> None:
+    with pytest.raises(RecordingError, match=said.replace(".", r"\.")):
+        read(tmp_path / "r.csv", text)
+
+
+def test_structures_and_matrices_of_matlab(tmp_path: Path) -> None:
+    from scipy.io import savemat
+
+    log = {"time": TIME, "u": 2 * TIME, "inner": {"x": 3 * TIME}, "note": "abc", "y": np.column_stack([TIME, TIME + 1])}
+    savemat(tmp_path / "s.mat", {"log": log})
+    recorded = read_recorded(tmp_path / "s.mat")
+    assert {n: v for n, (_, v) in found(recorded).items()} == {
+        "u": (2 * TIME).tolist(), "inner.x": (3 * TIME).tolist(), "y[1]": TIME.tolist(), "y[2]": (TIME + 1).tolist(),
+    }  # fmt: skip
+    assert recorded.notes == ("left out, for they hold no series of numbers: note",)
+
+
+def test_a_structure_of_matlab_7_3(tmp_path: Path) -> None:
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "s.mat", "w") as file:
+        group = file.create_group("log")
+        group["time"], group["u"] = TIME[None, :], 2 * TIME[None, :]
+        file.create_group("#refs#")["a"] = np.ones((1, 3))
+    assert found(read_recorded(tmp_path / "s.mat")) == {"u": ("", (2 * TIME).tolist())}
+
+
+def test_instants_are_time_and_truth_is_0_or_1(tmp_path: Path) -> None:
+    pandas = pytest.importorskip("pandas")
+    index = pandas.date_range("2024-01-01", periods=5, freq="100ms")
+    pandas.DataFrame({"u": TIME, "on": [True, False] * 2 + [True], "s": list("abcde")}, index).to_parquet(
+        tmp_path / "r.parquet"
+    )
+    recorded = read_recorded(tmp_path / "r.parquet")
+    assert found(recorded) == {"u": ("", TIME.tolist()), "on": ("", [1, 0, 1, 0, 1])}
+    assert np.allclose(recorded["u"].time, TIME, atol=1e-12)
+    assert recorded.notes[0].endswith("numbers: s") and recorded.notes[1].startswith("time begins at 0, which is 2024")
+
+
+def test_a_waveform_without_a_start_begins_at_zero(tmp_path: Path) -> None:
+    nptdms = pytest.importorskip("nptdms")
+    channels = [("a", "V", TIME, 0.1), ("b", "Nm", TIME[:3], 0.2)]
+    with nptdms.TdmsWriter(tmp_path / "w.tdms") as file:
+        said = [{"unit_string": unit, "wf_increment": step} for _, unit, _, step in channels]
+        file.write_segment(
+            [nptdms.ChannelObject("g", c[0], c[2], properties=p) for c, p in zip(channels, said, strict=True)]
+        )
+    recorded = read_recorded(tmp_path / "w.tdms")
+    assert found(recorded) == {"a": ("V", TIME.tolist()), "b": ("N.m", TIME[:3].tolist())}
+    assert np.allclose(recorded["b"].time, [0, 0.2, 0.4])
+
+
+def test_a_channel_of_words_in_an_mdf_file_is_left_out_by_name(tmp_path: Path) -> None:
+    asammdf = pytest.importorskip("asammdf")
+    words = {"val_0": 0, "text_0": "N", "val_1": 1, "text_1": "D", "default": b"?"}
+    with asammdf.MDF(version="4.10") as file:
+        file.append([asammdf.Signal(TIME, TIME, name="u", unit="V")])
+        file.append([asammdf.Signal(np.arange(5), TIME, name="gear", conversion=words)])
+        file.save(tmp_path / "w.mf4", overwrite=True)
+    recorded = read_recorded(tmp_path / "w.mf4")
+    assert found(recorded) == {"u": ("V", TIME.tolist())}
+    assert "gear is converted by more than a straight line" in recorded.notes[0]
+
+
+def test_no_row_of_a_spreadsheet_is_lost(tmp_path: Path) -> None:
+    pandas = pytest.importorskip("pandas")
+    pytest.importorskip("openpyxl")
+    path = tmp_path / "r.xlsx"
+    pandas.DataFrame({"time": TIME, "u [V]": 2 * TIME}).to_excel(path)  # with the index of its rows
+    assert found(read_recorded(path)) == {"u": ("V", (2 * TIME).tolist())}
+    dates = pandas.date_range("2024-01-01", periods=5, freq="100ms")
+    pandas.DataFrame({"when": dates, "u": TIME}).to_excel(path, index=False)
+    assert np.allclose(read_recorded(path)["u"].time, TIME, atol=1e-3)
+    pandas.DataFrame({"time": TIME, "u": TIME, "remark": ["begin", *[None] * 4]}).to_excel(path, index=False)
+    with pytest.raises(RecordingError, match="column 3 of its row 2"):
+        read_recorded(path)

@@ -1,0 +1,51 @@
+"""Each machine's equations in Python and its model as text are the same machine: two integrators agree on them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lacuna.codegen.compile import compile_model
+from lacuna.recorded_units import ZERO_CELSIUS, to_si
+from lacuna.runtime import Model, RecordedInput, simulate
+from tests.proof.machines import machine as truth
+from tests.proof.machines import plan, strangers
+
+MACHINES = (*plan.MACHINES, *strangers.MACHINES)
+SAMPLES = 60
+
+
+@pytest.mark.parametrize("machine", MACHINES, ids=lambda m: m.name)
+def test_the_believed_model_is_the_truth_without_what_is_concealed(machine: truth.Machine, tmp_path: Path) -> None:
+    file = tmp_path / f"{machine.name}.mo"
+    file.write_text(machine.text())
+    model = Model(compile_model(f"{file}:{machine.inner}" if machine.inner else str(file)).path)
+    time = machine.period * np.arange(SAMPLES)
+    course = 0.5 + 0.3 * np.sin(np.linspace(0, 9, SAMPLES))
+    drive = {n: i.low + (i.high - i.low) * course for n, i in machine.inputs.items()}
+    values = {n: np.array([p.value]) for n, p in machine.parameters.items()}
+    expected = truth.simulate(machine, values, {n: v[:, None].repeat(1, axis=1) for n, v in drive.items()})
+    run = simulate(
+        model, solver="ida", rtol=1e-8, stop=float(time[-1]), output_times=time, events=False,
+        inputs={n: RecordedInput(time, _si(drive[n], i.unit)) for n, i in machine.inputs.items()},
+        outputs=[o.variable for o in machine.outputs.values()],
+    )  # fmt: skip
+    for name, output in machine.outputs.items():
+        told = _si(expected[name][:SAMPLES, 0], output.unit)
+        np.testing.assert_allclose(run[output.variable], told, rtol=0, atol=2e-3 * np.ptp(told), err_msg=name)
+
+
+def _si(values: np.ndarray, unit: str) -> np.ndarray:
+    return values * to_si(unit)[0] + (ZERO_CELSIUS if unit == "degC" else 0.0)
+
+
+@pytest.mark.parametrize("seed", [101, 201])
+def test_the_plans_have_every_effect_once_and_a_null_of_each_kind(seed: int) -> None:
+    machines = strangers.MACHINES if seed >= plan.STRANGERS_FROM else plan.MACHINES
+    cases = [p for _, p, _ in plan.plan(seed)]
+    effects = [(p.machine.name, *p.hidden) for p in cases if p.kind == "effect"]
+    assert sorted(effects) == sorted((m.name, k) for m in machines for k in range(len(m.hidden)))
+    for kind in ("consistent", "parameters"):
+        assert sorted(p.machine.name for p in cases if p.kind == kind) == sorted(m.name for m in machines)
