@@ -49,7 +49,8 @@ def verdict_on(h: History, outlier: np.ndarray, quantiles: np.ndarray, again: fl
     _, low, median, high, _ = quantiles
     if median == 0:
         return FORECAST, "", ()
-    grows = trend(part) > SEEN
+    kept = ~part.outlier
+    grows = trend(part.use[kept], part.severity[kept], part.sd[kept]) > SEEN
     if grows and median <= horizon and high <= DECADE * low:
         return FORECAST, "", ()
     if again < SETTLED:
@@ -57,15 +58,13 @@ def verdict_on(h: History, outlier: np.ndarray, quantiles: np.ndarray, again: fl
     return TOO_EARLY, "lives that differ tenfold agree with the tests" if grows else "no growth can be told yet", ()
 
 
-def trend(part: _Part) -> float:
-    """The slope of a straight line through the tests, in its standard deviations; outliers left out."""
-    use, severity, sd = (a[~part.outlier] for a in (part.use, part.severity, part.sd))
+def trend(use: np.ndarray, value: np.ndarray, sd: np.ndarray) -> float:
+    """The slope of a straight line through the tests, in its standard deviations; 0 where they are too few."""
     if len(use) < FEWEST:
         return 0.0
     w = 1 / sd**2
     u = use - (w * use).sum() / w.sum()
-    information = (w * u * u).sum()
-    return float((w * u * severity).sum() / np.sqrt(information))
+    return float((w * u * value).sum() / np.sqrt((w * u * u).sum()))
 
 
 def _contradiction(part: _Part, unit: str) -> str:

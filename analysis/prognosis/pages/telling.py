@@ -120,9 +120,11 @@ def forecast_json(said: Sequence[Forecast], risk: float, version: str) -> dict:
 
 
 def urgency(f: Forecast) -> tuple:
-    """Sorts by risk: forecasts by their median, then what is too early to say, then what is steady."""
+    """Sorts by risk: forecasts by the use left to the last advised test, then those without one by their median, then
+    what is too early to say, then what is steady."""
     order = {"forecast": 0, "too_early": 1, "steady": 2}
-    return order[f.verdict], float(f.quantiles[-1, 2] / max(f.horizon, 1e-300)), f.history.actuator
+    left = math.inf if f.advised is None else f.advised - f.at
+    return order[f.verdict], left, float(f.quantiles[-1, 2] / max(f.horizon, 1e-300)), f.history.actuator
 
 
 def counted_verdicts(said: Sequence[Forecast]) -> str:
