@@ -65,7 +65,8 @@ typedef struct {
   int kind;      /* rt_event_kind */
   int index;     /* relation, relation, sample or message */
   int direction; /* of a relation: +1 it became true, -1 false */
-  double reach; /* of a state event: how far the guard had been from zero since it last switched, of its size; else 1 */
+  double reach;  /* of a state event: how far the guard had been from zero since it last switched, by its nominal value
+                    (else of its range); of others 1 */
 } rt_event_entry;
 
 /* Where sensitivities are not what they seem, because the order of events is about to change. */
