@@ -7,7 +7,7 @@ written beside its place and renamed, so that processes may share the cache.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 import contextlib
 from dataclasses import dataclass
 from functools import lru_cache
@@ -257,7 +257,7 @@ def trim(folder: Path, largest: int = LARGEST) -> None:
     """Remove what was not used for longest until what is left takes no more than `largest` bytes. What was used within
     the hour stays: another process may be about to load it."""
     groups: dict[Path, list[os.stat_result]] = {}
-    for path in (p for p in folder.rglob("*") if p.is_file() and not p.relative_to(folder).parts[0].startswith(".")):
+    for path in _kept(folder):
         with contextlib.suppress(OSError):  # another process removed it
             groups.setdefault(path.with_suffix(""), []).append(path.stat())
     held = sum(status.st_size for group in groups.values() for status in group)
@@ -268,6 +268,13 @@ def trim(folder: Path, largest: int = LARGEST) -> None:
         for path in sorted(stem.parent.glob(f"{stem.name}.*")):  # the sum before the library: never half a one
             path.unlink(missing_ok=True)
         held -= sum(status.st_size for status in groups[stem])
+
+
+def _kept(folder: Path) -> Iterator[Path]:
+    """Files of the cache, without those that are being written. Folders come and go: `os.walk` passes over them."""
+    for inside, folders, files in os.walk(folder):
+        folders[:] = [name for name in folders if not name.startswith(".")]
+        yield from (Path(inside) / name for name in files)
 
 
 def compile_c(c_file: Path, output: Path, foreign: flat.ForeignCode | None = None) -> None:

@@ -94,12 +94,8 @@ def forecast(
     inputs = []
     if isinstance(history, Path | str):
         inputs = files_of(history)
-        if "://" in str(history) or Path(history).suffix in (".db", ".sqlite"):
-            from lacuna.analysis.prognosis.store import Store
-
-            history = Store(history).histories(unit)
-        else:
-            history = _read(Path(history), assessor(map, columns, unfiltered), unit, limits or {}, kept, progress)
+        read = diagnoses.Reader(limits or {}, explained(kept, progress))
+        history = _read(history, assessor(map, columns, unfiltered), unit, read)
     bank = Bank(degradation_laws(laws))
     faults = {h.fault for h in history}
     if limits and not faults <= set(limits):
@@ -119,19 +115,15 @@ def files_of(history: Path | str) -> list[Path]:
     return [file for file in (path, *(path / name for name in FILES)) if file.is_file()][:1]
 
 
-def _read(
-    path: Path,
-    assess: Assess | None,
-    unit: str | None,
-    limits: Mapping[str, float],
-    kept: Path,
-    progress: Progress | None,
-) -> list[History]:
-    """Raises AnalysisError where there are diagnoses and no limit: it tells what drifts."""
-    read = diagnoses.Reader(limits, explained(kept, progress))
-    histories: list[History] = read_histories(path, assess, unit, read)
-    if read.healthy and not limits:
-        raise AnalysisError(f"{path}: which quantity has what limit? There are {read.drifts(histories)}")
+def _read(source: Path | str, assess: Assess | None, unit: str | None, diagnosed: diagnoses.Reader) -> list[History]:
+    """Of a table or a store. Raises AnalysisError where there are diagnoses and no limit: it tells what drifts."""
+    if "://" in str(source) or Path(source).suffix in (".db", ".sqlite"):
+        from lacuna.analysis.prognosis.store import Store
+
+        return list(Store(source).histories(unit))
+    histories: list[History] = read_histories(source, assess, unit, diagnosed)
+    if diagnosed.healthy and not diagnosed.limits:
+        raise AnalysisError(f"{source}: which quantity has what limit? There are {diagnosed.drifts(histories)}")
     return histories
 
 

@@ -34,15 +34,15 @@ class Reader:
     """
 
     def __init__(self, limits: Mapping[str, float], explain: Callable[[Path], Path]):
-        self._limits, self._explain = limits, explain
+        self.limits, self._explain = limits, explain
         self.healthy: dict[str, float] = {}
 
     def __call__(self, path: Path) -> list[Reading]:
         if path.is_dir() and not (path / FILE).exists() and (path / CASE).exists():
             path = self._explain(path)
         found = quantities(path)
-        if self._limits:
-            return [_severity(path, name, limit, found, self.healthy) for name, limit in self._limits.items()]
+        if self.limits:
+            return [_severity(path, name, limit, found, self.healthy) for name, limit in self.limits.items()]
         for name, (_, _, believed) in found.items():
             self.healthy.setdefault(name, believed)
         return [(name, v, v - TWO_SIDED_95 * sd, v + TWO_SIDED_95 * sd) for name, (v, sd, _) in found.items()]

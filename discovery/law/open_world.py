@@ -13,7 +13,7 @@ from lacuna.discovery.efforts.find import Found, find
 from lacuna.discovery.fit.evidence import like_noise, nearly_noise, within_instruments
 from lacuna.discovery.law.beyond import MARGIN
 from lacuna.discovery.law.several import go_on
-from lacuna.discovery.naming.comparison import MIN_GAIN, TIE, Ranked, confidences, held_out_deviance, price, score
+from lacuna.discovery.naming.comparison import MIN_GAIN, TIE, Ranked, confidences, left_out_deviance, price, score
 from lacuna.discovery.naming.judge import try_judge
 from lacuna.discovery.naming.name import Naming
 from lacuna.discovery.naming.screen import Candidate
@@ -87,9 +87,5 @@ def _score_of(search: Search, unbegun: Search, correlation: dict[str, float]) ->
 
 def _tells(unbegun: Search, ranked: Ranked, correlation: dict[str, float]) -> bool:
     """Whether a law fitted to some recordings tells the others better than the believed model so fitted does."""
-    if len(unbegun.case.fit) < 2:
-        return True
-    base = unbegun.fit
-    nothing = Candidate(ranked.attachment, base.machine, [], fit=base)
-    without = held_out_deviance(unbegun.case, base, Ranked(nothing, base, 0.0), correlation)
-    return held_out_deviance(unbegun.case, base, ranked, correlation) < without - TIE
+    without = left_out_deviance(unbegun.fit, unbegun.fit, correlation)
+    return left_out_deviance(ranked.fit, unbegun.fit, correlation) < without - TIE

@@ -8,7 +8,7 @@ from scipy.stats import norm
 
 from bench.prognosis import truth
 from bench.prognosis.fleet import LIMIT, Part
-from bench.prognosis.oracle import Readings, best_figure, posterior
+from bench.prognosis.oracle import ReadingErrors, best_figure, posterior
 from bench.prognosis.scores import ALPHA, CHECKPOINTS
 from lacuna.analysis.prognosis.history import History
 from lacuna.analysis.severity.robustness import Results
@@ -38,7 +38,7 @@ def simulated(count: int = 4096) -> Results:
 
 def test_what_friction_and_inertia_do_to_a_reading_is_known():
     """The likelihood of a reading falls as a normal density about what inertia makes of the severity."""
-    readings, one = Readings(simulated()), np.ones(1)
+    readings, one = ReadingErrors(simulated()), np.ones(1)
     at = 0.2 + PULL + NOISE * np.array([0.0, 1.0, 2.0])
     found = np.array([readings.log_likelihood(y, 0.2 * one, 0 * one, one)[0] for y in at])
     assert found - found[0] == pytest.approx(norm.logpdf([0, 1, 2]) - norm.logpdf(0), abs=0.15)
@@ -59,7 +59,9 @@ def test_the_oracle_told_all_finds_a_steady_life():
     severity = LIMIT * (0.05 + 0.95 * use / life) + NOISE * random.standard_normal(len(use))
     history = History("P7", "cycles", use, severity, severity, severity, np.zeros(len(use), bool))
     own = truth.Life("steady wear", np.array([0.0, 1.0]), np.array([0.05, 1.0]))
-    found = posterior(Part("P7", "steady wear", own, 0.0, life, history, severity), Readings(simulated()), "shape", 1)
+    found = posterior(
+        Part("P7", "steady wear", own, 0.0, life, history, severity), ReadingErrors(simulated()), "shape", 1
+    )
     for share in CHECKPOINTS[2:]:
         rows = int(np.searchsorted(use, share * life, side="right"))
         low, middle, high = np.quantile(found[rows], (0.025, 0.5, 0.975))
