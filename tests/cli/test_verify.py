@@ -58,8 +58,8 @@ def status_of(*words: str) -> int:
 def bytes_of(place: Path, folder: str, words: tuple[str, ...], seed: str, threads: str) -> dict[str, object]:
     """What a command writes in a place of its own, by a process of its own: every file but the pages, without the
     seconds that it took."""
-    there = place / folder
-    there.mkdir()
+    there = place / folder / "here"  # a diagnosis names its case by two folders
+    there.mkdir(parents=True)
     for source in (p for p in place.iterdir() if p.name in INPUTS):
         (shutil.copytree if source.is_dir() else shutil.copy)(source, there / source.name)
     settings = os.environ | {"PYTHONHASHSEED": seed, "OMP_NUM_THREADS": threads, "OPENBLAS_NUM_THREADS": threads}
