@@ -1,4 +1,4 @@
-"""Recordings as machines give them: other rates, missing stretches, unknown starts, rest, feedback, values of their own.
+"""Recordings as machines give them: other rates, missing stretches, unknown starts, rest, feedback, own values.
 
 Each is the motor of `conftest` with dry friction concealed in it, spoiled as its test says; the diagnosis is to be the
 same.
