@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections import Counter
 from pathlib import Path
 import re
+import tomllib
 
+LEFT = Path(__file__).parent / "msl_left.toml"
 HEAD = """# The Modelica Standard Library, as it is
 
 Written by `make msl`: every example of these packages of version 4.1.0, unmodified, at default settings. *Right* means:
@@ -43,7 +45,18 @@ def write(
         for name in listed:
             short = name.removeprefix(f"Modelica.{package}.Examples.")
             text += f"| {short} | {_outcome(results[name])} |\n"
-    path.write_text(text + _further(further, results))
+    path.write_text(text + _further(further, results) + _left({**names, **further}, results))
+
+
+def _left(names: dict[str, list[str]], results: dict[str, dict[str, object]]) -> str:
+    """Every example that does not come out as it should, with its cause."""
+    causes = tomllib.loads(LEFT.read_text(encoding="utf-8"))
+    text = "\n## What is left, and why\n\n"
+    for name in (n for listed in names.values() for n in listed):
+        if results[name]["status"] not in ("ran", "right"):
+            short = name.removeprefix("Modelica.")
+            text += f"- {short}: {causes.get(short, 'not traced further than what is said of it above')}\n"
+    return text
 
 
 def _further(names: dict[str, list[str]], results: dict[str, dict[str, object]]) -> str:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from rich.table import Table
 import typer
 
 import lacuna
 from lacuna.cli.answer import Answer, answered
-from lacuna.cli.options import ClassName, Libraries, Model, Units
+from lacuna.cli.options import AllowExternal, ClassName, Data, Libraries, Model, Units
 
 Dump = Annotated[
     Literal["flat", "structure", "c"] | None,
@@ -19,16 +19,21 @@ Dump = Annotated[
 
 @answered
 def compile(
-    model: Model, class_name: ClassName = "", library: Libraries = None, dump: Dump = None, units: Units = "error"
-) -> Answer:
+    model: Model, class_name: ClassName = "", library: Libraries = None, dump: Dump = None, units: Units = "error",
+    data: Data = None, allow_external: AllowExternal = False,
+) -> Answer:  # fmt: skip
     """Translate MODEL to C and compile it; print the seconds of each pass, or with --dump what the passes made.
 
     A model whose files are unchanged is neither translated nor compiled again.
     """
+    reach: dict[str, Any] = {
+        "class_name": class_name, "libraries": library or [], "units": units, "data": data or [],
+        "allow_external": allow_external,
+    }  # fmt: skip
     if dump:
-        text = lacuna.dump(model, dump, class_name=class_name, libraries=library or [], units=units)
+        text = lacuna.dump(model, dump, **reach)
         return Answer({dump: text}, [text.removesuffix("\n")])
-    loaded = lacuna.load(model, class_name=class_name, libraries=library or [], units=units)
+    loaded = lacuna.load(model, **reach)
     shown = _passes(loaded) if loaded.seconds else f"{loaded.name}: unchanged since it was compiled"
     data = {"name": loaded.name, "library": str(loaded.library), "seconds": loaded.seconds}
     return Answer(data, [shown, str(loaded.library)], warnings=loaded.warnings)

@@ -10,7 +10,7 @@ import typer
 
 import lacuna
 from lacuna.cli.answer import Answer, answered
-from lacuna.cli.options import ClassName, Libraries, Model, Parameters, parameters
+from lacuna.cli.options import AllowExternal, ClassName, Data, Libraries, Model, Parameters, parameters
 
 Version = Annotated[Literal["3.0", "2.0"], typer.Option("--fmi", help="Version of the standard")]
 Type = Annotated[
@@ -26,6 +26,8 @@ def fmu(
     class_name: ClassName = "",
     library: Libraries = None,
     parameter: Parameters = None,
+    data: Data = None,
+    allow_external: AllowExternal = False,
     fmi: Version = "3.0",
     type: Type = "both",
     solver: Solver = "rodas4",
@@ -38,7 +40,7 @@ def fmu(
     """
     done = lacuna.export_fmu(
         model, out, class_name=class_name, libraries=library or [], parameters=parameters(parameter), version=fmi,
-        type=type, solver=solver,
+        type=type, solver=solver, data=data or [], allow_external=allow_external,
     )  # fmt: skip
     said = (
         f"{done.model}: FMI {done.version}, {' and '.join(done.types)}; {done.states} states, "

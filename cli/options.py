@@ -27,6 +27,14 @@ Units = Annotated[
     Literal["error", "warn", "all"],
     typer.Option(help="An inconsistent equation is an error, a warning, or (all) an error in libraries, too"),
 ]
+Data = Annotated[
+    list[Path] | None,
+    typer.Option("--data", metavar="FOLDER", help="Folder for files of data, beside the model's own; repeat for more"),
+]
+AllowExternal = Annotated[
+    bool,
+    typer.Option("--allow-external", help="Compile the C that external functions of the model name; it runs as you"),
+]
 Parameters = Annotated[
     list[str] | None,
     typer.Option(

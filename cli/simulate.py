@@ -12,7 +12,9 @@ import typer
 import lacuna
 from lacuna.cli.answer import Answer, answered
 from lacuna.cli.options import (
+    AllowExternal,
     ClassName,
+    Data,
     Hold,
     Inputs,
     Libraries,
@@ -29,7 +31,11 @@ from lacuna.cli.watch import Port, Watch, watched
 from lacuna.texts import file_name
 
 Solver = Literal["ida", "dopri5", "rodas4", "rk4", "euler"]
+By = Annotated[Solver, typer.Option(help="ida: reference; dopri5, rodas4: fast; rk4, euler: fixed step")]
 Format = Literal["csv", "parquet", "mat"]
+Interval = Annotated[
+    float | None, typer.Option(help="Output interval, s; default: the model's experiment, else 500 points")
+]
 
 
 @answered
@@ -37,21 +43,19 @@ def simulate(
     model: Model,
     class_name: ClassName = "",
     library: Libraries = None,
-    solver: Annotated[
-        Solver, typer.Option(help="ida: reference; dopri5, rodas4: fast; rk4, euler: fixed step")
-    ] = "ida",
+    solver: By = "ida",
     rtol: Annotated[float | None, typer.Option(help="Relative tolerance; default: the model's experiment")] = None,
     atol: Annotated[float | None, typer.Option(help="Absolute tolerance per nominal value; default: 0.01 rtol")] = None,
     step: Annotated[float | None, typer.Option(help="Fixed step of rk4 and euler, s")] = None,
     start: Annotated[float | None, typer.Option(help="Start time, s; default: the model's experiment")] = None,
     stop: Annotated[float | None, typer.Option(help="Stop time, s; default: the model's experiment")] = None,
-    interval: Annotated[
-        float | None, typer.Option(help="Output interval, s; default: the model's experiment, else 500 points")
-    ] = None,
+    interval: Interval = None,
     locate_events: Annotated[bool, typer.Option(help="Find events inside a step, or take them at its end")] = True,
     event_rows: Annotated[bool, typer.Option(help="Add a row before and a row after each event")] = False,
     parameter: Parameters = None,
     units: Units = "error",
+    data: Data = None,
+    allow_external: AllowExternal = False,
     input: Inputs = None,
     hold: Hold = False,
     signal: Signals = None,
@@ -69,7 +73,8 @@ def simulate(
     [bold]Example[/bold]: lacuna simulate Actuators.EccentricBldc -p zeta=0.3 --signal rotor.w --plot
     """
     loading: dict[str, Any] = {
-        "class_name": class_name, "libraries": library or [], "parameters": parameters(parameter), "units": units
+        "class_name": class_name, "libraries": library or [], "parameters": parameters(parameter), "units": units,
+        "data": data or [], "allow_external": allow_external,
     }  # fmt: skip
     running: dict[str, Any] = {
         "solver": solver, "inputs": inputs(input, hold), "start": start, "stop": stop, "rtol": rtol, "atol": atol,

@@ -7,7 +7,7 @@ written beside its place and renamed, so that processes may share the cache.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 import contextlib
 from dataclasses import dataclass
 from functools import lru_cache
@@ -27,6 +27,7 @@ from lacuna.codegen import flat
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.emit.text.c_text import SourceNames
 from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.library.access import NONE, Access
 from lacuna.codegen.library.search_path import names_in, split_name
 from lacuna.codegen.library.search_path import search_path as default_path
 import lacuna.texts
@@ -36,6 +37,7 @@ from lacuna.written import whole_files, write_whole
 COMPILER = (
     "cc", "-std=c11", "-O2", "-fPIC", "-shared", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic", "-Werror",
 )  # fmt: skip
+STRICT = ("-Werror=implicit-function-declaration", "-Werror=int-conversion", "-Wl,-z,defs")  # C of others
 LARGEST = 2 << 30  # bytes that are kept: some 10 000 models of the size of an actuator
 RECENT = 3600  # s
 TRIM_EVERY = 64  # libraries that are built between two looks at the size of the folder
@@ -80,6 +82,7 @@ def request_key(
     modifications: Mapping[str, object] | None,
     units: str,
     sensitivities: bool = False,
+    access: Access = NONE,
 ) -> str:
     """Digest of what was asked for, and where it is looked up: `search_path`, else MODELICAPATH and package Lacuna.
 
@@ -89,7 +92,19 @@ def request_key(
     paths = [str(Path(p).resolve()) for p in (default_path() if search_path is None else search_path)]
     file, inner = split_name(name)
     changes = sorted((k, repr(v)) for k, v in (modifications or {}).items())
-    return _digest(json.dumps([str(file.resolve()) if file else "", inner, paths, changes, units, sensitivities]))
+    return _digest(
+        json.dumps(
+            [
+                str(file.resolve()) if file else "",
+                inner,
+                paths,
+                changes,
+                units,
+                sensitivities,
+                [access.data, access.external],
+            ]
+        )
+    )
 
 
 def content_hash(
@@ -219,7 +234,7 @@ class Cache:
         _refuse_shared(self.directory)
         return self.directory
 
-    def build(self, digest: str, source: str) -> str:
+    def build(self, digest: str, source: str, foreign: flat.ForeignCode | None = None) -> str:
         """Compile C `source` to a library named by its digest and the compiler, and keep both; returns its path."""
         digest = _digest(digest, compiler())
         self.private()
@@ -229,7 +244,7 @@ class Cache:
         write_whole(c_file, source)
         with whole_files(self.directory) as scratch:
             output = scratch / library.name
-            compile_c(c_file, output)
+            compile_c(c_file, output, foreign)
             _sum_of(output).write_text(str(_file_digest(str(output))), encoding="ascii")
         if next(_builds) % TRIM_EVERY == 0:
             trim(self.directory)
@@ -240,7 +255,7 @@ def trim(folder: Path, largest: int = LARGEST) -> None:
     """Remove what was not used for longest until what is left takes no more than `largest` bytes. What was used within
     the hour stays: another process may be about to load it."""
     groups: dict[Path, list[os.stat_result]] = {}
-    for path in (p for p in folder.rglob("*") if p.is_file() and not p.relative_to(folder).parts[0].startswith(".")):
+    for path in _kept(folder):
         with contextlib.suppress(OSError):  # another process removed it
             groups.setdefault(path.with_suffix(""), []).append(path.stat())
     held = sum(status.st_size for group in groups.values() for status in group)
@@ -253,13 +268,30 @@ def trim(folder: Path, largest: int = LARGEST) -> None:
         held -= sum(status.st_size for status in groups[stem])
 
 
-def compile_c(c_file: Path, output: Path) -> None:
-    """Run the compiler on a generated file. Raises CompilerError with its first messages."""
-    command = [*COMPILER, f"-I{INCLUDE}", "-o", str(output), str(c_file), "-lm"]
+def _kept(folder: Path) -> Iterator[Path]:
+    """Files of the cache, without those that are being written. Folders come and go: `os.walk` passes over them."""
+    for inside, folders, files in os.walk(folder):
+        folders[:] = [name for name in folders if not name.startswith(".")]
+        yield from (Path(inside) / name for name in files)
+
+
+def compile_c(c_file: Path, output: Path, foreign: flat.ForeignCode | None = None) -> None:
+    """Run the compiler on a generated file. Raises CompilerError with its messages, Diagnostic for C of others."""
+    of_others = foreign is not None and foreign.spans
+    options = [o for o in COMPILER if not o.startswith("-W")] + list(STRICT) if of_others else list(COMPILER)
+    libraries = foreign.libraries if foreign is not None else []
+    command = [*options, f"-I{INCLUDE}", "-o", str(output), str(c_file), *libraries, "-lm"]
     try:
         result = run(command)
     except FileNotFoundError:
         raise CompilerError("no C compiler: install one that is called as `cc` (Debian: apt install gcc)") from None
+    if result.returncode and of_others:
+        said = next((x for x in result.stderr.splitlines() if "error" in x or "undefined" in x), "it says nothing")
+        names = ", ".join(foreign.spans)
+        message = f"the external C of {names} cannot be compiled: {said.split(': ', 1)[-1]}"
+        raise Diagnostic(
+            "R094", message, next(iter(foreign.spans.values())), "correct it, or what Include and Library name"
+        )
     if result.returncode:
         lines = "\n".join(result.stderr.splitlines()[:20])
         raise CompilerError(f"the compiler refused {c_file}, a fault of the generator:\n{lines}")

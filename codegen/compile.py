@@ -25,11 +25,13 @@ from lacuna.codegen.dae.storage import Storage
 from lacuna.codegen.emit.source import generate
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten import flatten
+from lacuna.codegen.library.access import NONE, Access
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.structure.aliases import eliminate_aliases
 from lacuna.codegen.structure.causal import causalise
 from lacuna.codegen.structure.constants import precompute, precompute_inverses
 from lacuna.codegen.structure.index.index_reduction import reduce_index
+from lacuna.codegen.structure.insisted import insist
 from lacuna.codegen.structure.nominal import infer
 from lacuna.codegen.structure.residual_form import jacobian, residual_form
 from lacuna.codegen.structure.sorting.tearing import Tearing
@@ -88,6 +90,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     model = report.run("initial system", discrete_starts, frozen.model)
     continuous, discrete = report.run("hybrid", events.split, model)
     system = report.run("index reduction", reduce_index, model, continuous, len(frozen.relations))
+    insist(declared, aliases, system)
     system = report.run("aliases", precompute, system)
     relations = report.run("hybrid", hybrid.rename, frozen.relations, system.renamed)
     relations += [Relation(s.left, s.right, s.source, text=s.text) for s in system.switches]
@@ -118,10 +121,11 @@ def translate(
     search_path: list[str] | None = None,
     modifications: Modifications | None = None,
     units: str = "error",
+    access: Access = NONE,
 ) -> tuple[Prepared, Report]:
     """All passes up to, not including, C: for `--dump` and for tests. `units`: see `flatten`."""
     report = Report()
-    library = report.run("library", Library, search_path)
+    library = report.run("library", Library, search_path, access)
     model = report.run("flatten", flatten, library, name, dict(modifications or {}), units)
     return prepare(model, report), report
 
@@ -134,22 +138,26 @@ def compile_model(
     modifications: Modifications | None = None,
     units: str = "error",
     sensitivities: bool = False,
+    access: Access = NONE,
 ) -> CompiledModel:
     """Translate and compile a model, or take it from the cache where nothing that it was made from has changed.
 
     `units`: what an inconsistent unit is, "error" or "warn" (a warning in the report). `sensitivities`: with the
     derivatives that a run with sensitivities needs (its C is twice as long, and a model of its own in the cache).
-    Raises Diagnostic (a finding about the model) or cache.CompilerError (the C compiler failed).
+    `access`: what a model may reach beyond its text. Raises Diagnostic (a finding about the model) or
+    cache.CompilerError (the C compiler failed).
     """
     store = cache.Cache(cache_directory)
-    request = cache.request_key(name, search_path, modifications, units, sensitivities)
+    request = cache.request_key(name, search_path, modifications, units, sensitivities, access)
     found = store.find(request)
     if found:
         return CompiledModel(found.name, found.library, found.hash, Report(cached=True, warnings=found.warnings))
     with _translating, own_table(), _uncollected():
-        prepared, report = translate(name, search_path=search_path, modifications=modifications, units=units)
+        prepared, report = translate(
+            name, search_path=search_path, modifications=modifications, units=units, access=access
+        )
         prepared.hash = cache.content_hash(prepared.declared, modifications, units, sensitivities)
         source = report.run("C", generate, prepared, sensitivities)
-    library = report.run("compile", store.build, prepared.hash, source)
+    library = report.run("compile", store.build, prepared.hash, source, prepared.declared.foreign)
     store.remember(request, prepared, library, report.warnings, search_path)
     return CompiledModel(prepared.declared.name, library, prepared.hash, report)

@@ -32,7 +32,7 @@ from lacuna.discovery.fit.time_limit import within
 from lacuna.discovery.naming.comparison import Ranked
 from lacuna.discovery.naming.foretold import foretold
 from lacuna.discovery.naming.judge import judge_file
-from lacuna.discovery.steps import add_findings, add_fit, add_location, add_scatter, opened
+from lacuna.discovery.steps import add_effort, add_findings, add_fit, add_location, add_scatter, opened
 from lacuna.written import write_whole
 
 LEAST_TAKEN = 0.2  # of the NRMSE on unseen recordings, that findings which leave far more than noise must take away
@@ -63,7 +63,8 @@ def explain(
         add_scatter(result, progress)
     clock.done("name")
     _conclude(result)
-    result.trial = propose(case, contenders(result), progress)
+    add_effort(result, progress)
+    result.trial = propose(result.case, contenders(result), progress)
     result.experiment = result.trial.sentence() if result.trial else result.experiment
     clock.done("next experiment")
     return result

@@ -11,12 +11,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.signal import lfilter
 
 from lacuna.discovery.case.cases import Recording
 from lacuna.discovery.case.recordings_check import Problem, longest_run
-from lacuna.discovery.fit.least_squares import Free
 from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.fit.tracking import filled
 
 SCALES = {
@@ -182,6 +181,8 @@ def _agrees(measured: np.ndarray, simulated: np.ndarray, lag: int) -> bool:
 
 def _is_smoothed(measured: np.ndarray, simulated: np.ndarray, lag: int) -> bool:
     """Whether a first-order lag of its sensor does better than that `measured` is `lag` samples late."""
+    from scipy.signal import lfilter  # a second to import, and seldom needed
+
     span = CHANGES[-1]
     changes, model = filled(measured)[span:] - filled(measured)[:-span], simulated[span:] - simulated[:-span]
     pole = [np.exp(-1.0 / (share * lag)) for share in TIME_CONSTANTS]

@@ -9,19 +9,21 @@ import numpy as np
 
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case, CaseError
+from lacuna.discovery.case.gaps import without_gaps
 from lacuna.discovery.case.recordings_check import Problem, check_case
 from lacuna.discovery.catalogue import catalogue, places
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import astray, is_noise, nearly_noise, outside_belief
-from lacuna.discovery.fit.fit import Fit, believed, carried, falling_bandwidths, fit, noise_of
+from lacuna.discovery.fit.fit import Fit, believed, carried, falling_bandwidths, fit, linearised
 from lacuna.discovery.fit.lead import ROUGH, Lead, lead_for
 from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.objective import noise_of
 from lacuna.discovery.fit.time_limit import TimeUp
 from lacuna.discovery.fit.tracking import trackable
 from lacuna.discovery.law.beyond import explain_beyond
-from lacuna.discovery.law.locate import locate
+from lacuna.discovery.law.locate import effort_at, locate, place_of
 from lacuna.discovery.law.open_world import explain_open
 from lacuna.discovery.naming.comparison import MIN_GAIN
 from lacuna.discovery.naming.dips import explored, is_smooth
@@ -40,6 +42,7 @@ def opened(case: Case, library: Library) -> tuple[Explanation, Machine | None]:
     result = Explanation(case, check_case(case))
     if not _trusted(result, "the recordings cannot be trusted"):
         return result, None
+    result.case = case = without_gaps(case)
     machine = _believed_machine(case, places.read(library, case.base))
     result.problems += _slips(machine)
     return result, machine if _trusted(result, "the recordings contradict themselves") else None
@@ -143,6 +146,19 @@ def add_scatter(result: Explanation, progress: Progress) -> None:
     if after is not None:
         result.final = best
         result.rejudge(after)
+
+
+def add_effort(result: Explanation, progress: Progress) -> None:
+    """What is missing at the first finding's place by the parameters that were fitted with it: what the law is for."""
+    attachments = [f.ranked.attachment for f in result.findings]
+    probes = [a.shaft or a.lines[0] for a in attachments if a.shaft or a.lines]
+    if not probes or result.located is None:
+        return
+    progress("locating what the law stands for")
+    base = result.lead.hold(result.base)
+    there = {f.name: result.final.point[f.name] for f in base.estimate.free}
+    held = linearised(base.machine, base.machine.case.fit, base.noise, base.estimate.free, base.fixed, there)
+    result.effort = effort_at(held.machine.case, held, place_of(probes[0])) if held else None
 
 
 def _begun(unbegun: Search) -> Search:

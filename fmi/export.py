@@ -14,6 +14,7 @@ import zipfile
 import lacuna
 from lacuna.codegen.compile import CompiledModel, compile_model, translate
 from lacuna.codegen.dae.prepared import Prepared
+from lacuna.codegen.library.access import NONE, Access
 from lacuna.codegen.symbolic.expr import own_table
 from lacuna.fmi.description import Header, build_description, describe
 from lacuna.fmi.errors import FmuError
@@ -41,6 +42,7 @@ class FmuRequest:
     version: Version = "3.0"
     kind: Kind = "both"
     solver: str = "rodas4"
+    access: Access = NONE
 
 
 @dataclass(frozen=True)
@@ -61,7 +63,10 @@ def export_fmu(request: FmuRequest, path: Path) -> Fmu:
     """Translate, describe, compile, pack. Raises FmuError for what FMI cannot carry, Diagnostic and CompilerError as
     any translation does."""
     _check(request, path)
-    given = {"search_path": list(request.search_path), "modifications": dict(request.fixed), "units": request.units}
+    given = {
+        "search_path": list(request.search_path), "modifications": dict(request.fixed), "units": request.units,
+        "access": request.access,
+    }  # fmt: skip
     with own_table():
         prepared, _ = translate(request.name, **given)
         if prepared.delays:
@@ -86,6 +91,10 @@ def _check(request: FmuRequest, path: Path) -> None:
 
 
 def _pack(request: FmuRequest, compiled: CompiledModel, prepared: Prepared, path: Path) -> Fmu:
+    foreign = prepared.declared.foreign
+    if foreign.libraries:
+        reason = f"its external C needs {' '.join(foreign.libraries)}, and an FMU carries sources; name them by Include"
+        raise FmuError(f"{prepared.declared.name}: {reason}")
     model = runtime.Model(compiled.path)
     variables = FmiVariables(model, prepared, dict(request.values))
     identifier = identifier_of(model.name)
@@ -98,7 +107,12 @@ def _pack(request: FmuRequest, compiled: CompiledModel, prepared: Prepared, path
     with tempfile.TemporaryDirectory() as scratch:
         root = Path(scratch) / "fmu"
         files = collect(root / "sources", source, settings, request.version)
-        compile_sources(root / "sources", files, root / "binaries" / _platform(request.version) / f"{identifier}.so")
+        compile_sources(
+            root / "sources",
+            files,
+            root / "binaries" / _platform(request.version) / f"{identifier}.so",
+            bool(foreign.spans),
+        )
         header = Header(
             model.name, identifier, token, prepared.declared.description, f"Lacuna {lacuna.__version__}", kinds, True,
             model.start_time, model.stop_time, tolerance, model.interval, files,

@@ -61,14 +61,15 @@ def configuration(token: str, solver: str, rtol: float, start: float, stop: floa
     )
 
 
-def compile_sources(folder: Path, files: tuple[str, ...], output: Path) -> None:
-    """One shared library of C `files` in `folder`. Raises CompilerError.
+def compile_sources(folder: Path, files: tuple[str, ...], output: Path, foreign: bool = False) -> None:
+    """One shared library of C `files` in `folder`, with `foreign` C of others in it. Raises CompilerError.
 
     What is the same in every FMU is compiled once and kept beside the compiled models."""
     output.parent.mkdir(parents=True, exist_ok=True)
     own = [name for name in files if name in OWN]
     common = _common(folder, [name for name in files if name not in OWN])
-    _run("cc", *OPTIONS, *_WARNINGS, "-shared", "-I.", "-o", output.resolve(), *own, *common, "-lm", folder=folder)
+    warnings = () if foreign else _WARNINGS
+    _run("cc", *OPTIONS, *warnings, "-shared", "-I.", "-o", output.resolve(), *own, *common, "-lm", folder=folder)
 
 
 def _common(folder: Path, files: list[str]) -> list[Path]:

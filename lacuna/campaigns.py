@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lacuna.extras import names_missing_packages
-from lacuna.models import Source
 from lacuna.notebook import page, table
 from lacuna.progress import Progress, counted
+from lacuna.sources import Source
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

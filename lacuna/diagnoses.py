@@ -155,7 +155,7 @@ class Case:
         from lacuna.discovery.explain import explain as explained
         from lacuna.discovery.explain import judge_written, write_amended
         from lacuna.discovery.explanation import diagnosis
-        from lacuna.discovery.fit.store import kept
+        from lacuna.discovery.fit.kept.store import kept
 
         folder = self._out("explain", out)
         with kept(folder / ".unfinished"):
@@ -249,7 +249,7 @@ class Case:
         page_of = report.write(found, folder, amended)
         files = (*written, page_of, *([amended] if amended else []))
         data = diagnosis.build(found, amended)
-        data = data if concluded else {k: v for k, v in data.items() if k not in ("verdict", "sentence")}
+        data = data if concluded else {k: v for k, v in data.items() if k not in ("verdict", "sentence", "certainty")}
         return Explanation(data, page_of, amended, ranking, ranked, remark, files)
 
     def __repr__(self) -> str:

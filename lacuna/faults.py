@@ -12,9 +12,9 @@ import numpy as np
 
 from lacuna.errors import UserError
 from lacuna.extras import names_missing_packages
-from lacuna.models import Source
 from lacuna.notebook import page, paragraph, table
 from lacuna.progress import Progress, counted, silent
+from lacuna.sources import Source
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from lacuna.models import Units, load
+from lacuna.models import load
 from lacuna.notebook import page, table
+from lacuna.sources import Units
 
 FmiVersion = Literal["3.0", "2.0"]
 FmuType = Literal["me", "cs", "both"]
@@ -43,6 +44,8 @@ def export_fmu(
     libraries: Iterable[str | Path] = (),
     parameters: Mapping[str, float] | None = None,
     units: Units = "error",
+    data: Iterable[str | Path] = (),
+    allow_external: bool = False,
     version: FmiVersion = "3.0",
     type: FmuType = "both",
     solver: FmuSolver = "rodas4",
@@ -56,10 +59,13 @@ def export_fmu(
     from lacuna.fmi.export import FmuRequest
     from lacuna.fmi.export import export_fmu as export
 
-    loaded = load(model, class_name=class_name, libraries=libraries, parameters=parameters, units=units)
+    loaded = load(
+        model, class_name=class_name, libraries=libraries, parameters=parameters, units=units, data=data,
+        allow_external=allow_external,
+    )  # fmt: skip
     target = Path(path) if path else Path("out/fmu") / f"{loaded.name.rsplit('.', 1)[-1]}.fmu"
     source, fixed, values = loaded.request
-    request = FmuRequest(source.name, source.path, source.units, fixed, values, version, type, solver)
+    request = FmuRequest(source.name, source.path, source.units, fixed, values, version, type, solver, source.access)
     done = export(request, target)
     return ExportedFmu(
         done.path, done.model, done.version, done.kinds, done.states, done.variables, done.event_indicators

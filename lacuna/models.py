@@ -11,12 +11,11 @@ from typing import Literal
 
 import numpy as np
 
-from lacuna.codegen.compile import CompiledModel, compile_model, translate
+from lacuna.codegen.compile import CompiledModel, translate
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flat.text import dump_flat
 from lacuna.codegen.flatten import flatten
 from lacuna.codegen.library.classes import Library
-from lacuna.codegen.library.search_path import search_path
 from lacuna.codegen.structure.report import dump as dump_structure
 from lacuna.errors import UserError
 from lacuna.inputs import Input, as_inputs
@@ -24,32 +23,12 @@ from lacuna.notebook import page, table
 from lacuna.progress import Progress, silent, watching
 from lacuna.results import IncompleteRun, Result
 import lacuna.runtime as runtime
+from lacuna.sources import Source, Units
 
-Units = Literal["error", "warn"]
 Solver = Literal["ida", "dopri5", "rodas4", "rk4", "euler"]
 Dump = Literal["flat", "structure", "c"]
 POINTS = 500  # rows of a run whose model and caller name no interval, as Modelica tools have it
 NO_VALUE = "F023"  # the code of a parameter without a value, which the caller may give
-
-
-@dataclass(frozen=True)
-class Source:
-    """Where a model comes from: `name` as `load` takes it, where classes are looked up, what unit errors are."""
-
-    name: str
-    path: tuple[str, ...]
-    units: Units = "error"
-
-    @classmethod
-    def of(cls, model: str | Path, class_name: str, libraries: Iterable[str | Path], units: Units = "error") -> Source:
-        name = f"{model}:{class_name}" if class_name else str(model)
-        return cls(name, tuple(search_path(libraries)), units)
-
-    def compiled(self, modifications: Mapping[str, float] | None = None, sensitivities: bool = False) -> CompiledModel:
-        return compile_model(
-            self.name, search_path=list(self.path), modifications=dict(modifications or {}), units=self.units,
-            sensitivities=sensitivities,
-        )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -68,11 +47,17 @@ class Finding:
 
 
 def check(
-    model: str | Path, *, class_name: str = "", libraries: Iterable[str | Path] = (), units: Units = "error"
+    model: str | Path,
+    *,
+    class_name: str = "",
+    libraries: Iterable[str | Path] = (),
+    units: Units = "error",
+    data: Iterable[str | Path] = (),
+    allow_external: bool = False,
 ) -> Finding:
     """The front end alone: names, types, units, structure of the language. Raises Diagnostic with all findings."""
-    source = Source.of(model, class_name, libraries, units)
-    flat = flatten(Library(source.path), source.name, units=units)
+    source = Source.of(model, class_name, libraries, units, data, allow_external)
+    flat = flatten(Library(source.path, source.access), source.name, units=units)
     continuous = sum(v.variability == "continuous" for v in flat.variables.values())
     return Finding(flat.name, len(flat.variables), continuous, len(flat.equations), tuple(map(str, flat.warnings)))
 
@@ -84,13 +69,16 @@ def dump(
     class_name: str = "",
     libraries: Iterable[str | Path] = (),
     units: Units = "error",
+    data: Iterable[str | Path] = (),
+    allow_external: bool = False,
 ) -> str:
     """What the passes made of a model, as text: its flat equations (also where later passes refuse it), its structure,
     or the generated C. Raises Diagnostic where the model is wrong."""
-    source = Source.of(model, class_name, libraries, units)
+    source = Source.of(model, class_name, libraries, units, data, allow_external)
     if what == "flat":
-        return dump_flat(flatten(Library(source.path), source.name, units=units))
-    return dump_structure(translate(source.name, search_path=list(source.path), units=units)[0], what)
+        return dump_flat(flatten(Library(source.path, source.access), source.name, units=units))
+    path = list(source.path)
+    return dump_structure(translate(source.name, search_path=path, units=units, access=source.access)[0], what)
 
 
 def load(
@@ -100,15 +88,19 @@ def load(
     libraries: Iterable[str | Path] = (),
     parameters: Mapping[str, float] | None = None,
     units: Units = "error",
+    data: Iterable[str | Path] = (),
+    allow_external: bool = False,
 ) -> Model:
     """Translate and compile a model; at once where nothing that it was made from has changed.
 
     `model` is a full name (`Lacuna.` may be left out), a .mo file, or the folder of a package; `class_name` picks a
     class in a file or package. `libraries` are folders of packages, folders around them, or .mo files; MODELICAPATH
     and the package Lacuna come after them. `parameters` are values other than declared (SI units) for every run.
+    `data` are folders for files of data, beside those of the model and the libraries; with `allow_external` the C that
+    a model's external functions name is compiled into it, and runs with your rights.
     Raises Diagnostic with file, line and hint where the model is wrong, UserError for an unknown parameter.
     """
-    source = Source.of(model, class_name, libraries, units)
+    source = Source.of(model, class_name, libraries, units, data, allow_external)
     try:
         return Model(source, source.compiled()).with_parameters(parameters or {})
     except Diagnostic as finding:

@@ -15,6 +15,7 @@ from lacuna.analysis.prognosis.forecast import Forecast, Limits, Options, foreca
 from lacuna.analysis.prognosis.history import FILES, Assess, History, read_histories
 from lacuna.analysis.prognosis.pages.telling import counted_verdicts, forecast_json, sentence, urgency
 from lacuna.analysis.settings import PAPER, Settings, load_settings
+from lacuna.dated_cases import explained
 from lacuna.degradation import degradation_laws
 from lacuna.extras import names_missing_packages
 from lacuna.progress import Progress, counted, spoken
@@ -81,22 +82,20 @@ def forecast(
     laws; `risk` the greatest probability of the last limit at an advised test; `horizon` how far ahead is looked, in
     the history's unit; `unit` "cycles" or "hours", where the table has both. `columns` and `unfiltered` as in `assess`.
     `limits` {quantity: value} belong to a history of diagnoses by `explain` (column diagnosis): parameters of the
-    model, or effect@location.parameter. With `out`, also forecast.json, report.html and figures there.
+    model, or effect@location.parameter; a case that has no diagnosis yet is explained first, and its diagnosis kept in
+    out/diagnoses. With `out`, also forecast.json, report.html and figures there.
 
     Raises AnalysisError where history, map or laws cannot be used, with file, row and reason.
     """
     settings = map_settings(map)
     options = Options(risk, horizon)
     spoken(progress)("reading the history")
+    kept = Path(out) / "diagnoses" if out is not None else Path("out/explain")
     inputs = []
     if isinstance(history, Path | str):
         inputs = files_of(history)
-        if "://" in str(history) or Path(history).suffix in (".db", ".sqlite"):
-            from lacuna.analysis.prognosis.store import Store
-
-            history = Store(history).histories(unit)
-        else:
-            history = read_histories(history, assessor(map, columns, unfiltered), unit, diagnoses.reader(limits or {}))
+        read = diagnoses.Reader(limits or {}, explained(kept, progress))
+        history = _read(history, assessor(map, columns, unfiltered), unit, read)
     bank = Bank(degradation_laws(laws))
     faults = {h.fault for h in history}
     if limits and not faults <= set(limits):
@@ -114,6 +113,18 @@ def files_of(history: Path | str) -> list[Path]:
     """The file that a history is read from; none of a store."""
     path = Path(history)
     return [file for file in (path, *(path / name for name in FILES)) if file.is_file()][:1]
+
+
+def _read(source: Path | str, assess: Assess | None, unit: str | None, diagnosed: diagnoses.Reader) -> list[History]:
+    """Of a table or a store. Raises AnalysisError where there are diagnoses and no limit: it tells what drifts."""
+    if "://" in str(source) or Path(source).suffix in (".db", ".sqlite"):
+        from lacuna.analysis.prognosis.store import Store
+
+        return list(Store(source).histories(unit))
+    histories: list[History] = read_histories(source, assess, unit, diagnosed)
+    if diagnosed.healthy and not diagnosed.limits:
+        raise AnalysisError(f"{source}: which quantity has what limit? There are {diagnosed.drifts(histories)}")
+    return histories
 
 
 def map_settings(map: Path | str | None) -> Settings:

@@ -38,7 +38,7 @@ class EventEntry:
     text: str  # the relation as the model has it, in full names (or the call that jumped, or the message)
     file: str = ""  # of a relation: where it is written
     line: int = 0
-    reach: float = 1.0  # of a state event: how far the guard had been from zero since it last switched, of its size
+    reach: float = 1.0  # of a state event: how far the guard had been from zero since it last switched, in nominal values
 
     def __str__(self) -> str:
         became = {1: " becomes true", -1: " becomes false"}.get(self.direction, "")
@@ -51,11 +51,12 @@ class Flag:
 
     grazing: a relation only touches its threshold, and from there on they are not numbers; order: two events at one
     instant, as far as it is known, that move differently with a parameter; non_finite: a derivative is infinite;
-    rounding: the model rounds values at events, and what depends on them has the derivative between two steps.
+    rounding: the model rounds values at events, and what depends on them has the derivative between two steps; fold:
+    the branch that algebraic unknowns followed has ended, and from there on they are not numbers.
     """
 
     time: float
-    kind: str  # grazing | order | non_finite | rounding
+    kind: str  # grazing | order | non_finite | rounding | fold
     relations: tuple[str, ...]  # as written, those concerned
 
     def __str__(self) -> str:
@@ -63,6 +64,7 @@ class Flag:
             "grazing": "a relation only touches its threshold; there are no sensitivities after it",
             "order": "two events at one instant move differently with a parameter",
             "non_finite": "a derivative is infinite; there are no sensitivities after it",
+            "fold": "algebraic unknowns jump, their branch has ended; there are no sensitivities after it",
             "rounding": "values rounded at events (converters, encoders) count as constant between two steps of theirs",
         }[self.kind]
         return f"{what} at time {self.time:.9g} s" + (f": {'; '.join(self.relations)}" if self.relations else "")

@@ -6,35 +6,60 @@ deviation. Nothing is said of a quantity in a diagnosis that does not name it: a
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 import json
 import math
 from pathlib import Path
 
+import numpy as np
+
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis.forecast import Limits
-from lacuna.analysis.prognosis.history import TWO_SIDED_95
+from lacuna.analysis.prognosis.history import TWO_SIDED_95, History
+from lacuna.analysis.prognosis.verdict import trend
 
-FILE = "diagnosis.json"
-SHARES = Limits(("limit",), (1.0,), -math.inf, math.inf, unit="% of the way to the limit", scale=100.0)
+FILE, CASE = "diagnosis.json", "case.toml"
+SHARES = Limits(("limit",), (1.0,), -math.inf, math.inf)
 Quantities = dict[str, tuple[float, float, float]]  # name: value, standard deviation, value of a healthy machine
+Reading = tuple[str, float, float, float]
 
 
-def reader(limits: Mapping[str, float]) -> Callable[[Path], list[tuple[str, float, float, float]]]:
+class Reader:
     """(quantity, severity, low, high) of a diagnosis, for each quantity of `limits` {name: value at its limit}.
 
     Severity is 0 at the healthy value and 1 at the limit, which may lie on either side of it. A parameter is healthy
     at the value that its model declares, which the first diagnosis read fixes; an effect is where it is absent.
+    Without limits the values of all quantities are given as they are, for `drifts`. `explain` gives the folder with the
+    diagnosis of a case that has none yet.
     """
-    healthy: dict[str, float] = {}
 
-    def read(path: Path) -> list[tuple[str, float, float, float]]:
+    def __init__(self, limits: Mapping[str, float], explain: Callable[[Path], Path]):
+        self.limits, self._explain = limits, explain
+        self.healthy: dict[str, float] = {}
+
+    def __call__(self, path: Path) -> list[Reading]:
+        if path.is_dir() and not (path / FILE).exists() and (path / CASE).exists():
+            path = self._explain(path)
         found = quantities(path)
-        if not limits:
-            raise AnalysisError(f"{path}: which quantity has what limit? There are {changes(found)}")
-        return [_severity(path, name, limit, found, healthy) for name, limit in limits.items()]
+        if self.limits:
+            return [_severity(path, name, limit, found, self.healthy) for name, limit in self.limits.items()]
+        for name, (_, _, believed) in found.items():
+            self.healthy.setdefault(name, believed)
+        return [(name, v, v - TWO_SIDED_95 * sd, v + TWO_SIDED_95 * sd) for name, (v, sd, _) in found.items()]
 
-    return read
+    def drifts(self, histories: Sequence[History]) -> str:
+        """What changes from test to test, in words: those quantities first that drift by most standard deviations."""
+        told = {}
+        for h in histories:
+            known = np.isfinite(h.severity)
+            if not known.any():
+                continue
+            use, value = h.use[known], h.severity[known]
+            by = trend(use, value, np.maximum((h.high - h.low)[known] / 2 / TWO_SIDED_95, 1e-300))
+            far = f", drifts by {by:+.1f} standard deviations" if by else ""
+            text = f"{h.fault} ({value[0]:.4g} to {value[-1]:.4g}, healthy {self.healthy[h.fault]:.4g}{far})"
+            told[f"{h.actuator}: {text}" if len({o.actuator for o in histories}) > 1 else text] = abs(by)
+        return ", ".join(sorted(told, key=lambda text: -told[text]))
 
 
 def _severity(path: Path, name: str, limit: float, found: Quantities, healthy: dict[str, float]):

@@ -136,12 +136,18 @@ def run_fleet(
         if progress:
             progress(done, len(pieces))
     whole = pa.concat_tables([pq.read_table(path) for path in paths])
-    whole = whole.sort_by([("order", "ascending"), ("median", "ascending"), ("actuator", "ascending")]).drop_columns(
-        "order"
-    )
+    whole = by_risk(whole).drop_columns("order")
     with whole_file(folder / "fleet.parquet") as partial:
         pq.write_table(whole, partial)
     return whole
+
+
+def by_risk(table: pa.Table) -> pa.Table:
+    """Forecasts first: by the use that is left to the last advised test, those without one (further than is listed)
+    after them by their median; then what is too early to say, then what is steady."""
+    left = pc.subtract(table["advised_last_test"], table["at"])
+    keys = [("order", "ascending"), ("left", "ascending"), ("median", "ascending"), ("actuator", "ascending")]
+    return table.append_column("left", left).sort_by(keys).drop_columns("left")
 
 
 def _hash(key: bytes, piece: Sequence[History]) -> str:

@@ -218,7 +218,9 @@ def _forecasts(batch, bank: Bank, scale: list[Limits], options, step: Step, seri
     result = []
     for b, h in enumerate(batch):
         own = slice(0, count[b] + 1)
-        verdict, reason, warnings = verdict_on(h, outliers[b], quantiles[b, -1], again[b], horizon[b])
+        verdict, reason, warnings = verdict_on(
+            h, outliers[b], quantiles[b, -1], again[b], horizon[b], scale[b].removal
+        )  # fmt: skip
         at = float(h.use[-1])
         below = np.flatnonzero(np.maximum.accumulate(risk[b, -1, own]) > options.risk)
         advised = None if not len(below) or verdict != FORECAST else at + float(steps[b, max(below[0] - 1, 0)])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+import math
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -31,41 +32,42 @@ class _Part:
     outlier: np.ndarray  # bool
 
 
-def verdict_on(h: History, outlier: np.ndarray, quantiles: np.ndarray, again: float, horizon: float):
-    """(verdict, reason, warnings). `quantiles` of the use that remains to the last limit, `again` the probability
-    that it is reached within as much use again as was watched."""
+def verdict_on(h: History, outlier: np.ndarray, quantiles: np.ndarray, again: float, horizon: float,
+               removal: float = math.inf):  # fmt: skip
+    """(verdict, reason, warnings). `quantiles` of the use that remains to the last limit, which is at a severity of
+    `removal`; `again` the probability that it is reached within as much use again as was watched. Where nothing is
+    forecast though the last test reads beyond the limit, a warning says so."""
     rows = np.arange(h.lives[-1].start, h.lives[-1].stop)
     rows = rows[np.isfinite(h.severity[rows])]
     sd = (h.high - h.low)[rows] / 2 / TWO_SIDED_95
     part = _Part(h.use[rows], h.severity[rows], np.maximum(sd, 1e-9), outlier[rows - h.lives[-1].start] > 0.5)
-    beyond = (BEYOND,) if len(rows) and quantiles[2] == 0 else ()
+    beyond = (BEYOND,) if len(rows) and (quantiles[2] == 0 or part.severity[-1] >= removal) else ()
     if h.doubts:
         return TOO_EARLY, "the history contradicts itself", beyond
     if len(rows) < FEWEST:
         tests = f"{len(rows) or 'no'} {'test' if len(rows) == 1 else 'tests'} of this part with a severity"
         return TOO_EARLY, f"{tests}; a trend needs {FEWEST}", beyond
     if contradiction := _contradiction(part, h.unit):
-        return TOO_EARLY, "the tests contradict each other", (contradiction,)
+        return TOO_EARLY, "the tests contradict each other", (contradiction, *beyond)
     _, low, median, high, _ = quantiles
     if median == 0:
         return FORECAST, "", ()
-    grows = trend(part) > SEEN
+    kept = ~part.outlier
+    grows = trend(part.use[kept], part.severity[kept], part.sd[kept]) > SEEN
     if grows and median <= horizon and high <= DECADE * low:
         return FORECAST, "", ()
     if again < SETTLED:
-        return STEADY, "the limit is not reached within as much use again as was watched", ()
-    return TOO_EARLY, "lives that differ tenfold agree with the tests" if grows else "no growth can be told yet", ()
+        return STEADY, "the limit is not reached within as much use again as was watched", beyond
+    return TOO_EARLY, "lives that differ tenfold agree with the tests" if grows else "no growth can be told yet", beyond
 
 
-def trend(part: _Part) -> float:
-    """The slope of a straight line through the tests, in its standard deviations; outliers left out."""
-    use, severity, sd = (a[~part.outlier] for a in (part.use, part.severity, part.sd))
+def trend(use: np.ndarray, value: np.ndarray, sd: np.ndarray) -> float:
+    """The slope of a straight line through the tests, in its standard deviations; 0 where they are too few."""
     if len(use) < FEWEST:
         return 0.0
     w = 1 / sd**2
     u = use - (w * use).sum() / w.sum()
-    information = (w * u * u).sum()
-    return float((w * u * severity).sum() / np.sqrt(information))
+    return float((w * u * value).sum() / np.sqrt((w * u * u).sum()))
 
 
 def _contradiction(part: _Part, unit: str) -> str:

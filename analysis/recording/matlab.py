@@ -20,14 +20,15 @@ _DESCRIPTION = 116  # bytes of text at the head of version 5
 
 def read(path: Path) -> Recorded:
     content = _content(path)
-    if {"names", "data", "time"} <= set(content):
+    known = {name for name, value in content.items() if value is not None}
+    if {"names", "data", "time"} <= known:
         names, units = _texts(content["names"]), _texts(content.get("units", []))
         table = np.atleast_2d(np.asarray(content["data"], float))
         rows = np.vstack(
             [np.ravel(content["time"]).astype(float)[None, :], table.T if len(table) != len(names) else table]
         )
         return from_table(path, ["time", *names], ["s", *(units or [""] * len(names))], rows)
-    if {"name", "dataInfo", "data_2"} <= set(content):
+    if {"name", "dataInfo", "data_2"} <= known:
         return _trajectories(path, content)
     return _vectors(path, content)
 

@@ -36,7 +36,7 @@ WIDE, WIDE_SCALE = 0.04, 3.0  # of the readings' residuals: their tails
 BINS = np.linspace(0, 0.5, 11)  # severities, in which the residuals' spread is told
 
 
-class Readings:
+class ReadingErrors:
     """How tests are read, from the simulated ones: a polynomial of severity, friction and inertia, and residuals."""
 
     def __init__(self, tests: Results):
@@ -138,7 +138,7 @@ def to_limit(c: Cloud, since: float, random: np.random.Generator) -> np.ndarray:
     return np.where(c.x < 1, left, 0.0)
 
 
-def posterior(p: Part, readings: Readings, told: str, seed: int) -> dict[int, np.ndarray]:
+def posterior(p: Part, readings: ReadingErrors, told: str, seed: int) -> dict[int, np.ndarray]:
     """{rows of the history: [AHEAD] use that remains}, after the last test before each checkpoint."""
     random, h = np.random.default_rng([seed, p.number]), p.history
     start, gap = h.lives[-1].start, float(np.median(np.diff(h.use)))
@@ -195,7 +195,7 @@ class Oracle:
 
 
 def scored(parts: Sequence[Part], tests: Results, told: str, seed: int) -> Oracle:
-    readings, scores, best = Readings(tests), Scores.empty(len(parts)), np.zeros((len(parts), len(CHECKPOINTS)))
+    readings, scores, best = ReadingErrors(tests), Scores.empty(len(parts)), np.zeros((len(parts), len(CHECKPOINTS)))
     for b, p in enumerate(parts):
         found = posterior(p, readings, told, seed)
         for j, share in enumerate(CHECKPOINTS):

@@ -127,7 +127,7 @@ def kalman_check(seed: int = 1, count: int = 5000) -> tuple[float, float]:
 
 
 @dataclass(frozen=True)
-class Readings:
+class Tests:
     """Tests of a part that were read: use, severity as a share of the limit, its standard deviation; `interval` is the
     usual use between tests."""
 
@@ -137,7 +137,7 @@ class Readings:
     interval: float
 
 
-def progpy_remaining(law: str, shape, tests: Readings, at: list[int], seed: int) -> dict[int, np.ndarray]:
+def progpy_remaining(law: str, shape, tests: Tests, at: list[int], seed: int) -> dict[int, np.ndarray]:
     """{test: [particles] remaining use} after the tests `at`, of parts told the law; `shape` as well, or None.
 
     The first belief is that of our filter: severity by the first test, a life of some tens of tests. A shape that it is

@@ -10,7 +10,7 @@ from multiprocessing import get_context
 import numpy as np
 
 from bench.prognosis.fleet import LIMIT, Part
-from bench.prognosis.rivals import NEVER, Readings, kalman_check, progpy_remaining, progpy_version, straight_line
+from bench.prognosis.rivals import NEVER, Tests, kalman_check, progpy_remaining, progpy_version, straight_line
 from bench.prognosis.scores import CHECKPOINTS, HORIZON, LEVELS, Scores, crps_of_samples
 from lacuna.analysis.prognosis.filter.bank import Bank
 from lacuna.analysis.prognosis.filter.crossing import Remaining, remaining
@@ -160,7 +160,7 @@ def progpy_samples(seed: int, shape: bool, p: Part) -> dict[int, np.ndarray]:
     h = p.history
     wanted = {last_test(p, share): len(_known(p, last_test(p, share))) - 1 for share in CHECKPOINTS}
     sd = np.maximum((h.high - h.low)[known] / 2 / TWO_SIDED_95 / LIMIT, 1e-3)
-    tests = Readings(h.use[known], h.severity[known] / LIMIT, sd, float(np.median(np.diff(h.use))))
+    tests = Tests(h.use[known], h.severity[known] / LIMIT, sd, float(np.median(np.diff(h.use))))
     told = p.truth.shape if shape else None
     found = progpy_remaining(p.law, told, tests, list(wanted.values()), seed + p.number)
     late = {rows: h.use[rows - 1] - h.use[known[k]] if k >= 0 else 0.0 for rows, k in wanted.items()}

@@ -13,6 +13,7 @@ from lacuna.codegen.emit.callbacks.equations import EquationTable
 from lacuna.codegen.emit.callbacks.large import Large
 from lacuna.codegen.emit.callbacks.tables import Tables
 from lacuna.codegen.emit.derivatives.tangents import Tangents
+from lacuna.codegen.emit.functions.foreign import foreign_texts
 from lacuna.codegen.emit.functions.prelude import helpers
 from lacuna.codegen.emit.functions.user_functions import calls, user_functions
 from lacuna.codegen.emit.text.c_text import SourceNames, c_comment, c_string
@@ -68,7 +69,15 @@ def generate(prepared: Prepared, sensitivities: bool = False) -> str:
         "n_when": discrete.when_count,
     }  # fmt: skip
     descriptor = _descriptor(prepared, counts, tangents is not None)
-    parts = [_header(prepared, sensitivities), *arrays, tables_text, helpers(code), code, descriptor]
+    parts = [
+        _header(prepared, sensitivities),
+        *foreign_texts(prepared.declared.foreign),
+        *arrays,
+        tables_text,
+        helpers(code),
+        code,
+        descriptor,
+    ]
     return "\n\n".join(part for part in parts if part) + "\n"
 
 

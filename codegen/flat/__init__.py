@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flat.foreign import Foreign, ForeignCode
 from lacuna.codegen.symbolic.expr import REAL, Expr
 
 CONSTANT, PARAMETER, DISCRETE, CONTINUOUS = "constant", "parameter", "discrete", "continuous"
@@ -161,7 +162,7 @@ class When:
 
 
 Statement = (
-    Assign | AssignCall | AssignElement | Native | Reinit | Assert | Terminate
+    Assign | AssignCall | AssignElement | Native | Foreign | Reinit | Assert | Terminate
     | If | While | For | Return | Break | When
 )  # fmt: skip
 
@@ -217,3 +218,4 @@ class FlatModel:
     experiment: Experiment = field(default_factory=Experiment)
     files: dict[str, str] = field(default_factory=dict)  # every file read -> SHA-256 of its text
     warnings: list[Diagnostic] = field(default_factory=list)
+    foreign: ForeignCode = field(default_factory=ForeignCode)

@@ -104,6 +104,9 @@ def _statement(s: flat.Statement) -> list[str]:
             return [f"for {s.variable} in {bounds} loop", *_body(s.body), "end for;"]
         case flat.Native():
             return [f"{s.function}({', '.join(s.inputs + s.outputs)});"]
+        case flat.Foreign():
+            said = ", ".join(repr(what) if kind == "text" else str(what) for kind, what in s.arguments)
+            return [f"{s.result + ' := ' if s.result else ''}{s.function}({said});"]
         case flat.Return():
             return ["return;"]
         case flat.Break():

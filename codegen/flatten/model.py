@@ -87,6 +87,7 @@ def flatten(
     _check_units(model, context, units)
     model.files = {**library.files, **context.files}
     model.warnings = context.warnings
+    model.foreign = context.table(flat.ForeignCode)
     context.finish()
     return model
 

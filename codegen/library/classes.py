@@ -12,6 +12,7 @@ import hashlib
 from pathlib import Path
 
 from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.library.access import NONE, Access
 from lacuna.codegen.library.search_path import (
     MODEL_FOLDER,
     PACKAGE_FILE,
@@ -48,8 +49,9 @@ class Library:
     `files` lists every file read so far with the SHA-256 of its text.
     """
 
-    def __init__(self, paths: Iterable[str | Path] | None = None) -> None:
+    def __init__(self, paths: Iterable[str | Path] | None = None, access: Access = NONE) -> None:
         self.paths = [str(path) for path in (search_path() if paths is None else paths)]
+        self.access = access
         self.files: dict[str, str] = {}
         self.root = ast.Class(Span("", 0, 0), "package", "")  # its classes: those of a model's own file
         self._places = [Path(path).resolve() for path in self.paths]  # where top-level classes are looked up, in order

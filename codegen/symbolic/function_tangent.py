@@ -10,8 +10,10 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from lacuna.codegen import flat
+from lacuna.codegen.flat.foreign import Foreign
 from lacuna.codegen.symbolic.differentiate import TANGENT, Differentiator
 from lacuna.codegen.symbolic.expr import REAL, ZERO, Expr, node, var
+from lacuna.codegen.symbolic.foreign_tangent import difference
 
 
 def _companion(name: str, f: flat.Function) -> str:
@@ -22,6 +24,8 @@ def _companion(name: str, f: flat.Function) -> str:
 def tangent(f: flat.Function) -> flat.Function:
     """The function that gives the directional derivatives of the results of `f`, then the results."""
     companions = {n: _companion(n, f) for n in f.shapes if _has_companion(n, f)}
+    if any(isinstance(s, Foreign) for s in f.body):
+        return difference(f, companions, f.name + TANGENT)
     differentiate = Differentiator(lambda n: _seed(n, f))
     return flat.Function(
         f.name + TANGENT,

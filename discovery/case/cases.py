@@ -45,11 +45,21 @@ class Signal:
 
 @dataclass
 class Recording:
-    """One file: `time` (n,) in s and each signal's samples (n,) in SI; missing samples are NaN."""
+    """A file, or a part of one between gaps: `time` (n,) in s and each signal's samples (n,) in SI, NaN where missing.
+
+    `file` and `piece` stay where a first share of it is taken (whose name says which). Of what comes `after_gap` no
+    state is known at the first sample.
+    """
 
     name: str
     time: np.ndarray
     columns: dict[str, np.ndarray]
+    file: str = ""
+    piece: str = ""
+    after_gap: bool = False
+
+    def __post_init__(self) -> None:
+        self.file, self.piece = self.file or self.name, self.piece or self.name
 
     @property
     def interval(self) -> float:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 _THIRD = np.array([1.0, -3.0, 3.0, -1.0])
-_MAD_TO_SIGMA = 1.4826
+_MAD_TO_SIGMA = 1.4826  # of a normal distribution
 MANY, DIGITS, FINE = 100, 9, 1e-6  # values of a column, digits, and share of the range, for a last digit to matter
 PARTS = 8  # steps that the least difference may have: of a shaft that turns on, no two angles need be neighbours
 
@@ -54,15 +54,23 @@ def _refined(gaps: np.ndarray, step: float) -> float:
 
 
 def level(pieces: list[np.ndarray]) -> float:
-    """Standard deviation of white noise on a smooth signal, pooled over recordings (each with NaN where missing)."""
-    differences = np.concatenate([np.convolve(p, _THIRD, mode="valid") for p in pieces])
-    differences = differences[np.isfinite(differences)]
+    """Standard deviation of white noise on a smooth signal, pooled over recordings (each with NaN where missing).
+
+    Differences are those of the signal's own samples: between them other signals of a recording may have theirs."""
+    seen = [p[np.isfinite(p)] for p in pieces]
+    differences = np.concatenate([_third_differences(p) if len(p) > 3 else p[:0] for p in seen])
     if not len(differences):
         return 0.0
     spread = float(np.median(np.abs(differences)))
     if spread == 0.0:  # quantised and mostly at rest: the few moving samples decide
         spread = float(np.mean(np.abs(differences)))
     return _MAD_TO_SIGMA * spread / float(np.linalg.norm(_THIRD))
+
+
+def _third_differences(values: np.ndarray) -> np.ndarray:
+    """Those of a signal, without stretches that stand at zero: a machine at rest may have a sensor without noise."""
+    rest = np.convolve(values == 0.0, np.ones(4), mode="valid") == 4
+    return np.convolve(values, _THIRD, mode="valid")[~rest]
 
 
 def estimate(pieces: list[np.ndarray], given: float | None = None) -> Noise:
@@ -106,9 +114,11 @@ def sample_weights(values: np.ndarray, noise: Noise) -> np.ndarray:
     weights = np.isfinite(values).astype(float)
     if not is_coarse(noise):
         return weights
-    change = np.flatnonzero(np.diff(np.nan_to_num(values, nan=np.inf)) != 0) + 1
-    lengths = np.diff(np.concatenate([[0], change, [len(values)]]))
-    return weights / np.sqrt(np.repeat(lengths, lengths))
+    seen = values[weights > 0]
+    change = np.flatnonzero(np.diff(seen) != 0) + 1
+    lengths = np.diff(np.concatenate([[0], change, [len(seen)]]))
+    weights[weights > 0] = 1.0 / np.sqrt(np.repeat(lengths, lengths))
+    return weights
 
 
 def correlation_time(residual: np.ndarray) -> float:

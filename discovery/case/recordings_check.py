@@ -1,7 +1,8 @@
 """What is wrong with a recording, seen before any model is believed: each problem with its column and time.
 
 A `fatal` problem makes every conclusion worthless (time runs backwards, a signal is frozen); the others are
-said in the report and the samples concerned are left out.
+said in the report and the samples concerned are left out. What stands exactly at zero may be a machine at rest: a
+sensor may have no noise there.
 """
 
 from __future__ import annotations
@@ -11,11 +12,11 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from lacuna.discovery.case.cases import Case, Recording, Signal
+from lacuna.discovery.case.gaps import GAP, MIN_SAMPLES, gaps
 from lacuna.discovery.case.noise import level, quantum
 
-MIN_SAMPLES = 50
-GAP = 5.0  # a pause longer than this many sample intervals is a gap
 FROZEN_RUN = 25  # equal samples in a row that noise above the resolution cannot give
+AT_REST = 8.0  # noise levels around zero, within which a signal that comes to rest, or leaves it, may be
 CLIPPED_RUN, CLIPPED_SHARE = 5, 0.003  # equal samples in a row, and in all, at the end of a noisy signal's range
 
 
@@ -49,12 +50,16 @@ def check_recording(recording: Recording, signals: dict[str, Signal]) -> list[Pr
     problems = _check_time(recording)
     if any(p.fatal for p in problems):
         return problems
+    problems += _gaps(recording, [s for s in signals.values() if s.role == "input"])
     for signal in signals.values():
         values = recording.columns[signal.column]
         problems += _missing(recording, signal, values)
         if signal.role == "output":  # a command may stand, jump and end where it likes
-            problems += _clipped(recording, signal, values) or _frozen(recording, signal, values)
-            problems += _outliers(recording, signal, values)
+            seen = np.isfinite(values)
+            seen[seen] = ~_rests(values[seen], signal)
+            own = Recording(recording.name, recording.time[seen], {signal.column: values[seen]})
+            problems += _clipped(own, signal, values[seen]) or _frozen(own, signal, values[seen])
+            problems += _outliers(own, signal, values[seen])
     return problems
 
 
@@ -76,24 +81,42 @@ def _check_time(recording: Recording) -> list[Problem]:
     if np.any(steps <= 0):
         k = int(np.flatnonzero(steps <= 0)[0])
         return fatal("time_order", float(time[k + 1]), f"time does not increase (after {time[k]:.6g} s)")
-    usual = float(np.median(steps))
-    gaps = np.flatnonzero(steps > GAP * usual)
-    return [
-        Problem("gap", name, "time", float(time[k]), f"gap of {steps[k]:.4g} s where samples are {usual:.4g} s apart",
-                bool(steps[k] > 0.02 * (time[-1] - time[0])))
-        for k in gaps
-    ]  # fmt: skip
+    return []
+
+
+def _gaps(recording: Recording, inputs: list[Signal]) -> list[Problem]:
+    """Stretches that nothing is known of: the recording is cut there; of no use where nothing is left of it."""
+    found, problems, longest = gaps(recording, inputs), [], 0
+    edges = [float(recording.time[0]), *(t for _, *ends in found for t in ends), float(recording.time[-1])]
+    for begin, end in zip(edges[::2], edges[1::2], strict=True):
+        longest = max(longest, int(np.sum((recording.time >= begin) & (recording.time <= end))))
+    for column, begin, end in found:
+        text = f"gap of {end - begin:.4g} s; what comes after it is taken as a recording of its own"
+        problems.append(Problem("gap", recording.name, column, begin, text, longest < MIN_SAMPLES))
+    return problems
 
 
 def _missing(recording: Recording, signal: Signal, values: np.ndarray) -> list[Problem]:
-    bad = ~np.isfinite(values)
-    if not bad.any():
+    """Samples that are missing: between those of a signal of a rate of its own the cells are empty, and none is."""
+    seen = np.flatnonzero(np.isfinite(values))
+    name, begin = recording.name, float(recording.time[0])
+    held = signal.role == "input" and signal.interpolation == "hold"
+    if len(seen) < (1 if held else MIN_SAMPLES):
+        text = f"only {len(seen)} samples; at least {MIN_SAMPLES} are needed"
+        return [Problem("missing_samples", name, signal.column, begin, text, True)]
+    steps = np.diff(np.concatenate([[-1], seen, [len(values)]]))
+    usual = int(np.median(steps))
+    lost = steps - usual
+    if signal.role == "input":
+        lost = np.where(steps > GAP * usual, 0, lost)  # the recording is cut there
+    if held or not np.any(lost > 0):
         return []
-    first, share = int(np.flatnonzero(bad)[0]), float(bad.mean())
-    longest = longest_run(bad)[1]
-    fatal = share > 0.2 or (signal.role == "input" and longest > 3)
-    text = f"{bad.sum()} samples are missing or not numbers ({share:.1%}, {longest} in a row)"
-    return [Problem("missing_samples", recording.name, signal.column, float(recording.time[first]), text, fatal)]
+    missing, longest = int(np.sum(lost[lost > 0]) // usual), int(np.argmax(lost))
+    if not missing:
+        return []
+    at = float(recording.time[max(int(seen[longest - 1]) if longest else 0, 0)])
+    text = f"some {missing} samples are missing or not numbers, {int(lost[longest]) // usual} in a row after {at:.6g} s"
+    return [Problem("missing_samples", name, signal.column, at, text, False)]
 
 
 def _noisy(values: np.ndarray, signal: Signal) -> bool:
@@ -106,6 +129,22 @@ def _noisy(values: np.ndarray, signal: Signal) -> bool:
     if len(finite) <= 100 or len(np.unique(finite)) < 8:  # too few values to tell its resolution
         return False
     return max(level([finite]), signal.noise_std or 0.0) > 1.5 * step
+
+
+def _rests(values: np.ndarray, signal: Signal) -> np.ndarray:
+    """Which samples (n,) are those of a machine at rest: zero for long, and reached and left from near zero, or by no
+    larger a step than the signal makes elsewhere."""
+    zero = np.concatenate([[False], values == 0.0, [False]])
+    edges = np.flatnonzero(np.diff(zero.astype(int)))
+    ends = [(a, b) for a, b in zip(edges[::2], edges[1::2], strict=True) if b - a >= CLIPPED_RUN]
+    steps = np.abs(np.diff(values, prepend=0.0, append=0.0))
+    apart = np.delete(steps, [0, len(values), *(k for pair in ends for k in pair)])
+    noise = max(level([values]), signal.noise_std or 0.0, quantum(values))
+    near = max(AT_REST * noise, float(np.max(apart, initial=0.0)))
+    rests = np.zeros(len(values), dtype=bool)
+    for start, end in ends:
+        rests[start:end] = (start == 0 or steps[start] <= near) and (end == len(values) or steps[end] <= near)
+    return rests
 
 
 def _frozen(recording: Recording, signal: Signal, values: np.ndarray) -> list[Problem]:
@@ -173,12 +212,24 @@ def _constant(case: Case) -> list[Problem]:
             continue
         still += [r for r in case.validate if not _changes(r, signal)]
         others = [r for r in case.fit + case.validate if r not in still]
+        still = [r for r in still if not _at_rest(case, r, signal, others)]
         if all(_noisy(r.columns[signal.column], signal) for r in others):
             problems += [_still(r, signal, "constant, where other recordings of it are noisy") for r in still]
     if case.inputs and not any(_changes(r, s) for s in case.inputs for r in case.fit):
         text = "no input ever changes: there is nothing to learn from"
         problems.append(_still(case.fit[0], case.inputs[0], text))
     return problems
+
+
+def _at_rest(case: Case, recording: Recording, signal: Signal, others: list[Recording]) -> bool:
+    """Whether a signal that stands at zero may be that of a machine which is not driven as far as where it moves."""
+    values = recording.columns[signal.column]
+    less = any(_largest(recording, s) < min((_largest(r, s) for r in others), default=0.0) for s in case.inputs)
+    return less and not np.any(values[np.isfinite(values)])
+
+
+def _largest(recording: Recording, signal: Signal) -> float:
+    return float(np.nanmax(np.abs(recording.columns[signal.column]), initial=0.0))
 
 
 def _changes(recording: Recording, signal: Signal) -> bool:

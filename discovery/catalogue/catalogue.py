@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cache, partial
 from typing import Any
 
 from lacuna.codegen.flatten import flatten
@@ -74,12 +76,13 @@ class Effect:
 def read(library: Library, package: str = "Effects") -> list[Effect]:
     """Every effect of the package, in order of name. Raises CatalogueError."""
     folder = library.find(package)
+    replaced = cache(partial(_names_of, library))
     effects = []
     for name in library.members(folder):
         cls = library.member(folder, name)
         entry = _annotation(cls)
         if entry is not None and not cls.partial:
-            effects.append(_effect(library, cls, entry))
+            effects.append(_effect(library, cls, entry, replaced))
     return effects
 
 
@@ -100,7 +103,9 @@ def _plain(value: ast.Expression) -> Any:
     raise CatalogueError(f"{value.span}: an annotation holds numbers, texts and lists of them")
 
 
-def _effect(library: Library, cls: ast.Class, entry: ast.Modification) -> Effect:
+def _effect(
+    library: Library, cls: ast.Class, entry: ast.Modification, replaced: Callable[[str], set[str]]
+) -> Effect:  # fmt: skip
     fields: dict[str, Any] = {}
     for argument in entry.arguments:
         nested = argument.modification
@@ -120,31 +125,32 @@ def _effect(library: Library, cls: ast.Class, entry: ast.Modification) -> Effect
         value = fields.get(name, ())
         fields[name] = (value,) if isinstance(value, str) else tuple(value)
     friction = any(base.name == "FrictionEffect" for base in base_classes(library, cls))
-    return Effect(
-        identifier, cls.path, cls.description, parameters=_parameters(library, cls, fields), friction=friction, **fields
-    )
+    known = replaced(fields["replaces"]) if fields.get("replaces") else {""}
+    if not known:
+        raise CatalogueError(f"{where} replaces {fields['replaces']}, which is no component")
+    parameters = _parameters(library, cls, known)
+    return Effect(identifier, cls.path, cls.description, parameters=parameters, friction=friction, **fields)
 
 
-def _parameters(library: Library, cls: ast.Class, fields: dict[str, Any]) -> tuple[EffectParameter, ...]:
+def _parameters(library: Library, cls: ast.Class, replaced: set[str]) -> tuple[EffectParameter, ...]:
     """The effect's own parameters: those that the component it replaces does not have."""
     flat = flatten(library, cls.path)
     names = [n for n, v in flat.variables.items() if v.variability == "parameter" and "." not in n and "[" not in n]
-    if fields.get("replaces"):
-        names = [n for n in names if n not in _replaced_names(library, cls, fields)]
     return tuple(
         EffectParameter(
             n, v.unit or "1", v.description, _number(v.min, -1e30), _number(v.max, 1e30), _number(v.binding, 0.0)
         )
         for n in names
-        if not (v := flat.variables[n]).final and not _protected(cls, n)
+        if n not in replaced and not (v := flat.variables[n]).final and not _protected(cls, n)
     )  # fmt: skip
 
 
-def _replaced_names(library: Library, cls: ast.Class, fields: dict[str, Any]) -> set[str]:
+def _names_of(library: Library, component: str) -> set[str]:
+    """The variables of a component; none where there is no such."""
     for found in library.all_classes(library.find("Components")):
-        if found.name == fields["replaces"]:
+        if found.name == component:
             return set(flatten(library, found.path).variables)
-    raise CatalogueError(f"{cls.span.file}: {cls.name} replaces {fields['replaces']}, which is no component")
+    return set()
 
 
 def _protected(cls: ast.Class, name: str) -> bool:

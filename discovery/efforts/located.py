@@ -10,7 +10,7 @@ from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.efforts.opened import Opened, Place
 from lacuna.discovery.efforts.smoother import Latent, Piece, course, evidence, thinned
 from lacuna.discovery.fit.fit import Fit
-from lacuna.discovery.fit.least_squares import Free
+from lacuna.discovery.fit.solver.free import Free
 from lacuna.runtime import RecordedInput
 
 SIZES = 10.0 ** np.arange(-1.0, 2.1, 0.5)  # of the effort that would explain the misfit by itself: half decades

@@ -27,7 +27,7 @@ CYCLES = 30  # of a wave along a variable, over the range that it has
 TURN = 1.6  # rad from one wave number to the next at the ends of the range: so that none is missed
 AWAY = 0.05  # of its largest value, that a variable stays above for laws that divide by it
 BEYOND = (1.5, 2.0)  # powers of what is beyond a threshold: weirs, contacts
-EXPONENTS = (0.5, 1.5, 2.0, 3.0, 4.0)
+EXPONENTS = (0.5, 1.5, 2.0, 3.0, 4.0)  # where powers start: flow through an orifice to radiation
 OCTAVES = 3.0  # from one time constant of a relaxation to the next: half a bandwidth either way
 _WHOLE = (1 / 3, 2 / 3, 1.0, 7 / 4, *EXPONENTS, 5.0)
 

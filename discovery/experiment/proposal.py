@@ -18,7 +18,7 @@ from lacuna.discovery.experiment.separation import (
     spread,
 )
 from lacuna.discovery.experiment.waveforms import Waveform, as_recording, waveforms
-from lacuna.discovery.fit.least_squares import _pool
+from lacuna.discovery.fit.solver.least_squares import _pool
 
 CLOSER = 4  # candidates whose rivals are refitted: those that differ most before
 DECIDES = 5.0  # sigmas from which an experiment decides: a likelihood ratio of 25 in deviance, above every threshold

@@ -18,8 +18,8 @@ import numpy as np
 
 from lacuna.discovery.case.cases import Recording
 from lacuna.discovery.fit.fit import Fit
-from lacuna.discovery.fit.least_squares import Problem
 from lacuna.discovery.fit.objective import Objective
+from lacuna.discovery.fit.solver.least_squares import Problem
 
 Outputs = dict[str, np.ndarray]
 

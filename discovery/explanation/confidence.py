@@ -11,6 +11,7 @@ import numpy as np
 
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.naming.comparison import TEMPER
 from lacuna.discovery.naming.search import Finding
 
 CERTAIN = 0.999  # the most that is ever claimed
@@ -69,3 +70,21 @@ def alternatives(finding: Finding, share: float) -> list[dict[str, Any]]:
         {"effect": effect, "location": location, "confidence": of_all * share}
         for (effect, location), of_all in ordered if (effect, location) != finding.ranked.identity
     ][:5] + [{"effect": NONE, "location": "", "confidence": 1.0 - share}]  # fmt: skip
+
+
+def certainty(result: Explanation) -> str:
+    """How sure the verdict is, in a sentence."""
+    if result.base is None or result.verdict == "undetermined":
+        return "No explanation is claimed."
+    share = explained(result)
+    if result.findings:
+        said = [odds(f, share) for f in result.findings]
+        each = "; ".join(f"{f.ranked.attachment.location}: {o}" for f, o in zip(result.findings, said, strict=True))
+        return f"How sure: {said[0] if len(said) == 1 else each}."
+    tried = [r for naming in result.namings for r in naming.ranked]
+    if not tried:
+        return "How sure: what is left passes for noise over one sample and over hundreds, so nothing was sought."
+    best = min(tried, key=lambda r: r.score)
+    against = float(np.exp(np.clip(best.score / TEMPER, -50.0, 50.0)))
+    sure = f"{min(against, CERTAIN / (1 - CERTAIN)):.2g} to 1 against the best of what was tried"
+    return f"How sure: {sure}, {best.attachment.effect.identifier} at {best.attachment.location}."

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 
 from lacuna.discovery.experiment.files import described
-from lacuna.discovery.explanation.confidence import alternatives, confidence, explained, odds, tie
+from lacuna.discovery.explanation.confidence import alternatives, certainty, confidence, explained, odds, tie
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import whiteness
 from lacuna.discovery.fit.fit import Fit
-from lacuna.discovery.fit.least_squares import Free
+from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.naming.search import Finding
 from lacuna.written import write_whole
 
@@ -42,7 +42,7 @@ def build(result: Explanation, amended: Path | None) -> dict[str, Any]:
         diagnosis["places"] = places
     if amended is not None:
         diagnosis["amended_model"] = amended.name
-    diagnosis["sentence"] = sentence(result)
+    diagnosis["sentence"], diagnosis["certainty"] = sentence(result), certainty(result)
     if result.reason:
         diagnosis["reason"] = result.reason
     if result.experiment:

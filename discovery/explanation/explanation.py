@@ -15,7 +15,7 @@ from lacuna.discovery.experiment.proposal import Proposal
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.intervals import standard_errors
 from lacuna.discovery.fit.lead import Lead
-from lacuna.discovery.law.locate import Located
+from lacuna.discovery.law.locate import Located, PlaceEffort
 from lacuna.discovery.naming.judge import Judgement
 from lacuna.discovery.naming.name import Naming
 from lacuna.discovery.naming.search import Finding
@@ -37,6 +37,7 @@ class Explanation:
     findings: list[Finding] = field(default_factory=list)
     namings: list[Naming] = field(default_factory=list)
     located: Located | None = None
+    effort: PlaceEffort | None = None  # what is missing where the first finding is, by the parameters fitted with it
     opened: Found | None = (
         None  # every place of the equations, where the catalogue's own did not explain the recordings
     )

@@ -9,10 +9,7 @@ from pathlib import Path
 import re
 
 from markupsafe import Markup
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
+from matplotlib.figure import Figure
 import numpy as np
 
 from lacuna.analysis.report.figures.data import drawn_data
@@ -21,10 +18,13 @@ from lacuna.analysis.report.page import figure as figure_of
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.experiment.files import FOLDER
 from lacuna.discovery.experiment.picture import picture
+from lacuna.discovery.explanation.confidence import certainty
 from lacuna.discovery.explanation.diagnosis import build, left_over, sentence
 from lacuna.discovery.explanation.explanation import Explanation
-from lacuna.discovery.fit.fit import Fit, noise_of
-from lacuna.discovery.law.locate import Located
+from lacuna.discovery.explanation.figures import Curve, courses, missing
+from lacuna.discovery.explanation.wording import action, equation_of, with_error
+from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.fit.objective import noise_of
 from lacuna.discovery.naming.judge import Judgement, noise_floor
 from lacuna.discovery.naming.name import Naming
 from lacuna.drawn import save
@@ -40,13 +40,12 @@ def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
     """Write the report of an explanation into `folder`."""
     parts = _problems(result)
     if result.before is not None:
-        parts += _quality(result) + _overlays(result)
-        parts += _located(result.located) if result.located and result.located.best else []
-        parts += _findings(result) + _rivals(result) + _parameters(result) + _left(result)
+        parts += _findings(result) + _located(result) + _overlays(result) + _quality(result)
+        parts += _parameters(result) + _rivals(result) + _left(result)
     if amended is not None:
         parts += ["<h2>The amended model</h2>", code(amended.read_text(encoding="utf-8"), "amended model")]
-    action = result.experiment or ""
-    return _page(parts, result.case.title, folder, sentence(result), action, result.case.files)
+    verdict = f"{sentence(result)} {certainty(result)}"
+    return _page(parts, result.case.title, folder, verdict, action(result, amended), result.case.files)
 
 
 def _page(parts: list[str], title: str, folder: Path, verdict: str, action: str, inputs: Sequence[Path]) -> Path:
@@ -59,11 +58,10 @@ def _table(header: list[str], rows: list[list[object]]) -> str:
     return table(header, ([f"{c:.4g}" if isinstance(c, float) else str(c) for c in row] for row in rows))
 
 
-def _svg(drawn: plt.Figure, title: str) -> str:
+def _svg(drawn: Figure, title: str) -> str:
     buffer = io.StringIO()
     data = drawn_data(drawn)
     save(drawn, buffer, "svg", bbox_inches="tight")
-    plt.close(drawn)
     name = re.sub(r"\W+", "-", title).strip("-").lower()
     return figure_of(buffer.getvalue(), title, data=(f"{name}.csv", data))
 
@@ -90,105 +88,75 @@ def _quality(result: Explanation) -> list[str]:
     rows.append(
         ["all", result.before.validate[""], result.after.validate[""], "", result.before.fit[""], result.after.fit[""]]
     )
-    header = ["signal", "unseen: before", "after", "noise floor", "fitted: before", "after"]
+    header = ["signal", "unseen: before", "after", "noise alone", "fitted: before", "after"]
     note = "<p><em>Before</em> is the believed model with its parameters already refitted.</p>"
     return ["<h2>How well it fits</h2>", _table(header, rows), _NRMSE, note]
 
 
 def _overlays(result: Explanation) -> list[str]:
-    name = result.case.validate[0].name
-    curves = [("believed", "C3", result.before.residuals[name])]
+    recording = result.case.validate[0]
+    curves: list[Curve] = [("believed model, refitted", "C3", result.before.residuals[recording.name])]
     if result.findings:
-        curves.append(("amended", "C0", result.after.residuals[name]))
-    return _overlay(result.case, curves)
+        curves.append(("amended model", "C0", result.after.residuals[recording.name]))
+    return _overlay(result.case, curves, {c: n.std for c, n in result.base.noise.items()})
 
 
-def _overlay(case: Case, curves: list[tuple[str, str, dict[str, np.ndarray]]]) -> list[str]:
-    """The first validation recording and simulations of it: (label, colour, residual of each column)."""
+def _overlay(case: Case, curves: list[Curve], noise: dict[str, float]) -> list[str]:
+    """The first validation recording and simulations of it."""
     recording = case.validate[0]
-    size = (11, 2.1 * len(case.outputs))
-    figure, axes = plt.subplots(len(case.outputs), 2, figsize=size, sharex=True, squeeze=False)
-    keep = slice(None, None, max(1, len(recording.time) // 1500))
-    for (ax, beside), signal in zip(axes, case.outputs, strict=True):
-        measured = recording.columns[signal.column]
-        ax.plot(recording.time[keep], measured[keep], "0.6", lw=1, label="measured")
-        for label, colour, residual in curves:
-            ax.plot(recording.time[keep], (measured - residual[signal.column])[keep], colour, lw=1, label=label)
-            beside.plot(recording.time[keep], residual[signal.column][keep], colour, lw=0.7)
-        ax.set_ylabel(f"{signal.column} / {signal.si_unit}")
-    axes[0, 0].legend(loc="upper right", fontsize="small")
-    axes[0, 1].set_title("measured minus simulated", fontsize="medium")
-    for ax in axes[-1]:
-        ax.set_xlabel("time / s")
-    figure.tight_layout()
     return [
         f"<h2>On a recording that nothing was fitted to ({escape(recording.name)})</h2>",
-        _svg(figure, f"Measured and simulated: {recording.name}"),
+        _svg(courses(case, recording, curves, noise), f"Measured and simulated: {recording.name}"),
     ]
 
 
 def write_judgement(case: Case, judged: Judgement, folder: Path, model: Path) -> Path:
     """The page of one judged model file: its errors and its course on a validation recording."""
-    floor = noise_floor(case, case.validate, noise_of(case))
+    levels = noise_of(case)
+    floor = noise_floor(case, case.validate, levels)
     rows = [[c or "all", judged.validate[c], floor.get(c, ""), judged.fit[c]] for c in judged.validate]
-    parts = _overlay(case, [(model.name, "C0", judged.residuals[case.validate[0].name])])
+    parts = _overlay(
+        case, [(model.name, "C0", judged.residuals[case.validate[0].name])], {c: n.std for c, n in levels.items()}
+    )
     parts += ["<h2>How well it fits</h2>", _table(["signal", "unseen", "noise alone", "fitted"], rows), _NRMSE]
     noise = float(np.sqrt(np.mean(np.square(list(floor.values())))))
     verdict = (
         f"As it is written, {model.name} misses the recordings that nothing was fitted to by "
         f"{100 * judged.validate['']:.3g} % of how much they vary; noise alone would be {100 * noise:.3g} %."
     )
-    action = f"lacuna explain {case.folder.name} says whether what is left is physics that the equations lack"
-    return _page(parts, f"{case.title}: {model.name}", folder, verdict, action, (*case.files, model))
+    following = f"lacuna explain {case.folder.name} says whether what is left is physics that the equations lack"
+    return _page(parts, f"{case.title}: {model.name}", folder, verdict, following, (*case.files, model))
 
 
-def _located(located: Located) -> list[str]:
-    figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3))
-    best, found = located.best, located.organiser
-    for name, (time, effort) in best.effort.items():
-        left.plot(time, effort, lw=1, label=name)
-    left.set_xlabel("time / s")
-    left.set_ylabel(f"missing {best.kind} at {best.location} / {best.unit}")
-    left.legend(fontsize="x-small")
-    _regime(right, located)
-    right.set_ylabel(f"{best.kind} / {best.unit}")
-    figure.tight_layout()
-    rows = [[p.location, p.kind, f"{p.explained:.1%}"] for p in located.places]
-    said = found.sentence
-    note = f"<p>{escape(said[0].upper() + said[1:])}. Fast changes show smaller than they are.</p>"
-    return [
-        "<h2>Where effort is missing</h2>",
-        _table(["place", "effort", "misfit explained"], rows),
-        note,
-        _svg(figure, f"Missing {best.kind} at {best.location}"),
-    ]
-
-
-def _regime(ax: plt.Axes, located: Located) -> None:
-    """The effort over what organises it: a curve or a loop over a variable, a spectrum over an angle's orders."""
-    found = located.organiser
-    if found.kind == "orders":
-        ax.bar(found.centres, found.means, color="C0")
-        ax.set_xlabel(f"order of {found.variable} (periods a turn)")
-        return
-    keep = slice(None, None, max(1, len(located.values) // 3000))
-    ax.plot(located.values[keep], located.effort[keep], ".", ms=2, color="0.6", label="samples")
-    over = found.centres if found.kind == "value" else np.sort(located.values)
-    mean = found.means if found.kind == "value" else np.interp(np.sign(over), found.centres, found.means)
-    ax.plot(over, mean, "C0-", lw=2, label="mean")
-    ax.legend(fontsize="x-small")
-    ax.set_xlabel(f"{found.variable} / {found.unit}")
+def _located(result: Explanation) -> list[str]:
+    located, drawn = result.located, missing(result)
+    if drawn is None:
+        return []
+    rows = [[p.location, p.kind, f"{p.explained:.0%}"] for p in located.places]
+    parts = ["<h2>Where something is missing</h2>"]
+    note = (
+        "<p>At each place the smoothest effort over time that explains the recordings, a few dozen values of it: fast "
+        "changes show smaller than they are. The band is two standard deviations. Left: by the parameters fitted with "
+        "the law, where there is one; right and in the table: by those fitted without it.</p>"
+    )
+    parts += [_svg(drawn, "What is missing, and the law for it"), note]
+    return [*parts, _table(["place", "what", "misfit that it could explain"], rows)]
 
 
 def _findings(result: Explanation) -> list[str]:
-    rows = []
-    for f in build(result, None)["findings"]:
-        values = ", ".join(
-            f"{n} = {p['value']:.5g} {_within(p['std'])} {p['unit']}" for n, p in f["parameters"].items()
+    parts = []
+    for finding, said in zip(result.findings, build(result, None)["findings"], strict=True):
+        values = "; ".join(
+            f"{n} = {with_error(p['value'], p['std'])} {p['unit']}" for n, p in said["parameters"].items()
         )
-        said = f"{escape(f['location'])}, confidence {f['confidence']:.2f}: {values}. {escape(f['where']['text'])}"
-        rows.append(f"<li><b>{escape(f['effect'])}</b> at {said}.</li>")
-    return ["<h2>What was left out</h2>", f"<ol>{''.join(rows)}</ol>"] if rows else []
+        title = finding.ranked.attachment.effect.title
+        parts.append(
+            f"<li><b>{escape(title)}</b> ({escape(said['effect'])}) at {escape(said['location'])}: {escape(values)}. "
+            f"{escape(said['odds'][0].upper() + said['odds'][1:])}. Seen as: {escape(said['where']['text'])}.</li>"
+        )
+        if equation := said.get("law") or equation_of(result, finding):
+            parts.append(code(equation, f"equation of {title}"))
+    return ["<h2>What was left out</h2>", f"<ol>{''.join(parts)}</ol>"] if parts else []
 
 
 def _rivals(result: Explanation) -> list[str]:
@@ -196,13 +164,13 @@ def _rivals(result: Explanation) -> list[str]:
     for k, naming in enumerate(result.namings):
         rows = [[r.attachment.label, r.score - naming.ranked[0].score, f"{r.confidence:.3f}", len(r.candidate.free),
                  _leaves(r.candidate.fit)] for r in naming.ranked[:10]]  # fmt: skip
-        header = ["hypothesis", "evidence behind the best", "confidence", "parameters", "leaves"]
-        parts += [f"<h2>Hypotheses fitted, round {k + 1}</h2>", _table(header, rows)]
+        header = ["what could be missing", "2 ln of the odds behind the best", "probability", "parameters", "leaves"]
+        parts += [f"<h2>What else was tried{f', step {k + 1}' if k else ''}</h2>", _table(header, rows)]
         tried = {r.attachment.label for r in naming.ranked}
         others = [(label, share) for label, share in naming.screened if label not in tried][:12]
         rest = ", ".join(f"{label} ({share:.0%})" for label, share in others)
         if rest:
-            parts.append(f"<p>Screened out (share of the misfit they could explain): {escape(rest)}.</p>")
+            parts.append(f"<p>Not fitted, for they could explain little (share of the misfit): {escape(rest)}.</p>")
         parts += _failures(naming)
     return parts
 
@@ -221,20 +189,14 @@ def _leaves(fit: Fit) -> str:
     return f"{fit.level[worst]:.2f} x noise in {worst}"
 
 
-def _within(std: float | None) -> str:
-    """The half width of a 95 % interval; a direction that the data says nothing of has no end."""
-    return "(not determined)" if std is None or not np.isfinite(std) else f"\u00b1 {1.96 * std:.2g}"
-
-
 def _parameters(result: Explanation) -> list[str]:
     rows, refitted = [], result.base.point
     for name, p in build(result, None)["parameters"].items():
-        flag = "outside belief" if p["outside_belief"] else ""
-        rows.append([name, p["believed"], refitted[name], p["value"], _within(p["std"]), p["unit"], flag])
-    return [
-        "<h2>Parameters</h2>",
-        _table(["parameter", "believed", "refitted before", "after", "95 %", "unit", ""], rows),
-    ]
+        flag = "more than 3 sigma from what was believed" if p["outside_belief"] else ""
+        before = with_error(refitted[name], p["std"]).partition(" \u00b1")[0]
+        rows.append([name, p["believed"], before, with_error(p["value"], p["std"]), p["unit"], flag])
+    header = ["parameter", "believed", "fitted to the believed model", "now, with its 95 % interval", "unit", ""]
+    return ["<h2>Parameters</h2>", _table(header, rows)]
 
 
 def _left(result: Explanation) -> list[str]:

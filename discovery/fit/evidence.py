@@ -11,7 +11,7 @@ from lacuna.discovery.case.noise import Noise, is_coarse
 from lacuna.discovery.fit.fit import Fit
 
 BLOCKS = (1, 8, 40, 200)  # samples over which a residual is averaged
-SIGMAS = 5.0
+SIGMAS = 5.0  # of a mean square: dozens of tests of a case together then fail by chance in less than 1 of 10 000
 ROUNDING = 2.5  # allowance for rounding errors of a slow signal, which are alike from sample to sample
 GROWTH = 1.3  # of the power of block means from one block length to the next that colour may still explain
 HALF_STEP = 3**0.5  # of resolution, in units of the standard deviation of rounding

@@ -14,12 +14,14 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from lacuna.discovery.case.cases import DEFAULT_UNCERTAINTY, Case, Recording
-from lacuna.discovery.case.noise import Noise, correlation_time, estimate, sample_weights
+from lacuna.discovery.case.noise import Noise, correlation_time, sample_weights
 from lacuna.discovery.case.values import own_name
-from lacuna.discovery.fit.least_squares import Estimate, Free, Problem, clipped
+from lacuna.discovery.fit.kept.store import remembered
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import STAGES, Objective, anneal
-from lacuna.discovery.fit.store import remembered
+from lacuna.discovery.fit.solver.free import Free, clipped
+from lacuna.discovery.fit.solver.least_squares import Estimate, Problem
+from lacuna.discovery.fit.starts import unknown_starts, with_starts
 from lacuna.discovery.fit.tracking import noise_bandwidth
 from lacuna.runtime import Variable
 
@@ -70,9 +72,8 @@ class Fit:
         """Samples that carry the information of one, for each signal, from this fit's residual."""
         result = {}
         for column in self.noise:
-            times = [
-                correlation_time(np.nan_to_num(r[column]) * self.weights[n][column]) for n, r in self.residuals.items()
-            ]
+            rows = [(r[column], self.weights[n][column]) for n, r in self.residuals.items()]
+            times = [correlation_time((r * w)[w > 0]) for r, w in rows]
             result[column] = float(np.mean(times))
         return result
 
@@ -100,11 +101,6 @@ class Fit:
         return float(np.mean([colour[c] for c in self.noise]))
 
 
-def noise_of(case: Case) -> dict[str, Noise]:
-    """Noise of every output, as given or as estimated from the recordings that may be fitted."""
-    return {s.column: estimate([r.columns[s.column] for r in case.fit], s.noise_std) for s in case.outputs}
-
-
 def believed(case: Case, machine: Machine) -> tuple[list[Free], dict[str, float]]:
     """(free parameters, exact ones) of the believed model: what case.toml names and the model's own defaults."""
     free, fixed = [], {}
@@ -116,9 +112,7 @@ def believed(case: Case, machine: Machine) -> tuple[list[Free], dict[str, float]
         _believe(name, value, case.sigma(name, value), variable, free, fixed)
     fixed |= {n: v for n, v in case.parameters.items() if n not in fixed and n not in [f.name for f in free]}
     _believe_own(case, machine, free, fixed)
-    for name in machine.unknown_states():
-        free.append(Free(f"start:{name}", 0.0, 1.0, step=1e-3))
-    return free, fixed
+    return free + [s for recording in case.fit for s in unknown_starts(machine, recording, {})], fixed
 
 
 def _believe(
@@ -135,7 +129,7 @@ def _believe(
 
 def _believe_own(case: Case, machine: Machine, free: list[Free], fixed: dict[str, float]) -> None:
     """Parameters with a value of their own in one recording; what only validates keeps what is believed of it."""
-    fitted = {r.name for r in case.fit}
+    fitted = {r.file for r in case.fit}
     for recording, own in case.own.items():
         for name in dict.fromkeys([*own.parameters, *own.uncertainty]):
             variable = machine.model.variables[name]
@@ -243,7 +237,7 @@ def residuals_of(
     """Measured minus simulated of each recording and column; None where a run fails."""
     result = {}
     for recording in recordings:
-        simulated = machine.simulate(values, recording)
+        simulated = machine.simulate(with_starts(machine, recording, values), recording)
         if simulated is None:
             return None
         result[recording.name] = {

@@ -14,9 +14,9 @@ from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.fit.evidence import nearly_noise
 from lacuna.discovery.fit.fit import Fit, falling_bandwidths, fit
-from lacuna.discovery.fit.least_squares import Free
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import Objective
+from lacuna.discovery.fit.solver.free import Free
 
 ROUGH = 20  # events a second, from which fits are led
 FAST, HELD = 1, 2  # which of the bandwidths holds the shafts for sensitivities, and while hypotheses are compared

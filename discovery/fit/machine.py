@@ -15,7 +15,7 @@ from lacuna.codegen.compile import compile_model
 from lacuna.codegen.errors import Diagnostic
 from lacuna.discovery.case.cases import Case, CaseError, Recording, Signal
 from lacuna.discovery.case.noise import Noise
-from lacuna.discovery.case.values import values_in
+from lacuna.discovery.case.values import is_start, start_name, values_in
 from lacuna.discovery.catalogue.amend import Amendment, probe_name, tracker_name
 from lacuna.discovery.fit.tracking import Motion, recorded_column, recorded_motion
 from lacuna.recorded_units import same_unit
@@ -110,10 +110,12 @@ class Machine:
         """The output that records a variable; None if none does."""
         return recorded_column(self.case, self.model, variable)
 
-    def unknown_states(self) -> list[str]:
-        """States whose value at the first sample has to be fitted, by the variable that case.toml names."""
-        tables = [self.case.initial, *(own.initial for own in self.case.own.values())]
-        return list(dict.fromkeys(name for table in tables for name, value in table.items() if value == "unknown"))
+    def unknown_states(self, recording: Recording) -> list[str]:
+        """States whose value at a recording's first sample nobody knows, by the variable that case.toml names."""
+        if recording.after_gap:
+            first = {v.index: n for n, v in reversed(self.model.states.items())}  # others are aliases of it
+            return [first[index] for index in sorted(first)]
+        return [name for name, value in self._starts(recording).items() if value == "unknown"]
 
     def simulate(
         self, parameters: Mapping[str, float], recording: Recording, efforts: Mapping[str, RecordedInput] | None = None
@@ -211,25 +213,35 @@ class Machine:
                 self._inputs[recording.name] = found
         return found
 
+    def _starts(self, recording: Recording) -> dict[str, float | str]:
+        """What case.toml says of the states at a recording's first sample."""
+        own = self.case.own.get(recording.file)
+        return self.case.initial | (own.initial if own else {})
+
     def _initial_of(self, recording: Recording) -> dict[str, float]:
         found = self._initial.get(recording.name)
         if found is None:
             found = {}
-            own = self.case.own.get(recording.name)
-            for name, value in (self.case.initial | (own.initial if own else {})).items():
+            for name, value in ({} if recording.after_gap else self._starts(recording)).items():
                 if value == "recorded":
-                    found[self._state(name)] = self._first_sample(recording, name)
+                    found |= self._start(name, self._first_sample(recording, name))
                 elif value != "unknown":
-                    found[self._state(name)] = float(value)
+                    found |= self._start(name, float(value))
             self._initial[recording.name] = found
         return found
 
     def _fitted_starts(self, parameters: Mapping[str, float], recording: Recording) -> dict[str, float]:
-        """Start values among the fitted parameters, of states that this recording leaves unknown."""
-        own = self.case.own.get(recording.name)
-        table = self.case.initial | (own.initial if own else {})
-        unknown = [n for n, v in table.items() if v == "unknown" and f"start:{n}" in parameters]
-        return {self._state(n): parameters[f"start:{n}"] for n in unknown}
+        """Start values among the fitted parameters; a state may go by another name there, of the model without an
+        effect."""
+        suffix = start_name("", recording).removeprefix("start:")
+        named = {n.removesuffix(suffix): v for n, v in parameters.items() if is_start(n) and n.endswith(suffix)}
+        starts = [self._start(n.removeprefix("start:"), v) for n, v in named.items()]
+        return {state: value for start in starts for state, value in start.items()}
+
+    def unfitted_states(self, parameters: Mapping[str, float], recording: Recording) -> list[str]:
+        """Those of the unknown states of a recording that the parameters do not give."""
+        given = self._fitted_starts(parameters, recording)
+        return [n for n in self.unknown_states(recording) if not self._start(n, 0.0).keys() & given]
 
     def _first_sample(self, recording: Recording, name: str) -> float:
         for signal in self.case.signals.values():
@@ -238,11 +250,13 @@ class Machine:
                 return float(values[np.flatnonzero(np.isfinite(values))[0]])
         raise CaseError(f'{self.case.folder / "case.toml"}: [initial] {name} = "recorded", but no column records it')
 
-    def _state(self, name: str) -> str:
+    def _start(self, name: str, value: float) -> dict[str, float]:
+        """A state's start value under the first of its names, whose sign may be another."""
         variable = self.model.variables.get(name)
         if variable is None or variable.kind != "state":
             raise CaseError(f"{self.case.folder / 'case.toml'}: [initial] {name} is no state of {self.case.model}")
-        return next(n for n, v in self.model.states.items() if v.index == variable.index)
+        first = next(v for v in self.model.states.values() if v.index == variable.index)
+        return {first.name: value * variable.sign * first.sign}
 
 
 def _differ(

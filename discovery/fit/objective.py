@@ -6,15 +6,20 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from lacuna.discovery.case.cases import Recording
-from lacuna.discovery.case.noise import Noise, sample_weights
+from lacuna.discovery.case.cases import Case, Recording
+from lacuna.discovery.case.noise import Noise, estimate, sample_weights
 from lacuna.discovery.catalogue.amend import tracker_name
-from lacuna.discovery.fit.least_squares import Estimate, Problem, solve
 from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.solver.least_squares import Estimate, Problem, solve
 
-STAGES = 10
+STAGES = 10  # of weights, at most: levels that have not settled by then do not
 WORTH = 1.0  # of the weighted cost, that a stage of a fit has to win for another to follow
 SETTLED = 0.02  # relative change of a signal's level at which weights are taken to have settled
+
+
+def noise_of(case: Case) -> dict[str, Noise]:
+    """Noise of every output, as given or as estimated from the recordings that may be fitted."""
+    return {s.column: estimate([r.columns[s.column] for r in case.fit], s.noise_std) for s in case.outputs}
 
 
 class Objective:
@@ -88,27 +93,28 @@ def anneal(
 ) -> tuple[Estimate | None, dict[str, float]]:  # fmt: skip
     """Alternate weights from the residuals and a few steps of least squares until both have settled.
 
-    `known` are unweighted columns of the Jacobian that may serve at first.
+    `known` are unweighted columns of the Jacobian that may serve at first. Where a fit of all stages ends it is taken
+    anew.
     """
-    level: dict[str, float] = {}
-    values, best = start, None
-    for _ in range(stages):
-        problem.weights = None
-        here = problem.evaluate(values)
-        if here is None:
-            return best, level
-        new = {n: max(1.0 if n in objective.noise else 1e-6, v) for n, v in objective.measure(here[2]).items()}
+    problem.weights, level, values = None, {}, start
+    here, best = problem.evaluate(start), None
+    parts, columns = (here[2] if here else []), dict(known or {})
+    for _ in range(stages if here else 0):
+        new = {n: max(1.0 if n in objective.noise else 1e-6, v) for n, v in objective.measure(parts).items()}
         if best is not None and _settled(level, new, best.converged or bool(objective.stiffness)):
             break
-        level = new
-        problem.weights = objective.weights(level)
-        weighted = {k: [c * w for c, w in zip(cs, problem.weights, strict=True)] for k, cs in (known or {}).items()}
-        found = solve(problem, values, iterations=iterations, damping=1e-6, tolerance=1e-3, known=weighted)
-        if found is None:
-            return best, level
-        best, values = found, found.values
-        if found.begun - found.cost < WORTH:
+        level, weights = new, objective.weights(new)
+        problem.weights = weights
+        weighted = {k: [c * w for c, w in zip(cs, weights, strict=True)] for k, cs in columns.items()}
+        begin = problem.evaluation(values, [p * w for p, w in zip(parts, weights, strict=True)])
+        best = solve(problem, values, iterations=iterations, damping=1e-6, tolerance=1e-3, known=weighted, here=begin)
+        values, parts = best.values, [p / w for p, w in zip(best.residuals, weights, strict=True)]
+        blocks = [block / w[:, None] for block, w in zip(best.jacobian, weights, strict=False)]
+        columns = {k: [block[:, k] for block in blocks] for k in range(len(problem.free))} if blocks else {}
+        if best.begun - best.cost < WORTH:
             break
+    if best is not None and not best.converged and stages >= STAGES:
+        best = problem.renewed(best)
     return best, level
 
 

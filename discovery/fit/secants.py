@@ -16,9 +16,10 @@ import numpy as np
 from lacuna.discovery.case.cases import Recording
 from lacuna.discovery.case.noise import last_digit, of_few_levels
 from lacuna.discovery.fit.fit import Fit
-from lacuna.discovery.fit.least_squares import Estimate, Problem, clipped
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import Objective
+from lacuna.discovery.fit.solver.free import clipped
+from lacuna.discovery.fit.solver.least_squares import Estimate, Problem
 
 ROUNDS = 2  # of differences: the axes of the first are those of the noisy ones
 FINE = 0.01  # of the solver's tolerance, with which its error is measured

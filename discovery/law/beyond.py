@@ -35,6 +35,8 @@ def explain_beyond(search: Search, unbegun: Search, progress: Progress) -> None:
     if search.settled() or like_noise(unbegun.fit):
         return
     search.run(progress)
+    if search.findings and like_noise(search.fit):
+        return
     explained = bool(search.findings) and (search.settled() or nearly_noise(search.fit))
     if explained and len(search.findings) == 1:
         return

@@ -16,8 +16,8 @@ from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment, Attachment
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit, fit
-from lacuna.discovery.fit.least_squares import Free
 from lacuna.discovery.fit.machine import try_machine
+from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.law.law import Law, attach, component_of
 from lacuna.discovery.law.law_screen import Effort, Proposal, screened, sites
 from lacuna.discovery.law.law_terms import Group

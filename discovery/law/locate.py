@@ -30,13 +30,16 @@ SMOOTHING = 0.3  # weight of the probe's bends against the misfit
 
 @dataclass
 class PlaceEffort:
-    """One place: the share of the misfit it explains and its effort on each recording, (time, effort) at the nodes."""
+    """One place: the share of the misfit it explains and its effort on each recording, (time, effort) at the nodes.
+
+    `error` is its 1-sigma there."""
 
     location: str
     kind: str  # torque | voltage | sensor error
     unit: str
     explained: float
     effort: dict[str, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
+    error: dict[str, np.ndarray] = field(default_factory=dict)
 
 
 @dataclass
@@ -70,18 +73,38 @@ def locate(case: Case, base: Fit) -> Located:
     return located
 
 
+def effort_at(case: Case, base: Fit, location: str) -> PlaceEffort | None:
+    """What is missing at one place of a model; None where no effort can act there."""
+    structure = base.machine.amendment.structure
+    for probe in (*structure.shafts, *structure.lines):
+        if location == place_of(probe):
+            machine = base.machine.amended(replace(base.machine.amendment, probes=(probe,)), case)
+            return _probe(machine, Screen(base), base, 0, probe)
+    return None
+
+
+def place_of(probe: Shaft | Line) -> str:
+    """What the place of an effort is called."""
+    if isinstance(probe, Shaft):
+        return probe.location
+    return f"{probe.load}{':' + probe.phase if probe.phase else ''}"
+
+
 def _probe(machine: Machine, screen: Screen, base: Fit, k: int, probe: Shaft | Line) -> PlaceEffort:
     torque = isinstance(probe, Shaft)
     response = respond(machine, base, k, NODES)
     blocks = [b * w[:, None] for b, w in zip(response.blocks, screen.weights, strict=True)]
-    share, nodes = _smoothest(screen, block_diag(*blocks))
-    location = probe.location if torque else f"{probe.load}{':' + probe.phase if probe.phase else ''}"
-    effort = {r.name: (response.nodes[i], nodes[i * NODES : (i + 1) * NODES]) for i, r in enumerate(screen.recordings)}
-    return PlaceEffort(location, "torque" if torque else "voltage", "N.m" if torque else "V", share, effort)
+    share, nodes, errors = _smoothest(screen, block_diag(*blocks))
+    own = {r.name: slice(i * NODES, (i + 1) * NODES) for i, r in enumerate(screen.recordings)}
+    effort = {name: (response.nodes[i], nodes[rows]) for i, (name, rows) in enumerate(own.items())}
+    error = {name: errors[rows] for name, rows in own.items()}
+    return PlaceEffort(
+        place_of(probe), "torque" if torque else "voltage", "N.m" if torque else "V", share, effort, error
+    )
 
 
-def _smoothest(screen: Screen, columns: np.ndarray) -> tuple[float, np.ndarray]:
-    """(share of the cost explained, nodes) of the effort with the least bends that explains the residual."""
+def _smoothest(screen: Screen, columns: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
+    """(share of the cost explained, nodes, their 1-sigma) of the effort with the least bends for the residual."""
     pad = np.zeros((len(screen.load) - len(screen.residual), columns.shape[1]))
     stack = np.vstack([columns, pad])
     stack = stack - screen.orthogonal @ (screen.orthogonal.T @ stack)
@@ -91,7 +114,8 @@ def _smoothest(screen: Screen, columns: np.ndarray) -> tuple[float, np.ndarray]:
     smooth = bends.T @ bends * SMOOTHING * float(np.mean(np.diag(normal)))
     nodes = np.linalg.lstsq(normal + 1e-3 * smooth, right, rcond=1e-10)[0]
     left = target + stack @ nodes
-    return 1.0 - float(left @ left) / screen.cost, nodes
+    errors = np.sqrt(np.maximum(np.diag(np.linalg.pinv(normal + 1e-3 * smooth, hermitian=True)), 0.0))
+    return 1.0 - float(left @ left) / screen.cost, nodes, errors
 
 
 def _sensor(case: Case, screen: Screen, k: int) -> PlaceEffort:

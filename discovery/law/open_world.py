@@ -18,7 +18,7 @@ from lacuna.discovery.naming.comparison import (
     TIE,
     Ranked,
     confidences,
-    held_out_deviance,
+    left_out_deviance,
     price,
     score,
     told_by_data,
@@ -98,9 +98,5 @@ def _score_of(search: Search, unbegun: Search, correlation: dict[str, float]) ->
 
 def _tells(unbegun: Search, ranked: Ranked, correlation: dict[str, float]) -> bool:
     """Whether a law fitted to some recordings tells the others better than the believed model so fitted does."""
-    if len(unbegun.case.fit) < 2:
-        return True
-    base = unbegun.fit
-    nothing = Candidate(ranked.attachment, base.machine, [], fit=base)
-    without = held_out_deviance(unbegun.case, base, Ranked(nothing, base, 0.0), correlation)
-    return held_out_deviance(unbegun.case, base, ranked, correlation) < without - TIE
+    without = left_out_deviance(unbegun.fit, unbegun.fit, correlation)
+    return left_out_deviance(ranked.fit, unbegun.fit, correlation) < without - TIE

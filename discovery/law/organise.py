@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-BINS = 25
+BINS = 25  # of a variable: each holds dozens of samples of the shortest recording
 ORDERS = 48  # of an angle, that are looked at
 STRONGEST = 3  # orders that together may organise an effort
 TURNS = 2.0  # that an angle has to make before its orders can be told from its value

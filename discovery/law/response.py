@@ -13,8 +13,8 @@ import numpy as np
 
 from lacuna.discovery.catalogue.amend import probe_name
 from lacuna.discovery.fit.fit import Fit, Objective
-from lacuna.discovery.fit.least_squares import _pool
 from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.solver.least_squares import _pool
 from lacuna.runtime import RecordedInput
 
 LINEAR = (1e-3, 0.3)  # of the residual: sizes of an answer that is above rounding and still proportional

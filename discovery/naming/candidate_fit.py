@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.fit.fit import Fit, fit
-from lacuna.discovery.fit.least_squares import Free
 from lacuna.discovery.fit.objective import Objective
+from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.naming.comparison import Progress
 from lacuna.discovery.naming.screen import Candidate
 
@@ -22,7 +22,7 @@ def fit_candidate(
     fixed = base.fixed | candidate.fixed
     return fit(
         candidate.machine, case.fit, base.noise, free, fixed, start=start, stages=stages, iterations=iterations,
-        known=base.sensitivities() if candidate.fit is None else None,
+        known=(candidate.fit or base).sensitivities(),
     )  # fmt: skip
 
 

@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 
-from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Attachment
 from lacuna.discovery.fit.evidence import nearly_noise
-from lacuna.discovery.fit.fit import Fit, fit, residuals_of
-from lacuna.discovery.fit.least_squares import WORKERS
+from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.naming.left_out import left_out_residuals
 from lacuna.discovery.naming.screen import Candidate
 
 MIN_GAIN = 20.0  # drop of the deviance, prices paid, below which nothing is believed missing
 CLOSE = 0.3  # share of the best gain within which hypotheses are cross-validated against each other
 DECIDED = 20.0  # difference of two scores that decides, where the better one leaves noise
-CONTENDERS = 4
+CONTENDERS = 4  # hypotheses that are told apart by recordings left out
 TIE = 8.0  # difference of two scores below which the data does not tell them apart
+TEMPER = 4.0  # of scores to twice the logarithm of odds: misfit makes likelihoods surer than they should be
 COLOUR = 30.0  # samples at most that count as one
 
 Progress = Callable[[str], None]
@@ -50,9 +49,7 @@ class Ranked:
         return values | dict(self.attachment.values)
 
 
-def cross_validated(
-    case: Case, base: Fit, ranked: list[Ranked], correlation: dict[str, float], progress: Progress
-) -> list[Ranked]:
+def cross_validated(base: Fit, ranked: list[Ranked], correlation: dict[str, float], progress: Progress) -> list[Ranked]:
     """Contenders that are close to the best are ranked by recordings of the fit set that each is not fitted to.
 
     What a contender loses there against the best one is its score; those that tie there keep their order. Where the
@@ -61,10 +58,9 @@ def cross_validated(
     best = ranked[0].score
     reach = DECIDED if nearly_noise(ranked[0].fit) else CLOSE * abs(best)
     close = [r for r in ranked if r.score - best < reach][:CONTENDERS]
-    if len(case.fit) < 2 or len({r.identity for r in close}) < 2 or ranked[0].score > -MIN_GAIN:
+    if len({r.identity for r in close}) < 2 or ranked[0].score > -MIN_GAIN:
         return ranked
-    with ThreadPoolExecutor(WORKERS) as workers:
-        losses = list(workers.map(lambda r: held_out_deviance(case, base, r, correlation), close))
+    losses = [left_out_deviance(r.fit, base, correlation) for r in close]
     losses = [min(loss, *_of_richer(contender, close, losses)) for contender, loss in zip(close, losses, strict=True)]
     least = min(losses)
     for contender, loss in zip(close, losses, strict=True):
@@ -88,25 +84,16 @@ def _of_richer(contender: Ranked, close: list[Ranked], losses: list[float]) -> l
     return [*richer, float("inf")]
 
 
-def held_out_deviance(case: Case, base: Fit, contender: Ranked, correlation: dict[str, float]) -> float:
-    """Deviance of each fit recording under the fit to the others, summed."""
+def left_out_deviance(found: Fit, base: Fit, correlation: dict[str, float]) -> float:
+    """Deviance of what a fit says of parts of the recordings that are left out (`left_out`), weighted as `base`."""
     total = 0.0
-    candidate = contender.candidate
-    free = [*base.estimate.free, *candidate.free]
-    for recording in case.fit:
-        others = [r for r in case.fit if r is not recording]
-        found = fit(
-            candidate.machine, others, base.noise, free, base.fixed | candidate.fixed, start=contender.fit.point,
-            stages=2, iterations=2,
-        )  # fmt: skip
-        residuals = residuals_of(candidate.machine, [recording], found.point) if found is not None else None
-        if residuals is None:
-            return float("inf")
-        for column, noise in base.noise.items():
-            weight = base.weights[recording.name][column]
-            count = float(np.sum(weight**2)) / correlation[column]
-            square = float(np.sum((weight * np.nan_to_num(residuals[recording.name][column])) ** 2) / np.sum(weight**2))
-            total += count * np.log(max(1.0, square / noise.std**2))
+    told = left_out_residuals(found)
+    for column, noise in base.noise.items():
+        for name, residuals in told.items():
+            weight = base.weights[name][column]
+            power = float(np.sum(weight**2))
+            square = float(np.sum((weight * np.nan_to_num(residuals[column])) ** 2)) / power
+            total += power / correlation[column] * np.log(max(1.0, square / noise.std**2))
     return total
 
 
@@ -138,6 +125,6 @@ def told_by_data(candidate: Candidate, base: Fit, correlation: dict[str, float])
 def confidences(ranked: list[Ranked]) -> None:
     """Posterior probability of each hypothesis among those tried (equal beliefs before), tempered to admit misfit."""
     scores = np.array([r.score for r in ranked])
-    weights = np.exp(-np.minimum((scores - scores.min()) / 4.0, 700.0))
+    weights = np.exp(-np.minimum((scores - scores.min()) / TEMPER, 700.0))
     for r, weight in zip(ranked, weights / weights.sum(), strict=True):
         r.confidence = float(weight)

@@ -12,14 +12,14 @@ from collections.abc import Callable
 import numpy as np
 
 from lacuna.discovery.fit.fit import Fit, fit
-from lacuna.discovery.fit.least_squares import pulls
+from lacuna.discovery.fit.solver.free import pulls
 from lacuna.discovery.fit.time_limit import TimeUp
 from lacuna.discovery.naming.screen import Screen
 
 PROBES = 4  # directions in which the cost is compared with its quadratic form
 SIGMAS = 3.0  # how far
 SMOOTH = 0.5  # of the predicted rise of the cost, that the actual one may differ by
-STARTS = 5
+STARTS = 5  # of fits from beside: their spread is then known to a third of itself
 BESIDE = 0.01  # of its value, by which each parameter is moved
 
 Progress = Callable[[str], None]

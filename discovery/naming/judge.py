@@ -10,8 +10,9 @@ import numpy as np
 
 from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.catalogue.amend import Amendment
-from lacuna.discovery.fit.fit import noise_of, nrmse, residuals_of
+from lacuna.discovery.fit.fit import nrmse, residuals_of
 from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.objective import noise_of
 
 
 @dataclass(frozen=True)

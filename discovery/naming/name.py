@@ -15,8 +15,8 @@ from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment, Attachment
 from lacuna.discovery.fit.evidence import nearly_noise
 from lacuna.discovery.fit.fit import Fit
-from lacuna.discovery.fit.least_squares import WORKERS
 from lacuna.discovery.fit.machine import try_machine
+from lacuna.discovery.fit.solver.least_squares import WORKERS
 from lacuna.discovery.fit.time_limit import TimeUp, check
 from lacuna.discovery.naming.candidate_fit import fit_candidate
 from lacuna.discovery.naming.comparison import (
@@ -28,7 +28,7 @@ from lacuna.discovery.naming.comparison import (
     cross_validated,
     score,
 )
-from lacuna.discovery.naming.race import ROUNDS, best_starts, first_round, relatives, still_in
+from lacuna.discovery.naming.race import HALF, ROUNDS, best_starts, first_round, leading, relatives, still_in
 from lacuna.discovery.naming.restarts import begin_again
 from lacuna.discovery.naming.screen import Candidate, Screen, prepare, telling_recordings
 from lacuna.runtime import SimulationError
@@ -113,7 +113,7 @@ def compete(
             return Naming([], screened, failures)
         ranked, correlation = _ranked(fitted, base)
         if final:
-            ranked = cross_validated(case, base, ranked, correlation, progress)
+            ranked = cross_validated(base, ranked, correlation, progress)
     except TimeUp:
         if not any(nearly_noise(c.fit) for c in fitted.values()):
             raise
@@ -132,15 +132,25 @@ def _ranked(fitted: dict[str, Candidate], base: Fit) -> tuple[list[Ranked], dict
 def _race(
     case: Case, candidates: list[Candidate], base: Fit, fitted: dict[str, Candidate], progress: Progress
 ) -> list[tuple[str, str]]:  # fmt: skip
-    """Fit what may win, into `fitted`; what could not be simulated, with the reason."""
+    """Fit what may win, into `fitted`; what could not be simulated, with the reason.
+
+    The most promising go first: where one of them leaves noise, others can but tie with it, and those that promise much
+    less do not.
+    """
     first = first_round(candidates)
-    _halve(case, base, first, fitted, progress)
+    leaders, others = leading(first)
+    _halve(case, base, leaders, fitted, progress)
+    if fitted and nearly_noise(_ranked(fitted, base)[0][0].fit):
+        others = [c for c in others if c.predicted > HALF * first[0].predicted]
+    _halve(case, base, others, fitted, progress)
     related: list[Candidate] = []
     if fitted:
         related = relatives(candidates, fitted, _ranked(fitted, base)[0][0].candidate)
         _halve(case, base, related, fitted, progress)
         begin_again(case, base, list(fitted.values()), progress)
-    failed = dict.fromkeys(c.attachment.label for c in [*first, *related] if c.attachment.label not in fitted)
+    failed = dict.fromkeys(
+        c.attachment.label for c in [*leaders, *others, *related] if c.attachment.label not in fitted
+    )
     return [(label, "no simulation succeeded from its start values") for label in failed]
 
 

@@ -12,7 +12,8 @@ from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.naming.screen import Candidate
 
 ROUNDS = ((2, 2, 100), (2, 3, 10), (3, 3, 4), (10, 4, 2))  # (stages, iterations, fits): successive halving
-FIRST_ROUND = 8
+FIRST_ROUND = 8  # hypotheses at least that are fitted: a budget of time
+LEADING = 2  # hypotheses that are fitted before the others
 ENOUGH = 0.9  # of the promise of a law, that one which it contains must have to be tried in its stead,
 LEAVES = 1.5  # while it leaves at most so many times the misfit
 HALF = 0.5  # of the promise of the best hypothesis, that another form of it must have to be tried
@@ -51,6 +52,12 @@ def first_round(candidates: list[Candidate]) -> list[Candidate]:
     return pool
 
 
+def leading(pool: list[Candidate]) -> tuple[list[Candidate], list[Candidate]]:
+    """(all starts of the first few hypotheses of a pool, the rest)."""
+    first = list(dict.fromkeys(c.attachment.label for c in pool))[:LEADING]
+    return [c for c in pool if c.attachment.label in first], [c for c in pool if c.attachment.label not in first]
+
+
 def _promises_enough(simpler: float, richer: float) -> bool:
     """Whether a law may wait for one that it contains, by the shares of the misfit that both promise to explain."""
     return simpler > ENOUGH * richer and 1.0 - simpler < LEAVES * (1.0 - richer)
@@ -66,8 +73,8 @@ def _starts(best: Candidate, candidates: list[Candidate]) -> int:
 
 
 def relatives(candidates: list[Candidate], fitted: dict[str, Candidate], best: Candidate) -> list[Candidate]:
-    """Not yet fitted: laws that the best hypothesis contains, laws that contain it (from where it ended, too) and,
-    where it leaves more than noise, its other forms."""
+    """Not yet fitted: laws that the best hypothesis contains, laws that contain it, from where it ended, and, where it
+    leaves more than noise, those from starts of their own and its other forms."""
     own = best.attachment
     promise = max(c.predicted for c in candidates if c.attachment.label == own.label)
     least = float("inf") if nearly_noise(best.fit) else HALF * promise
@@ -78,7 +85,8 @@ def relatives(candidates: list[Candidate], fitted: dict[str, Candidate], best: C
         if own.contains(c.attachment)
         or (c.attachment.effect.identifier == own.effect.identifier and c.predicted > least)
     ]  # fmt: skip
-    found = [*(_enriched(c, best) for c in best_starts(richer)), *richer, *alike]
+    own_starts = [] if nearly_noise(best.fit) else richer
+    found = [*(_enriched(c, best) for c in best_starts(richer)), *own_starts, *alike]
     labels = [c.attachment.label for c in found]
     return [c for k, c in enumerate(found) if labels[:k].count(labels[k]) < STARTS]
 

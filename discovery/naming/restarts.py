@@ -1,7 +1,6 @@
 """Hypotheses begun again from elsewhere, so that no dip which a fit ended in decides which of them is named.
 
-The best begin with what is believed of the parameters, if they have not converged; where none leaves noise, they are
-led by trackers; laws that the best one contains begin where it ended; and so do its rivals.
+Laws that the best one contains begin where it ended; and so do its rivals.
 """
 
 from __future__ import annotations
@@ -12,48 +11,23 @@ from dataclasses import replace
 from functools import partial
 
 from lacuna.discovery.case.cases import Case
-from lacuna.discovery.catalogue.places import Shaft
-from lacuna.discovery.fit.evidence import nearly_noise
-from lacuna.discovery.fit.fit import Fit, falling_bandwidths, fit, linearised
-from lacuna.discovery.fit.least_squares import WORKERS
-from lacuna.discovery.fit.machine import try_machine
-from lacuna.discovery.fit.tracking import trackable
+from lacuna.discovery.fit.fit import Fit, linearised
+from lacuna.discovery.fit.solver.least_squares import WORKERS
 from lacuna.discovery.naming.candidate_fit import fit_candidate
 from lacuna.discovery.naming.comparison import Progress, best_correlation, score
 from lacuna.discovery.naming.race import ROUNDS
 from lacuna.discovery.naming.screen import Candidate, Screen, prepare, telling_recordings
 from lacuna.runtime import SimulationError
 
-HALF = 0.5  # of the best gain, that a hypothesis must have to be fitted further: a simpler law, or one to be led
-BELIEVED = 2  # hypotheses at most, that begin again with the believed parameters
-LED = 2  # hypotheses that are fitted again, led by trackers, where none has left noise
+HALF = 0.5  # of the best gain, that a hypothesis must have to be fitted further: a simpler law
 CONTENDING = 0.1  # share of the best gain, within which rivals are begun again from where the best hypothesis ended,
 AS_GOOD = 3.0  # while to first order they leave at most so many times what it does there itself
 
 
 def begin_again(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
     """Fit those that may do better again, on top of `base`."""
-    _believe(case, base, candidates, progress)
-    _lead(case, base, candidates, progress)
     _simplify(case, base, candidates, progress)
     _contend(case, base, candidates, progress)
-
-
-def _believe(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
-    """Fit those of the best hypotheses that have not converged again, from what is believed of the base's parameters.
-
-    Without an effect they stand for it as well as they can, and the way back may be a long and narrow valley: of
-    parameters that the data tells only together.
-    """
-    ordered = sorted(candidates, key=lambda c: c.fit.deviance())
-    near = _near(base, ordered[0])
-
-    def fit_again(candidate: Candidate) -> None:
-        again = replace(candidate, start=candidate.fit.point | base.believed(), shift={})
-        _take(candidate, _fit_again(case, base, again, lambda f: f.deviance() <= near, progress))
-
-    with ThreadPoolExecutor(WORKERS) as pool:
-        list(pool.map(fit_again, [c for c in ordered[:BELIEVED] if not c.fit.estimate.converged]))
 
 
 def _near(base: Fit, best: Candidate) -> float:
@@ -65,32 +39,6 @@ def _take(candidate: Candidate, found: Fit | None) -> None:
     """Keep a fit that is better than the one that the candidate has."""
     if found is not None and found.deviance() < candidate.fit.deviance():
         candidate.fit = found
-
-
-def _lead(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
-    """Fit the best hypotheses again, and the best one's physics at other places, shafts held near their recorded motion
-    at first, where none of them left noise; and the one that promised most, where it ended worse than nothing.
-
-    Stick, slip and impacts make the sum of squares rough: a fit that starts far away can end in one of its many dips.
-    """
-    ordered = sorted(candidates, key=lambda c: c.fit.deviance())
-    far = base.deviance() - HALF * (base.deviance() - ordered[0].fit.deviance())
-    shafts = trackable(case, base.machine.model, base.machine.amendment.structure)
-    if not shafts or base.machine.amendment.trackers or nearly_noise(ordered[0].fit):
-        return
-    own = ordered[0].attachment
-    good = [c for c in ordered[:LED] if c.fit.deviance() <= far]
-    elsewhere = [
-        c for c in ordered
-        if c.attachment.effect.identifier == own.effect.identifier and c.attachment.location != own.location
-    ]  # fmt: skip
-    for candidate in good + [c for c in elsewhere if c not in good]:
-        progress(f"leading {candidate.attachment.label}")
-        _take(candidate, _fit_led(case, base, candidate, shafts, base.point))
-    promising = max(candidates, key=lambda c: c.predicted)
-    if promising.fit.deviance() > base.deviance():
-        progress(f"leading {promising.attachment.label} from what is believed")
-        _take(promising, _fit_led(case, base, promising, shafts, base.point | base.believed()))
 
 
 def _simplify(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
@@ -175,18 +123,3 @@ def _prepared(screen: Screen, candidate: Candidate) -> Candidate:
     except SimulationError:
         found = []
     return found[0] if found else replace(candidate, predicted=0.0)
-
-
-def _fit_led(
-    case: Case, base: Fit, candidate: Candidate, shafts: list[Shaft], point: dict[str, float]
-) -> Fit | None:  # fmt: skip
-    """The fit of a candidate begun at this point of the base's parameters, shafts held at first."""
-    amendment = replace(candidate.machine.amendment, trackers=shafts)
-    machine, _ = try_machine(case, amendment, base.machine)
-    if machine is None:
-        return None
-    free, fixed = [*base.estimate.free, *candidate.free], base.fixed | candidate.fixed
-    start = point | candidate.start
-    bandwidths = falling_bandwidths(case, machine)
-    led = fit(machine, case.fit, base.noise, free, fixed, start=start, bandwidths=bandwidths, stages=2)
-    return led and fit(candidate.machine, case.fit, base.noise, free, fixed, start=led.point)

@@ -17,12 +17,13 @@ from lacuna.discovery.case.cases import Recording
 from lacuna.discovery.catalogue.amend import Attachment
 from lacuna.discovery.catalogue.catalogue import Effect, EffectParameter
 from lacuna.discovery.fit.fit import Fit, Objective
-from lacuna.discovery.fit.least_squares import Free, bounded_linear, pulls
 from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.solver.free import Free, pulls
+from lacuna.discovery.fit.solver.least_squares import bounded_linear
 from lacuna.discovery.naming.shapes import limits_of, shape_starts
 
 RESPONSE = 0.1  # of the residual: size of the response from which a column is taken
-PROBES = 5
+PROBES = 5  # runs at most, in which a fair size of a response is sought: each corrects it by up to 10 000
 TELLING = 0.5  # share of the misfit that screened recordings hold
 ABSURD = 1e30  # misfit in units of its level, from which a simulation has run away
 

@@ -27,7 +27,7 @@ from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Naming, compete, rank, screen_all
 from lacuna.discovery.naming.screen import Candidate
 
-MAX_FINDINGS = 3
+MAX_FINDINGS = 3  # more are beyond what a few recordings can tell apart
 CARRIED = 3  # times at most, that an accepted fit is begun again from where it stopped
 ALIKE = 0.01  # share of the best gain, within which rivals are released with the best one,
 RELEASED = 3  # at most so many of them

@@ -22,8 +22,8 @@ equation
   w_stuck = if mode == Stuck then w_fric else 0;
   w_along = if mode == Stuck then unitVelocity else mode*w_fric;
   mode = if pre(mode) == Stuck then
-      (if tau_hold > tau_break or w_stuck > w_small then Forward
-       elseif tau_hold < -tau_break or w_stuck < -w_small then Backward else Stuck)
+      (if w_stuck > w_small then Forward elseif w_stuck < -w_small then Backward
+       elseif tau_hold > tau_break then Forward elseif tau_hold < -tau_break then Backward else Stuck)
     elseif w_along < 0 then Stuck else pre(mode);
   when mode == Stuck then
     reinit(w_fric, 0);

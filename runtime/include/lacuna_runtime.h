@@ -65,7 +65,8 @@ typedef struct {
   int kind;      /* rt_event_kind */
   int index;     /* relation, relation, sample or message */
   int direction; /* of a relation: +1 it became true, -1 false */
-  double reach; /* of a state event: how far the guard had been from zero since it last switched, of its size; else 1 */
+  double reach;  /* of a state event: how far the guard had been from zero since it last switched, by its nominal value
+                    (else of its range); of others 1 */
 } rt_event_entry;
 
 /* Where sensitivities are not what they seem, because the order of events is about to change. */
@@ -73,7 +74,8 @@ typedef enum {
   RT_FLAG_GRAZING,   /* `relation` only touches its threshold: from here on there are no sensitivities */
   RT_FLAG_ORDER,     /* two events at one instant, as far as it is known, that move differently with a parameter */
   RT_FLAG_NONFINITE, /* a derivative is infinite or overflows: from here on there are no sensitivities */
-  RT_FLAG_ROUNDING   /* the model rounds values at events: their derivative is that between two steps, which is zero */
+  RT_FLAG_ROUNDING,  /* the model rounds values at events: their derivative is that between two steps, which is zero */
+  RT_FLAG_FOLD /* the branch that algebraic unknowns followed has ended: from here on there are no sensitivities */
 } rt_flag_kind;
 
 typedef struct {

@@ -29,7 +29,8 @@ typedef enum {
   MDL_FAILURE_ASSERT,    /* assert(..., level = error) violated; `equation` indexes `asserts` */
   MDL_FAILURE_BOUND,     /* a parameter outside its min/max; `variable` says which */
   MDL_FAILURE_LOOP,      /* a function ran too long: loops and calls inside each other */
-  MDL_FAILURE_STACK      /* functions called each other too deep, or hold arrays too large for the stack */
+  MDL_FAILURE_STACK,     /* functions called each other too deep, or hold arrays too large for the stack */
+  MDL_FAILURE_FOREIGN    /* external C called ModelicaError, which has told why */
 } mdl_failure_kind;
 
 typedef struct {

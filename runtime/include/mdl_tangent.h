@@ -20,8 +20,8 @@ extern "C" {
 typedef double mdl_lanes __attribute__((vector_size(MDL_LANES * sizeof(double)), aligned(sizeof(double)), may_alias));
 
 /* Functions that work on whole vectors: compiled twice on x86, so that a machine with vectors of four doubles uses
- * them. The results are the same to the last bit, as nothing is contracted. Not under the thread sanitizer, which is not
- * ready yet when the choice is made. */
+ * them. The results are the same to the last bit, as nothing is contracted. Not under the thread sanitizer, which is
+ * not ready yet when the choice is made. */
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_THREAD__)
 #define MDL_WIDE __attribute__((target_clones("avx2", "default")))
 #else

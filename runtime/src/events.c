@@ -139,7 +139,7 @@ static void switch_relations(rt_session *s) {
     if (!s->flip[r]) continue;
     s->data.rel[r] = !s->data.rel[r];
     s->result->counters.state_events++;
-    double size = rt_max(s->g_nominal[r], s->g_span[r]), reach = size > 0 ? s->g_travel[r] / size : 0;
+    double size = s->g_nominal[r] > 0 ? s->g_nominal[r] : s->g_span[r], reach = size > 0 ? s->g_travel[r] / size : 0;
     rt_result_log(s->result, s->t, RT_EVENT_STATE, r, s->data.rel[r] ? 1 : -1, reach);
   }
 }

@@ -47,6 +47,8 @@ static const char *describe(mdl_failure_kind kind) {
     return "a function ran too long";
   case MDL_FAILURE_STACK:
     return "functions called each other too deep, or their arrays are too large";
+  case MDL_FAILURE_FOREIGN:
+    return "external C ended in an error, which it told above";
   case MDL_FAILURE_NONE:
     break;
   }
@@ -62,6 +64,7 @@ static rt_status status_of(mdl_failure_kind kind) {
   case MDL_FAILURE_STACK:
     return RT_DOMAIN;
   case MDL_FAILURE_ASSERT:
+  case MDL_FAILURE_FOREIGN:
     return RT_ASSERT;
   case MDL_FAILURE_BOUND:
     return RT_BOUND;

@@ -8,7 +8,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from lacuna.discovery.fit.least_squares import Free, Problem, solve
+from lacuna.discovery.fit.solver.free import Free
+from lacuna.discovery.fit.solver.least_squares import Problem, solve
 from lacuna.discovery.fit.time_limit import TimeUp
 from lacuna.discovery.naming import dips, screen
 
@@ -36,7 +37,7 @@ def fitted(
     [
         (lambda x: 10.0 * (x - 2.0) + NOISE, True),
         (lambda x: 10.0 * (x**2 - 4.0) + NOISE, True),
-        (lambda x: 10.0 * (x - 2.0) + NOISE + 0.3 * np.sin(1e5 * x), False),  # dips of the width of 1e-2 sigma
+        (lambda x: 10.0 * (x - 2.0) + NOISE + np.sin(1e5 * x), False),  # dips of the width of 1e-2 sigma
         (lambda x: 10.0 * np.round(x - 2.0, 1) + NOISE, False),
     ],
 )

@@ -16,8 +16,8 @@ from lacuna.discovery.catalogue import catalogue
 from lacuna.discovery.catalogue.amend import Amendment, Attachment
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.fit.fit import fit
-from lacuna.discovery.fit.least_squares import bounded_linear
 from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.solver.least_squares import bounded_linear
 from lacuna.discovery.naming import candidate_fit
 from lacuna.discovery.naming.screen import Screen, prepare
 from lacuna.discovery.naming.shapes import limits_of

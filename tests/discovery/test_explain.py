@@ -21,8 +21,9 @@ from lacuna.discovery.explanation import diagnosis, report
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.intervals import standard_errors
-from lacuna.discovery.fit.least_squares import Free, Problem, solve
 from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.solver.free import Free
+from lacuna.discovery.fit.solver.least_squares import Problem, solve
 from lacuna.discovery.law.locate import locate
 from lacuna.discovery.naming.comparison import confidences
 from lacuna.discovery.naming.judge import judge_file

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from lacuna.discovery.fit import fit as fitting
-from lacuna.discovery.fit.least_squares import Free, Problem
 from lacuna.discovery.fit.objective import anneal
+from lacuna.discovery.fit.solver.free import Free
+from lacuna.discovery.fit.solver.least_squares import Problem
 
 
 class OneSignal:

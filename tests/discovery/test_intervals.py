@@ -13,9 +13,10 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.fit.fit import fit
 from lacuna.discovery.fit.intervals import covariance
-from lacuna.discovery.fit.least_squares import Free, Problem, solve
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.secants import input_shift
+from lacuna.discovery.fit.solver.free import Free
+from lacuna.discovery.fit.solver.least_squares import Problem, solve
 from lacuna.discovery.steps import fit_believed
 
 from .conftest import BELIEVED, write_case

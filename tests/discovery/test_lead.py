@@ -12,9 +12,10 @@ from lacuna.discovery.case.cases import Case, load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.fit import lead as leading
-from lacuna.discovery.fit.fit import FALLING, believed, falling_bandwidths, fit, linearised, noise_of
+from lacuna.discovery.fit.fit import FALLING, believed, falling_bandwidths, fit, linearised
 from lacuna.discovery.fit.lead import BELIEVABLE, HELD, SHARES, Lead
 from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.objective import noise_of
 from lacuna.discovery.fit.tracking import trackable
 from lacuna.discovery.naming.name import screen_all
 from lacuna.discovery.steps import STIFFLY

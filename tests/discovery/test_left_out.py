@@ -7,7 +7,8 @@ import pytest
 
 from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.fit.fit import Fit
-from lacuna.discovery.fit.least_squares import Estimate, Free
+from lacuna.discovery.fit.solver.free import Free
+from lacuna.discovery.fit.solver.least_squares import Estimate
 from lacuna.discovery.naming.left_out import STRETCHES, left_out_residuals
 
 NOISE, LEVEL = Noise(0.1, 0.0, True), 3.0

@@ -13,8 +13,9 @@ from lacuna.discovery.case.cases import load
 from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
-from lacuna.discovery.fit.fit import believed, noise_of
+from lacuna.discovery.fit.fit import believed
 from lacuna.discovery.fit.machine import LEAST_RTOL, RTOL, Machine
+from lacuna.discovery.fit.objective import noise_of
 
 
 @pytest.fixture(scope="module")

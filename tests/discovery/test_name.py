@@ -24,11 +24,9 @@ from lacuna.discovery.naming.screen import Candidate, Screen, prepare
 from lacuna.discovery.steps import fit_believed
 from lacuna.runtime import SimulationError
 
-from .conftest import BELIEVED, attachment
+from .conftest import attachment
 
 Prepared = Callable[[str], Candidate]
-
-FAR_OFF = {"R": 5.0, "Ke": 0.05, "b": 2e-4}
 
 
 @pytest.fixture(scope="module")
@@ -56,14 +54,6 @@ def prepared(case: Case, base: Fit) -> Prepared:
 def fitted(case: Case, base: Fit, candidate: Candidate, **how: object) -> Candidate:
     free = [*base.estimate.free, *candidate.free]
     return replace(candidate, fit=fit(candidate.machine, case.fit, base.noise, free, base.fixed, **how))
-
-
-def watched(monkeypatch: pytest.MonkeyPatch, name: str) -> list[tuple]:
-    """The arguments of each call of a function of `restarts` from now on."""
-    calls: list[tuple] = []
-    function = getattr(restarts, name)
-    monkeypatch.setattr(restarts, name, lambda *args: calls.append(args) or function(*args))
-    return calls
 
 
 def test_a_rival_that_ended_in_a_dip_is_begun_again_from_where_the_best_hypothesis_ended(
@@ -101,70 +91,6 @@ def test_a_rival_that_does_not_run_where_it_is_begun_again_stays_as_it_is(
     assert rival.fit is own
 
 
-def test_the_best_begins_again_with_what_is_believed_of_parameters_unless_it_has_converged(
-    case: Case, base: Fit, prepared: Prepared, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    again = watched(monkeypatch, "_fit_again")
-    best = fitted(case, base, prepared("CoulombFriction"))
-    away = best.fit.point | {n: 1.2 * best.fit.point[n] for n in ("R", "Ke", "J")}
-    stuck = fitted(case, base, prepared("CoulombFriction"), start=away, stages=1, iterations=0)
-    assert best.fit.estimate.converged and stuck.fit.deviance() > best.fit.deviance() + 1000
-    own = best.fit
-    restarts._believe(case, base, [stuck, best], lambda text: None)
-    level = stuck.attachment.full_name("tau_c")
-    assert again[0][2].start == {f.name: f.centre for f in base.estimate.free} | {level: away[level]}
-    assert stuck.fit.deviance() == pytest.approx(own.deviance(), abs=1.0)
-    assert best.fit is own
-
-
-def test_what_promised_most_and_ended_worse_than_nothing_is_led_from_what_is_believed(
-    case: Case, base: Fit, prepared: Prepared, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Without friction the fitted parameters stand for it as well as they can: nothing to begin a way back from."""
-    led = watched(monkeypatch, "_fit_led")
-    friction, drag = prepared("CoulombFriction"), prepared("QuadraticDrag")
-    right = fitted(case, base, friction)
-    stuck = replace(right, fit=fitted(case, base, friction, stages=1, iterations=0, start=FAR_OFF).fit)
-    other = fitted(case, base, replace(drag, predicted=friction.predicted / 2), stages=1, iterations=1)
-    assert stuck.fit.deviance() > base.deviance()
-    restarts._lead(case, base, [other, stuck], lambda text: None)
-    assert led[-1][-1]["R"] == BELIEVED["R"] != pytest.approx(base.point["R"], rel=1e-3)
-    assert stuck.fit.deviance() == pytest.approx(right.fit.deviance(), abs=1.0)
-
-
-def test_what_is_tried_next_is_related_to_the_best_by_evidence(
-    case: Case, base: Fit, prepared: Prepared, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A richer law leaves a little less than one that it contains, and does not pay for what it adds."""
-    simple = fitted(case, base, prepared("CoulombFriction"))
-    rich = prepared("StribeckFriction")
-    level = simple.fit.point[simple.attachment.full_name("tau_c")]
-    here = simple.fit.point | {rich.attachment.full_name(n): level for n in ("tau_c", "tau_s")}
-    rich = fitted(case, base, rich, start=here)
-    rich.fit.estimate.cost = simple.fit.estimate.cost - 0.5  # of belief, whatever dips either has ended in
-    rich.fit.estimate.data_cost = simple.fit.estimate.data_cost
-    rich.fit.residuals = simple.fit.residuals
-    assert rich.fit.deviance() < simple.fit.deviance()
-    asked: list[Candidate] = []
-    monkeypatch.setattr(naming, "_halve", lambda case, base, pool, fitted, progress: fitted.update(
-        {c.attachment.label: c for c in pool}))  # fmt: skip
-    monkeypatch.setattr(naming, "first_round", lambda candidates: candidates)
-    monkeypatch.setattr(naming, "relatives", lambda candidates, fitted, best: asked.append(best) or [])
-    monkeypatch.setattr(naming, "begin_again", lambda *_: None)
-    compete(case, [rich, simple], base, final=False)
-    assert asked == [simple]
-
-
-def test_a_ranking_of_held_fits_is_not_cross_validated(
-    case: Case, base: Fit, prepared: Prepared, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    asked: list[object] = []
-    monkeypatch.setattr(naming, "cross_validated", lambda case, base, ranked, *_: asked.append(ranked) or ranked)
-    for final in (False, True):
-        compete(case, [prepared("CoulombFriction")], base, final=final)
-        assert len(asked) == final
-
-
 def raced(case: Case, base: Fit, prepared: Prepared, effect: str, monkeypatch: pytest.MonkeyPatch) -> Naming:
     """The naming of a race that runs out of time when its only hypothesis has been fitted."""
 
@@ -182,18 +108,6 @@ def test_a_race_without_time_names_what_leaves_noise(
     assert found.best.identity == ("friction.coulomb", "shaft")
     with pytest.raises(TimeUp):
         raced(case, base, prepared, "ConstantLoad", monkeypatch)
-
-
-def test_a_race_without_time_to_cross_validate_keeps_its_order(
-    case: Case, base: Fit, prepared: Prepared, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def too_late(*_: object) -> None:
-        raise TimeUp("the search was stopped")
-
-    monkeypatch.setattr(naming, "cross_validated", too_late)
-    found = compete(case, [prepared("CoulombFriction"), prepared("ConstantLoad")], base)
-    assert found.best.identity == ("friction.coulomb", "shaft")
-    assert found.best.confidence > 0.5
 
 
 def test_a_limit_counts_from_when_the_work_was_begun() -> None:

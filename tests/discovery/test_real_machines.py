@@ -10,9 +10,10 @@ from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue import catalogue, places
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
-from lacuna.discovery.fit.fit import believed, fit, noise_of
-from lacuna.discovery.fit.least_squares import Free
+from lacuna.discovery.fit.fit import believed, fit
 from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.objective import noise_of
+from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.naming.judge import judge
 
 STARTS = {

@@ -68,10 +68,6 @@ def repeated(r: Recording) -> None:
     r.time[700] = r.time[699]
 
 
-def gap(r: Recording) -> None:
-    r.time[900:] += 0.4
-
-
 def no_time(r: Recording) -> None:
     r.time[700] = np.nan
 
@@ -93,12 +89,9 @@ def spike(v: np.ndarray) -> np.ndarray:
 WITHOUT_A_MODEL = [  # what is done to r2.csv, the kind, the column, the time (s) at which it is seen
     (backwards, "time_order", "time", 0.69),
     (repeated, "time_order", "time", 0.699),
-    (gap, "gap", "time", 0.899),
     (no_time, "time_missing", "time", 0.699),
     (short, "too_short", "time", 0.0),
     (empty, "too_short", "time", None),
-    (changed("u", between(300, 340, np.nan)), "missing_samples", "u", 0.3),
-    (changed("i", between(300, 700, np.nan)), "missing_samples", "i", 0.3),
     (changed("i", between(0, 1500, np.nan)), "missing_samples", "i", 0.0),
     (changed("i", between(600, 800)), "frozen", "i", 0.6),
     (changed("i", between(600, 800, 0.0)), "frozen", "i", 0.6),

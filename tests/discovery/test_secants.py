@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from lacuna.discovery.fit import secants
-from lacuna.discovery.fit.least_squares import Estimate, Free, Problem, solve
+from lacuna.discovery.fit.solver.free import Free
+from lacuna.discovery.fit.solver.least_squares import Estimate, Problem, solve
 
 PHASES = np.random.default_rng(0).uniform(0, 2 * np.pi, 200)
 FREE = [Free("a", 1.0, 1.0, step=1e-6), Free("b", 1.0, 1.0, step=1e-6)]

@@ -15,8 +15,9 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as read_structure
 from lacuna.discovery.efforts.numeric import Evaluator, NotNumeric, table
 from lacuna.discovery.explain import explain
-from lacuna.discovery.fit.fit import believed, fit, noise_of
+from lacuna.discovery.fit.fit import believed, fit
 from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.objective import noise_of
 from lacuna.discovery.law.several import without
 from lacuna.discovery.naming.foretold import DRAWS, foretold
 

@@ -8,9 +8,9 @@ import pickle
 import numpy as np
 import pytest
 
-from lacuna.discovery.fit.least_squares import Free
-from lacuna.discovery.fit.plain_values import load, save
-from lacuna.discovery.fit.store import kept, remembered
+from lacuna.discovery.fit.kept.plain_values import load, save
+from lacuna.discovery.fit.kept.store import kept, remembered
+from lacuna.discovery.fit.solver.free import Free
 
 
 def test_an_interrupted_run_computes_nothing_twice(tmp_path: Path) -> None:

@@ -39,16 +39,17 @@ class _Run:
 
     failure: str
     events: list[tuple] = field(default_factory=list)
+    clear: list[tuple] = field(default_factory=list)  # of guards that had been further from zero than the tolerance
     error: float = 0.0
     steps: int = 0
 
 
-def _instants(result: runtime.Result) -> list[tuple]:
+def _instants(result: runtime.Result, least: float = 0) -> list[tuple]:
     """What happened at each instant, in any order there: by line, for the text of a relation has factors of units."""
     found: list[tuple[float, list[tuple]]] = []
     span = result.time[-1] - result.time[0]
     for e in result.event_log:
-        if e.reach < RTOL:  # its guard was at rest on the threshold, as far as is known: it may leave at any time
+        if e.reach < least:  # its guard was at rest on the threshold, as far as is known: it may leave at any time
             continue
         if not found or e.time - found[-1][0] > 1e-9 * span:
             found.append((e.time, []))
@@ -67,7 +68,7 @@ def _run(
     values = {n: result[n] / factor[n] for n in states}
     if not result.complete:
         return _Run(str(result.failure)), values
-    run = _Run("", _instants(result), steps=result.counters["steps"])
+    run = _Run("", _instants(result), _instants(result, RTOL), steps=result.counters["steps"])
     for n in sorted(truth.keys() & values):  # an alias by a literal factor is none in other units
         run.error = max(run.error, float(np.sqrt(np.mean((values[n] - truth[n]) ** 2)) / np.ptp(truth[n])))
     return run, values
@@ -118,7 +119,11 @@ def compare(
 def _faults(own: _Run, run: _Run) -> list[str]:
     if own.failure or run.failure:
         return [] if own.failure and run.failure else [f"runs in one: {own.failure or run.failure}"]
-    return [] if own.events == run.events else [f"{len(run.events)} instants for {len(own.events)}, or others"]
+    return (
+        []
+        if own.events == run.events or own.clear == run.clear
+        else [f"{len(run.events)} instants for {len(own.events)}, or others"]
+    )
 
 
 def _differ(error: float, low: float, high: float) -> bool:

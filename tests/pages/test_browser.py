@@ -120,8 +120,8 @@ def test_on_paper_no_table_is_cut(pages: dict[str, Path], browser: Any, name: st
 def test_the_verdict_comes_first_and_the_page_says_where_it_comes_from(pages: dict[str, Path], name: str) -> None:
     text = pages[name].read_text(encoding="utf-8")
     body = text[text.index("<main>") :]
-    if name != "judge":
-        assert body.index('class="verdict"') < min(body.index("<figure"), (body + "<table").index("<table"))
+    first = min(body.index("<figure"), (body + "<table").index("<table"))
+    assert body.index('class="verdict"') < body.index('class="action"') < first
     assert f"Lacuna {lacuna.__version__}" in text and "Made by <code>" in text
     assert "prefers-color-scheme: dark" in text and "@media print" in text
 
@@ -180,8 +180,12 @@ def test_what_is_read_of_a_forecast_at_a_glance(pages: dict[str, Path]) -> None:
     body = re.sub(r"<svg.*?</svg>|base64,[^\"]*", "", text[text.index("<main>") :], flags=re.DOTALL)
     assert re.search("\\d\N{NO-BREAK SPACE}\\d{3} cycles", body) and not re.search(r"\d \d{3}\b", body)
     assert "<td class=number>reached</td>" in body and "cycles until it" in body
+    assert "severity  (%)" in text and "orange from 11 %" in text and "A1 is the first to be removed" in body
+    fleet = pages["fleet"].read_text(encoding="utf-8")
+    assert re.search(r">A1, 14 %<", fleet) and "history.csv: <code>" in fleet and "history.csv: <code>" in text
     sweep = pages["sweep"].read_text(encoding="utf-8")
-    assert re.search(r"<td>rms_mean</td><td>A</td>", sweep) and re.search(r"<td>speed_mean</td><td>rad/s</td>", sweep)
+    for name, unit in (("Ke", "V.s/rad"), ("rms_mean", "A"), ("speed_mean", "rad/s")):
+        assert f"<td>{name}</td><td>{unit}</td>" in sweep
 
 
 @pytest.mark.parametrize("top", [1.0, 7.3, 2130.0, 99000.0])

@@ -14,6 +14,7 @@ import pyarrow as pa
 
 from lacuna.analysis.prognosis.forecast import Limits
 from lacuna.analysis.prognosis.pages.telling import Advice, removals, use, whom
+from lacuna.analysis.prognosis.verdict import BEYOND
 from lacuna.analysis.report.page import figure, page
 
 SHOWN = 60  # actuators at greatest risk
@@ -37,7 +38,9 @@ def overview(table: pa.Table, limits: Mapping[str, Limits], title: str = "Fleet"
     names = ("actuator", "fault", "advised_last_test", "at", "unit", "verdict")
     columns = zip(*(table[name].to_pylist() for name in names), strict=True)
     advised = [Advice(whom(a, fault), last, at, unit) for a, fault, last, at, unit, v in columns if v == "forecast"]
-    verdict, action = removals(advised, len(table))
+    warned = zip(*(table[name].to_pylist() for name in ("actuator", "fault", "warnings")), strict=True)
+    beyond = [whom(a, fault) for a, fault, warnings in warned if BEYOND in (warnings or "")]
+    verdict, action = removals(advised, len(table), beyond)
     counts = _COUNTS.format(
         total=len(table), now=verdict.split(" ", 1)[0], forecast=verdicts.count("forecast"),
         early=verdicts.count("too_early"), steady=verdicts.count("steady"),

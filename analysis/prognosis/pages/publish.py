@@ -29,7 +29,7 @@ from lacuna.analysis.prognosis.pages.telling import (
     whom,
 )
 from lacuna.analysis.prognosis.series import last_error, series_of
-from lacuna.analysis.prognosis.verdict import FORECAST
+from lacuna.analysis.prognosis.verdict import BEYOND, FORECAST
 from lacuna.analysis.report.page import figure, heading, page, table
 from lacuna.drawn import save
 from lacuna.written import whole_files
@@ -65,9 +65,10 @@ def publish(
         notes = ["Intervals are of remaining use; the fan shows when each severity is reached.", *limits]
         advised = [
             Advice(whom(f.history.actuator, f.history.fault), f.advised, f.at, f.history.unit)
-            for f in first if f.verdict == FORECAST
+            for f in said if f.verdict == FORECAST
         ]  # fmt: skip
-        verdict, action = removals(advised, len(said))
+        beyond = [whom(f.history.actuator, f.history.fault) for f in said if BEYOND in f.warnings]
+        verdict, action = removals(advised, len(said), beyond)
         counted = f"{counted_verdicts(said)} {shown}".strip()
         whole = page(
             "Flights that remain", Markup("").join(parts), verdict=f"{verdict} {counted}", action=action,

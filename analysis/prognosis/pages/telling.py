@@ -50,13 +50,15 @@ def whom(actuator: str, fault: str) -> str:
     return f"{actuator} ({fault})" if fault else actuator
 
 
-def removals(advised: Sequence[Advice], count: int) -> tuple[str, str]:
-    """(verdict, next action) over `count` parts, of those with a forecast."""
+def removals(advised: Sequence[Advice], count: int, beyond: Sequence[str] = ()) -> tuple[str, str]:
+    """(verdict, next action) over `count` parts: `advised` are those with a forecast, `beyond` those that read beyond
+    the last limit and cannot be forecast."""
     now = [a.who for a in advised if a.advised is not None and a.advised <= a.at]
     verdict = f"{len(now)} of {count} {'actuator is' if count == 1 else 'actuators are'} to be removed now."
-    if now:
-        more = f" and {len(now) - NAMED} more" if len(now) > NAMED else ""
-        return verdict, f"remove {', '.join(now[:NAMED])}{more}"
+    due = [f"remove {_some(now)}"] * bool(now)
+    due += [f"repeat the test of {_some(beyond)}, or remove: it reads beyond the last limit"] * bool(beyond)
+    if due:
+        return verdict, "; ".join(due)
     left = [(a.advised - a.at, a) for a in advised if a.advised is not None]
     if not left:
         return verdict, "go on testing: no removal is due as far as tests are listed"
@@ -66,6 +68,11 @@ def removals(advised: Sequence[Advice], count: int) -> tuple[str, str]:
         verdict,
         f"go on testing; {part.who} is the first to be removed, after its test at {last} (in {use(soonest)})",
     )
+
+
+def _some(names: Sequence[str]) -> str:
+    more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
+    return ", ".join(names[:NAMED]) + more
 
 
 def use(value: float) -> str:
@@ -120,9 +127,11 @@ def forecast_json(said: Sequence[Forecast], risk: float, version: str) -> dict:
 
 
 def urgency(f: Forecast) -> tuple:
-    """Sorts by risk: forecasts by their median, then what is too early to say, then what is steady."""
+    """Sorts by risk: forecasts by the use left to the last advised test, then those without one by their median, then
+    what is too early to say, then what is steady."""
     order = {"forecast": 0, "too_early": 1, "steady": 2}
-    return order[f.verdict], float(f.quantiles[-1, 2] / max(f.horizon, 1e-300)), f.history.actuator
+    left = math.inf if f.advised is None else f.advised - f.at
+    return order[f.verdict], left, float(f.quantiles[-1, 2] / max(f.horizon, 1e-300)), f.history.actuator
 
 
 def counted_verdicts(said: Sequence[Forecast]) -> str:

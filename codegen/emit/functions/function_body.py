@@ -8,6 +8,7 @@ import math
 import re
 
 from lacuna.codegen import flat
+from lacuna.codegen.emit.functions.foreign import foreign_lines
 from lacuna.codegen.emit.text.c_text import c_comment
 from lacuna.codegen.emit.text.expression import function_name, lower_powers, to_c
 from lacuna.codegen.emit.text.names import Names
@@ -152,6 +153,9 @@ class FunctionBody:
             case flat.Native():
                 places = [("" if self._f.shapes[n] else "&") + self.c_name(n) for n in s.outputs]
                 self._line(f"mdl_{s.function}({', '.join([*map(self.c_name, s.inputs), *places])});")
+            case flat.Foreign():
+                for line in foreign_lines(s, self._f, self.c_name, self._fail("FOREIGN")):
+                    self._line(line)
             case flat.Return():
                 self._line(self._leave())
             case flat.Break():

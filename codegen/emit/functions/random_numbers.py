@@ -25,7 +25,7 @@ static void mdl_ModelicaRandom_xorshift64star(const double *in, double *out, dou
   x ^= x >> 27;
   x *= 2685821657736338717u;
   mdl_store_word(x, out);
-  *y = mdl_unit(x);
+  *y = (double)(long long)x * 0x1p-64 + 0.5;
 }""",
     "mdl_ModelicaRandom_xorshift128plus": """\
 static void mdl_ModelicaRandom_xorshift128plus(const double *in, double *out, double *y) {
@@ -50,5 +50,19 @@ static void mdl_ModelicaRandom_xorshift1024star(const double *in, double *out, d
   mdl_store_word(a, out + 2 * at);
   out[32] = at;
   *y = mdl_unit(a * 1181783497276652981u);
+}""",
+    "mdl_impure_random": """\
+/* A number from an instant and the place of a call (see flatten/functions/library/impure.py). */
+static void mdl_impure_random(double id, double instant, double call, double *y) {
+  unsigned long long x;
+  memcpy(&x, &instant, sizeof x);
+  const unsigned long long keys[] = {(unsigned long long)(long long)id, (unsigned long long)call};
+  for (int i = 0; i < 2; ++i) {
+    x += 0x9e3779b97f4a7c15u * (keys[i] + 1);
+    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
+    x ^= x >> 31;
+  }
+  *y = (double)(long long)x * 0x1p-64 + 0.5;
 }""",
 }  # fmt: skip

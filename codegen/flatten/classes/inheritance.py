@@ -12,6 +12,7 @@ from lacuna.codegen.flatten.names.modifiers import Modifier, from_tree, merge
 from lacuna.codegen.flatten.names.scope import PRIMITIVES, Scope, base_class, base_clauses, find_class, own_or_inherited
 from lacuna.codegen.flatten.names.unknown import unknown_class
 from lacuna.codegen.syntax import ast
+from lacuna.codegen.syntax.alike import alike
 from lacuna.suggest import did_you_mean
 
 MAX_DEPTH = 40
@@ -126,10 +127,11 @@ class Inheritance:
         self.elements[name] = element
 
     def _is_same(self, one: Element, other: Element) -> bool:
-        """Whether an element is inherited again: of the same type, each by the names of its own class (7.1.2)."""
+        """Whether an element is inherited again: of the same type, each by the names of its own class, and
+        with the same prefixes, sizes and modifications (7.1.2)."""
         if one.declaration is other.declaration:
             return True
-        if one.cls is other.cls:
+        if one.cls is other.cls or not alike(one.declaration, other.declaration, beside=("type",)):
             return False
         if str(one.declaration.type) == str(other.declaration.type) and str(one.declaration.type) in PRIMITIVES:
             return True

@@ -185,7 +185,7 @@ class Instance:
         items = []
         for index in indices(tuple(sizes)):
             text = "[" + ",".join(map(str, index)) + "]"
-            inner = merge(narrow(modifier, index), found.modifier)
+            inner = merge(narrow(modifier, tuple(zip(index, sizes, strict=True))), found.modifier)
             items.append(Instance(self.context, found.cls, name + text, self, inner, declaration))
         return ArrayNode(name, tuple(sizes), items, index_types)
 

@@ -71,6 +71,7 @@ def type_of(cls: ast.Class, context: Context, depth: int = 0) -> Type:
         return Type(EXTERNAL, cls)
     for clause in cls.extends:
         if str(clause.base) in PRIMITIVES or _is_primitive(clause.base, inside, depth):
+            check_class(cls, context)
             found = resolve_type(clause.base, inside, depth + 1)
             found.modifier = merge(from_tree(clause.modification, inside), found.modifier)
             found.named = cls

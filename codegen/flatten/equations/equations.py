@@ -15,7 +15,7 @@ from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import ChosenText, Record, Value, holds_records, items_of, shape_of, shape_text
 from lacuna.codegen.flatten.references.iterators import iterate
-from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr, to_text, walk
 from lacuna.codegen.syntax import ast
 
 
@@ -112,6 +112,17 @@ def check_discrete(
                 message = f"the discrete {a.value} equals what varies continuously"
                 raise Diagnostic("R063", message, e.span, hint)
     _check_declared(leaves, assigned)
+    _check_before(equations)
+
+
+def _check_before(equations: list[flat.Equation]) -> None:
+    """Outside of when-clauses there is no value before of what has a derivative (3.7.5). Raises R052."""
+    nodes = [(n, e) for e in equations for side in (e.lhs, e.rhs) for n in walk(side) if n.op in ("der", "pre")]
+    states = {n.args[0] for n, _ in nodes if n.op == "der"}
+    for n, e in nodes:
+        if n.op == "pre" and n.args[0] in states:
+            hint = "use it inside of when, or keep the value in a discrete variable"
+            raise Diagnostic("R052", f"{to_text(n)}: {to_text(n.args[0])} varies continuously", e.span, hint)
 
 
 def _check_declared(leaves: Iterable[Leaf], assigned: set[str]) -> None:

@@ -13,6 +13,7 @@ from lacuna.codegen.flatten.equations.equations import real_or_same
 from lacuna.codegen.flatten.expressions.constants import evaluate, is_parameter, variability
 from lacuna.codegen.flatten.expressions.enumerations import enumeration_of, require_same
 from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.values import Record, items_of
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
@@ -23,6 +24,8 @@ _NUMERIC = ("start", "min", "max", "nominal")
 
 def flatten_variables(leaf: Leaf, model: flat.FlatModel) -> None:
     """Add the scalars of one declaration to `model`, and its binding where it is not a parameter."""
+    if leaf.primitive == "String":
+        _check_text(leaf)
     if leaf.primitive in ("String", EXTERNAL):
         return
     context = leaf.instance.context
@@ -42,6 +45,21 @@ def flatten_variables(leaf: Leaf, model: flat.FlatModel) -> None:
             text = f"{name} = {ex.to_text(checked)}"
             model.equations.append(flat.Equation(v, checked, leaf.span, leaf.instance.name, text))
         model.variables[name] = variable
+
+
+def _check_text(leaf: Leaf) -> None:
+    """A String is no variable of the run, yet what it is bound to means something; whether its value can be had
+    matters where it is used (codes F, R091, R094). Raises R020 where it is no text."""
+    try:
+        found = leaf.binding()
+    except Diagnostic as error:
+        if error.code[0] == "F" or error.code in ("R091", "R094"):
+            return
+        raise
+    for item in () if found is None else items_of(found):
+        if isinstance(item, Expr | Record):
+            what = "a record" if isinstance(item, Record) else item.type
+            raise Diagnostic("R020", f"the String {leaf.name} is bound to {what}", leaf.modifier.span, "String(x)")
 
 
 def _note_places(leaf: Leaf, name: str) -> None:

@@ -75,12 +75,12 @@ def modifier_value(modifier: Modifier) -> Value:
     value = modifier.value
     if not isinstance(value, Expr | str | Array | Record):
         value = lower(value, modifier.scope)
-    for position in () if modifier.each else modifier.index:
+    for position, size in () if modifier.each else modifier.index:
         if not isinstance(value, Array):
             hint = "write each before it to give every element the same value"
             raise Diagnostic("R036", "one value for an array of components", modifier.span, hint)
-        if not 1 <= position <= value.shape[0]:
-            message = f"{value.shape[0]} values for an array of at least {position} elements"
+        if value.shape[0] != size:
+            message = f"{value.shape[0]} values for an array of {size} elements"
             raise Diagnostic("R036", message, modifier.span, "both need the same size")
         value = value.rows()[position - 1]
     return value

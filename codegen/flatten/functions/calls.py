@@ -7,7 +7,9 @@ from dataclasses import replace
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.instance import Instance
 from lacuna.codegen.flatten.classes.types import is_external
-from lacuna.codegen.flatten.expressions.lower import lower
+from lacuna.codegen.flatten.expressions.constants import is_known, known
+from lacuna.codegen.flatten.expressions.enumerations import literal
+from lacuna.codegen.flatten.expressions.lower import lower, lower_scalar
 from lacuna.codegen.flatten.functions.code import is_done
 from lacuna.codegen.flatten.functions.declared import bind_arguments, call_function, written_arguments
 from lacuna.codegen.flatten.functions.locals import signature_of
@@ -18,7 +20,7 @@ from lacuna.codegen.flatten.names.values import FunctionValue, Value, elementwis
 from lacuna.codegen.flatten.references.references import refuse_conditional
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.differentiate import Differentiator
-from lacuna.codegen.symbolic.expr import BOOLEAN, Expr
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, Expr
 from lacuna.codegen.syntax import ast
 from lacuna.suggest import did_you_mean
 
@@ -79,6 +81,8 @@ def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
         return call_function(own_or_inherited(scope.context.library, cls, "constructor"), e, scope)
     if cls is not None and cls.kind == "record":
         return [scope.context.lowering.construct(cls, e, scope)]
+    if cls is not None and cls.literals is not None:
+        return [_literal_by_number(cls, e, scope)]
     if cls is not None:
         raise Diagnostic("R004", f"{name} is a {cls.kind} and cannot be called", e.function.span, "call a function")
     if name in _OUTSIDE or name.startswith("Connections."):
@@ -91,6 +95,21 @@ def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
     if scope.instance is not None and e.function.names[0] in scope.instance.elements:
         hint = f"{name} is a variable: index it as {name}[i], multiply as {name}*(...)"
     raise Diagnostic("R004", f"there is no function {name}", e.function.span, hint)
+
+
+def _literal_by_number(cls: ast.Class, e: ast.Call, scope: Scope) -> Expr:
+    """E(n): the literal with that number, from 1 (4.9.5.3). Raises R045 for one without, R091 where it varies."""
+    if len(e.args) != 1 or e.named:
+        raise Diagnostic("R050", f"{cls.name} takes one number", e.span, f"{cls.name}(1)")
+    number, count = lower_scalar(e.args[0], scope, INTEGER), len(cls.literals)
+    if number.op != "const" and not is_known(number, scope.context):
+        hint = f"choose one: if n == 1 then {cls.name}.{cls.literals[0][0]} else ..."
+        raise Diagnostic("R091", f"{cls.name}(n) of a number that varies is outside the subset", e.span, hint)
+    found = int(known(number, scope, e.span, f"the number of a {cls.name}").value)
+    if not 1 <= found <= count:
+        hint = f"{cls.name} has the literals 1 to {count}"
+        raise Diagnostic("R045", f"there is no literal {found} of {cls.name}", e.span, hint)
+    return literal(cls, found)
 
 
 def _defaults_of(cls: ast.Class, e: ast.Call, holder: Component | None, scope: Scope) -> dict[str, Value]:

@@ -8,8 +8,12 @@ from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.expressions.constants import AtRunTime, evaluate
 from lacuna.codegen.flatten.expressions.elements import element, local_value
-from lacuna.codegen.flatten.functions.locals import Signature
+from lacuna.codegen.flatten.functions.interpret import interpret
+from lacuna.codegen.flatten.functions.library.foreign import foreign_call
+from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
+from lacuna.codegen.flatten.functions.locals import Signature, signature_of
 from lacuna.codegen.flatten.functions.parts import matched, parts, rebuilt, variables_of
+from lacuna.codegen.flatten.functions.whole_calls import element_name
 from lacuna.codegen.flatten.functions.writer import Writer
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
@@ -17,6 +21,7 @@ from lacuna.codegen.flatten.names.values import Array, Value, indices, scalars, 
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr
 from lacuna.codegen.symbolic.rewrite import Rewriter
+from lacuna.codegen.syntax import ast
 
 DONE = "done"  # the result of a function that has none
 
@@ -37,10 +42,33 @@ class Sources(dict[str, Source]):
     """Of the kept functions, by their names."""
 
 
+def run(name: str, arguments: list[Expr], context: Context, span: Span) -> Expr:
+    """A kept function on constant arguments: its (first) result as a constant."""
+    source = context.table(Sources)[name]
+    variables = [v for n, whole in source.inputs.items() for v in parts(n, whole).values()]
+    given = (Array(v.shape, a.args) if isinstance(v, Array) else a for v, a in zip(variables, arguments, strict=True))
+    bound = {n: rebuilt(whole, given) for n, whole in source.inputs.items()}
+    try:
+        results = interpret(source.signature, bound, context, span)
+    except AtRunTime as reason:
+        message = f"{name} cannot be evaluated at translation: {reason.args[0]}"
+        raise Diagnostic("F021", message, span, "give it constants and parameters only") from None
+    found = [part for result in results for part in parts("", result).values()]
+    return scalars(found[source.output])[source.element]
+
+
 def is_done(value: Value, context: Context) -> bool:
     """Does `value` only say that a function without results has run?"""
     called = context.functions.get(str(value.value)) if isinstance(value, Expr) and value.op == "call" else None
     return called is not None and called.outputs == (DONE,)
+
+
+def run_or_emit(cls: ast.Class, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
+    """The results of a function of our own: evaluated where all is constant, else computed at run time."""
+    signature = signature_of(cls, context)
+    if all(isinstance(s, Expr) and s.op == "const" for v in arguments.values() for s in scalars(v)):
+        return interpret(signature, arguments, context, span)
+    return emitted_call(signature, arguments, context, span)
 
 
 def emitted_call(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
@@ -83,8 +111,7 @@ def _selected(
     function: flat.Function, source: Source, name: str, index: tuple[int, ...], unit: str, context: Context
 ) -> str:
     """A function that calls `function` and gives one scalar of one of its results."""
-    text = "[" + ",".join(map(str, index)) + "]" if index else ""
-    selected = f"{function.name}.{name}{text}"
+    selected = element_name(function.name, name, index)
     if selected in context.functions:
         return selected
     kind, shape = function.types[name], function.shapes[name]
@@ -111,20 +138,29 @@ def _argument(name: str, function: flat.Function) -> Expr:
 
 def _base(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> str:
     cls, kinds = signature.cls, {local.name: local.type for local in signature.inputs}
-    inputs = {n: variables_of(n, kinds[n], v, context, span) for n, v in arguments.items()}
+    texts = [v for v in arguments.values() if isinstance(v, str)] if _is_foreign(signature) else []
+    numbers = {n: v for n, v in arguments.items() if not (texts and isinstance(v, str))}
+    inputs = {n: variables_of(n, kinds[n], v, context, span) for n, v in numbers.items()}
     shapes = [shape_of(v) for n, whole in inputs.items() for v in parts(n, whole).values()]
     sizes = ",".join("x".join(map(str, s)) for s in shapes if s)
-    name = f"{cls.path}[{sizes}]" if sizes else cls.path
+    name = (f"{cls.path}[{sizes}]" if sizes else cls.path) + (f"({', '.join(map(repr, texts))})" if texts else "")
     if name not in context.functions:
-        for n, v in arguments.items():
+        for n, v in numbers.items():
             if any(isinstance(s, str) for s in scalars(v)):
                 hint = "decide by an enumeration or a Boolean"
                 raise Diagnostic("F036", f"{cls.name} has the String input {n} and runs at run time", span, hint)
-        _emit(name, signature, inputs, context, span)
+        _emit(name, signature, inputs, arguments, context, span)
     return name
 
 
-def _emit(name: str, signature: Signature, inputs: dict[str, Value], context: Context, span: Span) -> None:
+def _is_foreign(signature: Signature) -> bool:
+    """Whether the function is external C that is not of the library."""
+    return signature.external is not None and signature.external.external.function not in GENERATORS
+
+
+def _emit(
+    name: str, signature: Signature, inputs: dict[str, Value], arguments: dict[str, Value], context: Context, span: Span
+) -> None:
     cls = signature.cls
     names = tuple(n for i, v in inputs.items() for n in parts(i, v))
     function = flat.Function(name, names, (), {}, {}, {}, [], cls.span)
@@ -132,7 +168,7 @@ def _emit(name: str, signature: Signature, inputs: dict[str, Value], context: Co
     source = context.table(Sources)[name] = Source(signature, inputs, [])
     writer = Writer(function, Scope(context, cls, None, {}, in_function=True))
     try:
-        for local in signature.locals:
+        for local in (x for x in signature.locals if not isinstance(arguments.get(x.name), str)):
             writer.declare_local(local, inputs)
         if not signature.outputs:
             writer.declare(DONE, local_value(DONE, BOOLEAN, ()))
@@ -140,10 +176,13 @@ def _emit(name: str, signature: Signature, inputs: dict[str, Value], context: Co
         results = {d.name: writer.scope.locals[d.name] for d in signature.outputs} or {DONE: ex.var(DONE, BOOLEAN)}
         function.outputs = tuple(n for d, v in results.items() for n in parts(d, v))
         source.results = list(results.values())
-        if cls.external is not None:
-            order = [str(a) for a in cls.external.args]
+        if _is_foreign(signature):
+            function.body += foreign_call(signature, arguments, writer, span)
+        elif signature.external is not None:
+            external = signature.external.external
+            order = [str(a) for a in external.args]
             given, wanted = (tuple(n for n in order if (n in inputs) == asked) for asked in (True, False))
-            function.body.append(flat.Native(cls.external.function, given, wanted, cls.span))
+            function.body.append(flat.Native(external.function, given, wanted, cls.span))
         function.body += writer.block(signature.body)
         constant = Rewriter(lambda e: None if e.value in function.shapes else _package_constant(e, context, span))
         function.body = constant.statements(function.body)

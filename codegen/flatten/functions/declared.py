@@ -6,19 +6,18 @@ becomes a `flat.Function`, one for each combination of array sizes, and for each
 
 from __future__ import annotations
 
+from collections.abc import Set
 from dataclasses import replace
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.types import EXTERNAL
 from lacuna.codegen.flatten.expressions.constants import AtRunTime, evaluate, is_known
 from lacuna.codegen.flatten.expressions.lower import lower
-from lacuna.codegen.flatten.functions.code import Sources, emitted_call
+from lacuna.codegen.flatten.functions.code import emitted_call
 from lacuna.codegen.flatten.functions.interpret import interpret
 from lacuna.codegen.flatten.functions.library.external import call_external
 from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
 from lacuna.codegen.flatten.functions.locals import Local, Signature, fit, signature_of
-from lacuna.codegen.flatten.functions.parts import parts, rebuilt
-from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope, find_class
 from lacuna.codegen.flatten.names.values import (
     Array,
@@ -96,11 +95,9 @@ def _vector_shape(signature: Signature, written: Written, span: Span) -> tuple[i
 
 def _call(signature: Signature, written: Written, e: ast.Call, scope: Scope) -> list[Value]:
     context, cls = scope.context, signature.cls
-    arguments = bind_arguments(cls, signature.inputs, written, e, scope)
-    if not scope.in_function:
-        arguments |= {n: _evaluated(arguments[n], scope, e.span, n) for n in signature.sizing}
-    if cls.external is not None and cls.external.function not in GENERATORS:
-        return call_external(cls, arguments, e, scope)
+    arguments = bind_arguments(cls, signature.inputs, written, e, scope, signature.sizing)
+    if signature.external is not None and signature.external.external.function not in GENERATORS:
+        return call_external(signature, arguments, e, scope)
     items = [a for v in arguments.values() for a in scalars(v)]
     known = all(isinstance(a, str) or a.op == "const" for a in items)
     if known or (context.call_depth < MAX_INLINE_DEPTH and not _has_events(items)):
@@ -158,9 +155,10 @@ def written_arguments(
 
 
 def bind_arguments(
-    cls: ast.Class, inputs: list[Local], written: Written, e: ast.Call, scope: Scope
+    cls: ast.Class, inputs: list[Local], written: Written, e: ast.Call, scope: Scope, sizing: Set[str] = frozenset()
 ) -> dict[str, Value]:
-    """Values of the inputs by name: the arguments, or the declared defaults, which may use other inputs."""
+    """Values of the inputs by name: the arguments, or the declared defaults, which may use other inputs. Those of
+    `sizing` become structural."""
     bound: dict[str, Value] = {}
     open_, waiting = list(inputs), True
     while open_ and waiting:
@@ -178,6 +176,8 @@ def bind_arguments(
                 hint = f"{cls.name}({', '.join(i.name for i in inputs)})"
                 raise Diagnostic("R050", f"the input {local.name} of {cls.name} is not given", e.span, hint)
             bound[local.name] = _fitted(local, value, inner, span)
+            if local.name in sizing and not scope.in_function:
+                bound[local.name] = _evaluated(bound[local.name], scope, e.span, local.name)
             note_units(local, bound[local.name], span, f"input {local.name} of {cls.name}", scope)
             open_.remove(local)
             waiting = True
@@ -283,18 +283,3 @@ def construct_record(cls: ast.Class, e: ast.Call, scope: Scope) -> Record:
     ]
     bound = bind_arguments(cls, fields, written_arguments(cls, fields, e, scope, {}), e, scope)
     return Record(cls.path, bound, cls)
-
-
-def run(name: str, arguments: list[Expr], context: Context, span: Span) -> Expr:
-    """A kept function on constant arguments: its (first) result as a constant."""
-    source = context.table(Sources)[name]
-    variables = [v for n, whole in source.inputs.items() for v in parts(n, whole).values()]
-    given = (Array(v.shape, a.args) if isinstance(v, Array) else a for v, a in zip(variables, arguments, strict=True))
-    bound = {n: rebuilt(whole, given) for n, whole in source.inputs.items()}
-    try:
-        results = interpret(source.signature, bound, context, span)
-    except AtRunTime as reason:
-        message = f"{name} cannot be evaluated at translation: {reason.args[0]}"
-        raise Diagnostic("F021", message, span, "give it constants and parameters only") from None
-    found = [part for result in results for part in parts("", result).values()]
-    return scalars(found[source.output])[source.element]

@@ -46,7 +46,7 @@ MAX_SYMBOLIC_STEPS = 400
 
 def interpret(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
     """Results of the function on `arguments`. Raises AtRunTime where its course depends on unknown values."""
-    if signature.cls.external is not None:
+    if signature.external is not None:
         return _native(signature, arguments, span)
     run = _Run(signature.cls, context, dict(arguments), span)
     run.inputs = frozenset(arguments)
@@ -77,7 +77,7 @@ def _native(signature: Signature, arguments: dict[str, Value], span: Span) -> li
     (state,) = arguments.values()
     if any(not isinstance(w, Expr) or w.op != "const" for w in scalars(state)):
         raise AtRunTime("a random number", span)
-    words, number = GENERATORS[signature.cls.external.function]([w.value for w in scalars(state)])
+    words, number = GENERATORS[signature.external.external.function]([w.value for w in scalars(state)])
     given = {"Integer": integers(words), "Real": ex.const(number)}
     return [given[local.type.primitive] for local in signature.outputs]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -79,6 +80,7 @@ class Signature:
     cls: ast.Class
     locals: tuple[Local, ...]
     body: tuple[ast.Item, ...]
+    external: ast.Class | None = None  # the class, itself or a base, that names external code
 
     @property
     def inputs(self) -> list[Local]:
@@ -144,7 +146,9 @@ def signature_of(cls: ast.Class, context: Context) -> Signature:
             _check_function(cls, instance)
             _check_components(cls, declared)
         body = tuple(item for section, _ in instance.sections for item in section.items)
-        found = signatures[id(cls)] = Signature(cls, tuple(declared), body)
+        _check_iterators(body)
+        external = next((c for c in instance.classes if c.external is not None), None)
+        found = signatures[id(cls)] = Signature(cls, tuple(declared), body, external)
     return found
 
 
@@ -161,6 +165,26 @@ def _check_function(cls: ast.Class, instance: Instance) -> None:
         if not (d.causality or d.protected or d.variability):
             hint = "declare it input or output, or under 'protected'"
             raise Diagnostic("R066", f"{name} of the function {cls.name} is public", d.span, hint)
+        if d.causality and d.protected:
+            raise Diagnostic("R066", f"the {d.causality} {name} of {cls.name} is protected", d.span, "make it public")
+
+
+def _check_iterators(items: Iterable[ast.Item], iterators: frozenset[str] = frozenset()) -> None:
+    """The variable of a loop is not assigned inside it (11.2.2). Raises R058."""
+    for item in items:
+        if isinstance(item, ast.For):
+            _check_iterators(item.body, iterators | {i.name for i in item.iterators})
+        elif isinstance(item, ast.If | ast.When):
+            for _, body in item.branches:
+                _check_iterators(body, iterators)
+        elif isinstance(item, ast.While):
+            _check_iterators(item.body, iterators)
+        elif isinstance(item, ast.Assignment):
+            targets = item.target.items if isinstance(item.target, ast.Tuple) else [item.target]
+            wrong = next((t for t in targets if t is not None and t.names[0] in iterators), None)
+            if wrong is not None:
+                hint = "copy it to a variable of the function"
+                raise Diagnostic("R058", f"the loop variable {wrong} is assigned", wrong.span, hint)
 
 
 def _check_components(cls: ast.Class, declared: list[Local]) -> None:

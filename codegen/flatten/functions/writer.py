@@ -15,6 +15,7 @@ from lacuna.codegen.flatten.functions.blanks import blank
 from lacuna.codegen.flatten.functions.interpret import unknown_target
 from lacuna.codegen.flatten.functions.locals import Local, declared_sizes, fit, typed
 from lacuna.codegen.flatten.functions.parts import matched, parts, variables_of
+from lacuna.codegen.flatten.functions.whole_calls import called
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Value, scalars, shape_of
 from lacuna.codegen.flatten.references.iterators import iterate
@@ -130,12 +131,34 @@ class Writer:
         return f"{stem}_{self.counter}"
 
     def _assignment(self, item: ast.Assignment, result: list[flat.Statement]) -> None:
-        if not isinstance(item.target, ast.Tuple):
-            self.assign([(self._target(item.target), lower(item.value, self.scope))], item.span, result)
+        several = isinstance(item.target, ast.Tuple)
+        targets = item.target.items if several else [item.target]
+        values = lower_results(item.value, self.scope) if several else [lower(item.value, self.scope)]
+        places = [None if t is None else self._target(t) for t in targets]
+        whole = self._whole_call(places, values, item.span)
+        if whole is not None:
+            result.append(whole)
             return
-        values = lower_results(item.value, self.scope)
-        pairs = zip(item.target.items, values, strict=False)
-        self.assign([(self._target(t), v) for t, v in pairs if t is not None], item.span, result)
+        pairs = zip(places, values, strict=False)
+        self.assign([(place, v) for place, v in pairs if place is not None], item.span, result)
+
+    def _whole_call(
+        self, places: list[tuple[str, Value] | None], values: list[Value], span: Span
+    ) -> flat.AssignCall | None:
+        """One call for variables that are all set to results of it; None where the values are anything else."""
+        found = called(values, self.scope.context)
+        if found is None:
+            return None
+        call, outputs = found
+        names: list[str | None] = []
+        for place, output in zip(places, outputs, strict=False):
+            name, target = place or (None, None)
+            if name is not None and (name not in self.function.types or target != self.scope.locals[name]):
+                return None  # a part of it
+            if name is not None and self.function.types[name] != output:
+                return None
+            names.append(name)
+        return flat.AssignCall(tuple(names), call, span)
 
     def _target(self, ref: ast.Ref) -> tuple[str, Value]:
         name = ref.names[0]

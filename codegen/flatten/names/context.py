@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+import hashlib
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -62,6 +63,10 @@ class Context:
         if found is None:
             found = self.tables[kind] = kind()
         return found
+
+    def note_file(self, path: Path, content: bytes) -> None:
+        """The model depends on this file from now on."""
+        self.files[str(path)] = hashlib.sha256(content).hexdigest()
 
     @contextmanager
     def attempt(self) -> Iterator[None]:

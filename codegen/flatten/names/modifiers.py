@@ -12,7 +12,8 @@ from lacuna.codegen.syntax import ast
 
 @dataclass(slots=True)
 class Modifier:
-    """`value` in the scope it was written in; `index` is the array element it is narrowed to."""
+    """`value` in the scope it was written in; `index` is the array element it is narrowed to: (position, size)
+    of each dimension."""
 
     span: Span
     value: ast.Expression | Expr | None = None
@@ -24,7 +25,7 @@ class Modifier:
     redeclared_in: Scope | None = None  # the scope a redeclaration is written in
     tree: ast.Modification | None = None  # as written
     weak: bool = False  # of a part of a component that is bound as a whole from further outside
-    index: tuple[int, ...] = ()
+    index: tuple[tuple[int, int], ...] = ()
 
     @property
     def empty(self) -> bool:
@@ -85,8 +86,9 @@ def _inner_children(outer: Modifier, inner: Modifier, again: bool) -> dict[str, 
     return dict(inner.children)
 
 
-def narrow(modifier: Modifier | None, index: tuple[int, ...]) -> Modifier | None:
-    """What `modifier` of an array means for its element `index`; parts under `each` stay whole."""
+def narrow(modifier: Modifier | None, index: tuple[tuple[int, int], ...]) -> Modifier | None:
+    """What `modifier` of an array means for its element, (position, size) of each dimension; parts under `each` stay
+    whole."""
     if modifier is None or modifier.each:
         return modifier
     children = {name: narrow(child, index) for name, child in modifier.children.items()}

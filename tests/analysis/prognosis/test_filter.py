@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.stats import invgauss, multivariate_normal
+from scipy.stats import invgauss, multivariate_normal, norm
 
 from lacuna.analysis.prognosis.filter.bank import Bank
-from lacuna.analysis.prognosis.filter.crossing import remaining
+from lacuna.analysis.prognosis.filter.crossing import Remaining, remaining
 from lacuna.analysis.prognosis.filter.filter import Series, run
 from lacuna.analysis.prognosis.filter.law import Law
 from lacuna.analysis.prognosis.filter.settings import FilterSettings
@@ -130,3 +130,16 @@ def test_one_history_alone_is_the_same_as_among_others():
         assert alone.quantiles == pytest.approx(f.quantiles, rel=1e-9) and alone.risk == pytest.approx(
             f.risk, abs=1e-12
         )
+
+
+def test_a_sum_of_lognormals_is_that_of_the_normal_distribution():
+    """To 4e-8 in C++, far tails and limits that are reached already included."""
+    random = np.random.default_rng(5)
+    mean, sd = random.normal(3, 1, (4, 30)), random.uniform(0.05, 1.5, (4, 30))
+    mean[:, 3], weight = -np.inf, random.dirichlet(np.ones(30), 4)
+    use = np.concatenate([[0.0], np.geomspace(1e-3, 1e5, 200)]) * np.ones((4, 1))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        each = norm.cdf((np.log(use)[:, :, None] - mean[:, None]) / sd[:, None])
+    each[:, :, 3] = 1.0
+    found = Remaining(mean, sd, weight).reached(use)
+    assert found == pytest.approx((weight[:, None] * each).sum(axis=2), abs=4e-8)

@@ -51,6 +51,8 @@ def test_on_dask_as_one_by_one_and_sorted_by_risk(tmp_path):
     assert len(found) == 12
     order = [("forecast", "too_early", "steady").index(r["verdict"]) for r in found]
     assert order == sorted(order)
+    left = [np.inf if (last := r["advised_last_test"]) is None else last - r["at"] for r in found[: order.count(0)]]
+    assert left == sorted(left) and left[0] < left[-1]
     for r in found:
         f = single[r["actuator"]]
         assert r["verdict"] == f.verdict

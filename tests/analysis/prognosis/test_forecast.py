@@ -9,7 +9,7 @@ import pytest
 
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis.filter.bank import Bank
-from lacuna.analysis.prognosis.forecast import Options, forecasts
+from lacuna.analysis.prognosis.forecast import Options, fleet_prior, forecasts
 from tests.analysis.prognosis.histories import LAWS, LIMITS, exponential, history, linear
 
 
@@ -125,3 +125,24 @@ def test_two_faults_have_two_lives():
     assert two.quantiles[-1, 0] < 7000 - TESTS[-1] < two.quantiles[-1, -1]
     alone = forecasts([second], Bank(LAWS), other)[0]
     assert two.quantiles == pytest.approx(alone.quantiles, rel=1e-9)
+
+
+def crack(n, life=5000.0):
+    """der(x) = x^2 from 0.04 of the limit on: beyond the limit it leaves the map within a few tests."""
+    return 0.34 / np.maximum(25 - 24 * n / life, 1e-3)
+
+
+def test_what_a_part_does_beyond_its_limit_tells_no_life():
+    """Of twenty that crack: watched on at the map's end, they give the prior of those that stop at the limit."""
+    whole = [history(crack, np.arange(0, 6000.0, 100), sd=0.002, seed=k) for k in range(20)]
+    upto = [np.argmax(h.severity >= LIMITS.removal) + 3 for h in whole]
+    columns = ("use", "severity", "low", "high", "replaced")
+    cut = [replace(h, **{name: getattr(h, name)[:n] for name in columns}) for h, n in zip(whole, upto, strict=True)]
+    priors = []
+    for histories in (whole, cut):
+        bank = Bank(LAWS)
+        fleet_prior(histories, bank, lambda _: LIMITS)
+        priors.append(bank.prior)
+    first = Bank(LAWS).prior.sum(axis=(1, 2))
+    assert np.argmax(priors[0].sum(axis=(1, 2)) / first) == [law.name for law in LAWS].index("crack")
+    assert priors[0] == pytest.approx(priors[1], rel=1e-9)

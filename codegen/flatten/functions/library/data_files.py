@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import lru_cache
-import hashlib
 from pathlib import Path
 
 from lacuna.codegen.errors import Diagnostic, Span
@@ -24,38 +23,56 @@ def column_of_file(values: list[Value], context: Context, span: Span) -> list[Va
         raise Diagnostic("R062", f"{CSV_COLUMN} takes the names of a file and of a column", span, "two Strings")
     name, column = values
     path = locate(name, context, span)
-    text = _read(path, span)
-    context.files[str(path)] = hashlib.sha256(text.encode()).hexdigest()
-    return [csv_column(text, path, column, span)]
+    return [csv_column(text_of(path, context, span), path, column, span)]
 
 
 def locate(name: str, context: Context, span: Span) -> Path:
-    """Beside the model's file, beside the file of the call, in the folder of a package, or modelica://Package/...;
-    never outside of these folders. Raises F040."""
-    folders = [context.folder, Path(span.file).resolve().parent, *context.library.folders]
-    wanted = name
+    """Beside the model's file, beside the file of the call, in the folder of a package, in a folder of data that who
+    translates has named, or modelica://Package/...; never outside of these folders. Raises F040."""
+    data = map(Path, context.library.access.data)
+    folders, wanted = [context.folder, Path(span.file).resolve().parent, *context.library.folders, *data], name
     if name.startswith(_URI):
-        package, _, wanted = name.removeprefix(_URI).partition("/")
-        cls = context.library.root
-        for part in package.split("."):
-            cls = context.library.member(cls, part) if cls is not None else None
-        folder = context.library.folder_of(cls) if cls is not None else None
-        if folder is None:
-            raise Diagnostic("F040", f"{name}: there is no package {package}", span, "name a package that is loaded")
+        folder, wanted = _package_folder(name, context, span)
         folders = [folder]
     for folder in folders:
         path = (folder / wanted).resolve()
         if path.is_file() and any(path.is_relative_to(f.resolve()) for f in folders):
             return path
     searched = ", ".join(dict.fromkeys(map(str, folders)))
-    raise Diagnostic("F040", f"there is no data file {name}", span, f"looked in and below {searched}")
+    hint = f"looked in and below {searched}; --data names further folders"
+    raise Diagnostic("F040", f"there is no data file {name}", span, hint)
 
 
-def _read(path: Path, span: Span) -> str:
+def folder_of(uri: str, context: Context, span: Span) -> Path:
+    """The folder that modelica://Package/folder means. Raises F040."""
+    top, inner = _package_folder(uri, context, span)
+    folder = (top / inner).resolve()
+    if not folder.is_dir() or not folder.is_relative_to(top.resolve()):
+        raise Diagnostic("F040", f"there is no folder {uri}", span, f"looked in {top}")
+    return folder
+
+
+def _package_folder(uri: str, context: Context, span: Span) -> tuple[Path, str]:
+    """The folder of the package of modelica://Package/rest, and the rest. Raises F040."""
+    package, _, rest = uri.removeprefix(_URI).partition("/")
+    cls = context.library.root
+    for part in package.split("."):
+        cls = context.library.member(cls, part) if cls is not None else None
+    folder = context.library.folder_of(cls) if cls is not None else None
+    if folder is None:
+        raise Diagnostic("F040", f"{uri}: there is no package {package}", span, "name a package that is loaded")
+    return folder, rest
+
+
+def text_of(path: Path, context: Context, span: Span) -> str:
+    """The text of a file, on which the model depends from now on. Raises F040."""
     try:
-        return path.read_bytes().decode("utf-8-sig")
+        content = path.read_bytes()
+        text = content.decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise Diagnostic("F040", f"cannot read {path}: {error}", span, "save it as UTF-8 text") from None
+    context.note_file(path, content)
+    return text
 
 
 @lru_cache(maxsize=64)

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
-from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.expressions.lower import lower
-from lacuna.codegen.flatten.functions.library import objects, strings
+from lacuna.codegen.flatten.functions.code import emitted_call
+from lacuna.codegen.flatten.functions.library import impure, objects, spectrum, streams, strings
 from lacuna.codegen.flatten.functions.library.data_files import CSV_COLUMN, column_of_file
+from lacuna.codegen.flatten.functions.library.foreign import check_foreign
 from lacuna.codegen.flatten.functions.library.objects import ExternalCall, Handler
+from lacuna.codegen.flatten.functions.locals import Signature
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Value
+from lacuna.codegen.flatten.references.iterators import references
 from lacuna.codegen.syntax import ast
 
-HANDLERS: dict[str, Handler] = {**objects.TABLES, **strings.STRINGS}
+HANDLERS: dict[str, Handler] = {
+    **objects.TABLES, **strings.STRINGS, **streams.STREAMS,
+    **spectrum.SPECTRA, **impure.IMPURE,
+}  # fmt: skip
 
 
-def call_external(cls: ast.Class, arguments: dict[str, Value], e: ast.Call, scope: Scope) -> list[Value]:
+def call_external(signature: Signature, arguments: dict[str, Value], e: ast.Call, scope: Scope) -> list[Value]:
     """The results of an external function. Raises R094 for one that is not known here."""
+    cls = signature.external
     external = cls.external
     inner = Scope(scope.context, cls, None, dict(arguments), in_function=True)
     if external.language == "builtin" and cls.name == CSV_COLUMN:
@@ -27,7 +32,13 @@ def call_external(cls: ast.Class, arguments: dict[str, Value], e: ast.Call, scop
         return [lower(call, inner)]
     handler = HANDLERS.get(external.function or cls.name)
     if handler is None:
-        hint = f"write it as a function of the language; data comes in by {CSV_COLUMN}(fileName, column)"
-        raise Diagnostic("R094", f"the external function {cls.name} is outside the subset", e.span, hint)
-    values = [lower(a, inner) for a in external.args] if external.function else list(arguments.values())
-    return handler(values, ExternalCall(cls, replace(scope, in_function=scope.in_function), e.span))
+        check_foreign(signature, scope, e.span)
+        return emitted_call(signature, arguments, scope.context, e.span)
+    own = {local.name for local in signature.locals} - set(arguments)  # results, and what only the C works with
+    given = [a for a in external.args if not any(r.names[0] in own for r in references(a))]
+    values = [lower(a, inner) for a in given] if external.function else list(arguments.values())
+    results = handler(values, ExternalCall(cls, scope, e.span))
+    outputs = [local.name for local in signature.outputs]
+    places = [str(a) for a in (external.result, *external.args) if a is not None and str(a) in outputs] or outputs
+    found = dict(zip(places, results, strict=True))
+    return [found[name] for name in outputs]

@@ -8,18 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-import hashlib
 import itertools
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.expressions.constants import known
-from lacuna.codegen.flatten.functions.code import emitted_call
-from lacuna.codegen.flatten.functions.interpret import interpret
+from lacuna.codegen.flatten.functions.code import run_or_emit
 from lacuna.codegen.flatten.functions.library.data_files import locate
 from lacuna.codegen.flatten.functions.library.tables import lookup
 from lacuna.codegen.flatten.functions.library.tables import polynomials as pp
 from lacuna.codegen.flatten.functions.library.tables.files import FileError, read_matrix
-from lacuna.codegen.flatten.functions.locals import signature_of
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Array, ExternalValue, Value, scalars
 from lacuna.codegen.symbolic import expr as ex
@@ -92,7 +89,7 @@ def _numbers(value: Value, call: ExternalCall, what: str) -> list[float]:
     return result
 
 
-def _integer(value: Value, call: ExternalCall, what: str) -> int:
+def integer(value: Value, call: ExternalCall, what: str) -> int:
     return int(_numbers(value, call, what)[0])
 
 
@@ -119,14 +116,14 @@ def _matrix(file: Value, name: Value, table: Value, rest: list[Value], call: Ext
 def _from_file(file: str, name: str, rest: list[Value], call: ExternalCall) -> list[list[float]]:
     delimiter = next((r for r in rest if isinstance(r, str)), ",")
     header = rest[-1]
-    lines = _integer(header, call, "the number of header lines") if isinstance(header, Expr) else 0
+    lines = integer(header, call, "the number of header lines") if isinstance(header, Expr) else 0
     path = locate(file, call.scope.context, call.span)
     try:
         content = path.read_bytes()
         rows = read_matrix(path, name, delimiter, lines)
     except (OSError, UnicodeDecodeError, FileError) as reason:
         raise Diagnostic("F041", f"{path.name}: {reason}", call.span, "correct the file, or its name") from None
-    call.scope.context.files[str(path)] = hashlib.sha256(content).hexdigest()
+    call.scope.context.note_file(path, content)
     return rows
 
 
@@ -149,16 +146,16 @@ def _checked(table: Table, call: ExternalCall) -> list[Value]:
 def _table_1d(a: list[Value], call: ExternalCall) -> list[Value]:
     """(fileName, tableName, table, rows, columns, columns[:], count, smoothness, extrapolation, verbose, ...)"""
     rows = _matrix(a[0], a[1], a[2], a[9:], call)
-    kinds = (_integer(a[7], call, "smoothness"), _integer(a[8], call, "extrapolation"))
+    kinds = (integer(a[7], call, "smoothness"), integer(a[8], call, "extrapolation"))
     return _checked(Table(rows, _columns(a[5], rows, call), *kinds), call)
 
 
 def _time_table(a: list[Value], call: ExternalCall) -> list[Value]:
     """(file, name, table, rows, columns, start, columns[:], count, smoothness, extrapolation, shift, events, ...)"""
     rows = _matrix(a[0], a[1], a[2], a[12:], call)
-    smoothness, extrapolation = _integer(a[8], call, "smoothness"), _integer(a[9], call, "extrapolation")
+    smoothness, extrapolation = integer(a[8], call, "smoothness"), integer(a[9], call, "extrapolation")
     start, shift = _real(a[5], call, "the start of a table"), _real(a[10], call, "the shift of a table")
-    events = _integer(a[11], call, "timeEvents")
+    events = integer(a[11], call, "timeEvents")
     columns = _columns(a[6], rows, call)
     return _checked(Table(rows, columns, smoothness, extrapolation, start, shift, events), call)
 
@@ -166,7 +163,7 @@ def _time_table(a: list[Value], call: ExternalCall) -> list[Value]:
 def _table_2d(a: list[Value], call: ExternalCall) -> list[Value]:
     """(fileName, tableName, table, rows, columns, smoothness, extrapolation, verbose, ...)"""
     rows = _matrix(a[0], a[1], a[2], a[7:], call)
-    smoothness, extrapolation = _integer(a[5], call, "smoothness"), _integer(a[6], call, "extrapolation")
+    smoothness, extrapolation = integer(a[5], call, "smoothness"), integer(a[6], call, "extrapolation")
     if smoothness not in (pp.LINEAR, pp.CONSTANT):
         hint = "LinearSegments or ConstantSegments"
         raise Diagnostic("R091", "smooth interpolation in two dimensions is outside the subset", call.span, hint)
@@ -186,28 +183,25 @@ def _table(value: Value, call: ExternalCall) -> Table:
     return value.data
 
 
-def _vector(values: list[float]) -> Array:
+def vector(values: list[float]) -> Array:
     return Array((len(values),), tuple(ex.const(float(v)) for v in values))
 
 
 def _pieces(rows: list[pp.Row]) -> dict[str, Value]:
     flat = [value for row in rows for value in row[1:]]
-    return {"x": _vector([row[0] for row in rows]), "c": Array((len(rows), 4), _vector(flat).items)}
+    return {"x": vector([row[0] for row in rows]), "c": Array((len(rows), 4), vector(flat).items)}
 
 
 def _run(name: str, arguments: dict[str, Value], call: ExternalCall) -> list[Value]:
     """A function of `lookup`: evaluated where all is constant, else called at run time."""
-    signature, context = signature_of(lookup.function(name), call.scope.context), call.scope.context
     arguments = {k: ex.const(float(v)) if isinstance(v, float | int) else v for k, v in arguments.items()}
-    if all(isinstance(s, Expr) and s.op == "const" for v in arguments.values() for s in scalars(v)):
-        return interpret(signature, arguments, context, call.span)
-    return emitted_call(signature, arguments, context, call.span)
+    return run_or_emit(lookup.function(name), arguments, call.scope.context, call.span)
 
 
 def _value_1d(a: list[Value], call: ExternalCall) -> list[Value]:
     """(tableID, icol, u)"""
     table = _table(a[0], call)
-    rows = table.column(_integer(a[1], call, "the column"), call.span)
+    rows = table.column(integer(a[1], call, "the column"), call.span)
     x = table.abscissa
     if table.period:
         return _run("periodic", {"u": a[2], "first": x[0], "period": table.period, **_pieces(rows)}, call)
@@ -219,7 +213,7 @@ def _value_1d(a: list[Value], call: ExternalCall) -> list[Value]:
 def _value_timed(a: list[Value], call: ExternalCall) -> list[Value]:
     """(tableID, icol, t, next, before)"""
     table = _table(a[0], call)
-    rows = table.column(_integer(a[1], call, "the column"), call.span)
+    rows = table.column(integer(a[1], call, "the column"), call.span)
     place = {"start": table.start, "shift": table.shift, "first": table.abscissa[0], "period": table.period}
     return _run("timed", {"t": a[2], "next": a[3], "before": a[4], **place, **_pieces(rows)}, call)
 
@@ -228,7 +222,7 @@ def _next_event(a: list[Value], call: ExternalCall) -> list[Value]:
     """(tableID, t)"""
     table = _table(a[0], call)
     place = {"start": table.start, "shift": table.shift, "first": table.abscissa[0], "period": table.period}
-    instants = _vector(table.instants() or [-lookup.NEVER])
+    instants = vector(table.instants() or [-lookup.NEVER])
     if not table.instants():
         place["period"] = 0.0
     return _run("nextEvent", {"t": a[1], **place, "instants": instants}, call)
@@ -241,8 +235,8 @@ def _value_2d(a: list[Value], call: ExternalCall) -> list[Value]:
     if len(x) == 1 or len(y) == 1 or table.extrapolation in (pp.PERIODIC, pp.REFUSE):
         hint = "two or more grid points each way, HoldLastPoint or LastTwoPoints"
         raise Diagnostic("R091", "this table in two dimensions is outside the subset", call.span, hint)
-    z = Array((len(x), len(y)), _vector([v for row in table.rows[1:] for v in row[1:]]).items)
-    grid = {"u": a[1], "v": a[2], "x": _vector(x), "y": _vector(y), "z": z}
+    z = Array((len(x), len(y)), vector([v for row in table.rows[1:] for v in row[1:]]).items)
+    grid = {"u": a[1], "v": a[2], "x": vector(x), "y": vector(y), "z": z}
     if table.smoothness == pp.CONSTANT:
         return _run("steps", grid, call)
     return _run("bilinear", {**grid, "hold": ex.const(table.extrapolation == pp.HOLD)}, call)
@@ -253,7 +247,7 @@ def _edge(last: bool, call_2d: bool = False) -> Handler:
         table = _table(a[0], call)
         at = -1 if last else 0
         if call_2d:
-            return [_vector([[row[0] for row in table.rows[1:]][at], table.rows[0][1:][at]])]
+            return [vector([[row[0] for row in table.rows[1:]][at], table.rows[0][1:][at]])]
         return [ex.const(table.abscissa[at])]
 
     return build

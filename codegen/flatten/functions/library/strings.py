@@ -18,6 +18,7 @@ _NUMBERS = {
     "unsigned real": re.compile(r"(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?"), "unsigned whole": re.compile(r"\d+"),
 }  # fmt: skip
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
+_QUOTED = re.compile(r'"(?:[^"\\]|\\.)*"', re.DOTALL)
 
 
 def _plain(values: list[Value], call: ExternalCall) -> list:
@@ -71,6 +72,11 @@ def _scan_integer(text: str, start: int, unsigned: bool) -> tuple[int, int]:
     return (after, int(found)) if whole else (start, 0)
 
 
+def _scan_string(text: str, start: int) -> tuple[int, str]:
+    after, found = _scan(_QUOTED, text, start)
+    return after, found[1:-1]
+
+
 def _compare(a: str, b: str, case: bool) -> int:
     """A literal of Modelica.Utilities.Types.Compare: Less, Equal, Greater."""
     first, second = (a, b) if case else (a.lower(), b.lower())
@@ -103,9 +109,8 @@ STRINGS: dict[str, Handler] = {
     "ModelicaStrings_skipWhiteSpace": _on_texts(_skip), "ModelicaStrings_compare": _compared,
     "ModelicaStrings_hashString": _on_texts(hash_string),
     "ModelicaStrings_scanReal": _on_texts(_scan_real), "ModelicaStrings_scanInteger": _on_texts(_scan_integer),
+    "ModelicaStrings_scanString": _on_texts(_scan_string),
     "ModelicaStrings_scanIdentifier": _on_texts(lambda text, start: _scan(_IDENTIFIER, text, start)),
     "ModelicaRandom_automaticGlobalSeed": _seed,
-    # of impureRandom, which is refused itself: nobody reads the state that is set
-    "ModelicaRandom_setInternalState_xorshift1024star": lambda values, call: [],
     "ModelicaInternal_fullPathName": _on_texts(lambda name: name), "strlen": _on_texts(len),
 }  # fmt: skip

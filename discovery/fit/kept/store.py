@@ -17,7 +17,7 @@ import zipfile
 
 import numpy as np
 
-from lacuna.discovery.fit.plain_values import load, save, to_tree
+from lacuna.discovery.fit.kept.plain_values import load, save, to_tree
 from lacuna.written import whole_file
 
 _folder: Path | None = None

@@ -9,53 +9,24 @@ Reference: J. J. More, The Levenberg-Marquardt algorithm: implementation and the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 import os
 
 import numpy as np
 from scipy.optimize import lsq_linear
 
 from lacuna.discovery.fit import time_limit
+from lacuna.discovery.fit.solver.free import Free, clipped, pulls
+from lacuna.discovery.fit.solver.step import Evaluation, downhill
 
 WORKERS = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 _pool = ThreadPoolExecutor(max_workers=WORKERS)
 
-TRIES = 8  # of a step, at most: with more damping each time, or twice as far
-SHORT = 1.5  # times the predicted drop of the cost, from which a step was too short
+TRUSTED = 0.3  # times the predicted drop, below which a Jacobian is taken anew
 
 Residual = Callable[[dict[str, float], int], np.ndarray | None]
-
-
-@dataclass(frozen=True)
-class Free:
-    """A parameter to estimate. `sigma` is its believed 1-sigma around `centre`; None means no belief (flat).
-
-    `scale` (> 0) is the size of a typical change; finite differences use `step` of it.
-    """
-
-    name: str
-    centre: float
-    scale: float
-    lower: float = -np.inf
-    upper: float = np.inf
-    sigma: float | None = None
-    step: float = 1e-2
-    start: float | None = None
-
-    def clip(self, value: float) -> float:
-        return float(min(max(value, self.lower), self.upper))
-
-
-def pulls(free: list[Free], values: np.ndarray) -> np.ndarray:
-    """How far values (p,) are from what is believed, in believed sigmas; 0 where nothing is."""
-    return np.array([(v - f.centre) / f.sigma if f.sigma else 0.0 for f, v in zip(free, values, strict=True)])
-
-
-def clipped(free: list[Free], values: Iterable[float]) -> np.ndarray:
-    """The values (p,) within their bounds."""
-    return np.array([f.clip(v) for f, v in zip(free, values, strict=True)])
 
 
 @dataclass
@@ -126,11 +97,12 @@ class Problem:
     def _named(self, values: np.ndarray) -> dict[str, float]:
         return self.fixed | {f.name: float(v) for f, v in zip(self.free, values, strict=True)}
 
-    def evaluate(self, values: np.ndarray) -> tuple[float, float, list[np.ndarray]] | None:
-        """(cost, data cost, residuals) at a point; None where the simulation fails."""
+    def evaluate(self, values: np.ndarray) -> Evaluation | None:
+        """What the problem is at a point; None where the simulation fails."""
         (parts,) = self.evaluate_each([values])
-        if parts is None:
-            return None
+        return None if parts is None else self.evaluation(values, parts)
+
+    def evaluation(self, values: np.ndarray, parts: list[np.ndarray]) -> Evaluation:
         data = float(sum(r @ r for r in parts))
         return data + float(np.sum(pulls(self.free, values) ** 2)), data, parts
 
@@ -153,6 +125,14 @@ class Problem:
             ]  # fmt: skip
         return result
 
+    def renewed(self, found: Estimate) -> Estimate:
+        """An estimate with its Jacobian taken where it ended."""
+        if not self.free:
+            return found
+        columns = self.jacobian(found.values, found.residuals, list(range(len(self.free))))
+        normal, _ = _normal_equations(self, found.values, found.residuals, columns)
+        return replace(found, normal=normal, jacobian=_blocks(columns, self.pieces), simulations=self.simulations)
+
 
 def solve(
     problem: Problem,
@@ -162,31 +142,36 @@ def solve(
     tolerance: float = 1e-4,
     known: dict[int, list[np.ndarray]] | None = None,
     damping: float = 1e-3,
+    here: Evaluation | None = None,
 ) -> Estimate | None:
     """Minimise the cost from `start` (default: each parameter's start or centre). None if it cannot be simulated there.
 
-    Stops when a step is predicted to lower the cost by less than `tolerance` times the number of parameters.
-    `known` columns of the Jacobian (in scaled coordinates) are used as they are while they still lead downhill.
+    Stops when a step is predicted to lower the cost by less than `tolerance` times the number of parameters, by a
+    Jacobian taken there. `known` columns of it (in scaled coordinates) serve while they lead downhill as they say, and
+    so does the Jacobian of a step, corrected by what the step has shown (Broyden 1965): differences anew cost a
+    simulation a parameter, and are taken where a step misses its prediction. `here` is what the problem is at the
+    start.
     """
     free = problem.free
     values = clipped(free, [f.centre if f.start is None else f.start for f in free]) if start is None else start.copy()
-    here = problem.evaluate(values)
+    here = here or problem.evaluate(values)
     if here is None:
         return None
-    begun, frozen = here[0], dict(known or {})
-    converged, count, normal, columns = False, 0, np.zeros((len(free),) * 2), {}
+    begun, columns, renew = here[0], dict(known or {}), False
+    converged, count, normal = False, 0, np.zeros((len(free),) * 2)
     while count < iterations and free and not converged:
         count += 1
-        columns = frozen | problem.jacobian(values, here[2], [k for k in range(len(free)) if k not in frozen])
+        missing = [k for k in range(len(free)) if renew or k not in columns]
+        columns |= problem.jacobian(values, here[2], missing)
         normal, gradient = _normal_equations(problem, values, here[2], columns)
-        step = _downhill(problem, values, here[0], normal, gradient, damping, tolerance)
+        step = downhill(problem.evaluate, free, values, here[0], normal, gradient, damping, tolerance)
         if step.taken:
+            columns = _corrected(problem, columns, step.values - values, here[2], step.evaluation[2])
             values, here, damping = step.values, step.evaluation, step.damping
-        elif not frozen:
+        elif len(missing) == len(free):
             converged = step.flat
             break
-        if frozen and (not step.taken or step.ratio < 0.3):
-            frozen, damping = {}, 1e-3 if not step.taken else damping
+        renew, damping = not step.taken or step.ratio < TRUSTED, damping if step.taken else 1e-3
     cost, data, parts = here
     return Estimate(
         free, values, begun, cost, data, parts, normal, converged, count, problem.simulations,
@@ -194,53 +179,23 @@ def solve(
     )  # fmt: skip
 
 
-@dataclass
-class _Step:
-    """The outcome of one damped step: `flat` where none is worth taking; `ratio` of actual to predicted drop."""
-
-    taken: bool
-    flat: bool
-    damping: float
-    ratio: float = 0.0
-    values: np.ndarray | None = None
-    evaluation: tuple[float, float, list[np.ndarray]] | None = None
-
-
-def _downhill(
-    problem: Problem, values: np.ndarray, cost: float, normal: np.ndarray, gradient: np.ndarray, damping: float,
-    tolerance: float,
-) -> _Step:  # fmt: skip
-    """Raise the damping until a step lowers the cost, or until none is predicted to matter."""
-    free = problem.free
-    scales = np.array([f.scale for f in free])
-    for _ in range(TRIES):
-        step = _bounded_step(free, values, normal, gradient, damping)
-        predicted = -(2 * gradient @ step + step @ normal @ step)
-        if predicted < tolerance * len(free):
-            return _Step(False, True, damping)
-        moved = clipped(free, values + step * scales)
-        there = problem.evaluate(moved)
-        if there is not None and there[0] < cost:
-            ratio = (cost - there[0]) / predicted
-            if ratio > SHORT:
-                moved, there = _further(problem, values, moved, there)
-            damping = max(damping * (0.1 if ratio > 0.5 else 1.0 if ratio > 0.1 else 4.0), 1e-9)
-            return _Step(True, False, damping, ratio, moved, there)
-        damping = max(damping, 1e-6) * 8
-    return _Step(False, False, damping)
-
-
-def _further(
-    problem: Problem, values: np.ndarray, moved: np.ndarray, there: tuple[float, float, list[np.ndarray]]
-) -> tuple[np.ndarray, tuple[float, float, list[np.ndarray]]]:  # fmt: skip
-    """A step doubled while that lowers the cost: noise in a Jacobian of differences makes all of its steps short."""
-    for _ in range(TRIES):
-        further = clipped(problem.free, 2 * moved - values)
-        beyond = problem.evaluate(further)
-        if beyond is None or beyond[0] >= there[0]:
-            break
-        moved, there = further, beyond
-    return moved, there
+def _corrected(
+    problem: Problem, columns: dict[int, list[np.ndarray]], moved: np.ndarray, before: list[np.ndarray],
+    after: list[np.ndarray],
+) -> dict[int, list[np.ndarray]]:  # fmt: skip
+    """The Jacobian after a step `moved` (p,): the least change of it that tells what the residuals did, parameters
+    measured by the size of their columns (Broyden 1965)."""
+    sizes = {k: np.sqrt(sum(float(c @ c) for c in pieces)) for k, pieces in columns.items()}
+    step = {k: sizes[k] * moved[k] / problem.free[k].scale for k in columns}
+    length = sum(v * v for v in step.values())
+    if not length > 0:
+        return columns
+    missed = [
+        new - old - sum(columns[k][piece] * (moved[k] / problem.free[k].scale) for k in columns)
+        for piece, (old, new) in enumerate(zip(before, after, strict=True))
+    ]
+    share = {k: sizes[k] * step[k] / length for k in columns}
+    return {k: [c + share[k] * m for c, m in zip(pieces, missed, strict=True)] for k, pieces in columns.items()}
 
 
 def _blocks(columns: dict[int, list[np.ndarray]], pieces: int) -> list[np.ndarray]:
@@ -264,29 +219,6 @@ def _normal_equations(
             normal[k, k] += weight**2
             gradient[k] += weight * beliefs[k]
     return normal, gradient
-
-
-def _bounded_step(
-    free: list[Free], values: np.ndarray, normal: np.ndarray, gradient: np.ndarray, damping: float
-) -> np.ndarray:
-    """Damped Gauss-Newton step; parameters that would leave their bounds are set onto them one by one."""
-    size = len(free)
-    step, active = np.zeros(size), np.ones(size, dtype=bool)
-    lower = np.array([(f.lower - v) / f.scale for f, v in zip(free, values, strict=True)])
-    upper = np.array([(f.upper - v) / f.scale for f, v in zip(free, values, strict=True)])
-    damped = normal + damping * np.diag(np.maximum(np.diag(normal), 1e-12 * np.max(np.diag(normal), initial=1e-30)))
-    for _ in range(size):
-        index = np.flatnonzero(active)
-        if not len(index):
-            break
-        load = -gradient[index] - damped[np.ix_(index, ~active)] @ step[~active]
-        step[index] = np.linalg.lstsq(damped[np.ix_(index, index)], load, rcond=1e-14)[0]
-        outside = index[(step[index] < lower[index]) | (step[index] > upper[index])]
-        if not len(outside):
-            break
-        step[outside] = np.clip(step[outside], lower[outside], upper[outside])
-        active[outside] = False
-    return step
 
 
 def bounded_linear(columns: np.ndarray, target: np.ndarray, bounds: np.ndarray | None) -> np.ndarray:

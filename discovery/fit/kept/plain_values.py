@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from lacuna.discovery.fit.least_squares import Estimate, Free
+from lacuna.discovery.fit.solver.free import Free
+from lacuna.discovery.fit.solver.least_squares import Estimate
 
 _CLASSES = {cls.__name__: cls for cls in (Estimate, Free)}  # what may be made again from a file
 _NUMBERS = "biuf"

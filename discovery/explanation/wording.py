@@ -1,0 +1,47 @@
+"""Words and numbers of the report: what to do next, values with as many digits as their errors leave, equations."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+from lacuna.discovery.explanation.explanation import Explanation
+from lacuna.discovery.naming.search import Finding
+
+HALF_WIDTH = 1.96  # standard deviations: half of a 95 % interval
+
+
+def action(result: Explanation, amended: Path | None) -> str:
+    """What to do next, in a sentence."""
+    if result.experiment:
+        return result.experiment
+    if result.verdict == "missing_physics" and amended is not None:
+        return f"go on with {amended.name}, which holds it, and look for its cause in the machine"
+    if result.verdict == "parameters" and amended is not None:
+        return f"go on with {amended.name}, which holds the fitted values, or measure those parameters"
+    return "nothing: the model can be used as it is" if result.verdict == "consistent" else ""
+
+
+def with_error(value: float, std: float | None) -> str:
+    """A value and the half width of its 95 % interval, to two digits of that; a direction without data has no end."""
+    if std is None or not math.isfinite(std):
+        return f"{value:.3g} (not determined)"
+    half = HALF_WIDTH * std
+    if half <= 0:
+        return f"{value:.4g}"
+    size = math.floor(math.log10(max(abs(value), half)))
+    scale = 10.0**size if not -4 <= size < 6 else 1.0
+    digits = max(1 - math.floor(math.log10(half / scale)), 0)
+    text = f"{value / scale:.{digits}f} \u00b1 {half / scale:.{digits}f}"
+    return text if scale == 1.0 else f"({text})e{size}"
+
+
+def equation_of(result: Explanation, finding: Finding) -> str:
+    """The equations of an effect of the catalogue, as its file has them; "" where it has no class of its own."""
+    effect = finding.ranked.attachment.effect
+    cls = result.case.library().find(effect.class_path) if "." in effect.class_path else None
+    if cls is None or not cls.span.file:
+        return ""
+    body = Path(cls.span.file).read_text(encoding="utf-8").partition("\nequation\n")[2]
+    lines = body.partition("\n  annotation")[0].partition("\nend ")[0].splitlines()
+    return "\n".join(line.strip() for line in lines)

@@ -1,0 +1,1 @@
+"""Expensive results on disk, as plain data."""

@@ -1,0 +1,1 @@
+"""Weighted nonlinear least squares."""
