@@ -6,7 +6,19 @@ import argparse
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from bench import campaign, diagnosis, growth, keystrokes, maps, race, report, scenarios, sensitivities, watching
+from bench import (
+    campaign,
+    diagnosis,
+    growth,
+    keystrokes,
+    library,
+    maps,
+    race,
+    report,
+    scenarios,
+    sensitivities,
+    watching,
+)
 
 Section = Callable[[int], Sequence[report.Row]]
 
@@ -40,6 +52,10 @@ SECTIONS: dict[str, tuple[str, Section]] = {
     "growth": (
         "Ladders and chains of 100 to 10 000 states: translation, compiler, IDA beside a program by hand",
         growth.growth,
+    ),
+    "library": (
+        "The Modelica Standard Library parsed and every class looked up, in fresh processes",
+        library.read_whole,
     ),
     "watching": ("From the save of an equation to the new figure", watching.from_save_to_figure),
     "keystrokes": ("From a keystroke to the language server's findings", keystrokes.from_keystroke_to_findings),

@@ -30,6 +30,7 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.library.access import NONE, Access
 from lacuna.codegen.library.search_path import names_in, split_name
 from lacuna.codegen.library.search_path import search_path as default_path
+import lacuna.rows
 import lacuna.texts
 import lacuna.units
 from lacuna.written import whole_files, write_whole
@@ -72,7 +73,8 @@ def _digest(*parts: str | bytes) -> str:
 def generator_version() -> str:
     """Digest of the generator's own source, the ABI and the compiler's command: any change makes all models new."""
     headers = [INCLUDE / "mdl_abi.h", INCLUDE / "mdl_tangent.h"]
-    files = [*sorted(_HERE.rglob("*.py")), Path(lacuna.units.__file__), Path(lacuna.texts.__file__), *headers]
+    files = [*sorted(_HERE.rglob("*.py")), Path(lacuna.units.__file__), Path(lacuna.texts.__file__),
+             Path(lacuna.rows.__file__), *headers]  # fmt: skip
     return _digest(" ".join(COMPILER), *(f.read_bytes() for f in files))
 
 

@@ -125,9 +125,13 @@ def translate(
 ) -> tuple[Prepared, Report]:
     """All passes up to, not including, C: for `--dump` and for tests. `units`: see `flatten`."""
     report = Report()
-    library = report.run("library", Library, search_path, access)
-    model = report.run("flatten", flatten, library, name, dict(modifications or {}), units)
-    return prepare(model, report), report
+    try:
+        library = report.run("library", Library, search_path, access)
+        model = report.run("flatten", flatten, library, name, dict(modifications or {}), units)
+        return prepare(model, report), report
+    except RecursionError:
+        hint = "give parts of it names of their own; a loop of a function that is unrolled nests as often as it runs"
+        raise Diagnostic("P013", f"{name} has an expression that is nested too deeply", None, hint) from None
 
 
 def compile_model(

@@ -12,14 +12,17 @@ class UserError(Exception):
 
 
 def is_user_error(error: BaseException) -> bool:
-    """Whether the message is all that a user needs: refusals of any stage, files that cannot be read."""
-    return isinstance(error, OSError) or bool(getattr(error, "user_error", False))
+    """Whether the message is all that a user needs: refusals of any stage, files that cannot be read, a model or file
+    that is larger than the memory."""
+    return isinstance(error, OSError | MemoryError) or bool(getattr(error, "user_error", False))
 
 
 def message_of(error: BaseException) -> str:
     """The message of a user's error; a finding about a model has its place, code and hint."""
     if isinstance(error, OSError) and error.filename:
         return f"error: {error.filename}: {error.strerror}"
+    if isinstance(error, MemoryError):
+        return f"error: there is not enough memory for this{f': {error}' if str(error) else ''}"
     text = str(error)
     return text if "error[" in text.splitlines()[0] or text.startswith("error") else f"error: {text}"
 

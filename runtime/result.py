@@ -38,7 +38,7 @@ class EventEntry:
     text: str  # the relation as the model has it, in full names (or the call that jumped, or the message)
     file: str = ""  # of a relation: where it is written
     line: int = 0
-    reach: float = 1.0  # of a state event: how far the guard had been from zero since it last switched, in nominal values
+    reach: float = 1.0  # of a state event: how far the guard was from zero since it last switched, in nominal values
 
     def __str__(self) -> str:
         became = {1: " becomes true", -1: " becomes false"}.get(self.direction, "")

@@ -10,6 +10,7 @@ import pyarrow.parquet as pq
 
 from lacuna.analysis.campaign.points import Points
 from lacuna.analysis.campaign.work import Work
+from lacuna.analysis.files import has_part, write_part
 from lacuna.written import whole_file
 
 
@@ -23,11 +24,10 @@ class Parts:
         self.paths = [self._folder / f"{k:06d}-{_hash(work, piece)}.parquet" for k, piece in enumerate(pieces)]
 
     def missing(self) -> list[int]:
-        return [k for k, path in enumerate(self.paths) if not path.exists()]
+        return [k for k, path in enumerate(self.paths) if not has_part(path)]
 
     def write(self, k: int, table: pa.Table) -> None:
-        with whole_file(self.paths[k]) as partial:
-            pq.write_table(table, partial)
+        write_part(self.paths[k], table)
 
     def combine(self, path: Path) -> None:
         """All parts in order as one file, one row group a part: memory holds one part at a time."""

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 import os
 from pathlib import Path
 
-from distributed import Client, LocalCluster, as_completed
+from distributed import Client, Future, LocalCluster
 
 from lacuna.analysis.campaign.parts import Parts
 from lacuna.analysis.campaign.points import Points, chunks
+from lacuna.analysis.campaign.tasks import finished
 from lacuna.analysis.campaign.work import Work, run_chunk
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.map.sweep import Progress
-
-IN_FLIGHT = 4  # chunks a worker thread: enough to keep it busy, few enough to bound the scheduler's memory
 
 
 def run_campaign(
@@ -31,7 +31,7 @@ def run_campaign(
 
     Chunks done before are taken from `folder`; a worker that is lost loses nothing, since its chunks are given to
     another; so does an interruption of this process, when it is called again. Raises AnalysisError where the scheduler
-    does not answer.
+    does not answer, or is lost.
     """
     pieces = chunks(points, chunk)
     parts = Parts(folder, work, pieces)
@@ -41,7 +41,8 @@ def run_campaign(
         progress(done, len(pieces))
     if todo:
         with _client(scheduler) as client:
-            for k, table in _results(client, work, pieces, todo):
+            submit = partial(_submitted, client, work, pieces)
+            for k, table in finished(client, submit, todo):
                 parts.write(k, table)
                 done += 1
                 if progress:
@@ -68,24 +69,5 @@ def _client(scheduler: str | None) -> Iterator[Client]:
         yield client
 
 
-def _results(client: Client, work: Work, pieces: list[Points], todo: list[int]) -> Iterator[tuple[int, object]]:
-    """(chunk, table) as they are finished; never more than IN_FLIGHT chunks a thread are with the scheduler."""
-    threads = sum(client.nthreads().values()) or 1
-    waiting = iter(todo)
-    number = {}
-
-    def submit():
-        k = next(waiting, None)
-        if k is None:
-            return None
-        future = client.submit(run_chunk, work, pieces[k], pure=False, retries=3)
-        number[future.key] = k
-        return future
-
-    first = [future for _ in range(IN_FLIGHT * threads) if (future := submit()) is not None]
-    pending = as_completed(first, with_results=True)
-    for future, table in pending:
-        yield number.pop(future.key), table
-        following = submit()
-        if following is not None:
-            pending.add(following)
+def _submitted(client: Client, work: Work, pieces: list[Points], k: int) -> Future:
+    return client.submit(run_chunk, work, pieces[k], pure=False, retries=3)

@@ -17,14 +17,15 @@ import pyarrow as pa
 import pyarrow.compute as pc
 import pyarrow.parquet as pq
 
+from lacuna.analysis.campaign.tasks import finished
 from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.files import has_part, write_part
 from lacuna.analysis.prognosis.filter.bank import Bank
 from lacuna.analysis.prognosis.forecast import Forecast, Limits, Options, fleet_prior, forecasts
 from lacuna.analysis.prognosis.history import UNITS, History
 from lacuna.written import whole_file
 
 CHUNK = 512  # histories: some seconds of work
-IN_FLIGHT = 2  # chunks a worker
 ORDER = {"forecast": 0, "too_early": 1, "steady": 2}
 Progress = Callable[[int, int], None]
 
@@ -127,11 +128,10 @@ def run_fleet(
     pieces = [histories[k : k + CHUNK] for k in range(0, len(histories), CHUNK)]
     key = work.key()
     paths = [parts / f"{k:06d}-{_hash(key, piece)}.parquet" for k, piece in enumerate(pieces)]
-    todo = [k for k, path in enumerate(paths) if not path.exists()]
+    todo = [k for k, path in enumerate(paths) if not has_part(path)]
     done = len(pieces) - len(todo)
     for k, table in _results(work, pieces, todo, scheduler):
-        with whole_file(paths[k]) as partial:
-            pq.write_table(table, partial)
+        write_part(paths[k], table)
         done += 1
         if progress:
             progress(done, len(pieces))
@@ -163,7 +163,7 @@ def _results(work: FleetWork, pieces, todo: list[int], scheduler: str | None) ->
     """(chunk, its rows) as they are finished."""
     if not todo:
         return
-    from distributed import Client, LocalCluster, as_completed
+    from distributed import Client, LocalCluster
 
     if scheduler:
         try:
@@ -175,22 +175,7 @@ def _results(work: FleetWork, pieces, todo: list[int], scheduler: str | None) ->
         client = Client(cluster)
     try:
         shared = client.scatter(work, broadcast=True)
-        number = {}
-        waiting = iter(todo)
-
-        def submit():
-            k = next(waiting, None)
-            future = None if k is None else client.submit(rows_of, pieces[k], shared, pure=False, retries=2)
-            if future is not None:
-                number[future.key] = k
-            return future
-
-        first = [f for _ in range(IN_FLIGHT * max(1, sum(client.nthreads().values()))) if (f := submit()) is not None]
-        pending = as_completed(first, with_results=True)
-        for future, table in pending:
-            yield number.pop(future.key), table
-            if (following := submit()) is not None:
-                pending.add(following)
+        yield from finished(client, lambda k: client.submit(rows_of, pieces[k], shared, pure=False, retries=2), todo)
     finally:
         client.close()
         if cluster is not None:

@@ -42,7 +42,10 @@ def read(path: Path) -> Recorded:
             names[k] = clock_name(names[k], names)
         else:
             numbers = column.cast("uint8") if pyarrow.types.is_boolean(field.type) else column
-            values = numbers.cast("float64").to_numpy()
+            try:
+                values = numbers.cast("float64").to_numpy()
+            except pyarrow.ArrowInvalid as error:  # an integer beyond 2^53
+                raise RecordingError(f"{path}: {field.name}: {error}") from None
         columns.append(values)
     return from_table(path, names, units, np.array(columns), notes)
 

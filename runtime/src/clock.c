@@ -48,7 +48,7 @@ double rt_clock_limit(rt_session *s) {
     if (!s->options.locate_events) return limit;
   }
   limit = rt_min(limit, rt_clock_next(s));
-  return rt_min(limit, rt_inputs_next_break(s));
+  return s->d->n_u ? rt_min(limit, rt_inputs_next_break(s)) : limit;
 }
 
 /* What has become due at the present time, as RT_PENDING flags. */
@@ -57,7 +57,7 @@ int rt_clock_due(rt_session *s) {
   int pending = s->clock.next_relation <= now ? RT_PENDING_TIME : 0;
   for (int i = 0; i < s->d->n_sample; i++)
     if (tick_time(&s->clock, i) <= now) pending |= RT_PENDING_SAMPLE;
-  return pending | rt_inputs_due(s);
+  return s->d->n_u ? pending | rt_inputs_due(s) : pending;
 }
 
 static void log_time_relations(rt_session *s) {

@@ -29,30 +29,33 @@ static int attempt(rt_session *s, rt_onestep *o, double h) {
   if ((status = stage(s, o, h, 1)) || (status = stage(s, o, h, 2)) || (status = stage(s, o, h, 3)) ||
       (status = stage(s, o, h, 4)) || (status = stage(s, o, h, 5)) || (status = stage(s, o, h, 6)))
     return status;
-  const double *restrict k = o->k;
-  double *restrict error = o->error;
-  for (int i = 0; i < n; i++) {
-    double sum = 0;
-    for (int j = 0; j < STAGES; j++)
-      sum += e[j] * k[j * n + i];
-    error[i] = h * sum;
+  for (int next = 0; next < n; next += 2) {
+    int i = rt_pair_at(n, next);
+    rt_pair sum = e[0] * rt_load(o->k + i);
+    for (int j = 2; j < STAGES - 1; j++)
+      sum += e[j] * rt_load(o->k + j * n + i);
+    rt_store(o->error + i, h * (sum + e[STAGES - 1] * rt_load_fresh(o->f1 + i)));
   }
   return 0;
 }
 
-/* x0 + s (r1 + (1 - s) (r2 + s (r3 + (1 - s) r4))), expanded in powers of s. */
+/* x0 + s (r1 + (1 - s) (r2 + s (r3 + (1 - s) r4))), expanded in powers of s, which are written in rising order: of a
+ * single state, the second of its pair is overwritten by the next power. */
 static void dense(int n, const rt_onestep *o, rt_dense *out) {
   out->degree = 4;
-  for (int i = 0; i < n; i++) {
-    double r1 = o->x1[i] - o->x0[i], r2 = o->h * o->f0[i] - r1, r3 = r1 - o->h * o->f1[i] - r2, r4 = 0;
-    for (int j = 0; j < STAGES; j++)
-      r4 += d[j] * o->k[j * n + i];
+  for (int next = 0; next < n; next += 2) {
+    int i = rt_pair_at(n, next);
+    double *c = out->c + i;
+    rt_pair x0 = rt_load(o->x0 + i), r1 = rt_load(o->x1 + i) - x0, r2 = o->h * rt_load(o->f0 + i) - r1,
+            r3 = r1 - o->h * rt_load(o->f1 + i) - r2, r4 = d[0] * rt_load(o->k + i);
+    for (int j = 2; j < STAGES; j++)
+      r4 += d[j] * rt_load(o->k + j * n + i);
     r4 *= o->h;
-    out->c[i] = o->x0[i];
-    out->c[n + i] = r1 + r2;
-    out->c[2 * n + i] = r3 + r4 - r2;
-    out->c[3 * n + i] = -r3 - 2 * r4;
-    out->c[4 * n + i] = r4;
+    rt_store(c, x0);
+    rt_store(c + n, r1 + r2);
+    rt_store(c + 2 * n, r3 + r4 - r2);
+    rt_store(c + 3 * n, -r3 - 2 * r4);
+    rt_store(c + 4 * n, r4);
   }
 }
 

@@ -11,9 +11,9 @@ static const double least_cut = 0.05;  /* of a rejected step: after an event the
 static const double log_floor = -13.3; /* log2 of the smallest error remembered, 1e-4 */
 
 void *rt_onestep_create(rt_session *s, const rt_scheme *scheme) {
-  size_t n = (size_t)s->d->n_x;
+  size_t n = (size_t)s->d->n_x, room = n + 1;
   rt_onestep *o = calloc(1, sizeof *o);
-  double *block = calloc((5 + (size_t)scheme->stages) * n + 1, sizeof *block);
+  double *block = calloc(5 * room + (size_t)scheme->stages * n + 1, sizeof *block);
   void *work = calloc(1, 1 + (scheme->work_size ? scheme->work_size(s->d) : 0));
   if (!o || !block || !work) {
     free(o);
@@ -21,10 +21,14 @@ void *rt_onestep_create(rt_session *s, const rt_scheme *scheme) {
     free(work);
     return NULL;
   }
-  *o = (rt_onestep){
-      .scheme = scheme, .work = work, .x0 = block, .x1 = block + n, .error = block + 2 * n, .k = block + 5 * n};
-  o->f0 = scheme->ends_are_stages ? o->k : block + 3 * n;
-  o->f1 = scheme->ends_are_stages ? o->k + ((size_t)scheme->stages - 1) * n : block + 4 * n;
+  *o = (rt_onestep){.scheme = scheme,
+                    .work = work,
+                    .x0 = block,
+                    .x1 = block + room,
+                    .error = block + 2 * room,
+                    .k = block + 5 * room};
+  o->f0 = scheme->ends_are_stages ? o->k : block + 3 * room;
+  o->f1 = scheme->ends_are_stages ? o->k + ((size_t)scheme->stages - 1) * n : block + 4 * room;
   return o;
 }
 

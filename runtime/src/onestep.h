@@ -6,6 +6,8 @@
 
 #include "session.h"
 
+enum { RT_MOST_STAGES = 8 }; /* of any scheme */
+
 struct rt_onestep;
 
 typedef struct {
@@ -51,18 +53,44 @@ void rt_onestep_tangent_accept(rt_session *s, rt_onestep *o);
 void rt_onestep_dense_tangent(rt_session *s, void *memory, rt_dense *dense);
 void rt_onestep_tangent_free(rt_onestep *o);
 
+/* States are taken in pairs, whose last one overlaps the one before where their number is odd. Arrays have room for one
+ * more than n, so that a single state is a pair too; what is beyond n is computed from anything and used for nothing.
+ */
+typedef double rt_pair __attribute__((vector_size(2 * sizeof(double)), aligned(sizeof(double)), may_alias));
+
+static inline int rt_pair_at(int n, int i) {
+  return i + 2 > n && n > 1 ? n - 2 : i;
+}
+
+static inline rt_pair rt_load(const double *a) {
+  return *(const rt_pair *)a;
+}
+
+/* The same, of two numbers that have just been written one by one, for which the processor would have to wait. */
+static inline rt_pair rt_load_fresh(const double *a) {
+  return (rt_pair){a[0], a[1]};
+}
+
+static inline void rt_store(double *a, rt_pair pair) {
+  *(rt_pair *)a = pair;
+}
+
 /* x1 = x0 + sum_j (h a_j) k_j over the first n stages. Inline, so that a known n unrolls. */
 static inline const double *rt_stage(const rt_session *s, rt_onestep *o, double h, int n, const double *a) {
   int n_x = s->d->n_x;
-  const double *restrict x0 = o->x0, *restrict k = o->k;
-  double *restrict x1 = o->x1;
-  for (int i = 0; i < n_x; i++) {
-    double sum = x0[i];
-    for (int j = 0; j < n; j++)
-      sum += h * a[j] * k[j * n_x + i];
-    x1[i] = sum;
+  double weight[RT_MOST_STAGES];
+  for (int j = 0; j < n; j++)
+    weight[j] = h * a[j];
+  for (int next = 0; next < n_x; next += 2) {
+    int i = rt_pair_at(n_x, next);
+    const double *k = o->k + i;
+    rt_pair sum = rt_load(o->x0 + i);
+    for (int j = 0; j < n - 1; j++, k += n_x)
+      sum += weight[j] * rt_load(k);
+    if (n > 0) sum += weight[n - 1] * rt_load_fresh(k);
+    rt_store(o->x1 + i, sum);
   }
-  return x1;
+  return o->x1;
 }
 
 /* Explicit stage j at t0 + c h: k_j = f(t0 + c h, x0 + h sum_l a_l k_l), l < j. */

@@ -4,6 +4,9 @@
 
 #include "sensitivity.h"
 
+/* IDA's polynomial costs a call for each of up to six powers, a single point of it one of these calls. */
+enum { POINTS_FOR_A_POLYNOMIAL = 5 };
+
 static bool on_grid(const rt_recorder *r) {
   return r->n_grid > 0 || r->interval > 0;
 }
@@ -99,29 +102,51 @@ static rt_status write_interpolated(rt_session *s, double t, bool alone) {
   return status ? status : write_row(s, t, r->x, r->xdot, r->v, tangents, 0);
 }
 
+/* Grid points not yet recorded before `end`, which is inside the run. */
+static size_t points_before(const rt_session *s, double end) {
+  const rt_recorder *r = &s->recorder;
+  long i = r->next;
+  if (r->n_grid > 0)
+    while (i < r->n_grid && r->grid[i] < end)
+      i++;
+  else
+    while (s->start + (double)i * r->interval < end)
+      i++;
+  return (size_t)(i - r->next);
+}
+
+/* Column j of `points` rows from `row` on inside the last step, of something that is no derivative or algebraic. */
+static void write_column(const rt_session *s, int j, size_t row, size_t points) {
+  const rt_output *o = &s->recorder.outputs[j];
+  double *column = s->result->columns[j] + row;
+  if (o->storage == MDL_STATE) rt_dense_column(&s->dense, s->d->n_x, o->index, points, s->result->time + row, column);
+  for (size_t k = 0; o->storage != MDL_STATE && k < points; k++)
+    column[k] = (o->storage == MDL_PARAMETER ? s->data.p : s->data.d)[o->index];
+  for (size_t k = 0; o->sign < 0 && k < points; k++)
+    column[k] = -column[k];
+}
+
 /* All rows inside the last step, column by column: the cheap way where nothing but states changes inside a step. */
-static rt_status write_columns(rt_session *s, double end) {
+static rt_status write_columns(rt_session *s, size_t points) {
   rt_recorder *r = &s->recorder;
   rt_result *result = s->result;
-  size_t points = 0, row = result->rows;
-  while (grid_time(s, r->next + (long)points) < end)
-    points++;
-  if (points == 0 || reserve(s, points)) return s->failure.status;
+  size_t row = result->rows;
+  if (reserve(s, points)) return s->failure.status;
   rt_dense_prepare(s);
-  memset(result->event + row, 0, points);
-  for (size_t k = 0; k < points; k++)
+  for (size_t k = 0; k < points; k++) {
+    result->event[row + k] = 0;
     result->time[row + k] = grid_time(s, r->next + (long)k);
-  for (int j = 0; j < r->n; j++) {
-    const rt_output *o = &r->outputs[j];
-    double *column = result->columns[j] + row;
-    const double *constant = o->storage == MDL_PARAMETER ? s->data.p : s->data.d;
-    if (o->storage == MDL_STATE) rt_dense_column(&s->dense, s->d->n_x, o->index, points, result->time + row, column);
-    for (size_t k = 0; k < points; k++)
-      column[k] = o->sign * (o->storage == MDL_STATE ? column[k] : constant[o->index]);
   }
+  for (int j = 0; j < r->n; j++)
+    write_column(s, j, row, points);
   result->rows += points;
   r->next += (long)points;
   return RT_OK;
+}
+
+/* Those of a few rows for which the whole polynomial would cost more than the method's own way to single points. */
+static bool are_few(const rt_session *s, size_t points) {
+  return s->method->point && !s->dense.valid && points <= POINTS_FOR_A_POLYNOMIAL;
 }
 
 /* Grid points of the last step: those before its end, or with `closed` up to its end. */
@@ -130,13 +155,19 @@ rt_status rt_record_grid(rt_session *s, bool closed) {
   rt_status status = RT_OK;
   if (!on_grid(r)) return status;
   double inside = s->t - s->clock.tolerance, end = closed ? s->t + s->clock.tolerance : inside;
-  if (!r->needs_point && !s->sensitivities && grid_time(s, r->next + 1) < inside) status = write_columns(s, inside);
-  for (double t = grid_time(s, r->next); !status && t <= end; t = grid_time(s, ++r->next)) {
+  double t = grid_time(s, r->next);
+  if (t > end) return status;
+  size_t points = points_before(s, inside);
+  if (points && !r->needs_point && !s->sensitivities && !are_few(s, points)) {
+    status = write_columns(s, points);
+    t = grid_time(s, r->next);
+  }
+  for (; !status && t <= end; t = grid_time(s, ++r->next)) {
     if (t >= inside) {
       rt_inputs_at(s, s->t);
       status = write_present(s, t, 0);
     } else {
-      status = write_interpolated(s, t, grid_time(s, r->next + 1) > end);
+      status = write_interpolated(s, t, points <= POINTS_FOR_A_POLYNOMIAL);
     }
   }
   return status;

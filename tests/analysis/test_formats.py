@@ -256,6 +256,20 @@ def test_parquet_without_signals_rows_or_readable_units_is_refused(tmp_path):
         read_recorded(path)
 
 
+def test_parquet_with_an_inexact_integer_or_a_name_twice_is_refused(tmp_path):
+    import pyarrow
+    from pyarrow import parquet
+
+    path = tmp_path / "hostile.parquet"
+    parquet.write_table(pyarrow.table({"time": [0, 1], "x": [2**63 - 1, 0]}), path)
+    with pytest.raises(RecordingError, match="x: Integer value 9223372036854775807"):
+        read_recorded(path)
+    columns = [pyarrow.array([0.0, 1.0])] * 3
+    parquet.write_table(pyarrow.Table.from_arrays(columns, names=["time", "x", "x"]), path)
+    with pytest.raises(RecordingError, match=r"hostile\.parquet"):
+        read_recorded(path)
+
+
 def test_a_mat_table_with_more_columns_than_names_is_refused(tmp_path):
     from scipy.io import savemat
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 import json
 import os
 from pathlib import Path
@@ -11,6 +12,7 @@ import sys
 import time
 
 import numpy as np
+import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
@@ -18,6 +20,7 @@ from lacuna.analysis.campaign.points import chunks, sobol_points
 from lacuna.analysis.campaign.run import run_campaign
 from lacuna.analysis.campaign.work import Work
 from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.files import has_part, write_part
 from lacuna.analysis.map.plant import ModelPlant
 from lacuna.analysis.settings import PAPER, load_settings
 from lacuna.codegen.compile import compile_model
@@ -110,6 +113,23 @@ def test_killed_worker_and_killed_client_lose_nothing(undisturbed, tmp_path):
     assert disturbed.read_bytes() == undisturbed.read_bytes()
 
 
+def test_a_lost_scheduler_is_said_and_loses_nothing(undisturbed, tmp_path):
+    folder, started = tmp_path / "campaign", []
+    try:
+        address = _scheduler(tmp_path, started)
+        worker = ["-m", "distributed.cli.dask_worker", address, "--no-nanny", "--nthreads", "1", "--no-dashboard"]
+        _start(started, *worker)
+        client = _start(started, "-c", CLIENT, str(folder), address, str(COUNT), str(CHUNK), said=tmp_path / "said")
+        _wait(lambda: len(list(folder.glob("parts/*.parquet"))) >= 2)
+        started[0].kill()
+        assert client.wait(timeout=240) == 1
+    finally:
+        _end(started)
+    assert "AnalysisError: the Dask scheduler or its workers were lost" in (tmp_path / "said").read_text()
+    work, points = short_test(folder)
+    assert run_campaign(work, points, folder, chunk=CHUNK).read_bytes() == undisturbed.read_bytes()
+
+
 @pytest.mark.slow
 def test_two_thousand_points_killed_twice_end_with_the_same_bytes(tmp_path):
     work, points = short_test(tmp_path / "undisturbed", 2000)
@@ -120,23 +140,12 @@ def test_two_thousand_points_killed_twice_end_with_the_same_bytes(tmp_path):
 
 def killed_twice(base: Path, count: int, chunk: int) -> Path:
     """results.parquet of a campaign whose worker is killed after a sixth of its chunks, and its client after two."""
-    environment = os.environ | {"PYTHONPATH": str(ROOT), "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "10"}
     started: list[subprocess.Popen] = []
     chunks_in_all = -(-count // chunk)
-
-    def start(*command: str) -> subprocess.Popen:
-        process = subprocess.Popen(
-            [sys.executable, *command], cwd=ROOT, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-        )
-        started.append(process)
-        return process
-
-    address_file, folder = base / "scheduler.json", base / "campaign"
-    scheduler = ["-m", "distributed.cli.dask_scheduler", "--port", "0", "--no-dashboard"]
-    start(*scheduler, "--scheduler-file", str(address_file))
+    folder = base / "campaign"
+    start = partial(_start, started)
     try:
-        _wait(lambda: address_file.exists() and address_file.stat().st_size > 0)
-        address = json.loads(address_file.read_text())["address"]
+        address = _scheduler(base, started)
         worker = ["-m", "distributed.cli.dask_worker", address, "--no-nanny", "--nthreads", "1", "--no-dashboard"]
         run = ["-c", CLIENT, str(folder), address, str(count), str(chunk)]
         first, client = start(*worker), start(*run)
@@ -150,12 +159,36 @@ def killed_twice(base: Path, count: int, chunk: int) -> Path:
         assert chunks_in_all // 3 <= len(finished_before) < chunks_in_all, "the client ended before it could be killed"
         assert start(*run).wait(timeout=1800) == 0
     finally:
-        for process in started:
-            process.kill()
-            process.wait()
+        _end(started)
     for name, when in finished_before.items():
         assert (folder / "parts" / name).stat().st_mtime_ns == when, "a finished chunk was computed again"
     return folder / "results.parquet"
+
+
+def _start(started: list[subprocess.Popen], *command: str, said: Path = Path(os.devnull)) -> subprocess.Popen:
+    environment = os.environ | {"PYTHONPATH": str(ROOT), "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "10"}
+    with said.open("w") as errors:
+        process = subprocess.Popen(
+            [sys.executable, *command], cwd=ROOT, env=environment, stdout=subprocess.DEVNULL, stderr=errors
+        )
+    started.append(process)
+    return process
+
+
+def _scheduler(base: Path, started: list[subprocess.Popen]) -> str:
+    """The address of a scheduler of its own, the first that is started."""
+    file = base / "scheduler.json"
+    _start(
+        started, "-m", "distributed.cli.dask_scheduler", "--port", "0", "--no-dashboard", "--scheduler-file", str(file)
+    )
+    _wait(lambda: file.exists() and file.stat().st_size > 0)
+    return json.loads(file.read_text())["address"]
+
+
+def _end(started: list[subprocess.Popen]) -> None:
+    for process in started:
+        process.kill()
+        process.wait()
 
 
 def _wait(condition, seconds: float = 600.0) -> None:
@@ -163,3 +196,25 @@ def _wait(condition, seconds: float = 600.0) -> None:
     while not condition():
         assert time.monotonic() < end, "waited too long"
         time.sleep(0.02)
+
+
+def test_a_damaged_part_is_as_good_as_none(tmp_path):
+    table, path = pa.table({"x": np.arange(1000.0), "failure": pa.nulls(1000, pa.string())}), tmp_path / "part.parquet"
+    assert not has_part(path)
+    write_part(path, table)
+    assert has_part(path)
+    whole = path.read_bytes()
+    flipped = bytearray(whole)
+    flipped[len(whole) // 3] ^= 1
+    for damaged in (b"", b"PAR1", whole[: len(whole) // 2], whole[:-1], bytes(flipped), b"time,x\n0,1\n"):
+        path.write_bytes(damaged)
+        assert not has_part(path)
+
+
+def test_a_sweep_computes_a_damaged_part_again(undisturbed, tmp_path):
+    work, points = short_test(tmp_path)
+    few = {name: values[:8] for name, values in points.items()}
+    first = run_campaign(work, few, tmp_path, chunk=4).read_bytes()
+    for part in (tmp_path / "parts").iterdir():
+        part.write_bytes(b"PAR1")
+    assert run_campaign(work, few, tmp_path, chunk=4).read_bytes() == first

@@ -110,3 +110,41 @@ def test_a_column_of_data_is_what_it_says(tmp_path: Path, rows: str) -> None:
     text = f'model M {CSV_COLUMN} parameter Real v[:] = csvColumn("data.csv", "x"); Real x = v[1]*time; end M;'
     status, said = simulated(tmp_path, text)
     assert (status, "F041" in said) == (1, True), said
+
+
+DOUBLING = """model M
+  function f
+    input Real n;
+    output Real y;
+  protected
+    String s = "a";
+  algorithm
+    for i in 1:60 loop
+      {step}
+    end for;
+    y := n;
+  end f;
+  Real x = f({argument});
+end M;
+"""
+
+
+@pytest.mark.parametrize("argument", ["40", "time"])
+def test_a_string_that_doubles_ends(tmp_path: Path, argument: str) -> None:
+    status, said = simulated(tmp_path, DOUBLING.format(step="s := s + s;", argument=argument))
+    assert (status, "letters" in said) == (1, True), said
+
+
+def test_what_nests_too_deeply_is_said(tmp_path: Path) -> None:
+    body = "y := 2; for i in 1:10000 loop y := y^2; end for;"
+    status, said = simulated(tmp_path, RECURSIVE.format(body=body, argument="40"))
+    assert (status, "P013" in said) == (1, True) or status == 0, said
+
+
+def test_want_of_memory_is_said_in_a_sentence(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr("lacuna.load", refuse)
+    status, said = simulated(tmp_path, "model M Real x = time; end M;")
+    assert (status, said.strip()) == (1, "error: there is not enough memory for this")

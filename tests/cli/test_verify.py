@@ -12,8 +12,10 @@ import sys
 import pytest
 from typer.testing import CliRunner
 
+from lacuna.analysis.settings import PAPER
 from lacuna.cli.main import app
-from lacuna.verification import MADE_BY
+from lacuna.examples import HERE as EXAMPLES
+from lacuna.verification import MADE_BY, _content, _results_in
 
 MODEL = """model Decay
   parameter Real k = 1;
@@ -28,12 +30,23 @@ HISTORY = "actuator,cycles,severity,low,high,event\n" + "".join(
 )
 SIMULATE = ("simulate", "Decay.mo", "-p", "k=2", "--plot", "--event-rows")
 FORECAST = ("forecast", "history.csv")
+MAPS = ("maps", "--settings", "settings.toml")
+SWEEP = ("sweep", "--settings", "settings.toml", "--points", "6", "--chunk", "2")
+ASSESS = ("assess", "test.csv", "--map", "map")
+EXPLAIN = ("explain", "missing-physics")
+# The paper's test at a few severities.
+COARSE = PAPER.read_text(encoding="utf-8").replace("step = 0.01", "step = 0.25")
+INPUTS = ("Decay.mo", "history.csv", "settings.toml", "test.csv", "missing-physics", "map")
+slow = pytest.mark.slow
 
 
 @pytest.fixture
 def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "Decay.mo").write_text(MODEL)
     (tmp_path / "history.csv").write_text(HISTORY)
+    (tmp_path / "settings.toml").write_text(COARSE, encoding="utf-8")
+    shutil.copy(EXAMPLES / "preflight" / "test.csv", tmp_path)
+    shutil.copytree(EXAMPLES / "missing-physics", tmp_path / "missing-physics")
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
@@ -42,25 +55,40 @@ def status_of(*words: str) -> int:
     return CliRunner().invoke(app, list(words)).exit_code
 
 
-def bytes_of(place: Path, folder: str, words: tuple[str, ...], seed: str, threads: str) -> dict[str, bytes]:
-    """What a command writes in a place of its own, by a process of its own: every file but the pages."""
-    there = place / folder
-    there.mkdir()
-    for name in ("Decay.mo", "history.csv"):
-        shutil.copy(place / name, there)
+def bytes_of(place: Path, folder: str, words: tuple[str, ...], seed: str, threads: str) -> dict[str, object]:
+    """What a command writes in a place of its own, by a process of its own: every file but the pages, without the
+    seconds that it took."""
+    there = place / folder / "here"  # a diagnosis names its case by two folders
+    there.mkdir(parents=True)
+    for source in (p for p in place.iterdir() if p.name in INPUTS):
+        (shutil.copytree if source.is_dir() else shutil.copy)(source, there / source.name)
     settings = os.environ | {"PYTHONHASHSEED": seed, "OMP_NUM_THREADS": threads, "OPENBLAS_NUM_THREADS": threads}
     command = [sys.executable, "-m", "lacuna.cli.main", *words, "--out", "out"]
     subprocess.run(command, cwd=there, env=settings, check=True, capture_output=True)
-    files = (p for p in (there / "out").rglob("*") if p.is_file() and p.suffix != ".html")
-    return {p.relative_to(there).as_posix(): p.read_bytes() for p in files}
+    files = (p for p in _results_in(there / "out") if p.suffix != ".html")
+    return {p.relative_to(there).as_posix(): _content(p) for p in files}
 
 
-@pytest.mark.parametrize("words", [SIMULATE, FORECAST], ids=["simulate", "forecast"])
+@pytest.mark.parametrize(
+    "words",
+    [SIMULATE, FORECAST, SWEEP, *(pytest.param(words, marks=slow) for words in (MAPS, EXPLAIN, ASSESS))],
+    ids=lambda words: words[0],
+)
 def test_equal_bytes_over_hash_seeds_threads_and_folders(place: Path, words: tuple[str, ...]) -> None:
+    if words == ASSESS:
+        assert status_of(*MAPS, "--prepare", "--out", "map") == 0
     one = bytes_of(place, "one", words, "1", "1")
     other = bytes_of(place, "another place", words, "2", "2")
-    assert len(one) > 2
+    assert one
     assert {name for name in one if one[name] != other.get(name)} == set()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("words", [MAPS, SWEEP, EXPLAIN], ids=lambda words: words[0])
+def test_what_long_commands_make_is_verified(place: Path, words: tuple[str, ...]) -> None:
+    assert status_of(*words, "--out", "out") == 0
+    said = CliRunner().invoke(app, ["verify", "out"])
+    assert said.exit_code == 0, said.output
 
 
 def test_a_result_is_verified_and_a_changed_one_is_not(place: Path) -> None:

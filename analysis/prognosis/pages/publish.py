@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 import io
+from itertools import count
 import json
 from pathlib import Path
 import re
@@ -34,6 +35,7 @@ from lacuna.analysis.report.page import figure, heading, page, table
 from lacuna.drawn import save
 from lacuna.written import whole_files
 
+MOST_LETTERS = 50  # of a file's name: file systems allow some 250 bytes, and a letter may take four of UTF-8's
 DRAWN = 40  # actuators that get a figure; of more, those at greatest risk
 
 
@@ -46,14 +48,14 @@ def publish(
     from lacuna.analysis.report.figures.style import in_style, new_figure
 
     first = sorted(said, key=urgency)[:DRAWN]
-    parts = []
+    parts, taken = [], set[str]()
     with whole_files(out) as scratch, in_style():
         text = json.dumps(forecast_json(said, risk, version), indent=2, ensure_ascii=False, allow_nan=False)
         (scratch / "forecast.json").write_text(text + "\n", encoding="utf-8")
         for f in first:
             drawn = new_figure()
             draw(drawn.add_subplot(), f, *curves(f, bank))
-            name = re.sub(r"[^\w.-]", "_", f"{f.history.actuator}_{f.history.fault}".rstrip("_"))
+            name = _file_name(f, taken)
             drawn.axes[0].set_title(f.history.actuator)
             save(drawn, scratch / f"{name}.png", "png")
             drawn.axes[0].set_title("")  # the page has the name, escaped
@@ -79,6 +81,14 @@ def publish(
 
 def _begins(f: Forecast) -> str:
     return ", ".join(f"{n} from {f.limits.text(v)}" for n, v in zip(f.limits.names, f.limits.values, strict=True))
+
+
+def _file_name(f: Forecast, taken: set[str]) -> str:
+    """Of the figures of an actuator: letters, digits and what is safe in a name; numbered where two would share one."""
+    plain = re.sub(r"[^\w.-]", "_", f"{f.history.actuator}_{f.history.fault}".rstrip("_"))[:MOST_LETTERS]
+    name = next(n for k in count(1) if (n := plain if k == 1 else f"{plain}_{k}").casefold() not in taken)
+    taken.add(name.casefold())
+    return name
 
 
 def _part(f: Forecast, svg: str, data: tuple[str, str], risk: float) -> Markup:

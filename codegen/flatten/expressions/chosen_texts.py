@@ -7,6 +7,7 @@ from lacuna.codegen.flatten.names.values import ChosenText
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import FALSE, TRUE, Expr
 
+MAX_LETTERS = 1_000_000  # of one String: a thousand pages
 MAX_ALTERNATIVES = 1000  # of all pairs where two are joined or compared
 Text = str | ChosenText
 
@@ -26,6 +27,10 @@ def choose(condition: Expr, then: Text, otherwise: Text) -> Text:
 
 def joined(left: Text, right: Text, span: Span) -> Text:
     """left + right."""
+    longest = [max(len(text) for _, text in alternatives(one)) for one in (left, right)]
+    if sum(longest) > MAX_LETTERS:
+        hint = f"Strings have at most {MAX_LETTERS} letters: does a loop double one?"
+        raise Diagnostic("F037", f"a String of {sum(longest)} letters", span, hint)
     if isinstance(left, str) and isinstance(right, str):
         return left + right
     pairs = _pairs(left, right, span)
