@@ -100,7 +100,10 @@ CASE = Table(
                 {
                     "role": _ROLE,
                     "variable": Key(TEXT, "the model's variable that it records", "the column's name"),
-                    "unit": Key(TEXT, 'of the column: "rad/s", "mA", "deg", "1"', needed=True),
+                    "unit": Key(
+                        TEXT, 'of the column: "rad/s", "mA", "deg", "1"; "degC" of a variable in K is read as K',
+                        needed=True,
+                    ),
                     "interpolation": Key(one_of("linear", "hold"), "of an input between its samples", "linear"),
                     "noise_std": Key(POSITIVE, "of its noise, in `unit`", "estimated from the recordings"),
                 },

@@ -13,7 +13,16 @@ from lacuna.discovery.efforts.find import Found, find
 from lacuna.discovery.fit.evidence import like_noise, nearly_noise, within_instruments
 from lacuna.discovery.law.beyond import MARGIN
 from lacuna.discovery.law.several import go_on
-from lacuna.discovery.naming.comparison import MIN_GAIN, TIE, Ranked, confidences, left_out_deviance, price, score
+from lacuna.discovery.naming.comparison import (
+    MIN_GAIN,
+    TIE,
+    Ranked,
+    confidences,
+    left_out_deviance,
+    price,
+    score,
+    told_by_data,
+)
 from lacuna.discovery.naming.judge import try_judge
 from lacuna.discovery.naming.name import Naming
 from lacuna.discovery.naming.screen import Candidate
@@ -47,7 +56,9 @@ def _take(search: Search, unbegun: Search, found: Found, progress: Progress) -> 
     correlation = law.fit.correlation()
     ranked = [Ranked(c, c.fit, score(c, base, correlation)) for c in _one_a_place(found.laws)]
     gain = ranked[0].score
-    if gain > -MIN_GAIN or (search.findings and not _better(search, unbegun, law, gain, correlation)):
+    if max(gain, told_by_data(law, base, correlation)) > -MIN_GAIN or (
+        search.findings and not _better(search, unbegun, law, gain, correlation)
+    ):
         return False
     progress("what the law says of recordings left out")
     if not _tells(unbegun, ranked[0], correlation):

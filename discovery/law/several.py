@@ -16,7 +16,7 @@ from lacuna.discovery.efforts.find import find
 from lacuna.discovery.fit.evidence import pays, within_instruments
 from lacuna.discovery.fit.fit import Fit, linearised
 from lacuna.discovery.law.beyond import MARGIN
-from lacuna.discovery.naming.comparison import MIN_GAIN, Ranked, score
+from lacuna.discovery.naming.comparison import MIN_GAIN, Ranked, score, told_by_data
 from lacuna.discovery.naming.judge import Judgement, try_judge
 from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Naming
@@ -94,7 +94,8 @@ def _best(
 
 def _pays(search: Search, before: Fit, law: Candidate) -> bool:
     """Whether a law pays for its numbers, and tells recordings left out better than the model without it."""
-    if score(law, before, law.fit.correlation()) > -MIN_GAIN:
+    correlation = law.fit.correlation()
+    if max(score(law, before, correlation), told_by_data(law, before, correlation)) > -MIN_GAIN:
         return False
     return pays(left_out(search.case, before), left_out(search.case, law.fit), search.floor)
 

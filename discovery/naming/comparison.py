@@ -115,6 +115,13 @@ def score(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> flo
     return paid - base.deviance(correlation)
 
 
+def told_by_data(candidate: Candidate, base: Fit, correlation: dict[str, float]) -> float:
+    """The score as the recordings alone have it: what parameters can say, though they leave what is believed of them,
+    is an answer without new physics."""
+    pull, before = (fit.estimate.cost - fit.estimate.data_cost for fit in (candidate.fit, base))
+    return score(candidate, base, correlation) - (pull - before)
+
+
 def confidences(ranked: list[Ranked]) -> None:
     """Posterior probability of each hypothesis among those tried (equal beliefs before), tempered to admit misfit."""
     scores = np.array([r.score for r in ranked])
