@@ -53,9 +53,9 @@ def run_with(fault: Fault, folder: Path, work: Callable[[], int], log: Path) -> 
     if child == 0:
         _as_child(work, log, lambda: shim.fault_arm(bytes(folder), fault.number, fault.error, fault.lasting))
     status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
-    return Outcome(
-        status, log.read_text(encoding="utf-8", errors="replace"), shim.fault_calls(), shim.fault_unsynced().decode()
-    )
+    said, calls, unsynced = log.read_text(encoding="utf-8", errors="replace"), shim.fault_calls(), shim.fault_unsynced()
+    shim.fault_arm(b"", 0, 0, 0)  # it is armed for both
+    return Outcome(status, said, calls, unsynced.decode())
 
 
 def _as_child(work: Callable[[], int], log: Path, arm: Callable[[], None]) -> None:
