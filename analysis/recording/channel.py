@@ -126,10 +126,10 @@ def clock_name(name: str, others: Sequence[str]) -> str:
 
 def named_columns(path: Path, header: Sequence[str], values: np.ndarray) -> list[int]:
     """The columns with a name. A column without one may only be empty, as after a separator at the ends of lines, or
-    count the rows, as pandas writes."""
+    count the rows, as pandas and R write in front of all others."""
     count = np.arange(values.shape[1])
     for k, name in enumerate(header):
-        counts = np.array_equal(values[k], count) or np.array_equal(values[k], count + 1)
+        counts = k == 0 and (np.array_equal(values[k], count) or np.array_equal(values[k], count + 1))
         if not name and not counts and np.isfinite(values[k]).any():
             raise RecordingError(f"{path}: column {k + 1} has no name")
     return [k for k, name in enumerate(header) if name]

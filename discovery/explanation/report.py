@@ -150,12 +150,12 @@ def _findings(result: Explanation) -> list[str]:
             f"{n} = {with_error(p['value'], p['std'])} {p['unit']}" for n, p in said["parameters"].items()
         )
         title = finding.ranked.attachment.effect.title
+        equation = said.get("law") or equation_of(result, finding)
         parts.append(
             f"<li><b>{escape(title)}</b> ({escape(said['effect'])}) at {escape(said['location'])}: {escape(values)}. "
-            f"{escape(said['odds'][0].upper() + said['odds'][1:])}. Seen as: {escape(said['where']['text'])}.</li>"
+            f"{escape(said['odds'][0].upper() + said['odds'][1:])}. Seen as: {escape(said['where']['text'])}."
+            f"{code(equation, f'equation of {title}') if equation else ''}</li>"
         )
-        if equation := said.get("law") or equation_of(result, finding):
-            parts.append(code(equation, f"equation of {title}"))
     return ["<h2>What was left out</h2>", f"<ol>{''.join(parts)}</ol>"] if parts else []
 
 

@@ -141,7 +141,7 @@ def test_a_loop_may_be_closed_by_a_controller_that_is_not_in_the_model(friction_
         random, step = np.random.default_rng(int(name[1])), 1e-3
         time, wanted = table["time"], 4.0 * np.sin(2 * np.pi * (0.5 + 0.4 * int(name[1])) * table["time"])
         u, i, w, theta = (np.zeros(1500) for _ in range(4))
-        for k in range(1499):  # Euler with 20 steps a sample, sticking where the voltage does not get it to move
+        for k in range(1499):  # Euler with 40 steps a sample, sticking where the voltage does not get it to move
             u[k] = np.clip(2.0 * (wanted[k] - theta[k] - NOISE["theta"] * random.normal()) - 0.02 * w[k], -12, 12)
             state = i[k], w[k], theta[k]
             for _ in range(40):

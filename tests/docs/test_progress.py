@@ -12,7 +12,7 @@ import lacuna
 # At once, as fast as a file is read, or as long as its client wants.
 IMMEDIATE = {
     "check", "copy_examples", "default_settings", "degradation_laws", "dump", "export_fmu", "export_history",
-    "format_model", "is_user_error",
+    "format_file", "format_model", "is_user_error",
     "list_effects", "list_models", "list_solvers", "load", "message_of", "nearest", "open_case", "record_making",
     "recorded",
     "serve_editor", "watch",
