@@ -7,10 +7,14 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.aliases import Aliases
 from lacuna.codegen.structure.system import System
 from lacuna.codegen.symbolic.expr import var
+from lacuna.codegen.symbolic.leaves import leaves
 
 
 def insist(declared: flat.FlatModel, aliases: Aliases, system: System) -> None:
-    """Raises S014 where the states of `system` are not what the variables ask for; what is equal to a state is one."""
+    """Raises S014 where the states of `system` are not what the variables ask for; what is equal to a state is one.
+
+    A state that never may be one stays where an equation could give it from other states: solutions do not depend on
+    which of them stands for it."""
     states = set(system.states)
     for v in declared.variables.values():
         if v.state_select not in ("always", "never") or v.variability != flat.CONTINUOUS:
@@ -20,6 +24,13 @@ def insist(declared: flat.FlatModel, aliases: Aliases, system: System) -> None:
         if v.state_select == "always" and not is_state:
             hint = "no derivative of it is needed, or others determine it; write StateSelect.prefer"
             raise Diagnostic("S014", f"{v.name} cannot be a state, and must always be one", v.span, hint)
-        if v.state_select == "never" and is_state and name == v.name:
+        if v.state_select == "never" and is_state and name == v.name and not _follows(name, system):
             hint = "its derivative is needed and nothing else can be the state; write StateSelect.avoid"
             raise Diagnostic("S014", f"{v.name} must be a state, and never may be one", v.span, hint)
+
+
+def _follows(state: str, system: System) -> bool:
+    """Whether an algebraic variable could take the place of the state: an equation without derivatives holds both."""
+    derivatives, algebraics = set(system.derivatives), set(map(var, system.algebraics))
+    rows = [leaves(row.lhs) | leaves(row.rhs) for row in system.rows]
+    return any(var(state) in found and found & algebraics and not found & derivatives for found in rows)
