@@ -83,7 +83,7 @@ def _comprehension(growth: Growth, kind: Kind, depth: int) -> Term:
 
 def _range(growth: Growth, n: int) -> tuple[str, list[int], str]:
     """A loop's name that is new here, its values and its text."""
-    index = f"i{sum(name[0] == 'i' and name[1:].isdigit() for name in growth.names) + 1}"
+    index = f"m{sum(name[0] == 'm' and name[1:].isdigit() for name in growth.names) + 1}"
     start, step = growth.dice.choice((1, 0, -2, 3)), growth.dice.choice((1, 1, 2, -1, -3))
     values = [start + step * k for k in range(n)]
     over = n > 1 and growth.dice.random() < 0.3
