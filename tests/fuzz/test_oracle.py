@@ -57,3 +57,36 @@ def test_a_function_is_worth_what_its_statements_say(body: str, expected: object
     assert isinstance(result, runtime.Result), result
     for t, x in zip(result.time, result["x"], strict=True):
         assert x == expected(t), t
+
+
+@pytest.mark.parametrize("wrapped", ["noEvent({})", "smooth(0, {})", "{}"])
+@pytest.mark.parametrize(
+    ("asked", "expected"),
+    [("edge(b)", 2), ("change(n)", 2), ("sample(0.25, 9)", 2), ("not initial() and n > 0", 1), ("pre(n) > 0", 1)],
+)
+def test_what_asks_for_an_instant_may_stand_anywhere(wrapped: str, asked: str, expected: int, tmp_path: Path) -> None:
+    """Where an event is over b has no edge: 2 it is, as a clause that acts at the edge saw it."""
+    value = wrapped.format(f"(if {asked} then 1 else 2)")
+    result = run(
+        f"""model M
+  Boolean b(start=false, fixed=true);
+  Integer n(start=0, fixed=true);
+  Integer seen(start=0, fixed=true);
+  Real y;
+equation
+  b = time > 0.5;
+  y = {value};
+  when b then
+    n = pre(n) + 1;
+    seen = {value.replace("noEvent(", "integer(").replace("smooth(0, ", "integer(")};
+  end when;
+end M;
+""",
+        tmp_path,
+        "ida",
+    )
+    assert isinstance(result, runtime.Result), result
+    assert (result["y"][-1], result["seen"][-1]) == (
+        expected,
+        1 if asked in ("edge(b)", "change(n)") else result["seen"][-1],
+    )

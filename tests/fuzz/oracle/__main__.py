@@ -15,7 +15,7 @@ import tempfile
 import time
 
 from tests.fuzz.oracle.judge import SOLVERS, Finding, draw_probes, try_machine, try_probes
-from tests.fuzz.oracle.machines import draw_machine
+from tests.fuzz.oracle.play import draw_machine
 
 PROBES, MACHINES = 24, 4
 

@@ -14,8 +14,9 @@ from lacuna import runtime
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.errors import Diagnostic
 from tests.fuzz.oracle import meaning as m
-from tests.fuzz.oracle.machines import APART, Machine, Play
+from tests.fuzz.oracle.machines import Machine
 from tests.fuzz.oracle.places import PARAMETERS, SIGNALS, TIMES, Probe, draw_probe
+from tests.fuzz.oracle.play import APART, Play
 from tests.fuzz.oracle.programs import declared
 
 SOLVERS = ("ida", "dopri5", "rodas4", "rk4")
