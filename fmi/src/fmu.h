@@ -66,11 +66,13 @@ typedef struct {
 bool fmu_create(fmu *f, const char *name, const char *token);
 void fmu_destroy(fmu *f);
 bool fmu_reset(fmu *f);
-bool fmu_refuse(fmu *f, const char *format, ...) __attribute__((format(printf, 2, 3)));
-bool fmu_done(fmu *f, rt_status status);
 bool fmu_enter_initialisation(fmu *f, double start, double stop, double tolerance);
 bool fmu_exit_initialisation(fmu *f);
 bool fmu_terminate(fmu *f);
+
+/* fmu_failure.c */
+bool fmu_refuse(fmu *f, const char *format, ...) __attribute__((format(printf, 2, 3)));
+bool fmu_done(fmu *f, rt_status status);
 
 /* fmu_values.c */
 bool fmu_refresh(fmu *f);
