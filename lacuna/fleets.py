@@ -7,7 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lacuna.degradation import degradation_laws
+from lacuna.errors import UserError
 from lacuna.extras import names_missing_packages
+from lacuna.given import require_file
 from lacuna.prognosis import OPTIONS, files_of, limits_of, map_settings
 from lacuna.progress import Progress, silent
 from lacuna.written import write_whole
@@ -68,5 +70,6 @@ def _histories(source: Path | str) -> list[Any]:
     if path.suffix == ".parquet":
         import pyarrow.parquet as pq
 
+        require_file(path, UserError)
         return histories_of(pq.read_table(path), str(path))
     return read_histories(path)

@@ -19,6 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from lacuna.analysis.errors import AnalysisError
+from lacuna.given import require_file, text_of
 from lacuna.rows import rows_of
 from lacuna.texts import decimal
 
@@ -98,15 +99,14 @@ def _table(file: Path) -> list[tuple[int, Row]]:
         import pyarrow as pa
         import pyarrow.parquet as pq
 
+        require_file(file, AnalysisError)
         try:
             table = pq.read_table(file)
         except (pa.ArrowException, OSError) as error:
             raise AnalysisError(f"{file}: not a Parquet table: {error}") from None
         return [(k + 1, {n: "" if v is None else v for n, v in row.items()}) for k, row in enumerate(table.to_pylist())]
     try:
-        found = list(rows_of(file.read_text(encoding="utf-8-sig")))
-    except FileNotFoundError:
-        raise AnalysisError(f"{file} is missing") from None
+        found = list(rows_of(text_of(file, AnalysisError, "utf-8-sig")))
     except ValueError as error:
         raise AnalysisError(f"{file}: not a table: {error}") from None
     names, rows = (found[0][1], found[1:]) if found else ([], [])
