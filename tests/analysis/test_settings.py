@@ -44,5 +44,5 @@ def test_tables_that_only_some_uses_need(tmp_path):
 
 
 def test_a_missing_file_is_said(tmp_path):
-    with pytest.raises(AnalysisError, match="none.toml: there is no such file"):
+    with pytest.raises(AnalysisError, match=r"none\.toml: there is no such file"):
         load_settings(tmp_path / "none.toml")
