@@ -21,7 +21,7 @@ import numpy as np
 
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis.doubts import UNITS, doubts_of
-from lacuna.given import text_of
+from lacuna.given import require_file, text_of
 from lacuna.rows import rows_of
 from lacuna.texts import decimal
 
