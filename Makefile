@@ -18,7 +18,7 @@ FUZZ_TARGETS := stream table inputs
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*' ':!:fmi/standard/*')
 
 .PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined prognosis tolerance-study \
-        prove-machines prove-experiments figures docs wheel vsix examples belts hybrid automata units msl compliance format lint sanitize sanitize-models threads coverage ctest pytest lock clean
+        prove-machines prove-experiments figures docs wheel vsix examples belts hybrid automata units msl compliance format style lint sanitize sanitize-models threads coverage ctest pytest lock clean
 
 help: ## Print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -126,10 +126,12 @@ pytest: setup
 check: lint sanitize ctest ## All checks: format, lint, warnings as errors, sanitizers, every test
 	@$(PYTEST)
 
-lint: setup
-	@$(PYTHON) -m ruff format --check .
-	@$(PYTHON) -m ruff check .
+style: setup
+	@$(PYTHON) -m ruff format --quiet --check .
+	@$(PYTHON) -m ruff check --quiet .
 	@clang-format --dry-run -Werror $(C_SOURCES)
+
+lint: style
 	@printf '%s\n' $(filter runtime/%.c analysis/%.cpp bench/%.c,$(C_SOURCES)) \
 	  | xargs -P 2 -n 4 clang-tidy -p $(BUILD) --quiet 2>&1 | { grep -vE '^[0-9]+ warnings? (generated|treated)' || true; }
 
