@@ -16,6 +16,7 @@ from lacuna.codegen.compile import CompiledModel, compile_model, translate
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.library.access import NONE, Access
 from lacuna.codegen.symbolic.expr import own_table
+from lacuna.fmi.arrays import extents
 from lacuna.fmi.description import Header, build_description, describe
 from lacuna.fmi.errors import FmuError
 from lacuna.fmi.sources import OPTIONS, collect, compile_sources, configuration, identifier_of
@@ -96,14 +97,16 @@ def _pack(request: FmuRequest, compiled: CompiledModel, prepared: Prepared, path
         reason = f"its external C needs {' '.join(foreign.libraries)}, and an FMU carries sources; name them by Include"
         raise FmuError(f"{prepared.declared.name}: {reason}")
     model = runtime.Model(compiled.path)
-    variables = FmiVariables(model, prepared, dict(request.values))
+    variables = FmiVariables(model, prepared, dict(request.values), arrays=request.version == "3.0")
     identifier = identifier_of(model.name)
     source = Path(compiled.path).with_suffix(".c").read_text(encoding="utf-8")
     token = _token(request, source)
     kinds = ("me", "cs") if request.kind == "both" else (request.kind,)
     tolerance = model.tolerance if model.tolerance > 0 else 1e-6
     values = {model.parameters[n].index: model.parameters[n].sign * float(v) for n, v in request.values.items()}
-    settings = configuration(token, request.solver, tolerance, model.start_time, model.stop_time, values)
+    settings = configuration(
+        token, request.solver, tolerance, model.start_time, model.stop_time, values, extents(variables.all)
+    )
     with tempfile.TemporaryDirectory() as scratch:
         root = Path(scratch) / "fmu"
         files = collect(root / "sources", source, settings, request.version)
