@@ -120,4 +120,9 @@ def anneal(
 
 def _settled(before: Mapping[str, float], after: Mapping[str, float], converged: bool) -> bool:
     """Whether another stage leads nowhere: where `converged` ends in the same levels."""
-    return converged and all(abs(np.log(after[n] / before[n])) < SETTLED for n in after)
+    return converged and alike(before, after)
+
+
+def alike(before: Mapping[str, float], after: Mapping[str, float]) -> bool:
+    """Whether levels have settled."""
+    return all(abs(np.log(after[n] / before[n])) < SETTLED for n in after)
