@@ -157,6 +157,7 @@ def fit(
     stages: int = STAGES,
     iterations: int = 4,
     known: Mapping[str, list[np.ndarray]] | None = None,
+    renewed: bool = True,
 ) -> Fit | None:
     """Fit `free` to the recordings, tracking with each bandwidth in turn (the last one 0). None if it cannot run."""
     objective = Objective(machine, recordings, noise)
@@ -165,11 +166,11 @@ def fit(
     values = clipped(free, [first.get(f.name, f.centre if f.start is None else f.start) for f in free])
 
     def led() -> tuple[Estimate | None, dict[str, float]]:
-        return _led(objective, problem, values, bandwidths, known or {}, stages, iterations)
+        return _led(objective, problem, values, bandwidths, known or {}, stages, iterations, renewed)
 
     found, level = remembered(
         lambda: (machine.compiled.hash, recordings, noise, free, dict(fixed), first, tuple(bandwidths), stages,
-                 iterations, bool(known)),
+                 iterations, bool(known), renewed),
         led,
     )  # fmt: skip
     if found is None:
@@ -196,7 +197,7 @@ def carried(found: Fit, machine: Machine, *, stages: int = STAGES, iterations: i
 
 def _led(
     objective: Objective, problem: Problem, values: np.ndarray, bandwidths: Sequence[float],
-    known: Mapping[str, list[np.ndarray]], stages: int, iterations: int,
+    known: Mapping[str, list[np.ndarray]], stages: int, iterations: int, renewed: bool,
 ) -> tuple[Estimate | None, dict[str, float]]:  # fmt: skip
     """The fit led by trackers of falling bandwidth; None where it fails or where the last one still tracks."""
     free, fixed = problem.free, problem.fixed
@@ -205,7 +206,7 @@ def _led(
     def annealed(bandwidth: float, start: np.ndarray) -> tuple[Estimate | None, dict[str, float]]:
         objective.track(bandwidth, fixed | {f.name: v for f, v in zip(free, start, strict=True)})
         columns = {} if objective.stiffness else {k: known[f.name] for k, f in enumerate(free) if f.name in known}
-        return anneal(objective, problem, start, stages=stages, iterations=iterations, known=columns)
+        return anneal(objective, problem, start, stages=stages, iterations=iterations, known=columns, renewed=renewed)
 
     for bandwidth in bandwidths:
         ahead = not bandwidth and len(path) > 1
