@@ -70,12 +70,13 @@ def export_fmu(request: FmuRequest, path: Path) -> Fmu:
     }  # fmt: skip
     with own_table():
         prepared, _ = translate(request.name, **given)
-        if prepared.delays:
+        if prepared.delays and request.kind != "cs":
             raise FmuError(
-                f"{request.name}: delay() is not exported: an FMU would have to keep the past of a solver that is not "
-                "its own; put a first-order lag or a Pad\u00e9 approximation in its place"
+                f"{request.name}: delay() is exported for co-simulation only (--type cs): in model exchange the past "
+                "would be that of a solver that is not the FMU's own, which tells neither its steps' inside nor that "
+                "they end where a delay does"
             )
-        compiled = compile_model(request.name, sensitivities=True, **given)
+        compiled = compile_model(request.name, sensitivities=not prepared.delays, **given)
         return _pack(request, compiled, prepared, path)
 
 
@@ -117,7 +118,8 @@ def _pack(request: FmuRequest, compiled: CompiledModel, prepared: Prepared, path
             bool(foreign.spans),
         )
         header = Header(
-            model.name, identifier, token, prepared.declared.description, f"Lacuna {lacuna.__version__}", kinds, True,
+            model.name, identifier, token, prepared.declared.description, f"Lacuna {lacuna.__version__}", kinds,
+            not prepared.delays,
             model.start_time, model.stop_time, tolerance, model.interval, files,
         )  # fmt: skip
         (root / "modelDescription.xml").write_bytes(describe(header, variables, request.version))
@@ -126,7 +128,14 @@ def _pack(request: FmuRequest, compiled: CompiledModel, prepared: Prepared, path
             (root / "sources" / "buildDescription.xml").write_bytes(build)
         _zip(root, path)
     return Fmu(
-        path, model.name, request.version, kinds, model.n_states, len(variables.all), len(variables.indicators), True
+        path,
+        model.name,
+        request.version,
+        kinds,
+        model.n_states,
+        len(variables.all),
+        len(variables.indicators),
+        not prepared.delays,
     )
 
 

@@ -79,6 +79,8 @@ bool fmu_create(fmu *f, const char *name, const char *token) {
     return fmu_refuse(f, "this binary belongs to another model description: its token is %s, not %s",
                       fmu_configuration.token, token ? token : "none");
   f->model.descriptor = mdl_descriptor_get();
+  if (f->model.descriptor->n_delay && !f->co_simulation)
+    return fmu_refuse(f, "delay() looks back into steps of its own: co-simulation only");
   f->name = malloc(strlen(name) + 1);
   if (!f->name || !allocate(f)) return fmu_refuse(f, "out of memory");
   strcpy(f->name, name);
