@@ -9,6 +9,7 @@ error of a sensor explains its own signal only.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -111,7 +112,7 @@ def _smoothest(screen: Screen, blocks: list[np.ndarray]) -> tuple[float, np.ndar
     """
     target = screen.load - screen.orthogonal @ (screen.orthogonal.T @ screen.load)
     ends = np.cumsum([0, *(len(b) for b in blocks)])
-    rows = [slice(a, b) for a, b in zip(ends[:-1], ends[1:], strict=True)]
+    rows = [slice(a, b) for a, b in pairwise(ends)]
     taken = np.hstack([screen.orthogonal[r].T @ b for r, b in zip(rows, blocks, strict=True)])  # by the parameters
     normal = block_diag(*(b.T @ b for b in blocks)) - taken.T @ taken
     right = -np.concatenate([b.T @ target[r] for r, b in zip(rows, blocks, strict=True)])
