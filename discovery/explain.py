@@ -83,7 +83,8 @@ def _conclude(result: Explanation) -> None:
         result.verdict = "undetermined"
         where = f"the residual of {worst}" if worst else "what is left of the recordings that were not fitted to"
         result.reason = result.reason or f"{where} is not noise, and no effect of the catalogue explains it"
-        result.experiment = "record the same motion with the quantities that are not recorded now"
+        more = "search on with a longer --limit" if result.stopped else ""
+        result.experiment = more or "record the same motion with the quantities that are not recorded now"
     else:
         result.verdict = "parameters" if outside_belief(result.base) else "consistent"
 

@@ -29,6 +29,7 @@ class Explanation:
     problems: list[Problem]
     verdict: str = "undetermined"
     reason: str = ""
+    stopped: bool = False  # by the time limit, before the search was done
     experiment: str = ""
     trial: Proposal | None = None  # the recording that would tell explanations apart
     base: Fit | None = None
