@@ -29,8 +29,8 @@ class Explanation:
     problems: list[Problem]
     verdict: str = "undetermined"
     reason: str = ""
-    stopped: bool = False  # by the time limit, before the search was done
     experiment: str = ""
+    stopped: str = ""  # why the search ended before it was done: its time was up
     trial: Proposal | None = None  # the recording that would tell explanations apart
     base: Fit | None = None
     final: Fit | None = None

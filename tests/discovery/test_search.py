@@ -261,7 +261,7 @@ def test_a_search_that_runs_out_of_time_leaves_what_it_has_found(
     case = load(friction_case)
     stopped = explain(case, limit=0.0)
     assert (stopped.verdict, stopped.findings) == ("undetermined", [])
-    assert "stopped after 0 s" in stopped.reason and stopped.experiment == "search on with a longer --limit"
+    assert "stopped after 0 s" in stopped.reason
 
     def until_second_round(text: str) -> None:
         if ", round 2" in text:
