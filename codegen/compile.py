@@ -86,7 +86,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     aliases = report.run("aliases", eliminate_aliases, declared)
     split = report.run("initial system", homotopy.split, aliases.model)
     split, delayed = report.run("hybrid", delays.split, split)
-    frozen = report.run("hybrid", hybrid.analyse, split)
+    frozen = report.run("hybrid", hybrid.analyse, report.run("hybrid", events.settled, split))
     model = report.run("initial system", discrete_starts, frozen.model)
     continuous, discrete = report.run("hybrid", events.split, model)
     system = report.run("index reduction", reduce_index, model, continuous, len(frozen.relations))

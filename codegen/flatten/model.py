@@ -14,6 +14,7 @@ from lacuna.codegen.flatten.classes.leaf import Leaf
 from lacuna.codegen.flatten.connections.balance import check_balance
 from lacuna.codegen.flatten.connections.connections import connection_equations
 from lacuna.codegen.flatten.connections.expandable import expand
+from lacuna.codegen.flatten.connections.local_balance import check_components
 from lacuna.codegen.flatten.connections.streams import stream_variables
 from lacuna.codegen.flatten.connections.structure import Structure
 from lacuna.codegen.flatten.equations.algorithms import flatten_algorithm
@@ -73,9 +74,9 @@ def flatten(
     model.equations += body.equations + connection_equations(body.connections, context)
     stream_variables(model, context)
     context.finish()
-    model.whens, model.algorithms, model.asserts = body.whens, body.algorithms, body.asserts
-    model.initial_equations = initial.equations
-    model.asserts += initial.asserts
+    check_components(leaves, buses, body, context)
+    model.whens, model.algorithms, model.initial_equations = body.whens, body.algorithms, initial.equations
+    model.asserts = body.asserts + initial.asserts
     model.functions = context.functions
     at_events = assigned([*model.whens, *(s for a in model.algorithms for s in a.statements)])
     with context.attempt():

@@ -180,6 +180,18 @@ rt_status rt_record_step(rt_session *s) {
   return event_rows_follow ? RT_OK : write_present(s, s->t, 0);
 }
 
+/* The last rows. What happened at the end stands in the row of the end, which the last step may have written. */
+rt_status rt_record_end(rt_session *s) {
+  rt_result *r = s->result;
+  rt_status status = rt_record_grid(s, true);
+  if (status || !r->rows || s->sensitivities || !s->d->n_d) return status;
+  size_t last = r->rows - 1;
+  if (r->time[last] < s->t - s->clock.tolerance) return status;
+  r->rows--;
+  rt_inputs_at(s, s->t);
+  return write_present(s, r->time[last], r->event[last]);
+}
+
 /* A row at an event, before or after it; after it, it stands for a grid point at the same instant too. */
 rt_status rt_record_event_row(rt_session *s) {
   while (on_grid(&s->recorder) && grid_time(s, s->recorder.next) <= s->t + s->clock.tolerance)

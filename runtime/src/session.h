@@ -289,6 +289,7 @@ rt_status rt_initialise(rt_session *s);
 /* record.c */
 void rt_record_begin(rt_session *s);
 rt_status rt_record_grid(rt_session *s, bool closed);
+rt_status rt_record_end(rt_session *s);
 rt_status rt_record_step(rt_session *s);
 rt_status rt_record_event_row(rt_session *s);
 

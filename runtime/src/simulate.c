@@ -161,7 +161,7 @@ static rt_status finish(rt_session *s, rt_status status) {
     s->data.terminal = 1;
     status = rt_iterate_event(s);
   }
-  if (!status) status = rt_record_grid(s, true);
+  if (!status) status = rt_record_end(s);
   if (!status && s->result->lost)
     status = rt_fail(s, RT_MEMORY, s->t, -1, NULL, "out of memory: the log of events is not complete");
   memcpy(s->result->parameters, s->data.p, (size_t)s->d->n_p * sizeof *s->data.p);
