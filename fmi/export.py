@@ -69,9 +69,10 @@ def export_fmu(request: FmuRequest, path: Path) -> Fmu:
     }  # fmt: skip
     with own_table():
         prepared, _ = translate(request.name, **given)
-        if prepared.delays:
+        if prepared.delays or prepared.transports:
+            what = "delay()" if prepared.delays else "spatialDistribution()"
             raise FmuError(
-                f"{request.name}: delay() is not exported: an FMU would have to keep the past of a solver that is not "
+                f"{request.name}: {what} is not exported: an FMU would have to keep the past of a solver that is not "
                 "its own; put a first-order lag or a Pad\u00e9 approximation in its place"
             )
         compiled = compile_model(request.name, sensitivities=True, **given)

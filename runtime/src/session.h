@@ -150,9 +150,10 @@ struct rt_session {
   int undetermined, n_held;   /* mdl_data.undetermined since the last event; terms that hold what it leaves open */
   struct rt_held *held;       /* [n_x + n_z], undetermined.h */
   rt_recorder recorder;
-  struct rt_delays *delays;        /* delay.c; NULL: the model has none */
-  rt_sensitivities *sensitivities; /* NULL: none are asked for */
-  int (*interrupted)(double time); /* asked now and then; NULL: never */
+  struct rt_delays *delays;         /* delay.c; NULL: the model has none */
+  struct rt_transports *transports; /* transport.c; NULL: the model has none */
+  rt_sensitivities *sensitivities;  /* NULL: none are asked for */
+  int (*interrupted)(double time);  /* asked now and then; NULL: never */
   long looks;
   double looked_at, patient_from, patient_t; /* monotonic clock; processor time and t where patience began */
   rt_failure failure;

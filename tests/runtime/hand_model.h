@@ -155,6 +155,11 @@ template <class M> struct Generated {
                                      0,
                                      nullptr,
                                      nullptr,
+                                     nullptr,
+                                     0,
+                                     nullptr,
+                                     nullptr,
+                                     nullptr,
                                      nullptr};
     return &d;
   }

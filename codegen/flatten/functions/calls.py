@@ -10,6 +10,7 @@ from lacuna.codegen.flatten.classes.types import is_external
 from lacuna.codegen.flatten.expressions.constants import is_known, known
 from lacuna.codegen.flatten.expressions.enumerations import literal
 from lacuna.codegen.flatten.expressions.lower import lower, lower_scalar
+from lacuna.codegen.flatten.expressions.transport import OPERATOR, spatial_distribution
 from lacuna.codegen.flatten.functions.code import is_done
 from lacuna.codegen.flatten.functions.declared import bind_arguments, call_function, written_arguments
 from lacuna.codegen.flatten.functions.locals import signature_of
@@ -25,7 +26,6 @@ from lacuna.codegen.syntax import ast
 from lacuna.suggest import did_you_mean
 
 _OUTSIDE = {
-    "spatialDistribution": "divide the length into elements",
     "Clock": "use when sample(start, interval) then",
     "previous": "use pre(x) inside when sample(...)",
     "hold": "a discrete variable holds its value",
@@ -64,6 +64,8 @@ def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
     """All results of a function or record constructor declared in a model."""
     name = str(e.function)
     local = scope.locals.get(name)
+    if name == OPERATOR and local is None and not _is_hidden(e.function, scope):
+        return spatial_distribution(e, scope)
     if isinstance(local, FunctionValue):
         return call_function(local.cls, e, scope, local.bound)
     cls, holder = find_class(scope.context.library, scope.cls, e.function), scope.instance
