@@ -18,6 +18,7 @@ from lacuna.codegen.flatten.connections.local_balance import check_components
 from lacuna.codegen.flatten.connections.streams import stream_variables
 from lacuna.codegen.flatten.connections.structure import Structure
 from lacuna.codegen.flatten.equations.algorithms import flatten_algorithm
+from lacuna.codegen.flatten.equations.asserts import require_lasting
 from lacuna.codegen.flatten.equations.equations import Collected, check_discrete
 from lacuna.codegen.flatten.equations.texts import bind_texts
 from lacuna.codegen.flatten.equations.variables import (
@@ -75,11 +76,12 @@ def flatten(
     stream_variables(model, context)
     context.finish()
     check_components(leaves, buses, body, context)
-    model.whens, model.algorithms, model.initial_equations = body.whens, body.algorithms, initial.equations
-    model.asserts = body.asserts + initial.asserts
+    model.whens, model.algorithms, model.asserts = body.whens, body.algorithms, body.asserts + initial.asserts
+    model.initial_equations = initial.equations
     model.functions = context.functions
     at_events = assigned([*model.whens, *(s for a in model.algorithms for s in a.statements)])
     with context.attempt():
+        require_lasting(body.asserts)
         check_discrete(model.equations, leaves, set(at_events), context)
     mark_discrete(model, at_events)
     add_used_constants(model, context, list(_all_expressions(model)))

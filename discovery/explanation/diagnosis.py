@@ -35,11 +35,9 @@ def build(result: Explanation, amended: Path | None) -> dict[str, Any]:
             for c in result.floor
         }
         diagnosis["parameters"] = _parameters(result, errors)
-    if result.findings:
-        diagnosis["explained"] = explained(result)
-        diagnosis["ties"] = [tie(f) for f in result.findings if f.naming.rivals(f.ranked)]
-    if places := _places(result):
-        diagnosis["places"] = places
+    diagnosis["explained"] = explained(result) if result.findings else 0.0
+    diagnosis["ties"] = [tie(f) for f in result.findings if f.naming.rivals(f.ranked)]
+    diagnosis["places"] = _places(result)
     if amended is not None:
         diagnosis["amended_model"] = amended.name
     diagnosis["sentence"], diagnosis["certainty"] = sentence(result), certainty(result)
@@ -47,8 +45,7 @@ def build(result: Explanation, amended: Path | None) -> dict[str, Any]:
         diagnosis["reason"] = result.reason
     if result.experiment:
         diagnosis["experiment"] = result.experiment
-    if result.trial:
-        diagnosis["next_experiment"] = described(result.case, result.trial)
+    diagnosis["next_experiment"] = described(result.case, result.trial) if result.trial else None
     if result.problems:
         diagnosis["recordings"] = [p.as_dict() for p in result.problems]
     diagnosis["seconds"] = {k: round(v, 2) for k, v in result.seconds.items()}
@@ -225,6 +222,8 @@ def sentence(result: Explanation) -> str:
         left = [w.column for w in whiteness(result.final).values() if not w.passed]
         more = f", and less than that of {' and '.join(left)}, as of an instrument that drifts" if left else ""
         return f"The model explains the recordings: what is left is noise{more}."
+    if result.stopped:
+        return f"What is missing is not known yet: {result.reason}."
     return "These recordings cannot say what is missing: " + (result.reason or "the residual is not noise") + "."
 
 
