@@ -72,8 +72,8 @@ def export_fmu(request: FmuRequest, path: Path) -> Fmu:
         prepared, _ = translate(request.name, **given)
         if prepared.transports:
             raise FmuError(
-                f"{request.name}: spatialDistribution() is not exported: what the pipe holds is not part of the state that "
-                "an FMU can save"
+                f"{request.name}: spatialDistribution() is not exported: what the pipe holds is no part of the state "
+                "that an FMU can save"
             )
         if prepared.delays and request.kind != "cs":
             raise FmuError(

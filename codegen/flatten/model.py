@@ -76,8 +76,8 @@ def flatten(
     stream_variables(model, context)
     context.finish()
     check_components(leaves, buses, body, context)
-    model.whens, model.algorithms, model.asserts = body.whens, body.algorithms, body.asserts + initial.asserts
-    model.initial_equations = initial.equations
+    model.whens, model.algorithms, model.initial_equations = body.whens, body.algorithms, initial.equations
+    model.asserts = body.asserts + initial.asserts
     model.functions = context.functions
     at_events = assigned([*model.whens, *(s for a in model.algorithms for s in a.statements)])
     with context.attempt():
@@ -88,8 +88,7 @@ def flatten(
     mark_evaluated(model, context.evaluated)
     model.experiment = _experiment(top)
     _check_units(model, context, units)
-    model.files = {**library.files, **context.files}
-    model.warnings = context.warnings
+    model.files, model.warnings = {**library.files, **context.files}, context.warnings
     model.foreign = context.table(flat.ForeignCode)
     context.finish()
     return model

@@ -99,7 +99,6 @@ struct rt_session {
   rt_options options;
   const rt_method *method;
   void *memory;
-
   double *numbers;               /* the block that all arrays of doubles here and in data are slices of */
   unsigned char *flags;          /* and that of all arrays of flags */
   size_t n_numbers, n_flags;     /* their lengths */
@@ -290,7 +289,6 @@ rt_status rt_initialise(rt_session *s);
 
 /* record.c */
 void rt_record_begin(rt_session *s);
-rt_status rt_record_grid(rt_session *s, bool closed);
 rt_status rt_record_end(rt_session *s);
 rt_status rt_record_step(rt_session *s);
 rt_status rt_record_event_row(rt_session *s);

@@ -219,6 +219,10 @@ class Instance:
             if not isinstance(value, Record):
                 hint = "bind its fields, or give a record"
                 raise Diagnostic("R041", f"{self.name} is no scalar and cannot be bound", self._modifier.span, hint)
+            more = [name for name in value.fields if name not in self.elements]
+            if more:
+                hint = f"give a {self.cls.name}"
+                raise Diagnostic("R041", f"{self.name} has no {more[0]}, its value has", self._modifier.span, hint)
             self._record = value
         return self._record
 
