@@ -225,6 +225,9 @@ typedef struct mdl_descriptor {
   const int *transport_points; /* [n_transport] */
   int (*transport_initial)(const mdl_data *m, double *value);
   int (*transports)(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *value);
+
+  /* [n_z] 0: unknown z follows from linear equations, so it has one value at a point; NULL: none does. */
+  const unsigned char *z_branches;
 } mdl_descriptor;
 
 typedef const mdl_descriptor *(*mdl_descriptor_fn)(void);

@@ -160,6 +160,7 @@ template <class M> struct Generated {
                                      nullptr,
                                      nullptr,
                                      nullptr,
+                                     nullptr,
                                      nullptr};
     return &d;
   }

@@ -55,11 +55,8 @@ def _refuse_inner_whens(items: list[ast.Item], inside: str = "") -> None:
 def _with_whole_arrays(names: Iterable[str], context: Context) -> tuple[str, ...]:
     """An algorithm that assigns elements of an array gives the whole of it: the others keep what they start with
     (11.1.2)."""
-    whole: dict[str, None] = {}
-    for name in names:
-        leaf, _ = context.scalars[name]
-        whole.update(dict.fromkeys(leaf.names) if len(leaf.names) > 1 else {name: None})
-    return tuple(whole)
+    given = list(names)
+    return tuple(dict.fromkeys([*given, *(n for name in given for n in context.scalars[name][0].names)]))
 
 
 def _nested(statements: list[flat.Statement]) -> list[flat.Statement]:
