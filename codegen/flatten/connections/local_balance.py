@@ -91,6 +91,7 @@ class _Count:
         self.instances: dict[str, Instance] = {}
         self.equations: Counter[str] = Counter(e.origin for e in body.equations)
         self.unknowns: Counter[str] = Counter()
+        self.defaults: Counter[str] = Counter()  # what a class gives its own inputs: an equation, or a value by default
         self._connected = sets.outside
         for when in body.whens:
             self.equations[when.origin] += len(set(assigned([when])))
@@ -109,7 +110,7 @@ class _Count:
             return
         own = not outside or (leaf.modifier.scope is not None and leaf.modifier.scope.instance is owner)
         if own:
-            self.equations[owner.name] += bound
+            (self.defaults if outside else self.equations)[owner.name] += bound
         if outside:
             if owner.parent is not None:
                 self.unknowns[owner.parent.name] += size
@@ -123,7 +124,7 @@ class _Count:
 
 def _require_equal(instance: Instance, count: _Count) -> None:
     equations, unknowns = count.equations[instance.name], count.unknowns[instance.name]
-    if equations != unknowns:
+    if not 0 <= unknowns - equations <= count.defaults[instance.name]:
         cls = instance.cls
         message = f"{cls.name} is not balanced: {equations} equations for {unknowns} unknowns of its own"
         hint = "each class has as many equations as it declares unknowns, one for each pair of a potential and a flow"

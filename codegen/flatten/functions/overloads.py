@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.classes.restrictions import check_class
 from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.functions.declared import bind_arguments, call_function, written_arguments
 from lacuna.codegen.flatten.functions.locals import Local, signature_of
@@ -153,6 +154,7 @@ def _functions(name: str, classes: Sequence[ast.Class], scope: Scope) -> Iterato
         operator = own_or_inherited(library, cls, name)
         if operator is None:
             continue
+        check_class(operator, scope.context)
         if operator.kind == "function":
             yield operator
             continue
