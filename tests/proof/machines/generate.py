@@ -6,7 +6,7 @@ python -m tests.proof.machines.generate --seed 101 --out DIR [--only m003]
 from __future__ import annotations
 
 import argparse
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +16,11 @@ from tests.proof.machines.plan import Plan, plan
 from tests.proof.machines.write import write_case, write_truth
 
 NUISANCE = (0.3, 0.8)  # of the noise, the RMS of what is wrong with the instruments beside it
-SIZINGS = 6  # refits at most, after which the size of what is concealed stays
+SIZINGS = 6  # refits at most to bring what is concealed to its size
+REACHED = 1.5  # times the misfit that is wanted, or its inverse, within which a case counts as sized
+DRAWS = 6  # of one case, until what is concealed shows at all in its fit recordings
+FINEST = 32  # times the machine's own steps, that its truth may need
+TRUE = 0.1  # of the noise, by which a truth may differ from that of half the step
 
 
 @dataclass
@@ -44,8 +48,21 @@ class Drawn:
 
 
 def draw(wanted: Plan, seed: int) -> tuple[Drawn, dict[str, np.ndarray], dict]:
-    """(the case, what was measured (samples, recordings), the errors of both ends)."""
-    rng = np.random.default_rng(seed)
+    """(the case, what was measured (samples, recordings), the errors of both ends).
+
+    Where what is concealed cannot be brought to its size (a threshold that no input comes near), it is drawn anew.
+    """
+    for attempt in range(DRAWS):
+        rng = np.random.default_rng([seed, attempt] if attempt else seed)
+        case = _drawn(wanted, rng)
+        target = float(np.exp(rng.uniform(*np.log(wanted.misfit))))
+        measured, ends = _sized(case, target)
+        if not case.hidden or abs(np.log(_misfit(ends) / target)) < np.log(REACHED):
+            return case, measured, ends
+    raise ValueError(f"{wanted.machine.name}: {[h.name for h, _ in case.hidden]} cannot be brought to a size")
+
+
+def _drawn(wanted: Plan, rng: np.random.Generator) -> Drawn:
     machine = wanted.machine
     believed = {
         n: p.value * (np.exp(0.25 * rng.standard_normal()) if p.sigma else 1.0) for n, p in machine.parameters.items()
@@ -64,7 +81,7 @@ def draw(wanted: Plan, seed: int) -> tuple[Drawn, dict[str, np.ndarray], dict]:
     case.noise = {n: float(np.std(clean[n]) * rng.uniform(0.004, 0.012)) for n in machine.outputs}
     _instruments(case, rng, recordings)
     case.hidden = tuple((machine.hidden[k], machine.hidden[k].size) for k in wanted.hidden)
-    return (case, *_sized(case, float(np.exp(rng.uniform(*np.log(wanted.misfit))))))
+    return case
 
 
 def _input(rng: np.random.Generator, samples: int, low: float, high: float) -> np.ndarray:
@@ -120,17 +137,16 @@ def _instruments(case: Drawn, rng: np.random.Generator, recordings: int) -> None
 
 def _sized(case: Drawn, target: float) -> tuple[dict[str, np.ndarray], dict]:
     """What is concealed scaled until the refit of the believed model errs `target` times the floor."""
-    recordings = next(iter(case.drive.values())).shape[1]
     measured: dict[str, np.ndarray] = {}
     for _ in range(SIZINGS if case.hidden else 1):
-        clean = simulate(case.machine, _columns(case.true, recordings), case.drive, case.hidden)
-        if not all(np.isfinite(c).all() for c in clean.values()):
+        clean = _truth(case)
+        if clean is None:
             case.hidden = tuple((h, q / 4) for h, q in case.hidden)
             continue
         measured = {n: clean[n] + case.error[n] for n in case.outputs}
         refitted = _refit(case, measured)
         ends = _ends(case, measured, clean, refitted)
-        ratio = ends["fit"]["refit_believed"] / ends["fit"]["floor"]
+        ratio = _misfit(ends)
         if not case.hidden or abs(np.log(ratio / target)) < 0.1:
             break
         scale = np.sqrt((target**2 - 1) / max(ratio**2 - 1, 0.01))
@@ -138,6 +154,33 @@ def _sized(case: Drawn, target: float) -> tuple[dict[str, np.ndarray], dict]:
     if not measured:
         raise ValueError(f"{case.machine.name} cannot be simulated with {[h.name for h, _ in case.hidden]}")
     return measured, ends
+
+
+def _misfit(ends: dict) -> float:
+    """Error of the refitted believed model over the floor, on the fit recordings."""
+    return ends["fit"]["refit_believed"] / ends["fit"]["floor"]
+
+
+def _truth(case: Drawn) -> dict[str, np.ndarray] | None:
+    """The machine with what is concealed, its steps halved until half of one changes nothing that could be seen; None
+    where no step does."""
+    values = _columns(case.true, next(iter(case.drive.values())).shape[1])
+
+    def at(machine: Machine) -> dict[str, np.ndarray]:
+        with np.errstate(all="ignore"):
+            return simulate(machine, values, case.drive, case.hidden)
+
+    machine, most = case.machine, FINEST * case.machine.substeps
+    coarse = at(machine)
+    while machine.substeps <= most:
+        finer = replace(machine, substeps=2 * machine.substeps)
+        fine = at(finer)
+        apart = [float(np.sqrt(np.mean((fine[n] - coarse[n]) ** 2))) / case.noise[n] for n in case.noise]
+        if max(apart, key=lambda a: np.inf if np.isnan(a) else a) < TRUE:
+            case.plan = replace(case.plan, machine=machine)
+            return coarse
+        machine, coarse = finer, fine
+    return None
 
 
 def _columns(values: dict[str, float], count: int) -> dict[str, np.ndarray]:
