@@ -13,6 +13,7 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.efforts.find import INDIFFERENT
+from lacuna.discovery.efforts.instruments import only_instruments
 from lacuna.discovery.experiment.proposal import propose
 from lacuna.discovery.explanation.contenders import contenders
 from lacuna.discovery.explanation.explanation import Clock, Explanation
@@ -192,9 +193,14 @@ def _first_place(result: Explanation) -> str:
 def _quiet(result: Explanation) -> bool:
     """Whether what is left, though some of it is not white, is no more than the noise: by its size or by its colour.
 
-    Instruments drift and are off by parts of their noise: what is left of that size, and of no form, is theirs."""
-    final = result.final
-    return within_instruments(final) or like_noise(final) or settled(final, rough=not result.lead.direct)
+    Instruments drift and are off by parts of their noise: what is left of that size, and of no form, is theirs. Where
+    nobody gave its level, noise with a colour is what no effort in the equations explains better."""
+    final, direct = result.final, result.lead.direct
+    if within_instruments(final) or settled(final, rough=not direct):
+        return True
+    if not direct:
+        return like_noise(final)
+    return only_instruments(result.case, result.amendment, final)
 
 
 def experiment_for(best: Ranked, rivals: list[Ranked]) -> str:

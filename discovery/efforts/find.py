@@ -14,10 +14,11 @@ import numpy as np
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.efforts.instruments import weighed
+from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.efforts.opened import opened
-from lacuna.discovery.efforts.screening import proposals
 from lacuna.discovery.fit.evidence import nearly_noise, settled
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.law.empirical_law import fitted_law, simplified
@@ -58,7 +59,7 @@ def find(
         door = opened(case, amendment, library, [f.name for f in base.estimate.free if _is_common(f.name)])
         locator = Locator(case, door, base)
         progress(f"locating among {len(locator.places)} places")
-        found = Found(locator.ranked(), door.closed)
+        found = Found(_ranked(locator, base), door.closed)
     except (NotNumeric, SimulationError, np.linalg.LinAlgError) as reason:
         return Found(reason=str(reason))
     efforts = [s for s in found.sites if s.place is not None and s.gain > 0 and admitted(s.location)]
@@ -72,6 +73,16 @@ def find(
             correlation = min((c.fit for c in found.laws), key=lambda f: f.deviance()).correlation()
             found.laws.sort(key=lambda c: score(c, base, correlation))
     return found
+
+
+def _ranked(locator: Locator, base: Fit) -> list[Site]:
+    """Places by their evidence; beside errors of sensors with a memory, where nobody gave the level of their noise and
+    what the best effort leaves is not white."""
+    sites = locator.ranked()
+    if not sites or locator.white(sites[0]) or all(n.given for n in base.noise.values()):
+        return sites
+    locator.colour = weighed(locator).colour
+    return locator.ranked()
 
 
 def _is_common(name: str) -> bool:

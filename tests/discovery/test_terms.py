@@ -8,7 +8,7 @@ import numpy as np
 
 from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.sites import Site as Place
-from lacuna.discovery.efforts.terms import counts, groups, variables
+from lacuna.discovery.efforts.laws.terms import counts, groups, variables
 from lacuna.discovery.law.empirical_law import _free
 from lacuna.discovery.law.law import Law, Site, attach
 from lacuna.discovery.law.law_terms import Group, Variable

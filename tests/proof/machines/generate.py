@@ -50,14 +50,16 @@ class Drawn:
 def draw(wanted: Plan, seed: int) -> tuple[Drawn, dict[str, np.ndarray], dict]:
     """(the case, what was measured (samples, recordings), the errors of both ends).
 
-    Where what is concealed cannot be brought to its size (a threshold that no input comes near), it is drawn anew.
+    Where what is concealed cannot be brought to its size, or one of two does not show at all (a threshold that no input
+    comes near), the case is drawn anew.
     """
     for attempt in range(DRAWS):
         rng = np.random.default_rng([seed, attempt] if attempt else seed)
         case = _drawn(wanted, rng)
         target = float(np.exp(rng.uniform(*np.log(wanted.misfit))))
         measured, ends = _sized(case, target)
-        if not case.hidden or abs(np.log(_misfit(ends) / target)) < np.log(REACHED):
+        sized = not case.hidden or abs(np.log(_misfit(ends) / target)) < np.log(REACHED)
+        if sized and _each_shows(case):
             return case, measured, ends
     raise ValueError(f"{wanted.machine.name}: {[h.name for h, _ in case.hidden]} cannot be brought to a size")
 
@@ -159,6 +161,22 @@ def _sized(case: Drawn, target: float) -> tuple[dict[str, np.ndarray], dict]:
 def _misfit(ends: dict) -> float:
     """Error of the refitted believed model over the floor, on the fit recordings."""
     return ends["fit"]["refit_believed"] / ends["fit"]["floor"]
+
+
+def _each_shows(case: Drawn) -> bool:
+    """Whether the fit recordings, each effect of several taken away, move by the noise of some output."""
+    if len(case.hidden) < 2:
+        return True
+    recordings = next(iter(case.drive.values())).shape[1]
+    values, fit = _columns(case.true, recordings), slice(0, _fitted(recordings))
+    whole = simulate(case.machine, values, case.drive, case.hidden)
+    for left_out in case.hidden:
+        others = tuple(h for h in case.hidden if h is not left_out)
+        without = simulate(case.machine, values, case.drive, others)
+        moved = [np.sqrt(np.mean((whole[n] - without[n])[:, fit] ** 2)) / case.noise[n] for n in case.outputs]
+        if max(moved) < 1.0:
+            return False
+    return True
 
 
 def _truth(case: Drawn) -> dict[str, np.ndarray] | None:
