@@ -14,7 +14,7 @@ import numpy as np
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
-from lacuna.discovery.efforts.instruments import weighed
+from lacuna.discovery.efforts.instruments import colour_of
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.numeric import NotNumeric
@@ -42,6 +42,7 @@ class Found:
     sites: list[Site] = field(default_factory=list)
     closed: list[tuple[str, str]] = field(default_factory=list)
     laws: list[Candidate] = field(default_factory=list)  # best first
+    single: list[Candidate] = field(default_factory=list)  # of one group, where one of two does better; best first
     reason: str = ""  # why nothing could be located
 
 
@@ -67,12 +68,18 @@ def find(
         enough = bool(found.laws) and nearly_noise(found.laws[0].fit)
         if efforts[0].gain - site.gain > INDIFFERENT and (enough or site.gain < WORTH * efforts[0].gain):
             break
-        law = _law_at(case, amendment, base, locator, site, progress)
-        if law is not None:
-            found.laws.append(law)
-            correlation = min((c.fit for c in found.laws), key=lambda f: f.deviance()).correlation()
-            found.laws.sort(key=lambda c: score(c, base, correlation))
+        law, single = _law_at(case, amendment, base, locator, site, progress)
+        _put(found.laws, law, base)
+        _put(found.single, single, base)
     return found
+
+
+def _put(laws: list[Candidate], law: Candidate | None, base: Fit) -> None:
+    """Add a law to others, best first."""
+    if law is not None:
+        laws.append(law)
+        correlation = min((c.fit for c in laws), key=lambda f: f.deviance()).correlation()
+        laws.sort(key=lambda c: score(c, base, correlation))
 
 
 def _ranked(locator: Locator, base: Fit) -> list[Site]:
@@ -81,7 +88,7 @@ def _ranked(locator: Locator, base: Fit) -> list[Site]:
     sites = locator.ranked()
     if not sites or locator.white(sites[0]) or all(n.given for n in base.noise.values()):
         return sites
-    locator.colour = weighed(locator).colour
+    locator.colour = colour_of(locator)
     return locator.ranked()
 
 
@@ -91,15 +98,17 @@ def _is_common(name: str) -> bool:
 
 def _law_at(
     case: Case, amendment: Amendment, base: Fit, locator: Locator, site: Site, progress: Progress
-) -> Candidate | None:
-    """The best law at a place: of one group of terms, or of two where one does not leave noise."""
+) -> tuple[Candidate | None, Candidate | None]:
+    """The best law at a place: of one group of terms, or of two where one does not leave noise; and, where it is of two
+    that are not a level and one term, the best of one."""
     try:
         guided = locator.guided(site)
         progress(f"screening laws at {site.location}")
         offered = proposals(locator, site, guided, LAWS)
     except (NotNumeric, SimulationError, np.linalg.LinAlgError):
-        return None
+        return None, None
     best: Proposal | None = None
+    single: Proposal | None = None
     for size in (1, 2):
         if best is not None and settled(best.candidate.fit):
             break
@@ -108,7 +117,11 @@ def _law_at(
             progress(f"fitting a law at {site.location}: {proposal.law.text()}")
             proposal.candidate = fitted_law(case, amendment, base, proposal.law, proposal.start, guided.point)
         best = _best([p for p in (best, *tried) if p is not None and p.candidate is not None], base)
-    return None if best is None else simplified(case, amendment, base, best)
+        single = best if size == 1 else single
+    if best is None:
+        return None, None
+    apart = best is not single and all(g.texts != ("1",) for g in best.law.groups)
+    return simplified(case, amendment, base, best), single.candidate if apart and single else None
 
 
 def _best(fitted: list[Proposal], base: Fit) -> Proposal | None:

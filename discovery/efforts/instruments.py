@@ -8,7 +8,7 @@ noise is estimated beside the physics and cannot eat it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -30,15 +30,6 @@ NATS = MIN_GAIN / 2  # of log evidence, below which nothing is believed to be th
 Rows = tuple[np.ndarray, np.ndarray]  # (sizes (h,), times (h,)) that one chain is tried with
 
 
-@dataclass(frozen=True)
-class Instruments:
-    """Errors of sensors with a memory as they are beside an effort at the best place, and the `gain` of that effort, in
-    nats over such errors alone."""
-
-    colour: Colour
-    gain: float
-
-
 def only_instruments(case: Case, amendment: Amendment, fit: Fit) -> bool:
     """Whether what `fit`, that of `amendment`, leaves is noise of an unknown level with a colour of its own.
 
@@ -53,17 +44,23 @@ def _weighed(case: Case, amendment: Amendment, fit: Fit) -> bool:
     try:
         common = [f.name for f in fit.estimate.free if not f.name.startswith("start:") and "@" not in f.name]
         locator = Locator(case, opened(case, amendment, case.library(), common), fit)
-        return weighed(locator).gain < NATS
+        return weighed(locator) < NATS
     except (NotNumeric, SimulationError, np.linalg.LinAlgError):
         return False
 
 
-def weighed(locator: Locator) -> Instruments:
-    """The instruments' own errors, and what an effort at any place would explain beside them."""
+def weighed(locator: Locator) -> float:
+    """What an effort at any place explains beside the instruments' own errors, in nats over these alone."""
     pieces = thinned_all(locator.pieces, SAMPLES)
     alone, log = _fitted(pieces, _NOTHING)
-    beside, more = _fitted(pieces, _with_effort(locator, pieces, alone.colour))
-    return Instruments(beside.colour, more - log)
+    _, more = _fitted(pieces, _with_effort(locator, pieces, alone.colour))
+    return more - log
+
+
+def colour_of(locator: Locator) -> Colour:
+    """Errors of instruments with a memory, as they are beside an effort at the best place."""
+    pieces = thinned_all(locator.pieces, SAMPLES)
+    return _fitted(pieces, _with_effort(locator, pieces, _NOTHING.colour))[0].colour
 
 
 _NOTHING = Latent(

@@ -107,7 +107,7 @@ class Search:
         held = self.lead.hold(self.fit)
         naming = rank(held.machine.case, self.amendment, attachments, held, final=self.lead.direct, progress=progress)
         self.namings.append(naming)
-        best = naming.best
+        best = naming.simplest
         if best is None or best.score > -MIN_GAIN:
             return False
         best, polished = self._best_released(best, naming, progress)

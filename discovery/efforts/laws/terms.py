@@ -74,7 +74,8 @@ def variables(
         courses.append(scaled)
         if len(kept) == MOST:
             break
-    return [*kept, *_differences(along, kept, units, location)]
+    believed = {n: u for n, u in units.items() if n.partition(".")[0] not in added}
+    return [*kept, *_differences(along, kept, believed, location)]
 
 
 def _differences(
