@@ -35,7 +35,9 @@ def main() -> int:
     arguments = _arguments()
     cases = plan(arguments.seed)
     cases = small(cases) if arguments.small else cases
-    out = arguments.out / f"seed{arguments.seed}-{content_hash([Path(__file__).parent / 'generate.py'])[:6]}"
+    here = Path(__file__).parent
+    drawn_by = [f for f in here.rglob("*.py") if f.name not in ("__main__.py", "score.py", "test_machines.py")]
+    out = arguments.out / f"seed{arguments.seed}-{content_hash(sorted(drawn_by))[:6]}"
     version, end = tool_hash(), time.monotonic() + 60 * arguments.minutes
 
     def work(name: str) -> str:

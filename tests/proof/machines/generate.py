@@ -6,21 +6,20 @@ python -m tests.proof.machines.generate --seed 101 --out DIR [--only m003]
 from __future__ import annotations
 
 import argparse
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
 from tests.proof.machines.machine import Hidden, Machine, simulate
 from tests.proof.machines.plan import Plan, plan
+from tests.proof.machines.truth import columns, each_shows, truth
 from tests.proof.machines.write import write_case, write_truth
 
 NUISANCE = (0.3, 0.8)  # of the noise, the RMS of what is wrong with the instruments beside it
 SIZINGS = 6  # refits at most to bring what is concealed to its size
 REACHED = 1.5  # times the misfit that is wanted, or its inverse, within which a case counts as sized
 DRAWS = 6  # of one case, until what is concealed shows at all in its fit recordings
-FINEST = 32  # times the machine's own steps, that its truth may need
-TRUE = 0.1  # of the noise, by which a truth may differ from that of half the step
 
 
 @dataclass
@@ -35,12 +34,17 @@ class Drawn:
     given: bool  # whether case.toml says how much noise there is
     error: dict[str, np.ndarray] = field(default_factory=dict)  # noise and nuisances
     hidden: tuple[tuple[Hidden, float], ...] = ()
+    substeps: int = 0  # of the truth's integration; the machine's own until it is known what they are to be
     off: str = ""
     nuisances: list[str] = field(default_factory=list)
 
     @property
     def machine(self) -> Machine:
         return self.plan.machine
+
+    @property
+    def recordings(self) -> int:
+        return next(iter(self.drive.values())).shape[1]
 
     @property
     def outputs(self) -> tuple[str, ...]:
@@ -59,7 +63,7 @@ def draw(wanted: Plan, seed: int) -> tuple[Drawn, dict[str, np.ndarray], dict]:
         target = float(np.exp(rng.uniform(*np.log(wanted.misfit))))
         measured, ends = _sized(case, target)
         sized = not case.hidden or abs(np.log(_misfit(ends) / target)) < np.log(REACHED)
-        if sized and _each_shows(case):
+        if sized and each_shows(case, slice(0, _fitted(case.recordings))):
             return case, measured, ends
     raise ValueError(f"{wanted.machine.name}: {[h.name for h, _ in case.hidden]} cannot be brought to a size")
 
@@ -79,7 +83,7 @@ def _drawn(wanted: Plan, rng: np.random.Generator) -> Drawn:
     case = Drawn(wanted, believed, true, drive, {}, bool(rng.random() < 0.6))
     if wanted.kind == "parameters":
         _put_off(case, rng)
-    clean = simulate(machine, _columns(case.true, recordings), drive)
+    clean = simulate(machine, columns(case.true, recordings), drive)
     case.noise = {n: float(np.std(clean[n]) * rng.uniform(0.004, 0.012)) for n in machine.outputs}
     _instruments(case, rng, recordings)
     case.hidden = tuple((machine.hidden[k], machine.hidden[k].size) for k in wanted.hidden)
@@ -103,8 +107,8 @@ def _put_off(case: Drawn, rng: np.random.Generator) -> None:
     """One parameter that the recordings determine well, four to seven believed sigmas from its belief."""
     machine = case.machine
     names = [n for n, p in machine.parameters.items() if p.sigma]
-    recordings = next(iter(case.drive.values())).shape[1]
-    clean = simulate(machine, _columns(case.true, recordings), case.drive)
+    recordings = case.recordings
+    clean = simulate(machine, columns(case.true, recordings), case.drive)
     level = {n: 0.01 * float(np.std(clean[n])) for n in case.outputs}
     jacobian = _jacobian(case, case.true, clean, level, names)
     error = np.sqrt(np.diag(np.linalg.inv(jacobian.T @ jacobian)))
@@ -140,13 +144,14 @@ def _instruments(case: Drawn, rng: np.random.Generator, recordings: int) -> None
 def _sized(case: Drawn, target: float) -> tuple[dict[str, np.ndarray], dict]:
     """What is concealed scaled until the refit of the believed model errs `target` times the floor."""
     measured: dict[str, np.ndarray] = {}
+    refitted = dict(case.believed)
     for _ in range(SIZINGS if case.hidden else 1):
-        clean = _truth(case)
+        clean = truth(case)
         if clean is None:
             case.hidden = tuple((h, q / 4) for h, q in case.hidden)
             continue
         measured = {n: clean[n] + case.error[n] for n in case.outputs}
-        refitted = _refit(case, measured)
+        refitted = _refit(case, measured, refitted)
         ends = _ends(case, measured, clean, refitted)
         ratio = _misfit(ends)
         if not case.hidden or abs(np.log(ratio / target)) < 0.1:
@@ -163,55 +168,13 @@ def _misfit(ends: dict) -> float:
     return ends["fit"]["refit_believed"] / ends["fit"]["floor"]
 
 
-def _each_shows(case: Drawn) -> bool:
-    """Whether the fit recordings, each effect of several taken away, move by the noise of some output."""
-    if len(case.hidden) < 2:
-        return True
-    recordings = next(iter(case.drive.values())).shape[1]
-    values, fit = _columns(case.true, recordings), slice(0, _fitted(recordings))
-    whole = simulate(case.machine, values, case.drive, case.hidden)
-    for left_out in case.hidden:
-        others = tuple(h for h in case.hidden if h is not left_out)
-        without = simulate(case.machine, values, case.drive, others)
-        moved = [np.sqrt(np.mean((whole[n] - without[n])[:, fit] ** 2)) / case.noise[n] for n in case.outputs]
-        if max(moved) < 1.0:
-            return False
-    return True
-
-
-def _truth(case: Drawn) -> dict[str, np.ndarray] | None:
-    """The machine with what is concealed, its steps halved until half of one changes nothing that could be seen; None
-    where no step does."""
-    values = _columns(case.true, next(iter(case.drive.values())).shape[1])
-
-    def at(machine: Machine) -> dict[str, np.ndarray]:
-        with np.errstate(all="ignore"):
-            return simulate(machine, values, case.drive, case.hidden)
-
-    machine, most = case.machine, FINEST * case.machine.substeps
-    coarse = at(machine)
-    while machine.substeps <= most:
-        finer = replace(machine, substeps=2 * machine.substeps)
-        fine = at(finer)
-        apart = [float(np.sqrt(np.mean((fine[n] - coarse[n]) ** 2))) / case.noise[n] for n in case.noise]
-        if max(apart, key=lambda a: np.inf if np.isnan(a) else a) < TRUE:
-            case.plan = replace(case.plan, machine=machine)
-            return coarse
-        machine, coarse = finer, fine
-    return None
-
-
-def _columns(values: dict[str, float], count: int) -> dict[str, np.ndarray]:
-    return {n: np.full(count, v) for n, v in values.items()}
-
-
 def _fitted(recordings: int) -> int:
     return recordings - 1
 
 
 def _jacobian(case: Drawn, at: dict, base: dict, level: dict, names: list[str]) -> np.ndarray:
     """(samples, names): change of the outputs on the fit recordings, in `level`s, for a relative change of each."""
-    recordings = next(iter(case.drive.values())).shape[1]
+    recordings = case.recordings
     batch = {n: np.repeat(np.full(len(names), v), recordings) for n, v in at.items()}
     for k, n in enumerate(names):
         batch[n][k * recordings : (k + 1) * recordings] *= 1.001
@@ -227,18 +190,19 @@ def _jacobian(case: Drawn, at: dict, base: dict, level: dict, names: list[str]) 
     return np.column_stack(columns)
 
 
-def _refit(case: Drawn, measured: dict[str, np.ndarray]) -> dict[str, float]:
-    """The believed model's parameters fitted to the fit recordings, beliefs as priors (Gauss-Newton, halved steps)."""
+def _refit(case: Drawn, measured: dict[str, np.ndarray], start: dict[str, float]) -> dict[str, float]:
+    """The believed model's parameters fitted to the fit recordings from `start` on, beliefs as priors (Gauss-Newton,
+    halved steps)."""
     machine = case.machine
     names = [n for n, p in machine.parameters.items() if p.sigma]
     sigma = np.array([machine.parameters[n].sigma for n in names])
-    recordings = next(iter(case.drive.values())).shape[1]
+    recordings = case.recordings
     fit = _fitted(recordings)
-    factor = np.ones(len(names))
+    factor = np.array([start[n] / case.believed[n] for n in names])
 
     def residual(factor: np.ndarray) -> tuple[np.ndarray, dict, dict]:
         at = case.believed | {n: case.believed[n] * f for n, f in zip(names, factor, strict=True)}
-        base = simulate(machine, _columns(at, recordings), case.drive)
+        base = simulate(machine, columns(at, recordings), case.drive)
         rows = [((measured[o] - base[o])[:, :fit] / case.noise[o]).ravel() for o in case.outputs]
         return np.concatenate([*rows, (1 - factor) / sigma]), base, at
 
@@ -262,8 +226,8 @@ def _refit(case: Drawn, measured: dict[str, np.ndarray]) -> dict[str, float]:
 
 def _ends(case: Drawn, measured: dict, clean: dict, refitted: dict[str, float]) -> dict:
     """NRMSE of the refitted believed model and of the truth, on the fit and the validation recordings."""
-    recordings = next(iter(case.drive.values())).shape[1]
-    base = simulate(case.machine, _columns(refitted, recordings), case.drive)
+    recordings = case.recordings
+    base = simulate(case.machine, columns(refitted, recordings), case.drive)
     ends: dict = {"refitted": refitted}
     for part, of in (("fit", slice(0, _fitted(recordings))), ("validate", slice(_fitted(recordings), recordings))):
 
