@@ -1,5 +1,5 @@
 """Errors of sensors with a memory against an unknown effort: two tanks whose noise is coloured and drifts, of no level
-that anybody gave, alone and with a leak that goes as a square root."""
+that anybody gave, alone and with a leak that goes as a square."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from lacuna.runtime import Model, RecordedInput, simulate
 
 from .test_efforts import BELIEVED, CASCADE, CASE
 
-LEAKING = CASCADE.format(upper="k*upper", lower="k*lower + c*sqrt(lower)").replace(
-    "  input", '  parameter Real c(unit="m(5/2).s-1") = 4e-5;\n  input'
+LEAKING = CASCADE.format(upper="k*upper", lower="(k*lower + c*lower^2)").replace(
+    "  input", '  parameter Real c(unit="m/s") = 6e-4;\n  input'
 )
 SAMPLES, STEP = 400, 2.0  # s
 
