@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import math
 from xml.etree import ElementTree as ET
 
-from lacuna.fmi.variables import FmiVariable, FmiVariables
+from lacuna.fmi.variable import FmiVariable
+from lacuna.fmi.variables import FmiVariables
 from lacuna.units import parse_unit
 
 _BASE = ("m", "kg", "s", "A", "K", "mol", "cd")
@@ -152,7 +153,7 @@ def _typed(v: FmiVariable) -> dict[str, str]:
         if v.nominal > 0 and math.isfinite(v.nominal):
             found["nominal"] = _text(v.nominal)
     if v.start is not None:
-        found["start"] = number(v.start)
+        found["start"] = " ".join(map(number, v.start)) if isinstance(v.start, tuple) else number(v.start)
     return found
 
 
@@ -160,7 +161,10 @@ def _variable_3(v: FmiVariable) -> ET.Element:
     attributes = _attributes(v) | _typed(v)
     if v.derivative_of is not None:
         attributes["derivative"] = str(v.derivative_of)
-    return ET.Element(_TYPES[v.type], attributes)
+    element = ET.Element(_TYPES[v.type], attributes)
+    for size in v.dimensions:
+        ET.SubElement(element, "Dimension", start=str(size))
+    return element
 
 
 def _variable_2(v: FmiVariable, places: dict[int, int]) -> ET.Element:

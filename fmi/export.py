@@ -16,6 +16,7 @@ from lacuna.codegen.compile import CompiledModel, compile_model, translate
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.library.access import NONE, Access
 from lacuna.codegen.symbolic.expr import own_table
+from lacuna.fmi.arrays import extents
 from lacuna.fmi.description import Header, build_description, describe
 from lacuna.fmi.errors import FmuError
 from lacuna.fmi.sources import OPTIONS, collect, compile_sources, configuration, identifier_of
@@ -69,12 +70,13 @@ def export_fmu(request: FmuRequest, path: Path) -> Fmu:
     }  # fmt: skip
     with own_table():
         prepared, _ = translate(request.name, **given)
-        if prepared.delays:
+        if prepared.delays and request.kind != "cs":
             raise FmuError(
-                f"{request.name}: delay() is not exported: an FMU would have to keep the past of a solver that is not "
-                "its own; put a first-order lag or a Pad\u00e9 approximation in its place"
+                f"{request.name}: delay() is exported for co-simulation only (--type cs): in model exchange the past "
+                "would be that of a solver that is not the FMU's own, which tells neither its steps' inside nor that "
+                "they end where a delay does"
             )
-        compiled = compile_model(request.name, sensitivities=True, **given)
+        compiled = compile_model(request.name, sensitivities=not prepared.delays, **given)
         return _pack(request, compiled, prepared, path)
 
 
@@ -96,14 +98,16 @@ def _pack(request: FmuRequest, compiled: CompiledModel, prepared: Prepared, path
         reason = f"its external C needs {' '.join(foreign.libraries)}, and an FMU carries sources; name them by Include"
         raise FmuError(f"{prepared.declared.name}: {reason}")
     model = runtime.Model(compiled.path)
-    variables = FmiVariables(model, prepared, dict(request.values))
+    variables = FmiVariables(model, prepared, dict(request.values), arrays=request.version == "3.0")
     identifier = identifier_of(model.name)
     source = Path(compiled.path).with_suffix(".c").read_text(encoding="utf-8")
     token = _token(request, source)
     kinds = ("me", "cs") if request.kind == "both" else (request.kind,)
     tolerance = model.tolerance if model.tolerance > 0 else 1e-6
     values = {model.parameters[n].index: model.parameters[n].sign * float(v) for n, v in request.values.items()}
-    settings = configuration(token, request.solver, tolerance, model.start_time, model.stop_time, values)
+    settings = configuration(
+        token, request.solver, tolerance, model.start_time, model.stop_time, values, extents(variables.all)
+    )
     with tempfile.TemporaryDirectory() as scratch:
         root = Path(scratch) / "fmu"
         files = collect(root / "sources", source, settings, request.version)
@@ -114,7 +118,8 @@ def _pack(request: FmuRequest, compiled: CompiledModel, prepared: Prepared, path
             bool(foreign.spans),
         )
         header = Header(
-            model.name, identifier, token, prepared.declared.description, f"Lacuna {lacuna.__version__}", kinds, True,
+            model.name, identifier, token, prepared.declared.description, f"Lacuna {lacuna.__version__}", kinds,
+            not prepared.delays,
             model.start_time, model.stop_time, tolerance, model.interval, files,
         )  # fmt: skip
         (root / "modelDescription.xml").write_bytes(describe(header, variables, request.version))
@@ -123,7 +128,14 @@ def _pack(request: FmuRequest, compiled: CompiledModel, prepared: Prepared, path
             (root / "sources" / "buildDescription.xml").write_bytes(build)
         _zip(root, path)
     return Fmu(
-        path, model.name, request.version, kinds, model.n_states, len(variables.all), len(variables.indicators), True
+        path,
+        model.name,
+        request.version,
+        kinds,
+        model.n_states,
+        len(variables.all),
+        len(variables.indicators),
+        not prepared.delays,
     )
 
 

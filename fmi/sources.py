@@ -46,17 +46,23 @@ def collect(folder: Path, model: str, configuration: str, version: str) -> tuple
     return tuple(sorted(path.name for path in folder.glob("*.c")))
 
 
-def configuration(token: str, solver: str, rtol: float, start: float, stop: float, values: dict[int, float]) -> str:
-    """fmu_config.c: `values` replace declared parameters, by their index."""
-    indices, numbers = ", ".join(map(str, values)), ", ".join(map(repr, values.values()))
-    arrays = f"static const int parameter[] = {{{indices}}};\nstatic const double value[] = {{{numbers}}};\n\n"
+def configuration(
+    token: str, solver: str, rtol: float, start: float, stop: float, values: dict[int, float], arrays: dict[int, int]
+) -> str:
+    """fmu_config.c: `values` replace declared parameters, by their index; `arrays` have more values than one, by their
+    value references, ascending."""
+    tables = {
+        "parameter": ("int", values), "value": ("double", map(repr, values.values())),
+        "array": ("fmu_array", (f"{{{first}, {n}}}" for first, n in arrays.items())),
+    }  # fmt: skip
+    written = {name: (kind, ", ".join(map(str, numbers))) for name, (kind, numbers) in tables.items()}
     return (
-        '/* What this FMU alone has: its token, solver, experiment and parameters. */\n#include "fmu.h"\n\n'
-        + (arrays if values else "")
-        + f'const fmu_config fmu_configuration = {{\n    .token = "{token}",\n    .solver = "{solver}",\n'
+        '/* What this FMU alone has: its token, solver, experiment, parameters and arrays. */\n#include "fmu.h"\n\n'
+        + "".join(f"static const {kind} {name}[] = {{{text}}};\n" for name, (kind, text) in written.items() if text)
+        + f'\nconst fmu_config fmu_configuration = {{\n    .token = "{token}",\n    .solver = "{solver}",\n'
         f"    .rtol = {rtol!r},\n    .start_time = {start!r},\n    .stop_time = {stop!r},\n"
-        f"    .n_parameters = {len(values)},\n"
-        + ("    .parameter = parameter,\n    .value = value,\n" if values else "")
+        f"    .n_parameters = {len(values)},\n    .n_arrays = {len(arrays)},\n"
+        + "".join(f"    .{name} = {name},\n" for name, (_, text) in written.items() if text)
         + "};\n"
     )
 

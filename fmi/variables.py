@@ -1,48 +1,32 @@
 """The variables of an FMU: rows of the model's variable table with the roles that FMI gives them.
 
 Value references (fmi/src/fmu.h): 0 time, 1 + row, then the derivatives of the states, then the event indicators, then
-the states that no row stands for.
+the states that no row stands for. An array has the value reference of its first element.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
-import math
 
 from lacuna.codegen import flat
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.structure.causal import Assignment
+from lacuna.fmi.arrays import arrays_of, joined, states_of
 from lacuna.fmi.errors import FmuError
+from lacuna.fmi.variable import FmiVariable
 import lacuna.runtime as runtime
-
-
-@dataclass(frozen=True)
-class FmiVariable:
-    name: str
-    reference: int
-    causality: str  # independent | parameter | calculatedParameter | input | output | local
-    variability: str  # tunable | discrete | continuous
-    type: str = "Real"  # Real | Integer | Boolean
-    initial: str = ""  # exact | calculated, "" where FMI has none
-    start: float | None = None
-    unit: str = ""
-    quantity: str = ""
-    description: str = ""
-    min: float = -math.inf
-    max: float = math.inf
-    nominal: float = 0.0
-    derivative_of: int | None = None  # the value reference of the state
 
 
 class FmiVariables:
     """All variables of a model in the order of their value references, and the lists that FMI wants of them.
 
-    `values`: settable parameters that start with another value than declared.
+    `values`: settable parameters that start with another value than declared. `arrays`: an array is one variable, as
+    in FMI 3.0; without, each element is one.
     """
 
-    def __init__(self, model: runtime.Model, prepared: Prepared, values: dict[str, float]):
+    def __init__(self, model: runtime.Model, prepared: Prepared, values: dict[str, float], arrays: bool = False):
         self.model, self._prepared, self._values = model, prepared, values
+        self._arrays = arrays_of(model.variables.values()) if arrays else []
         if "time" in model.variables:
             raise FmuError(f"{model.name} has a variable called time, which is the independent variable of an FMU")
 
@@ -51,13 +35,18 @@ class FmiVariables:
         clock = FmiVariable("time", 0, "independent", "continuous", unit="s", description="time")
         rows = [self._row(v) for v in self.model.variables.values()]
         chosen = [v for v in self.states if v.reference > len(rows)]
-        return [clock, *rows, *self._derivatives(), *self.indicators, *chosen]
+        return joined([clock, *rows, *self._derivatives(), *self.indicators, *chosen], self._arrays)
 
     @cached_property
     def states(self) -> list[FmiVariable]:
         """The variable that is each state itself, in the order of the states. One that events choose anew stands now
-        for one variable and now for another, so it has a name of its own, in quotes, which no variable's can be."""
-        own = {v.index: v for v in reversed(self.model.states.values()) if v.sign == 1}
+        for one variable and now for another, so it has a name of its own, in quotes, which no variable's can be.
+        Of several variables that are one state, an element of an array of states comes before one that is in no array,
+        and that before one whose array has others than states in it."""
+        vectors = {v.name for array in self._arrays if states_of(array) for v in array.elements}
+        mixed = {v.name for array in self._arrays for v in array.elements} - vectors
+        candidates = sorted(self.model.states.values(), key=lambda v: (v.name in mixed) - (v.name in vectors))
+        own = {v.index: v for v in reversed(candidates) if v.sign == 1}
         first = self._first_indicator + len(self.indicators)
         return [
             self._row(own[k]) if k in own else

@@ -84,6 +84,7 @@ def compare(
     """
     from lacuna.analysis.comparison.compare import compare_lanes
     from lacuna.analysis.comparison.report import findings
+    from lacuna.analysis.comparison.scenarios import DEFAULT_FILE
 
     tell = progress or silent
 
@@ -92,20 +93,20 @@ def compare(
 
     if model is not None:
         own = load(model, class_name=class_name, libraries=libraries)
-        chosen = [_own(str(model), own, steps, stop, parameters or {}, inputs or {})]
+        chosen, file = [_own(str(model), own, steps, stop, parameters or {}, inputs or {})], Path(model)
     else:
-        chosen = _chosen(scenarios, only)
+        file = Path(scenarios) if scenarios else DEFAULT_FILE
+        chosen = _chosen(file, only)
     folder = Path(out) if out else Path("out/compare") / (chosen[0].name if model else "")
-    studies = compare_lanes(chosen, compiled, folder, lambda s, lane: tell(f"{s.name}: {lane.label}", None))
+    studies = compare_lanes(chosen, compiled, folder, lambda s, lane: tell(f"{s.name}: {lane.label}", None), [file])
     tables = {f"{study.scenario.name}: {study.scenario.title}": _lanes(study) for study in studies}
     return Comparison(tables, tuple(findings(studies)), folder)
 
 
-def _chosen(file: str | Path | None, names: Sequence[str] | None) -> list[Scenario]:
-    from lacuna.analysis.comparison.scenarios import DEFAULT_FILE
+def _chosen(file: Path, names: Sequence[str] | None) -> list[Scenario]:
     from lacuna.analysis.comparison.scenarios import load as read
 
-    known = {scenario.name: scenario for scenario in read(Path(file) if file else DEFAULT_FILE)}
+    known = {scenario.name: scenario for scenario in read(file)}
     for name in names or []:
         if name not in known:
             raise UserError(f"there is no scenario {name}{nearest(name, known)}")

@@ -57,7 +57,7 @@ def fleet(
 
 def _histories(source: Path | str) -> list[Any]:
     from lacuna.analysis.prognosis.fleet import histories_of
-    from lacuna.analysis.prognosis.history import FILES, read_histories
+    from lacuna.analysis.prognosis.history import FILES, parquet_table, read_histories
 
     if "://" in str(source) or Path(source).suffix in (".db", ".sqlite"):
         from lacuna.analysis.prognosis.store import Store
@@ -66,7 +66,5 @@ def _histories(source: Path | str) -> list[Any]:
     path = Path(source)
     path = next((path / name for name in reversed(FILES) if (path / name).exists()), path) if path.is_dir() else path
     if path.suffix == ".parquet":
-        import pyarrow.parquet as pq
-
-        return histories_of(pq.read_table(path), str(path))
+        return histories_of(parquet_table(path), str(path))
     return read_histories(path)

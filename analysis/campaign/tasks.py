@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError
+from contextlib import contextmanager
+import sys
 from typing import TYPE_CHECKING
 
 from lacuna.analysis.errors import AnalysisError
@@ -13,6 +15,24 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 IN_FLIGHT = 4  # chunks a worker thread: enough to keep it busy, few enough to bound the scheduler's memory
+
+
+@contextmanager
+def callers_script_left_out() -> Iterator[None]:
+    """Processes that are started meanwhile do not run the caller's script again.
+
+    A spawned process imports the main module, by its `__spec__` or `__file__`, so that what is defined there can be
+    unpickled: a script without `if __name__ == "__main__"` would start workers in every worker. Ours need this package
+    alone.
+    """
+    main = sys.modules["__main__"]
+    kept = {name: getattr(main, name) for name in ("__spec__", "__file__") if hasattr(main, name)}
+    try:
+        main.__spec__ = None
+        main.__dict__.pop("__file__", None)
+        yield
+    finally:
+        main.__dict__.update(kept)
 
 
 def finished(client: Client, submit: Callable[[int], Future], todo: Iterable[int]) -> Iterator[tuple[int, pa.Table]]:

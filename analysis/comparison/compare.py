@@ -24,21 +24,23 @@ def compare_lanes(
     compiled: Callable[[str], runtime.Model],
     out: Path,
     tick: Callable[[Scenario, Lane], None] = lambda scenario, lane: None,
+    inputs: Sequence[Path] = (),
 ) -> list[Study]:
     """Run every scenario; write deviations.csv, figures and report.html into `out`, all together at the end.
 
-    `compiled` gives the model of a qualified name.
+    `compiled` gives the model of a qualified name; `inputs` are files that say what is run.
     """
-    studies, units = [], {}
+    studies, units, hashes = [], {}, {}
     for scenario in scenarios:
         model = compiled(scenario.model)
         for name in scenario.shown:
             model.variable(name)
         studies.append(run(scenario, model, lambda lane, s=scenario: tick(s, lane)))
         units[scenario.name] = {name: v.unit for name, v in model.variables.items()}
+        hashes[model.name] = model.hash
     with whole_files(out) as folder:
         _write_csv(folder / "deviations.csv", [row for study in studies for row in rows(study)])
-        _write_report(studies, units, folder)
+        _write_report(studies, units, folder, inputs, hashes)
     return studies
 
 
@@ -49,12 +51,19 @@ def _write_csv(path: Path, table: Sequence[dict[str, object]]) -> None:
         writer.writerows(table)
 
 
-def _write_report(studies: Sequence[Study], units: dict[str, dict[str, str]], folder: Path) -> None:
+def _write_report(
+    studies: Sequence[Study],
+    units: dict[str, dict[str, str]],
+    folder: Path,
+    inputs: Sequence[Path],
+    hashes: Mapping[str, str],
+) -> None:
     from lacuna.analysis.comparison.figures import draw_all
     from lacuna.analysis.comparison.report import report_html
 
     figures = {s.scenario.name: draw_all(s, units[s.scenario.name], folder) for s in studies}
-    (folder / "report.html").write_text(report_html(studies, figures, folder), encoding="utf-8")
+    page = report_html(studies, figures, folder, inputs, hashes)
+    (folder / "report.html").write_text(page, encoding="utf-8")
 
 
 def compare_with_file(

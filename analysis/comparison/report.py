@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path
 from string import Template
+from types import MappingProxyType
 
 from markupsafe import Markup
 import numpy as np
@@ -19,8 +20,15 @@ _ACTION = "of the runs in a table below whose largest deviation is small enough 
 _TEMPLATE = Path(__file__).with_name("report.html.in")
 
 
-def report_html(studies: Sequence[Study], figures: dict[str, list[str]], folder: Path) -> str:
-    """The page; `figures` maps a scenario to the stems that lie in `folder` as SVG and PNG."""
+def report_html(
+    studies: Sequence[Study],
+    figures: dict[str, list[str]],
+    folder: Path,
+    inputs: Sequence[Path] = (),
+    hashes: Mapping[str, str] = MappingProxyType({}),
+) -> str:
+    """The page; `figures` maps a scenario to the stems that lie in `folder` as SVG and PNG, `hashes` a model to what it
+    was translated from. `inputs`: files that say what was run."""
     sections = "\n".join(_section(study, figures[study.scenario.name], folder) for study in studies)
     said = findings(studies)
     body = Template(_TEMPLATE.read_text(encoding="utf-8")).substitute(
@@ -29,7 +37,7 @@ def report_html(studies: Sequence[Study], figures: dict[str, list[str]], folder:
     )  # fmt: skip
     return page(
         "Variable step against fixed step", Markup(body), verdict=said[0] if said else "", action=_ACTION,
-        inputs=[folder / "deviations.csv"],
+        inputs=inputs, notes=[f"Model {name}: {value}" for name, value in hashes.items()],
     )  # fmt: skip
 
 

@@ -7,6 +7,7 @@ and ends with the same bytes: nothing is drawn at random.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
 import hashlib
 import os
@@ -17,12 +18,13 @@ import pyarrow as pa
 import pyarrow.compute as pc
 import pyarrow.parquet as pq
 
-from lacuna.analysis.campaign.tasks import finished
+from lacuna.analysis.campaign.tasks import callers_script_left_out, finished
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.files import has_part, write_part
+from lacuna.analysis.prognosis.doubts import UNITS, doubts_of
 from lacuna.analysis.prognosis.filter.bank import Bank
 from lacuna.analysis.prognosis.forecast import Forecast, Limits, Options, fleet_prior, forecasts
-from lacuna.analysis.prognosis.history import UNITS, History
+from lacuna.analysis.prognosis.history import History
 from lacuna.written import whole_file
 
 CHUNK = 512  # histories: some seconds of work
@@ -42,7 +44,8 @@ def histories_of(table: pa.Table, name: str) -> list[History]:
     fault = _text(table, "fault")
     actuator = _text(table, "actuator")
     use, severity, low, high = (_numbers(table, c, name) for c in (unit, "severity", "low", "high"))
-    event = _text(table, "event")
+    event, other_unit = _text(table, "event"), UNITS[1 - UNITS.index(unit)]
+    other = _numbers(table, other_unit, name) if other_unit in table.column_names else np.full(len(table), np.nan)
     _check(name, unit, actuator, use, severity, low, high, event)
     key = np.char.add(np.char.add(actuator, "\0"), fault)
     order = np.argsort(key, kind="stable")  # rows of one actuator in the table's order, which must be that of use
@@ -53,9 +56,10 @@ def histories_of(table: pa.Table, name: str) -> list[History]:
         if np.any(np.diff(use[rows]) <= 0):
             k = int(rows[1:][np.diff(use[rows]) <= 0][0])
             raise AnalysisError(f"{name}:{k + 1}: {unit} do not increase for actuator {actuator[k]}")
+        doubts = doubts_of(name, rows + 1, use[rows], other[rows], unit)
         result.append(
             History(str(actuator[rows[0]]), unit, use[rows], severity[rows], low[rows], high[rows],
-                    event[rows] == "replaced", str(fault[rows[0]]))
+                    event[rows] == "replaced", str(fault[rows[0]]), (), doubts)
         )  # fmt: skip
     return result
 
@@ -160,26 +164,25 @@ def _hash(key: bytes, piece: Sequence[History]) -> str:
 
 
 def _results(work: FleetWork, pieces, todo: list[int], scheduler: str | None) -> Iterator[tuple[int, pa.Table]]:
-    """(chunk, its rows) as they are finished."""
-    if not todo:
+    """(chunk, its rows) as they are finished. One chunk is sooner done here than workers are started."""
+    if len(todo) < 2 and not scheduler:
+        yield from ((k, rows_of(pieces[k], work)) for k in todo)
         return
     from distributed import Client, LocalCluster
 
-    if scheduler:
-        try:
-            cluster, client = None, Client(scheduler, timeout=10)
-        except (OSError, ValueError) as error:
-            raise AnalysisError(f"no Dask scheduler answers at {scheduler}: {error}") from None
-    else:
-        cluster = LocalCluster(n_workers=os.cpu_count(), threads_per_worker=1, dashboard_address=None, silence_logs=40)
-        client = Client(cluster)
-    try:
+    with ExitStack() as opened:
+        if scheduler:
+            try:
+                client = opened.enter_context(Client(scheduler, timeout=10))
+            except (OSError, ValueError) as error:
+                raise AnalysisError(f"no Dask scheduler answers at {scheduler}: {error}") from None
+        else:
+            opened.enter_context(callers_script_left_out())
+            count = min(os.cpu_count() or 1, len(todo))
+            cluster = LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None, silence_logs=40)
+            client = opened.enter_context(Client(opened.enter_context(cluster)))
         shared = client.scatter(work, broadcast=True)
         yield from finished(client, lambda k: client.submit(rows_of, pieces[k], shared, pure=False, retries=2), todo)
-    finally:
-        client.close()
-        if cluster is not None:
-            cluster.close()
 
 
 def rows_of(piece: Sequence[History], work: FleetWork) -> pa.Table:
@@ -199,11 +202,12 @@ SCHEMA = pa.schema(
 
 
 def _row(f: Forecast) -> dict:
-    low95, low80, median, high80, high95 = (float(v) if np.isfinite(v) else None for v in f.quantiles[-1])
+    told = np.isfinite(f.quantiles[-1]) & f.tells
+    low95, low80, median, high80, high95 = (float(v) if t else None for v, t in zip(f.quantiles[-1], told, strict=True))
     return {
         "actuator": f.history.actuator, "fault": f.history.fault, "verdict": f.verdict, "order": ORDER[f.verdict],
         "unit": f.history.unit, "at": f.at, "severity": f.severity[0], "median": median, "low95": low95, "low80": low80,
         "high80": high80, "high95": high95, "advised_last_test": f.advised,
-        "risk_next": float(f.risk[-1, 0]) if f.risk.shape[1] else None, "law": next(iter(f.weights)),
+        "risk_next": float(f.risk[-1, 0]) if f.tells and f.risk.shape[1] else None, "law": next(iter(f.weights)),
         "warnings": "; ".join(f.warnings),
     }  # fmt: skip

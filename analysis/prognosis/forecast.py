@@ -15,7 +15,7 @@ from lacuna.analysis.prognosis.filter.crossing import Remaining, remaining
 from lacuna.analysis.prognosis.filter.filter import Series, Step, run
 from lacuna.analysis.prognosis.history import History
 from lacuna.analysis.prognosis.series import last_error, series_of
-from lacuna.analysis.prognosis.verdict import FEWEST, FORECAST, verdict_on
+from lacuna.analysis.prognosis.verdict import FEWEST, FORECAST, tells, verdict_on
 
 LEVELS = (0.025, 0.1, 0.5, 0.9, 0.975)
 BATCH = 64  # histories a call of the filter: its arrays then stay in the cache
@@ -85,6 +85,11 @@ class Forecast:
     outliers: np.ndarray  # [rows] probability that the test says nothing
     warnings: tuple[str, ...] = ()
     remaining: tuple[Remaining, ...] = field(default=(), repr=False)
+
+    @property
+    def tells(self) -> bool:
+        """Whether quantiles and risk may be told."""
+        return tells(self.verdict, self.reason)
 
 
 @dataclass(frozen=True)

@@ -15,19 +15,22 @@ from functools import cached_property
 from itertools import zip_longest
 import math
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from lacuna.analysis.errors import AnalysisError
+from lacuna.analysis.prognosis.doubts import UNITS, doubts_of
 from lacuna.rows import rows_of
 from lacuna.texts import decimal
 
-UNITS = ("cycles", "hours")
+if TYPE_CHECKING:
+    import pyarrow as pa
+
 EVENTS = ("", "replaced")
 SEPARATORS = {";": "semicolon", "\t": "tab"}  # that other programs write
 FILES = ("history.csv", "history.parquet")
 TWO_SIDED_95 = 1.959964
-SAME_SCALE = 8.0  # by which hours a cycle may differ within one actuator before units are taken to be mixed
 
 Row = dict[str, str | float | None]
 Assess = Callable[[Path], "list[tuple[str, float, float, float]]"]  # (fault, severity, low, high) of a recording
@@ -92,17 +95,25 @@ def _file(path: Path) -> Path:
     raise AnalysisError(f"{path}: no {' or '.join(FILES)} there")
 
 
+def parquet_table(file: Path) -> pa.Table:
+    """Raises AnalysisError where there is none, or no row in it."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    try:
+        table = pq.read_table(file)
+    except (pa.ArrowException, OSError) as error:
+        raise AnalysisError(f"{file}: not a Parquet table: {error}") from None
+    if not len(table):
+        raise AnalysisError(f"{file}: the history has no rows")
+    return table
+
+
 def _table(file: Path) -> list[tuple[int, Row]]:
     """(line or row number, cells) with text cells stripped; empty cells are ''."""
     if file.suffix.lower() == ".parquet":
-        import pyarrow as pa
-        import pyarrow.parquet as pq
-
-        try:
-            table = pq.read_table(file)
-        except (pa.ArrowException, OSError) as error:
-            raise AnalysisError(f"{file}: not a Parquet table: {error}") from None
-        return [(k + 1, {n: "" if v is None else v for n, v in row.items()}) for k, row in enumerate(table.to_pylist())]
+        rows = parquet_table(file).to_pylist()
+        return [(k + 1, {n: "" if v is None else v for n, v in row.items()}) for k, row in enumerate(rows)]
     try:
         found = list(rows_of(file.read_text(encoding="utf-8-sig")))
     except FileNotFoundError:
@@ -214,8 +225,8 @@ class _Group:
     def add(self, reader: _Reader, unit: str, reading: Iterable) -> None:
         severity, low, high, warning = reading
         use, other = (reader.value(u) for u in (unit, UNITS[1 - UNITS.index(unit)]))
-        if use < 0:
-            raise reader.error(f"{unit} is {use:g}, below zero")
+        if not use >= 0:
+            raise reader.error(f"{unit} is {use:g}, {'no number' if math.isnan(use) else 'below zero'}")
         replaced = reader.event()
         if self.rows and self.rows[-1][1] >= use:
             raise reader.error(
@@ -228,34 +239,6 @@ class _Group:
 
     def history(self, file: Path, actuator: str, fault: str, unit: str) -> History:
         _, use, other, replaced, severity, low, high = (np.array(c) for c in zip(*self.rows, strict=True))
-        doubts = [*self._mixed(file, use, other, unit), *self._spacing(file, use, unit)]
+        doubts = doubts_of(file, [row[0] for row in self.rows], use, other, unit)
         replaced = replaced.astype(bool)
-        return History(actuator, unit, use, severity, low, high, replaced, fault, tuple(self.warnings), tuple(doubts))
-
-    def _mixed(self, file: Path, use: np.ndarray, other: np.ndarray, unit: str) -> list[str]:
-        """A doubt where use in one unit and in the other do not go together."""
-        known = np.isfinite(other)
-        steps, others = np.diff(use[known]), np.diff(other[known])
-        if len(steps) < 2:
-            return []
-        lines = [row[0] for row, is_known in zip(self.rows, known, strict=True) if is_known]
-        if np.any(others <= 0):
-            line = lines[int(np.flatnonzero(others <= 0)[0]) + 1]
-            raise AnalysisError(f"{file}:{line}: {UNITS[1 - UNITS.index(unit)]} do not increase with {unit}")
-        ratio = others / steps
-        far = np.abs(np.log(ratio / np.median(ratio))) > math.log(SAME_SCALE)
-        if not far.any():
-            return []
-        line = lines[int(np.flatnonzero(far)[0]) + 1]
-        return [f"{file}:{line}: hours and cycles do not go together here as in the other rows: are units mixed?"]
-
-    def _spacing(self, file: Path, use: np.ndarray, unit: str) -> list[str]:
-        """A doubt where from some row on tests are spaced as if counted in another unit."""
-        steps = np.log(np.diff(use))
-        for k in range(3, len(steps) - 2):
-            if abs(np.median(steps[k:]) - np.median(steps[:k])) > math.log(SAME_SCALE) and (
-                steps[k:].min() > steps[:k].max() or steps[k:].max() < steps[:k].min()
-            ):
-                line = self.rows[k + 1][0]
-                return [f"{file}:{line}: from here on tests are spaced otherwise: are hours and cycles mixed?"]
-        return []
+        return History(actuator, unit, use, severity, low, high, replaced, fault, tuple(self.warnings), doubts)

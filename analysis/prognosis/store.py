@@ -19,7 +19,8 @@ import sqlalchemy as sa
 from sqlalchemy.exc import IntegrityError, SQLAlchemyError
 
 from lacuna.analysis.errors import AnalysisError
-from lacuna.analysis.prognosis.history import EVENTS, UNITS, History
+from lacuna.analysis.prognosis.doubts import UNITS, doubts_of
+from lacuna.analysis.prognosis.history import EVENTS, History
 
 WAIT = 30  # s, for another writer
 LOCK = 0x1ACA  # of a PostgreSQL store while it is made or brought up to date
@@ -207,7 +208,9 @@ def _history(key: tuple[str, str], rows: list[Entry], unit: str | None, where: s
         k = int(np.flatnonzero(np.diff(use) <= 0)[0])
         raise AnalysisError(f"{where}: actuator {key[0]}: two recordings at {own} {use[k]:g}")
     columns = (np.array([getattr(e, name) for e in rows]) for name in ("severity", "low", "high"))
-    return History(key[0], own, use, *columns, np.array([e.event == "replaced" for e in rows]), key[1])
+    other = np.array([getattr(e, UNITS[1 - UNITS.index(own)]) for e in rows], dtype=float)
+    doubts = doubts_of(f"{where}: actuator {key[0]}: test", range(1, len(rows) + 1), use, other, own)
+    return History(key[0], own, use, *columns, np.array([e.event == "replaced" for e in rows]), key[1], (), doubts)
 
 
 def file_hash(path: Path) -> str:

@@ -12,6 +12,7 @@ from lacuna.analysis.prognosis.history import TWO_SIDED_95, History
 
 FORECAST, TOO_EARLY, STEADY = "forecast", "too_early", "steady"
 BEYOND = "what was read lies beyond the last limit: repeat the test, or remove the part"
+WIDE, UNSEEN = "lives that differ tenfold agree with the tests", "no growth can be told yet"
 DECADE = 10.0  # between the ends of the 80 % interval: wider, no removal can be planned by it
 SETTLED = 0.05  # probability of the limit within as much use again as was watched, below which a part is called steady
 FEWEST = 3  # tests of a part: two give a rate, the third can contradict it
@@ -58,7 +59,13 @@ def verdict_on(h: History, outlier: np.ndarray, quantiles: np.ndarray, again: fl
         return FORECAST, "", ()
     if again < SETTLED:
         return STEADY, "the limit is not reached within as much use again as was watched", beyond
-    return TOO_EARLY, "lives that differ tenfold agree with the tests" if grows else "no growth can be told yet", beyond
+    return TOO_EARLY, WIDE if grows else UNSEEN, beyond
+
+
+def tells(verdict: str, reason: str) -> bool:
+    """Whether the intervals of such a forecast say something: not where the tests contradict each other, or are too
+    few to say anything that the prior did not."""
+    return verdict != TOO_EARLY or reason in (WIDE, UNSEEN)
 
 
 def trend(use: np.ndarray, value: np.ndarray, sd: np.ndarray) -> float:

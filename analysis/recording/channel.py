@@ -124,15 +124,17 @@ def clock_name(name: str, others: Sequence[str]) -> str:
     return name if any(read_head(other).is_time for other in (name, *others)) else "time"
 
 
-def named_columns(path: Path, header: Sequence[str], values: np.ndarray) -> list[int]:
-    """The columns with a name. A column without one may only be empty, as after a separator at the ends of lines, or
-    count the rows, as pandas and R write in front of all others."""
-    count = np.arange(values.shape[1])
+def named_columns(path: Path, header: Sequence[str], values: np.ndarray) -> tuple[list[int], list[str]]:
+    """The columns with a name, and what is said of others. A column without one may only be empty, as after a separator
+    at the ends of lines, or count the rows, as pandas and R write in front of all others."""
+    count, notes = np.arange(values.shape[1]), []
     for k, name in enumerate(header):
-        counts = k == 0 and (np.array_equal(values[k], count) or np.array_equal(values[k], count + 1))
-        if not name and not counts and np.isfinite(values[k]).any():
+        if name or not np.isfinite(values[k]).any():
+            continue
+        if k or not (np.array_equal(values[k], count) or np.array_equal(values[k], count + 1)):
             raise RecordingError(f"{path}: column {k + 1} has no name")
-    return [k for k, name in enumerate(header) if name]
+        notes = ["column 1, which has no name and counts the rows, is left out"]
+    return [k for k, name in enumerate(header) if name], notes
 
 
 def left_out(names: Sequence[str]) -> list[str]:

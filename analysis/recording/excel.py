@@ -50,8 +50,8 @@ def read(path: Path) -> Recorded:
         if not _numbers(row):
             raise RecordingError(f"{path}: row {number} of its first sheet holds something that is no number")
     values = np.array([[np.nan if cell is None else float(cell) for cell in row] for row in rows[first:]]).T
-    kept = named_columns(path, header, values)
-    return from_table(path, [header[k] for k in kept], [units[k] for k in kept], values[kept], notes)
+    kept, said = named_columns(path, header, values)
+    return from_table(path, [header[k] for k in kept], [units[k] for k in kept], values[kept], [*notes, *said])
 
 
 def _clocks(rows: np.ndarray) -> tuple[list[int], list[str]]:

@@ -32,6 +32,7 @@ class Recording:
     names: tuple[str, ...]
     sampling_rate: float  # Hz
     currents: np.ndarray  # A, [channels, samples]
+    notes: tuple[str, ...] = ()  # what was assumed in reading it
 
 
 def read_recording(path: Path | str, settings: Settings, columns: Sequence[str] | None = None) -> Recording:
@@ -43,16 +44,17 @@ def read_recording(path: Path | str, settings: Settings, columns: Sequence[str] 
     names = tuple(columns or settings.currents)
     if len(names) != len(settings.currents):
         raise Refusal(f"{len(names)} currents named where the map has {len(settings.currents)}")
-    table = _table(path, names)
+    table, notes = _table(path, names)
     rate = _sampling_rate(path, table["time"], settings.duration)
     currents = np.array([table[name][: round(rate * settings.duration)] for name in names])
     for name, current in zip(names, currents, strict=True):
         _check_channel(name, current, rate)
-    return Recording(names, rate, currents)
+    return Recording(names, rate, currents, notes)
 
 
-def _table(path: Path, names: Sequence[str]) -> dict[str, np.ndarray]:
-    """`time` in s and each named current in A, without the rows that a simulation added at its events."""
+def _table(path: Path, names: Sequence[str]) -> tuple[dict[str, np.ndarray], tuple[str, ...]]:
+    """`time` in s and each named current in A, without the rows that a simulation added at its events; and what was
+    assumed."""
     try:
         recorded = read_recorded(path)
     except RecordingError as error:
@@ -67,10 +69,11 @@ def _table(path: Path, names: Sequence[str]) -> dict[str, np.ndarray]:
     kept = np.ones(len(time), bool)
     if any(c.name == "event" for c in recorded.channels):
         kept = recorded["event"].values == 0
-    return {"time": time[kept]} | {
+    amperes = {
         name: current[kept] * _amperes(path, channel)
         for name, channel, current in zip(names, channels, currents, strict=True)
     }
+    return {"time": time[kept]} | amperes, recorded.notes
 
 
 def _amperes(path: Path, channel: Channel) -> float:

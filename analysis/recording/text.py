@@ -59,6 +59,7 @@ class TextTable:
     values: np.ndarray
     dialect: Dialect
     skipped: int  # lines before the header
+    notes: tuple[str, ...] = ()  # what was left out
 
 
 def read(path: Path) -> Recorded:
@@ -66,7 +67,7 @@ def read(path: Path) -> Recorded:
     table = read_text(path)
     units = tuple(own or beside for own, beside in zip(table.units, _units_beside(path, table.header), strict=True))
     above = [f"{table.skipped} lines above the header were passed over"] if table.skipped else []
-    return from_table(path, table.header, units, table.values, above)
+    return from_table(path, table.header, units, table.values, [*above, *table.notes])
 
 
 def _units_beside(path: Path, header: Sequence[str]) -> Sequence[str]:
@@ -95,7 +96,7 @@ def read_text(path: Path) -> TextTable:
     if any(_NO_NAME.fullmatch(name) for name in (*header, *(unit for unit in units or () if unit != "1"))):
         raise RecordingError(f"{path}:{first}: numbers where names of columns or units should be")
     values = _numbers(path, lines, first, Dialect(separator, decimal, encoding), width)
-    kept = named_columns(path, header, values)
+    kept, notes = named_columns(path, header, values)
     return TextTable(
         path,
         tuple(header[k] for k in kept),
@@ -103,6 +104,7 @@ def read_text(path: Path) -> TextTable:
         values[kept],
         Dialect(separator, decimal, encoding),
         above.index(header),
+        tuple(notes),
     )
 
 

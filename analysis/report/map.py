@@ -38,7 +38,7 @@ def report_html(plant: Plant, settings: Settings, rows: list[Row], summary: dict
     body = Markup(_body(plant, settings, rows, summary, folder))
     return page(
         f"Operating map: {settings.title}", body, verdict=verdict, action=action,
-        inputs=[folder / "settings.toml", folder / "map.csv"], notes=[f"Model and solver: {plant.hash}"],
+        inputs=[folder / "settings.toml"], notes=[f"Model and solver: {plant.hash}"],
     )  # fmt: skip
 
 

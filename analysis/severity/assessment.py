@@ -53,7 +53,7 @@ def assess(
     prepared.check_start(found)
     features = chain_at(settings, found.sampling_rate).analyse(found.currents)
     estimate = prepared.table.estimate(features)
-    warnings = prepared.check_estimate(features, estimate)
+    warnings = (*found.notes, *prepared.check_estimate(features, estimate))
     band = settings.bands[estimate.band]
     text = sentence(settings, estimate, band)
     done = Assessment(str(recording), estimate, band, text, warnings, features_of(features))
@@ -72,7 +72,7 @@ def filtered(recording: Recording, settings: Settings, unfiltered: bool) -> Reco
     if not unfiltered:
         return recording
     rate = recording.sampling_rate
-    return Recording(recording.names, rate, low_pass(recording.currents, rate, settings))
+    return replace(recording, currents=low_pass(recording.currents, rate, settings))
 
 
 def features_of(features: Features) -> dict[str, Any]:

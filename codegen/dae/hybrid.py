@@ -77,7 +77,7 @@ def analyse(model: flat.FlatModel) -> Hybrid:
         initial_equations=[freezer.bodies.equation(e) for e in model.initial_equations],
         whens=whens,
         algorithms=algorithms,
-        asserts=[replace(a, condition=strip(a.condition)) for a in model.asserts],
+        asserts=[replace(a, condition=freezer.bare(a.condition)) for a in model.asserts],
     )
     return Hybrid(frozen, freezer.relations, freezer.samples)
 
@@ -87,9 +87,7 @@ def rename(relations: list[Relation], rewriter: Rewriter) -> list[Relation]:
     return [replace(r, left=rewriter.expression(r.left), right=rewriter.expression(r.right)) for r in relations]
 
 
-def strip(e: Expr) -> Expr:
-    """`e` without noEvent and smooth."""
-    return transform(e, lambda n: strip(n.args[-1]) if n.op in ("noEvent", "smooth") else None, {})
+_OF_EVENTS = ("edge", "change", "sample", "pre")  # what means the same wherever it stands
 
 
 class _Freezer:
@@ -148,15 +146,22 @@ class _Freezer:
                 return self._frozen(number, positive)
             return None
         if n.op in ("noEvent", "smooth"):
-            return strip(n)
-        if n.op in ("edge", "change", "sample", "pre"):
-            return self._rule(n)
-        return None
+            return self.bare(n)
+        return self._rule(n) if n.op in _OF_EVENTS else None
 
     # -- rewriting --------------------------------------------------------------------------------------------
 
     def freeze(self, e: Expr) -> Expr:
         return transform(e, self._rule, self._memo)
+
+    def bare(self, e: Expr) -> Expr:
+        """`e` without noEvent and smooth: its relations are evaluated where they stand."""
+        return transform(e, self._bare_rule, {})
+
+    def _bare_rule(self, n: Expr) -> Expr | None:
+        if n.op in ("noEvent", "smooth"):
+            return self.bare(n.args[-1])
+        return self._rule(n) if n.op in _OF_EVENTS else None
 
     def _continuous(self, e: Expr) -> bool:
         return any(self._is_continuous(n) for n in leaves(e))
@@ -173,7 +178,7 @@ class _Freezer:
 
     def _rule(self, n: Expr) -> Expr | None:
         if n.op in ("noEvent", "smooth"):
-            return strip(n)
+            return self.bare(n)
         if n.op == "edge":
             return logical_and(n.args[0], logical_not(pre(n.args[0])))
         if n.op == "change":

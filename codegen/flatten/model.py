@@ -17,6 +17,7 @@ from lacuna.codegen.flatten.connections.expandable import expand
 from lacuna.codegen.flatten.connections.streams import stream_variables
 from lacuna.codegen.flatten.connections.structure import Structure
 from lacuna.codegen.flatten.equations.algorithms import flatten_algorithm
+from lacuna.codegen.flatten.equations.asserts import require_lasting
 from lacuna.codegen.flatten.equations.equations import Collected, check_discrete
 from lacuna.codegen.flatten.equations.texts import bind_texts
 from lacuna.codegen.flatten.equations.variables import (
@@ -73,12 +74,12 @@ def flatten(
     model.equations += body.equations + connection_equations(body.connections, context)
     stream_variables(model, context)
     context.finish()
-    model.whens, model.algorithms, model.asserts = body.whens, body.algorithms, body.asserts
+    model.whens, model.algorithms, model.asserts = body.whens, body.algorithms, body.asserts + initial.asserts
     model.initial_equations = initial.equations
-    model.asserts += initial.asserts
     model.functions = context.functions
     at_events = assigned([*model.whens, *(s for a in model.algorithms for s in a.statements)])
     with context.attempt():
+        require_lasting(body.asserts)
         check_discrete(model.equations, leaves, set(at_events), context)
     mark_discrete(model, at_events)
     add_used_constants(model, context, list(_all_expressions(model)))

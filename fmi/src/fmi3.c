@@ -84,19 +84,20 @@ fmi3Status fmi3Reset(fmi3Instance instance) {
   return status(fmu_reset(instance));
 }
 
-static bool counts(fmu *f, size_t variables, size_t values) {
-  return values == variables || fmu_refuse(f, "%zu values for %zu variables", values, variables);
+static bool counts(fmu *f, size_t n, const fmi3ValueReference references[], size_t values) {
+  size_t wanted = fmu_count(n, references);
+  return values == wanted || fmu_refuse(f, "%zu values for %zu variables, which have %zu", values, n, wanted);
 }
 
 /* Getters and setters of the types that variables have; those of all other types refuse. */
 #define VALUES(Name, type)                                                                                             \
   fmi3Status fmi3Get##Name(fmi3Instance instance, const fmi3ValueReference references[], size_t n,                     \
                            fmi3##Name values[], size_t n_values) {                                                     \
-    return status(counts(instance, n, n_values) && fmu_get(instance, n, references, type, values));                    \
+    return status(counts(instance, n, references, n_values) && fmu_get(instance, n, references, type, values));        \
   }                                                                                                                    \
   fmi3Status fmi3Set##Name(fmi3Instance instance, const fmi3ValueReference references[], size_t n,                     \
                            const fmi3##Name values[], size_t n_values) {                                               \
-    return status(counts(instance, n, n_values) && fmu_set(instance, n, references, type, values));                    \
+    return status(counts(instance, n, references, n_values) && fmu_set(instance, n, references, type, values));        \
   }
 VALUES(Float64, FMU_DOUBLE)
 VALUES(Int32, FMU_INT)
@@ -134,9 +135,8 @@ fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte bytes[]
 fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[], size_t n_unknowns,
                                         const fmi3ValueReference knowns[], size_t n_knowns, const fmi3Float64 seed[],
                                         size_t n_seed, fmi3Float64 sensitivity[], size_t n_sensitivity) {
-  if (n_seed != n_knowns || n_sensitivity != n_unknowns)
-    return status(fmu_refuse(instance, "a directional derivative needs as many values as variables"));
-  return status(fmu_directional(instance, n_unknowns, unknowns, n_knowns, knowns, seed, sensitivity));
+  return status(counts(instance, n_knowns, knowns, n_seed) && counts(instance, n_unknowns, unknowns, n_sensitivity) &&
+                fmu_directional(instance, n_unknowns, unknowns, n_knowns, knowns, seed, sensitivity));
 }
 
 fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *again, fmi3Boolean *terminate,

@@ -1,24 +1,9 @@
 /* The life of an instance: memory, initialisation, the end. */
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "fmu.h"
-
-bool fmu_refuse(fmu *f, const char *format, ...) {
-  char message[700];
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(message, sizeof message, format, arguments);
-  va_end(arguments);
-  f->say(f, message);
-  return false;
-}
-
-bool fmu_done(fmu *f, rt_status status) {
-  return status ? fmu_refuse(f, "%s", f->session->failure.message) : true;
-}
 
 static bool new_session(fmu *f) {
   char message[300];
@@ -94,6 +79,8 @@ bool fmu_create(fmu *f, const char *name, const char *token) {
     return fmu_refuse(f, "this binary belongs to another model description: its token is %s, not %s",
                       fmu_configuration.token, token ? token : "none");
   f->model.descriptor = mdl_descriptor_get();
+  if (f->model.descriptor->n_delay && !f->co_simulation)
+    return fmu_refuse(f, "delay() looks back into steps of its own: co-simulation only");
   f->name = malloc(strlen(name) + 1);
   if (!f->name || !allocate(f)) return fmu_refuse(f, "out of memory");
   strcpy(f->name, name);

@@ -2,12 +2,18 @@
  * versions of the interface (fmi2.c, fmi3.c) are thin layers over these functions.
  *
  * Value references: 0 time; 1 + row, a row of the variable table; then the derivatives of the states; then the event
- * indicators; then the states. All functions return false after a failure, which has been said through `say`. */
+ * indicators; then the states. An array has that of its first element. All functions return false after a failure,
+ * which has been said through `say`. */
 #ifndef FMU_H
 #define FMU_H
 
 #include "mdl_tangent.h"
 #include "session.h"
+
+/* A variable of `n` values: those of this value reference and of the ones that follow it. */
+typedef struct {
+  unsigned reference, n;
+} fmu_array;
 
 /* Written with each FMU (fmu_config.c). */
 typedef struct {
@@ -17,6 +23,8 @@ typedef struct {
   int n_parameters; /* values other than declared: indices into p */
   const int *parameter;
   const double *value;
+  int n_arrays;
+  const fmu_array *array; /* [n_arrays] by ascending references; of FMI 2.0 there are none */
 } fmu_config;
 extern const fmu_config fmu_configuration;
 const mdl_descriptor *mdl_descriptor_get(void);
@@ -58,15 +66,19 @@ typedef struct {
 bool fmu_create(fmu *f, const char *name, const char *token);
 void fmu_destroy(fmu *f);
 bool fmu_reset(fmu *f);
-bool fmu_refuse(fmu *f, const char *format, ...) __attribute__((format(printf, 2, 3)));
-bool fmu_done(fmu *f, rt_status status);
 bool fmu_enter_initialisation(fmu *f, double start, double stop, double tolerance);
 bool fmu_exit_initialisation(fmu *f);
 bool fmu_terminate(fmu *f);
 
+/* fmu_failure.c */
+bool fmu_refuse(fmu *f, const char *format, ...) __attribute__((format(printf, 2, 3)));
+bool fmu_done(fmu *f, rt_status status);
+
 /* fmu_values.c */
 bool fmu_refresh(fmu *f);
 typedef enum { FMU_DOUBLE, FMU_INT, FMU_BOOL } fmu_type; /* of the importer's arrays */
+size_t fmu_count(size_t n, const unsigned *references);  /* values of n variables */
+/* Values of n variables one after another, all of an array. */
 bool fmu_get(fmu *f, size_t n, const unsigned *references, fmu_type type, void *values);
 bool fmu_set(fmu *f, size_t n, const unsigned *references, fmu_type type, const void *values);
 bool fmu_directional(fmu *f, size_t n_unknowns, const unsigned *unknowns, size_t n_knowns, const unsigned *knowns,

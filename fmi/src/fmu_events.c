@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "fmu.h"
+#include "past.h"
 
 /* Positive while a relation keeps its value. */
 static double margin(const rt_session *s, int r) {
@@ -61,6 +62,19 @@ static bool reset_clocks(fmu *f) {
   return true;
 }
 
+/* What a delay looks back by is fixed in a run: its past reaches no further. */
+static bool keeps_delays(fmu *f) {
+  rt_session *s = f->session;
+  rt_delays *d = s->delays;
+  if (!d) return true;
+  if (s->d->delay_times(&s->data, d->at_node)) return fmu_done(f, rt_fail_model(s, s->t, "computing delays"));
+  for (int k = 0; k < d->n; k++)
+    if (d->at_node[k] != d->seconds[k])
+      return fmu_refuse(f, "delay() number %d cannot be tuned in a run: %.9g s, not %.9g s", k + 1, d->seconds[k],
+                        d->at_node[k]);
+  return true;
+}
+
 static bool retune(fmu *f) {
   rt_session *s = f->session;
   memcpy(s->data.p, s->p_run, (size_t)s->d->n_p * sizeof *s->p_run);
@@ -70,7 +84,7 @@ static bool retune(fmu *f) {
   if (status) return fmu_done(f, status);
   rt_scale_start(s);
   f->retuned = f->fresh = false;
-  return reset_clocks(f);
+  return keeps_delays(f) && reset_clocks(f);
 }
 
 /* What is pending happens, and what follows from inputs and parameters that were set. */

@@ -7,6 +7,7 @@
 
 #include "fmu.h"
 #include "onestep.h"
+#include "past.h"
 
 /* One pass over everything: with `into` it is read, with `from` written, with neither counted. */
 typedef struct {
@@ -47,12 +48,33 @@ static void pass_session(stream *w, rt_session *s) {
   pass_guards(w, &s->g_before, s->numbers);
 }
 
+/* How many pieces each delay has come first, so that a state can be judged before anything is taken from it. */
+static void pass_counts(stream *w, rt_session *s) {
+  for (int k = 0; k < s->d->n_delay; k++)
+    PASS(s->delays->past[k].n);
+}
+
+static void pass_delays(stream *w, rt_session *s) {
+  rt_delays *d = s->delays;
+  if (!d) return;
+  PASS(d->fresh);
+  pass(w, d->seconds, (size_t)d->n * sizeof *d->seconds);
+  pass(w, d->left, (size_t)d->n * sizeof *d->left);
+  for (int k = 0; k < d->n; k++) {
+    rt_history *h = &d->past[k];
+    PASS(h->cursor), PASS(h->ahead), PASS(h->before), PASS(h->size);
+    pass(w, h->pieces, (size_t)h->n * sizeof *h->pieces);
+  }
+}
+
 static void pass_all(stream *w, fmu *f) {
+  pass_counts(w, f->session);
   PASS(f->mode), PASS(f->begun), PASS(f->fresh), PASS(f->retuned), PASS(f->driven);
   pass(w, f->input, (size_t)f->session->d->n_u * sizeof *f->input);
   rt_onestep *solver = f->session->memory;
   PASS(solver->h_next), PASS(solver->last_log_error);
   pass_session(w, f->session);
+  pass_delays(w, f->session);
 }
 
 static size_t size_of(fmu *f) {
@@ -61,8 +83,34 @@ static size_t size_of(fmu *f) {
   return w.size;
 }
 
+static size_t pieces_of(const int *counts, int n) {
+  size_t sum = 0;
+  for (int k = 0; k < n; k++)
+    sum += (size_t)counts[k];
+  return sum * sizeof(rt_piece);
+}
+
+/* Whether these bytes are a state of this FMU, whose delays may have another past than at present; room is made for
+ * that. */
+static bool fits(fmu *f, const unsigned char *bytes, size_t size) {
+  rt_delays *d = f->session->delays;
+  int n = d ? d->n : 0, counts[n + 1], now[n + 1];
+  size_t head = (size_t)n * sizeof *counts;
+  bool sound = size >= head;
+  if (sound) memcpy(counts, bytes, head);
+  for (int k = 0; k < n && sound; k++) {
+    now[k] = d->past[k].n;
+    sound = counts[k] >= 0;
+  }
+  if (!sound || size - pieces_of(counts, n) != size_of(f) - pieces_of(now, n))
+    return fmu_refuse(f, "these %zu bytes are no state of this FMU", size);
+  for (int k = 0; k < n; k++)
+    if (!rt_history_reserve(&d->past[k], counts[k])) return fmu_refuse(f, "out of memory");
+  return true;
+}
+
 static bool reserve(fmu *f, void **snapshot, size_t size) {
-  fmu_snapshot *kept = *snapshot ? *snapshot : malloc(sizeof *kept + size);
+  fmu_snapshot *kept = realloc(*snapshot, sizeof *kept + size);
   if (!kept) return fmu_refuse(f, "out of memory");
   kept->size = size;
   *snapshot = kept;
@@ -84,7 +132,7 @@ bool fmu_pack(fmu *f, const void *snapshot, void *bytes, size_t size) {
 }
 
 bool fmu_unpack(fmu *f, const void *bytes, size_t size, void **snapshot) {
-  if (size != size_of(f)) return fmu_refuse(f, "these %zu bytes are no state of this FMU", size);
+  if (!fits(f, bytes, size)) return false;
   *snapshot = NULL;
   if (!reserve(f, snapshot, size)) return false;
   memcpy(((fmu_snapshot *)*snapshot)->bytes, bytes, size);
@@ -93,7 +141,9 @@ bool fmu_unpack(fmu *f, const void *bytes, size_t size, void **snapshot) {
 
 bool fmu_load(fmu *f, const void *snapshot) {
   rt_session *s = f->session;
-  stream w = {.from = ((const fmu_snapshot *)snapshot)->bytes};
+  const fmu_snapshot *kept = snapshot;
+  if (!fits(f, kept->bytes, kept->size)) return false;
+  stream w = {.from = kept->bytes};
   pass_all(&w, f);
   s->input_time = NAN;
   s->dense.valid = s->resume = false;

@@ -1,5 +1,6 @@
 /* Values of variables by reference, read and set, and derivatives of some by others. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "fmu.h"
@@ -108,16 +109,37 @@ static bool get(fmu *f, unsigned reference, double *value) {
   return true;
 }
 
+static int by_reference(const void *wanted, const void *array) {
+  unsigned a = *(const unsigned *)wanted, b = ((const fmu_array *)array)->reference;
+  return (a > b) - (a < b);
+}
+
+static unsigned count(unsigned reference) {
+  const fmu_config *c = &fmu_configuration;
+  if (!c->n_arrays) return 1;
+  const fmu_array *found = bsearch(&reference, c->array, (size_t)c->n_arrays, sizeof *c->array, by_reference);
+  return found ? found->n : 1;
+}
+
+size_t fmu_count(size_t n, const unsigned *references) {
+  size_t values = 0;
+  for (size_t i = 0; i < n; i++)
+    values += count(references[i]);
+  return values;
+}
+
 bool fmu_get(fmu *f, size_t n, const unsigned *references, fmu_type type, void *values) {
-  for (size_t i = 0; i < n; i++) {
-    double value = 0;
-    if (!get(f, references[i], &value)) return false;
-    if (type == FMU_DOUBLE)
-      ((double *)values)[i] = value;
-    else if (type == FMU_INT)
-      ((int *)values)[i] = (int)value;
-    else
-      ((bool *)values)[i] = value != 0;
+  for (size_t i = 0, at = 0; i < n; i++) {
+    for (unsigned k = 0; k < count(references[i]); k++, at++) {
+      double value = 0;
+      if (!get(f, references[i] + k, &value)) return false;
+      if (type == FMU_DOUBLE)
+        ((double *)values)[at] = value;
+      else if (type == FMU_INT)
+        ((int *)values)[at] = (int)value;
+      else
+        ((bool *)values)[at] = value != 0;
+    }
   }
   return true;
 }
@@ -166,11 +188,13 @@ static bool set(fmu *f, unsigned reference, double value) {
 }
 
 bool fmu_set(fmu *f, size_t n, const unsigned *references, fmu_type type, const void *values) {
-  for (size_t i = 0; i < n; i++) {
-    double value = type == FMU_DOUBLE ? ((const double *)values)[i]
-                   : type == FMU_INT  ? ((const int *)values)[i]
-                                      : ((const bool *)values)[i];
-    if (!set(f, references[i], value)) return false;
+  for (size_t i = 0, at = 0; i < n; i++) {
+    for (unsigned k = 0; k < count(references[i]); k++, at++) {
+      double value = type == FMU_DOUBLE ? ((const double *)values)[at]
+                     : type == FMU_INT  ? ((const int *)values)[at]
+                                        : ((const bool *)values)[at];
+      if (!set(f, references[i] + k, value)) return false;
+    }
   }
   return true;
 }
@@ -209,10 +233,12 @@ bool fmu_directional(fmu *f, size_t n_unknowns, const unsigned *unknowns, size_t
   if (!fmu_refresh(f)) return false;
   memset(f->tangent_rows, 0, rows * MDL_LANES * sizeof(double));
   for (size_t i = 0; i < n_knowns; i++)
-    if (!seed(f, knowns[i], seed_values[i])) return false;
+    for (unsigned k = 0; k < count(knowns[i]); k++)
+      if (!seed(f, knowns[i] + k, *seed_values++)) return false;
   if (d->tangents->parameters(m, &f->tangent) || d->tangents->rhs(m, s->t, m->x, m->xdot, m->v, &f->tangent))
     return fmu_done(f, rt_fail_model(s, s->t, "differentiating the model"));
   for (size_t i = 0; i < n_unknowns; i++)
-    if (!read_row(f, unknowns[i], &result[i])) return false;
+    for (unsigned k = 0; k < count(unknowns[i]); k++)
+      if (!read_row(f, unknowns[i] + k, result++)) return false;
   return true;
 }

@@ -105,16 +105,20 @@ static void compare_ends(const rt_session *s, rt_history *h, bool fresh) {
   p->kink = fresh && !p->jump && fabs(turn) * span > s->options.rtol * h->size;
 }
 
+bool rt_history_reserve(rt_history *h, int n) {
+  if (n <= h->capacity) return true;
+  int capacity = h->capacity > n / 2 ? 2 * h->capacity : n + 63;
+  rt_piece *larger = realloc(h->pieces, (size_t)capacity * sizeof *larger);
+  if (!larger) return false;
+  h->pieces = larger;
+  h->capacity = capacity;
+  return true;
+}
+
 static bool append(rt_session *s, int k) {
   rt_delays *d = s->delays;
   rt_history *h = &d->past[k];
-  if (h->n == h->capacity) {
-    int capacity = h->capacity ? 2 * h->capacity : 64;
-    rt_piece *larger = realloc(h->pieces, (size_t)capacity * sizeof *larger);
-    if (!larger) return false;
-    h->pieces = larger;
-    h->capacity = capacity;
-  }
+  if (!rt_history_reserve(h, h->n + 1)) return false;
   rt_piece *p = &h->pieces[h->n++];
   *p = (rt_piece){.begin = s->t_previous, .length = s->t - s->t_previous};
   for (int i = 0; i < NODES; i++) {

@@ -29,6 +29,7 @@ struct rt_delays {
   double *seconds, *left, *right, *at_node; /* [n], and [n * NODES] */
 };
 
+bool rt_history_reserve(rt_history *h, int n); /* room for n pieces */
 int rt_reached(const rt_history *h, double t);
 
 #endif

@@ -281,7 +281,8 @@ rt_status rt_happen(rt_session *s);
 rt_status rt_check_asserts(rt_session *s);
 void rt_start_patience(rt_session *s);
 
-/* events.c and initialise.c */
+/* settings.c, events.c, initialise.c */
+void rt_session_declared(rt_session *s); /* every parameter back to its declared value */
 rt_status rt_event(rt_session *s);
 rt_status rt_iterate_event(rt_session *s);
 rt_status rt_initialise(rt_session *s);

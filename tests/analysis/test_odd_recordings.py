@@ -38,6 +38,15 @@ def test_dialects_of_text(tmp_path: Path, text: str, expected: dict[str, tuple[s
     assert found(read(tmp_path / "r.txt", text)) == expected
 
 
+def test_a_column_that_counts_the_rows_is_left_out_with_a_word(tmp_path: Path) -> None:
+    said = ("column 1, which has no name and counts the rows, is left out",)
+    assert read(tmp_path / "r.csv", ",time,u\n0,0.0,1\n1,0.1,2\n").notes == said
+    assert read(tmp_path / "e.csv", "time,u,\n0.0,1,\n0.1,2,\n").notes == ()
+    pandas = pytest.importorskip("pandas")
+    pandas.DataFrame({"time": TIME, "u": TIME}).to_excel(tmp_path / "r.xlsx")
+    assert read_recorded(tmp_path / "r.xlsx").notes == said
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [

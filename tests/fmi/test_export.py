@@ -15,7 +15,8 @@ from tests.fmi.fmus import ALL, OTHERS, OWN, Fmus
 from tests.fmi.trajectories import KINDS, differences, reference, run, signals_of
 
 BOUND = 1e-5  # of each signal's largest value
-HYBRID = {"T1": 0.4, "T2": 0.03, "FlightControlEma": 0.03, "Clockwork": 2.0, "VanDerPol": 20.0, "Pendulum": 1.0}
+HYBRID = {"T1": 0.4, "T2": 0.03, "FlightControlEma": 0.03, "Clockwork": 2.0, "VanDerPol": 20.0, "Pendulum": 1.0,
+          "Mesh": 1.0}  # fmt: skip
 
 
 @pytest.mark.parametrize(("name", "version"), [*((n, "3.0") for n in (*OWN, *OTHERS)), *((n, "2.0") for n in OWN)])
@@ -98,3 +99,13 @@ def test_a_foreign_fmu_is_compared_and_a_wrong_one_found(fmus: Fmus) -> None:
     assert lacuna.compare_with_file(own, fmus.path("VanDerPol"), tolerance=1e-4).beyond == []
     other = lacuna.compare_with_file(own, fmus.path("VanDerPol", parameters={"mu": 1.1}), tolerance=1e-4)
     assert set(other.beyond) == {"x0", "x1"}
+
+
+def test_an_fmu_with_arrays_is_compared_element_by_element(fmus: Fmus) -> None:
+    own, rates = OWN["Mesh"], {"u[2]": 0.5, "u[3]": (np.array([0.0, 1.0]), np.array([1.0, 3.0]))}
+    # FMPy holds an input over each of its steps, which a ramp shows: as much with FMI 2.0, where all is scalar.
+    given = {"tolerance": 3e-3, "parameters": {"A[1,2]": 2.0, "A[2,1]": -3.0}, "inputs": rates}
+    found = lacuna.compare_with_file(own, fmus.path("Mesh"), **given)
+    assert {"x[1]", "x[3]", "y[1]", "seen[2,1]", "two[2]"} <= {row[0] for row in found.rows} and found.beyond == []
+    wrong = lacuna.compare_with_file(own, fmus.path("Mesh", parameters={"A[2,2]": 1.0}), **given)
+    assert set(wrong.beyond) == {"y[2]"}

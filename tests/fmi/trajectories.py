@@ -14,10 +14,19 @@ TIGHT = {"dopri5": 1e-11, "rodas4": 1e-10}  # relative tolerance of the run that
 
 
 def run(path: Path, kind: str, stop: float, outputs: list[str], **more) -> np.ndarray:
+    """A column for time and each of `outputs`, elements of arrays among them."""
     more = {"relative_tolerance": 1e-9, "output_interval": stop / 100} | more
-    return fmpy.simulate_fmu(
-        str(path), fmi_type=KINDS[kind], stop_time=stop, solver="CVode", output=outputs, **more
-    )  # fmt: skip
+    arrays = {v.name for v in fmpy.read_model_description(str(path)).modelVariables if v.shape}
+    wanted = {name: name.rpartition("[")[0] if name.rpartition("[")[0] in arrays else name for name in outputs}
+    found = fmpy.simulate_fmu(
+        str(path), fmi_type=KINDS[kind], stop_time=stop, solver="CVode", output=list(set(wanted.values())), **more
+    )
+    table = np.zeros(len(found), dtype=[("time", float), *((name, float) for name in outputs)])
+    table["time"] = found["time"]
+    for name, of in wanted.items():
+        subscripts = [int(k) - 1 for k in name.removeprefix(of).strip("[]").split(",") if k]
+        table[name] = found[of][(slice(None), *subscripts)]
+    return table
 
 
 def signals_of(model: lacuna.Model) -> list[str]:

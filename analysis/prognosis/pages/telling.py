@@ -97,16 +97,21 @@ def entry(f: Forecast, risk: float) -> dict:
         "horizon": f.horizon,
         "severity": {"value": f.severity[0], "low": f.severity[0] - 1.96 * f.severity[1],
                      "high": f.severity[0] + 1.96 * f.severity[1]},
-        **{name: _limit(row) for name, row in zip(f.limits.names, f.quantiles, strict=True)},
+        **{name: _limit(row) for name, row in zip(f.limits.names, told_quantiles(f), strict=True)},
         "probability": [
             {f.history.unit: float(n), **{name: float(p) for name, p in zip(f.limits.names, column, strict=True)}}
-            for n, column in zip(f.ahead, f.risk.T, strict=True)
+            for n, column in zip(f.ahead, f.risk.T, strict=True) if f.tells
         ],
         "advised_last_test": f.advised,
         "risk": risk,
         "law": {"name": next(iter(f.weights)), "weights": f.weights},
         "warnings": list(f.warnings),
     }  # fmt: skip
+
+
+def told_quantiles(f: Forecast) -> np.ndarray:
+    """[limits, levels], inf where nothing may be told: nobody plans by what contradicts itself."""
+    return f.quantiles if f.tells else np.full_like(f.quantiles, np.inf)
 
 
 def _limit(row: np.ndarray) -> dict:

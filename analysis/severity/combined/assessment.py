@@ -57,7 +57,8 @@ def assess_both(
     low, high = other.shown(second.low), other.shown(second.high)
     also = f"{other.name} {other.shown(second.severity):.2f} {other.unit} (95 % sure: {low:.2f} to {high:.2f})"
     text = f"{sentence(settings, estimate.first, band)} Together with {also}."
-    warnings = () if second.readable else (f"{other.name} cannot be read from this recording",)
+    unread = () if second.readable else (f"{other.name} cannot be read from this recording",)
+    warnings = (*found.notes, *unread)
     done = JointAssessment(str(recording), estimate, band, text, warnings, features_of(features))
     if out is not None:
         _write(done, estimator, folder, Path(out))

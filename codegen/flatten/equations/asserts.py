@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 from lacuna.codegen import flat
@@ -12,7 +13,7 @@ from lacuna.codegen.flatten.expressions.enumerations import enumeration_of
 from lacuna.codegen.flatten.expressions.lower import lower, lower_scalar
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import ChosenText
-from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, TRUE
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, TRUE, walk
 from lacuna.codegen.syntax import ast
 
 
@@ -32,6 +33,15 @@ def lower_assert(call: ast.Call, scope: Scope) -> flat.Assert:
         hint = 'assert(x > 0, "text", AssertionLevel.warning)'
         raise Diagnostic("R020", "the message of assert is not a String", call.span, hint)
     return flat.Assert(condition, message, call.span, level, origin_of(scope))
+
+
+def require_lasting(checks: Iterable[flat.Assert]) -> None:
+    """Outside of when an assert is checked where an event is over, and never sees an instant. Raises R056."""
+    for check in checks:
+        asked = next((n for n in walk(check.condition) if n.op in ("edge", "change", "sample")), None)
+        if asked is not None:
+            message = f"an assert outside of when asks for an instant: {asked}"
+            raise Diagnostic("R056", message, check.span, "write: when condition then assert(...); end when")
 
 
 def _level(e: ast.Expression, scope: Scope) -> str:

@@ -17,7 +17,7 @@ from lacuna.codegen.flatten.expressions.lower import lower, lower_results, lower
 from lacuna.codegen.flatten.functions.blanks import blank
 from lacuna.codegen.flatten.functions.effort import MAX_NESTED_STEPS, nested_call, one_more_step
 from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
-from lacuna.codegen.flatten.functions.locals import Local, Signature, fit, typed
+from lacuna.codegen.flatten.functions.locals import Local, Signature, conform, fit, signature_of
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import (
@@ -50,6 +50,7 @@ def interpret(signature: Signature, arguments: dict[str, Value], context: Contex
         return _native(signature, arguments, span)
     run = _Run(signature.cls, context, dict(arguments), span)
     run.inputs = frozenset(arguments)
+    run.kinds = {local.name: local.type.primitive for local in signature.locals}
     for local in signature.locals:
         if local.declaration.causality == "input":
             continue
@@ -95,6 +96,7 @@ class _Run:
         self.locals = values
         self.span = span
         self.inputs: frozenset[str] = frozenset()
+        self.kinds: dict[str, str | None] = {}  # what is declared: a Real may hold the text of an Integer
         self.flexible: set[str] = set()  # arrays declared with `:`, which take the size of what is assigned (12.4.5)
         self.steps = 0
         symbolic = any(isinstance(s, Expr) and s.op != "const" for v in values.values() for s in scalars(v))
@@ -234,10 +236,10 @@ class _Run:
             raise unknown_target(target, self.locals)
         if name in self.inputs:
             raise Diagnostic("R058", f"the input {name} is assigned", span, "copy it to a variable first")
-        self.locals[name] = self._updated(self.locals[name], target, 0, value, span)
+        self.locals[name] = self._updated(self.locals[name], target, 0, value, span, self.kinds.get(name))
 
-    def _updated(self, old: Value, target: ast.Ref, at: int, value: Value, span: Span) -> Value:
-        """`old` with the part that `target` names, from name number `at` on, replaced by `value`."""
+    def _updated(self, old: Value, target: ast.Ref, at: int, value: Value, span: Span, kind: str | None) -> Value:
+        """`old`, of the type `kind`, with the part that `target` names, from name number `at` on, as `value`."""
         subscripts, last = target.subscripts[at], at + 1 == len(target.names)
         if subscripts is None:
             if not last:
@@ -245,7 +247,7 @@ class _Run:
             if target.names[at] in self.flexible and len(shape_of(old)) == len(shape_of(value)):
                 self.scope.context.spend(len(scalars(value)), span)
                 return value
-            return conform(old, value, span, str(target))
+            return conform(old, value, span, str(target), kind)
         numbers = Array(shape_of(old), integers(list(range(prod(shape_of(old))))).items)
         picked = apply_subscripts(numbers, subscripts, self.scope, target)
         if any(p.op != "const" for p in scalars(picked)):
@@ -260,32 +262,21 @@ class _Run:
             raise Diagnostic("R042", f"the sides differ in size: {message}", span, "both need the same size")
         items = list(old.items)
         for position, new in zip(items_of(picked), items_of(value), strict=True):
-            items[position.value] = conform(old.items[position.value], new, span, str(target))
+            items[position.value] = conform(old.items[position.value], new, span, str(target), kind)
         return Array(old.shape, tuple(items))
 
     def _field_updated(self, old: Value, target: ast.Ref, at: int, value: Value, span: Span) -> Record:
         name = target.names[at]
         if not isinstance(old, Record) or name not in old.fields:
             raise Diagnostic("R003", f"{target} has no such element", target.span, "only records have elements")
-        changed = self._updated(old.fields[name], target, at, value, span)
+        kinds = {local.name: local.type.primitive for local in signature_of(old.cls, self.scope.context).locals}
+        changed = self._updated(old.fields[name], target, at, value, span, kinds[name])
         return Record(old.name, old.fields | {name: changed}, old.cls)
 
 
 def unknown_target(target: ast.Ref, names: dict[str, Value]) -> Diagnostic:
     hint = did_you_mean(target.names[0], names, "declare it under 'protected'")
     return Diagnostic("R002", f"there is no variable {target.names[0]}", target.span, hint)
-
-
-def conform(old: Value, value: Value, span: Span, name: str) -> Value:
-    """`value` for a variable that held `old`: the same size, and a type that fits."""
-    if shape_of(old) != shape_of(value) or holds_records(old) != holds_records(value):
-        message = f"{name} has size {shape_text(shape_of(old))}, given {shape_text(shape_of(value))}"
-        raise Diagnostic("R042", message, span, "both need the same size")
-    if holds_records(old):
-        return value
-    kinds = [o.type if isinstance(o, Expr) else "String" for o in scalars(old)]
-    items = [typed(v, k, name, span) for v, k in zip(scalars(value), kinds, strict=True)]
-    return Array(old.shape, tuple(items)) if isinstance(old, Array) else items[0]
 
 
 def _choose(condition: Expr, then: Value, otherwise: Value, span: Span) -> Value:

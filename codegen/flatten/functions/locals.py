@@ -20,6 +20,7 @@ from lacuna.codegen.flatten.names.values import (
     ExternalValue,
     Record,
     Value,
+    holds_records,
     items_of,
     scalars,
     shape_of,
@@ -224,6 +225,17 @@ def _require_enumeration(local: Local, items: list[Expr | str], scope: Scope, sp
             names = [name.rsplit(".", 1)[-1] or local.type.primitive for name in (wanted, found)]
             hint = f"give a {names[0]}; Integer(e) is the number of a literal"
             raise Diagnostic("R025", f"{local.name} is {names[0]}, given {names[1]}", span, hint)
+
+
+def conform(old: Value, value: Value, span: Span, name: str, kind: str | None) -> Value:
+    """`value` for a variable of type `kind` (None: a record) that held `old`: the same size, and a type that fits."""
+    if shape_of(old) != shape_of(value) or holds_records(old) != holds_records(value):
+        message = f"{name} has size {shape_text(shape_of(old))}, given {shape_text(shape_of(value))}"
+        raise Diagnostic("R042", message, span, "both need the same size")
+    if kind is None or holds_records(old):
+        return value
+    items = [typed(item, kind, name, span) for item in scalars(value)]
+    return Array(old.shape, tuple(items)) if isinstance(old, Array) else items[0]
 
 
 def _fit_records(local: Local, value: Value, scope: Scope, span: Span) -> Value:

@@ -105,7 +105,7 @@ class Writer:
             result.append(flat.If(branches, item.span))
 
     def _for(self, item: ast.For, iterators: list[ast.Iterator], result: list[flat.Statement]) -> None:
-        """Over a range the loop is kept; over an array it is unrolled."""
+        """Over a range the loop is kept; over an array it is unrolled, in a loop of one round if a break leaves it."""
         if not iterators:
             result += self.block(item.body)
             return
@@ -121,9 +121,12 @@ class Writer:
             self._for(item, rest, body)
             result.append(flat.For(name, low, step, high, body, item.span))
         else:
+            rounds: list[flat.Statement] = []
             for value in iterate(first, outer, item.body):
                 self.scope = outer.with_locals(**{first.name: value})
-                self._for(item, rest, result)
+                self._for(item, rest, rounds)
+            once, left = ex.const(1), not rest and _is_left(item.body)
+            result += [flat.For(self._fresh(first.name), once, once, once, rounds, item.span)] if left else rounds
         self.scope = outer
 
     def _fresh(self, stem: str) -> str:
@@ -180,6 +183,14 @@ class Writer:
             result += [_store(copy, value, span) for copy, (_, value) in zip(copies, steps, strict=True)]
             steps = [(target, copy) for (target, _), copy in zip(steps, copies, strict=True)]
         result += [_store(target, value, span) for target, value in steps]
+
+
+def _is_left(items: Sequence[ast.Item]) -> bool:
+    """Does a break in these statements leave the loop around them?"""
+    return any(
+        isinstance(item, ast.Break) or (isinstance(item, ast.If) and any(_is_left(body) for _, body in item.branches))
+        for item in items
+    )
 
 
 def _read_what_is_set(steps: list[tuple[Expr, Expr]]) -> bool:

@@ -1,5 +1,4 @@
-/* Sessions: memory for one model and one solver, and what the caller sets before a run. */
-#include <math.h>
+/* A session's memory, for one model and one solver: made, and given back. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -94,11 +93,6 @@ static bool allocate_session(rt_session *s) {
          rt_delays_create(s);
 }
 
-static void declared_parameters(rt_session *s) {
-  for (int i = 0; i < s->d->n_p; i++)
-    s->p_run[i] = s->d->p_start[i];
-}
-
 rt_session *rt_session_new(const rt_model *model, const rt_options *options, char *message, size_t size) {
   const rt_method *method = find_method(options->solver);
   if (!method) {
@@ -124,7 +118,7 @@ rt_session *rt_session_new(const rt_model *model, const rt_options *options, cha
   s->options.solver = s->method->name;
   bool done = allocate_session(s);
   if (done) {
-    declared_parameters(s);
+    rt_session_declared(s);
     if (!(s->options.rtol > 0)) s->options.rtol = s->d->tolerance > 0 ? s->d->tolerance : 1e-6;
     s->atol_given = s->options.atol > 0;
     if (!s->atol_given) s->options.atol = 0.01 * s->options.rtol;
@@ -149,94 +143,4 @@ void rt_session_free(rt_session *s) {
   free(s->numbers);
   free(s->flags);
   free(s);
-}
-
-const rt_failure *rt_session_failure(const rt_session *s) {
-  return &s->failure;
-}
-
-static rt_status refuse(rt_session *s, const char *what) {
-  return rt_fail(s, RT_ARGUMENT, 0, -1, NULL, "%s", what);
-}
-
-static const mdl_variable *variable(const rt_session *s, int row) {
-  return row >= 0 && row < s->d->n_variables ? &s->d->variables[row] : NULL;
-}
-
-rt_status rt_session_parameters(rt_session *s, int n, const int *variables, const double *values) {
-  declared_parameters(s);
-  for (int i = 0; i < n; i++) {
-    const mdl_variable *v = variable(s, variables[i]);
-    if (!v || v->storage != MDL_PARAMETER || !v->settable) return refuse(s, "not a parameter that may be set");
-    if (!(values[i] >= v->min && values[i] <= v->max))
-      return rt_fail_bound(s, 0, variables[i], values[i], v->min, v->max);
-    if (!rt_has_type(v, values[i]))
-      return rt_fail(s, RT_ARGUMENT, 0, variables[i], NULL, "parameter %s cannot be %.17g: it is %s", v->name,
-                     values[i], v->type == MDL_BOOLEAN ? "Boolean (0 or 1)" : "of whole numbers up to 2^53");
-    s->p_run[v->index] = v->sign * values[i];
-  }
-  return RT_OK;
-}
-
-rt_status rt_session_initial(rt_session *s, int n, const int *variables, const double *values) {
-  s->n_initial = 0;
-  for (int i = 0; i < n; i++) {
-    const mdl_variable *v = variable(s, variables[i]);
-    if (!v || v->storage != MDL_STATE || i >= s->d->n_x)
-      return refuse(s, "not a state: its initial value cannot be set");
-    s->initial_index[i] = v->index;
-    s->initial_value[i] = v->sign * values[i];
-    s->n_initial = i + 1;
-  }
-  return RT_OK;
-}
-
-rt_status rt_session_input(rt_session *s, int row, int n, const double *time, const double *values,
-                           rt_interpolation interpolation) {
-  const mdl_variable *v = variable(s, row);
-  if (!v || v->storage != MDL_INPUT || v->sign != 1) return refuse(s, "not an input of the model");
-  for (int k = 0; k < n; k++) {
-    if (k && !(time[k] > time[k - 1]))
-      return rt_fail(s, RT_ARGUMENT, time[k], row, NULL, "samples of input %s: time does not increase at %.9g s",
-                     v->name, time[k]);
-    if (!isfinite(time[k]) || !isfinite(values[k]))
-      return rt_fail(s, RT_ARGUMENT, time[k], row, NULL, "samples of input %s: not a finite number at %.9g s", v->name,
-                     time[k]);
-  }
-  s->inputs[v->index] = (rt_input){.time = time, .values = values, .n = n, .interpolation = interpolation};
-  return RT_OK;
-}
-
-rt_status rt_session_outputs(rt_session *s, int n, const int *variables) {
-  rt_output *outputs = calloc((size_t)n + 1, sizeof *outputs);
-  if (!outputs) return rt_fail(s, RT_MEMORY, 0, -1, NULL, "out of memory");
-  free(s->recorder.outputs);
-  s->recorder.outputs = outputs;
-  s->recorder.n = 0;
-  s->recorder.needs_rhs = s->recorder.needs_point = false;
-  for (int i = 0; i < n; i++) {
-    const mdl_variable *v = variable(s, variables[i]);
-    if (!v) return refuse(s, "no such variable to record");
-    outputs[i] = (rt_output){.storage = v->storage, .index = v->index, .sign = v->sign};
-    s->recorder.needs_rhs |= v->storage == MDL_ALGEBRAIC || v->storage == MDL_DERIVATIVE;
-    s->recorder.needs_point |= s->recorder.needs_rhs || v->storage == MDL_INPUT;
-    s->recorder.n = i + 1;
-  }
-  return RT_OK;
-}
-
-void rt_session_tolerances(const rt_session *s, double *rtol, double *atol) {
-  *rtol = s->options.rtol;
-  *atol = s->options.atol;
-}
-
-rt_status rt_session_grid(rt_session *s, int n, const double *times, double interval) {
-  for (int i = 0; i < n; i++)
-    if (!(i ? times[i] >= times[i - 1] : isfinite(times[i]))) return refuse(s, "output times must not decrease");
-  if (!(interval >= 0) || isinf(interval))
-    return refuse(s, "the output interval must not be negative, infinite or NaN");
-  s->recorder.grid = times;
-  s->recorder.n_grid = n;
-  s->recorder.interval = interval;
-  return RT_OK;
 }
