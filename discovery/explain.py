@@ -13,7 +13,7 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.efforts.find import INDIFFERENT
-from lacuna.discovery.efforts.instruments import only_instruments
+from lacuna.discovery.efforts.instruments import NATS, gained, only_instruments
 from lacuna.discovery.experiment.proposal import propose
 from lacuna.discovery.explanation.contenders import contenders
 from lacuna.discovery.explanation.explanation import Clock, Explanation
@@ -75,6 +75,8 @@ def _conclude(result: Explanation) -> None:
     """The verdict, from the findings, the whiteness of what is left and the believed parameters."""
     if result.findings and _accuses_sensors(result) and nearly_noise(result.base):
         _believe_again(result)  # an error of an instrument that is smaller than its noise is no finding
+    if result.findings and _is_colour(result):
+        _believe_again(result)
     if result.findings:
         _conclude_from_findings(result)
         return
@@ -87,6 +89,15 @@ def _conclude(result: Explanation) -> None:
         result.experiment = "record the same motion with the quantities that are not recorded now"
     else:
         result.verdict = "parameters" if outside_belief(result.base) else "consistent"
+
+
+def _is_colour(result: Explanation) -> bool:
+    """Whether noise of an unknown level, with a colour of its own, says as much as what was found in it."""
+    case, base = result.case, (replace(result.amendment, attachments=[]), result.base)
+    if not result.lead.direct or not only_instruments(case, *base):
+        return False
+    picked = sum(f.ranked.candidate.pick for f in result.findings)
+    return gained(case, base, (result.amendment, result.final)) < NATS + picked
 
 
 def _holds(result: Explanation) -> bool:

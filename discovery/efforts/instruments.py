@@ -31,22 +31,32 @@ Rows = tuple[np.ndarray, np.ndarray]  # (sizes (h,), times (h,)) that one chain 
 
 
 def only_instruments(case: Case, amendment: Amendment, fit: Fit) -> bool:
-    """Whether what `fit`, that of `amendment`, leaves is noise of an unknown level with a colour of its own.
+    """Whether what `fit`, that of `amendment`, leaves may be noise of an unknown level with a colour of its own.
 
     False where levels are given and exceeded, where it comes in bursts, and where the equations cannot be opened.
     """
     if fit.only_instruments is None:
-        fit.only_instruments = may_be_coloured(fit) and _weighed(case, amendment, fit)
+        locator = _locator(case, amendment, fit) if may_be_coloured(fit) else None
+        fit.only_instruments = locator is not None and weighed(locator) < NATS
     return fit.only_instruments
 
 
-def _weighed(case: Case, amendment: Amendment, fit: Fit) -> bool:
+def gained(case: Case, before: tuple[Amendment, Fit], after: tuple[Amendment, Fit]) -> float:
+    """Nats that a model has over another one where what either leaves is the instruments' own: what is found in noise
+    with a colour has to explain more than the colour does. Minus infinity where one cannot be opened."""
+    locators = [_locator(case, *model) for model in (before, after)]
+    if None in locators:
+        return -np.inf
+    without, with_it = (_fitted(thinned_all(x.pieces, SAMPLES), _NOTHING)[1] for x in locators)
+    return with_it - without
+
+
+def _locator(case: Case, amendment: Amendment, fit: Fit) -> Locator | None:
     try:
         common = [f.name for f in fit.estimate.free if not f.name.startswith("start:") and "@" not in f.name]
-        locator = Locator(case, opened(case, amendment, case.library(), common), fit)
-        return weighed(locator) < NATS
+        return Locator(case, opened(case, amendment, case.library(), common), fit)
     except (NotNumeric, SimulationError, np.linalg.LinAlgError):
-        return False
+        return None
 
 
 def weighed(locator: Locator) -> float:

@@ -40,10 +40,7 @@ def explain_open(search: Search, unbegun: Search, library: Library, progress: Pr
     quiet = nearly_noise(unbegun.fit) and like_noise(unbegun.fit)  # colour alone may also be a misfit of fast motion
     if not unbegun.lead.direct or unbegun.amendment.trackers or quiet:
         return None
-    settled = search.settled()
-    if settled and not search.findings:
-        return None
-    explained = settled or within_instruments(search.fit)
+    explained = search.settled() or within_instruments(search.fit)
     if explained and any(not f.ranked.attachment.variable for f in search.findings):
         return None
     found = find(search.case, unbegun.amendment, unbegun.fit, library, progress)

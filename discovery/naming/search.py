@@ -96,7 +96,8 @@ class Search:
             return False
         if settled(self.fit, rough=not self.lead.direct):
             return True
-        return self.lead.direct and only_instruments(self.case, self.amendment, self.fit)
+        known = bool(self.findings) and self.lead.direct
+        return known and only_instruments(self.case, self.amendment, self.fit)
 
     def lost(self) -> bool:
         """Whether fits that nothing has led leave so much that the search has to begin anew."""
