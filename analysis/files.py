@@ -1,4 +1,4 @@
-"""Files that come in: of a size that can be read, and whole; and parts that are read again."""
+"""Files of ours that are read again: arrays, and parts of long computations."""
 
 from __future__ import annotations
 
@@ -10,24 +10,17 @@ import zipfile
 import numpy as np
 
 from lacuna.analysis.errors import AnalysisError
+from lacuna.given import require_file
 from lacuna.written import whole_file
 
 if TYPE_CHECKING:
     import pyarrow as pa
 
-LARGEST = 1 << 30  # bytes of a file that is read: a hundred signals for a quarter of an hour at 1 kHz as text
-
-
-def check_file(path: Path, error: type[Exception] = AnalysisError) -> None:
-    """Raises `error` where `path` is no file of a size that is read: devices and pipes have no end."""
-    if not path.is_file():
-        raise error(f"{path}: {'is not a file' if path.exists() else 'there is no such file'}")
-    if path.stat().st_size > LARGEST:
-        raise error(f"{path}: larger than {LARGEST >> 20} MB")
-
 
 def load_arrays(path: Path, names: Sequence[str]) -> dict[str, np.ndarray]:
     """These arrays of an .npz file. Raises AnalysisError where it is missing or damaged, or has not all of them."""
+    if path.exists():
+        require_file(path, AnalysisError)
     try:
         with np.load(path, allow_pickle=False) as content:
             return {name: content[name] for name in names}

@@ -65,10 +65,20 @@ def explain(
     clock.done("name")
     _conclude(result)
     add_effort(result, progress)
-    result.trial = propose(result.case, contenders(result), progress)
-    result.experiment = result.trial.sentence() if result.trial else result.experiment
+    _advise(result, progress)
     clock.done("next experiment")
     return result
+
+
+def _advise(result: Explanation, progress: Progress) -> None:
+    """What to do next: the recording that decides; no recording where the search has not seen all there are."""
+    if result.stopped and result.verdict == "undetermined":
+        until_then = f"; until then: {result.reason}" if result.reason != result.stopped else ""
+        result.reason = result.stopped + until_then
+        result.experiment = "explain the case again with a longer limit (--limit): the recordings may be enough"
+        return
+    result.trial = propose(result.case, contenders(result), progress)
+    result.experiment = result.trial.sentence() if result.trial else result.experiment
 
 
 def _conclude(result: Explanation) -> None:
@@ -172,6 +182,8 @@ def _withdraw(result: Explanation, best: Ranked) -> None:
         if _efforts(result) and astray(result.final)
         else f"an effort at {_first_place(result)} explains as much, for which no law was found"
         if _efforts(result)
+        else "the equations had not been searched yet: it may as well be physics"
+        if result.stopped and result.opened is None
         else f"no place in the equations of {result.case.model} was open to this search{_why_closed(result)}: "
         "it may as well be physics"
     )

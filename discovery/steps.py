@@ -133,7 +133,7 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
         explain_beyond(search, unbegun, progress)
         result.opened = explain_open(search, unbegun, library, progress)
     except TimeUp as stopped:
-        search.reason = str(stopped)
+        search.reason = result.stopped = str(stopped)
     _take(result, search)
 
 

@@ -7,8 +7,9 @@ import hashlib
 from importlib.metadata import version
 import os
 from pathlib import Path
-import tomllib
 
+from lacuna.errors import UserError
+from lacuna.given import toml_of
 from lacuna.progress import Progress, spoken
 
 
@@ -34,8 +35,8 @@ def _hash(case: Path) -> str:
     """Of the files in the folder of the case, and of a model file elsewhere."""
     files = sorted(path for path in case.rglob("*") if path.is_file())
     try:
-        model = str(tomllib.loads((case / "case.toml").read_text(encoding="utf-8")).get("model", ""))
-    except (OSError, ValueError):  # `explain` refuses it with its reason
+        model = str(toml_of(case / "case.toml", UserError).get("model", ""))
+    except UserError:  # `explain` refuses it with its reason
         model = ""
     elsewhere = case / model.split(":")[0]
     digest = hashlib.sha256(version("lacuna").encode())

@@ -6,7 +6,9 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from lacuna.codegen.library.search_path import search_path
+from lacuna.errors import UserError
 from lacuna.extras import names_missing_packages
+from lacuna.given import text_of
 from lacuna.lsp.format import format_text
 from lacuna.written import write_whole
 
@@ -27,7 +29,7 @@ def format_model(text: str, file: str = "") -> str:
 
 def format_file(path: Path, *, check: bool = False) -> bool:
     """Format a .mo file in place, or with `check` only say whether it would change; True where it does."""
-    text = path.read_text(encoding="utf-8")
+    text = text_of(path, UserError)
     formatted = format_model(text, str(path))
     if formatted != text and not check:
         write_whole(path, formatted)

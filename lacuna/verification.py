@@ -14,6 +14,7 @@ from typing import Any
 
 from lacuna.children import run
 from lacuna.errors import UserError
+from lacuna.given import json_of
 from lacuna.progress import Progress, spoken
 from lacuna.written import write_whole
 
@@ -86,12 +87,9 @@ def verify(folder: str | Path, progress: Progress | None = None) -> Verification
 
 def _made_by(folder: Path) -> dict[str, Any]:
     path = folder / MADE_BY
-    try:
-        made = json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise UserError(f"{folder} does not say how it was made: there is no {MADE_BY}") from None
-    except ValueError as error:
-        raise UserError(f"{path} is damaged: {error}") from None
+    if not path.exists():
+        raise UserError(f"{folder} does not say how it was made: there is no {MADE_BY}")
+    made = json_of(path, UserError)
     try:
         words, files, inputs = made["command"], made["files"], made["inputs"]
         sound = made["format"] == FORMAT and words[0] in VERIFIABLE and isinstance(inputs, dict)
@@ -120,8 +118,8 @@ def _content(path: Path) -> object:
         return None
     if path.suffix == ".json":
         try:
-            return _without_seconds(json.loads(path.read_text(encoding="utf-8")))
-        except ValueError:
+            return _without_seconds(json_of(path, UserError))
+        except UserError:
             return b""
     return path.read_bytes()
 

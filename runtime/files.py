@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from lacuna.given import json_of
 from lacuna.runtime.errors import SimulationError
 from lacuna.runtime.model import Variable
 from lacuna.runtime.result import Result
@@ -123,9 +124,6 @@ def read_metadata(path: Path) -> dict:
     meta = meta_path(path)
     if not meta.exists():
         return {}
-    try:
-        said = json.loads(meta.read_text(encoding="utf-8"))
-    except ValueError as error:
-        raise SimulationError(f"{meta}: {error}") from error
+    said = json_of(meta, SimulationError)
     ours = isinstance(said, dict) and said.get("format") == FORMAT and isinstance(said.get("columns"), dict)
     return said if ours else {}

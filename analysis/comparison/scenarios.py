@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
 from pathlib import Path
-import tomllib
 
+from lacuna.given import toml_of
 from lacuna.runtime import RecordedInput
 
 DEFAULT_FILE = Path(__file__).with_name("scenarios.toml")
@@ -43,10 +43,7 @@ class Scenario:
 
 def load(file: Path = DEFAULT_FILE) -> list[Scenario]:
     """All scenarios of `file`, in its order."""
-    try:
-        tables = tomllib.loads(file.read_text(encoding="utf-8"))
-    except tomllib.TOMLDecodeError as error:
-        raise ScenarioError(f"{file}: {error}") from None
+    tables = toml_of(file, ScenarioError)
     return [_scenario(file, name, table) for name, table in tables.items()]
 
 

@@ -7,7 +7,6 @@ deviation. Nothing is said of a quantity in a diagnosis that does not name it: a
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-import json
 import math
 from pathlib import Path
 
@@ -17,6 +16,7 @@ from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis.forecast import Limits
 from lacuna.analysis.prognosis.history import TWO_SIDED_95, History
 from lacuna.analysis.prognosis.verdict import trend
+from lacuna.given import json_of
 
 FILE, CASE = "diagnosis.json", "case.toml"
 SHARES = Limits(("limit",), (1.0,), -math.inf, math.inf)
@@ -79,8 +79,8 @@ def _severity(path: Path, name: str, limit: float, found: Quantities, healthy: d
 def quantities(path: Path) -> Quantities:
     """Of a diagnosis.json, or of a folder with one: parameters by name, an effect's as effect@location.parameter."""
     file = path / FILE if path.is_dir() else path
+    content = json_of(file, AnalysisError)
     try:
-        content = json.loads(file.read_text(encoding="utf-8"))
         own = {
             name: (float(p["value"]), float(p["std"]), float(p["believed"]))
             for name, p in content.get("parameters", {}).items()
@@ -90,8 +90,6 @@ def quantities(path: Path) -> Quantities:
             for f in content.get("findings", [])
             for name, p in f.get("parameters", {}).items()
         }
-    except OSError:
-        raise AnalysisError(f"{file} is missing") from None
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         raise AnalysisError(f"{file}: not a diagnosis of `lacuna explain`: {error!r}") from None
     return own | effects

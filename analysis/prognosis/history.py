@@ -21,6 +21,7 @@ import numpy as np
 
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis.doubts import UNITS, doubts_of
+from lacuna.given import require_file, text_of
 from lacuna.rows import rows_of
 from lacuna.texts import decimal
 
@@ -100,6 +101,7 @@ def parquet_table(file: Path) -> pa.Table:
     import pyarrow as pa
     import pyarrow.parquet as pq
 
+    require_file(file, AnalysisError)
     try:
         table = pq.read_table(file)
     except (pa.ArrowException, OSError) as error:
@@ -115,9 +117,7 @@ def _table(file: Path) -> list[tuple[int, Row]]:
         rows = parquet_table(file).to_pylist()
         return [(k + 1, {n: "" if v is None else v for n, v in row.items()}) for k, row in enumerate(rows)]
     try:
-        found = list(rows_of(file.read_text(encoding="utf-8-sig")))
-    except FileNotFoundError:
-        raise AnalysisError(f"{file} is missing") from None
+        found = list(rows_of(text_of(file, AnalysisError, "utf-8-sig")))
     except ValueError as error:
         raise AnalysisError(f"{file}: not a table: {error}") from None
     names, rows = (found[0][1], found[1:]) if found else ([], [])

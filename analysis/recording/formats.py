@@ -13,9 +13,9 @@ from __future__ import annotations
 from importlib import import_module
 from pathlib import Path
 
-from lacuna.analysis.files import check_file
 from lacuna.analysis.recording.channel import Reader, Recorded, RecordingError
 from lacuna.extras import names_missing_packages
+from lacuna.given import require_file
 from lacuna.written import whole_file
 
 _READERS = {
@@ -33,7 +33,7 @@ SUFFIXES = tuple(suffix for suffixes in _READERS.values() for suffix in suffixes
 def read_recorded(path: Path | str) -> Recorded:
     """The channels of a file. Raises RecordingError for what is no recording, MissingPackage for want of its reader."""
     path = Path(path)
-    check_file(path, RecordingError)
+    require_file(path, RecordingError)
     return _reader(path)(path)
 
 

@@ -8,11 +8,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-import tomllib
 from typing import Any
 
 from lacuna.analysis.errors import AnalysisError
-from lacuna.analysis.files import check_file
+from lacuna.given import parsed_toml, text_of
 
 PAPER = Path(__file__).with_name("paper.toml")
 
@@ -123,20 +122,12 @@ class _Table(dict):
 def load_settings(path: Path | str = PAPER) -> Settings:
     """Read a settings file. Raises AnalysisError naming the file and the entry that is missing or impossible."""
     path = Path(path)
-    if path.exists():
-        check_file(path)
-    try:
-        return settings_of(path.read_text(encoding="utf-8"), path)
-    except UnicodeDecodeError as error:
-        raise AnalysisError(f"{path}: not a settings file: {error}") from None
+    return settings_of(text_of(path, AnalysisError), path)
 
 
 def settings_of(text: str, path: Path) -> Settings:
     """The settings that `text` says; `path` is named in errors. Raises AnalysisError."""
-    try:
-        raw = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise AnalysisError(f"{path}: not a settings file: {error}") from None
+    raw = parsed_toml(text, path, AnalysisError)
     try:
         settings = _settings(path, text, raw)
     except KeyError as error:

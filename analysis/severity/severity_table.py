@@ -17,6 +17,7 @@ import numpy as np
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.spectra.chain import Features
 from lacuna.analysis.spectra.library import MESSAGE_SIZE, CEstimate, library
+from lacuna.given import require_file
 
 
 @dataclass(frozen=True)
@@ -73,10 +74,10 @@ class SeverityTable:
     """A table from its file. Raises AnalysisError where the file is missing, damaged or not a severity table."""
 
     def __init__(self, path: Path | str):
-        try:
-            data = Path(path).read_bytes()
-        except FileNotFoundError:
-            raise AnalysisError(f"{path} is missing: the map was not prepared for assessment") from None
+        if not Path(path).exists():
+            raise AnalysisError(f"{path} is missing: the map was not prepared for assessment")
+        require_file(Path(path), AnalysisError)
+        data = Path(path).read_bytes()
         self._lib = library()
         message = ctypes.create_string_buffer(MESSAGE_SIZE)
         self._table = self._lib.lacuna_table_new(data, len(data), message, MESSAGE_SIZE)

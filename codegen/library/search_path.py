@@ -9,6 +9,7 @@ import re
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.syntax import parse
+from lacuna.given import require_file
 from lacuna.suggest import did_you_mean
 
 MODEL_FOLDER = Path(__file__).resolve().parents[2] / "model"
@@ -108,6 +109,7 @@ def _names_of(library: Path) -> list[str]:
         return names_in(library)
     file = library / PACKAGE_FILE if library.is_dir() else library
     try:
+        require_file(file, OSError)
         return [cls.name for cls in parse(file.read_text(encoding="utf-8"), str(file))]
     except (OSError, UnicodeDecodeError) as error:
         raise Diagnostic("F001", f"cannot read {file}: {error}", hint="save it as UTF-8") from None

@@ -6,17 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 import math
 from pathlib import Path
-import tomllib
 
 import numpy as np
 
-from lacuna.analysis.files import check_file
 from lacuna.analysis.recording.channel import RecordingError, on_one_time
 from lacuna.analysis.recording.formats import read_recorded
 from lacuna.codegen.flatten.model import flatten
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.case_keys import KeyProblem, check
 from lacuna.discovery.case.case_model import CaseModel, case_model
+from lacuna.given import toml_of
 from lacuna.recorded_units import ZERO_CELSIUS, UnitError, to_si
 
 DEFAULT_UNCERTAINTY = 0.05  # believed relative 1-sigma of a parameter that case.toml does not mention
@@ -171,14 +170,10 @@ def load(folder: str | Path, libraries: Sequence[str | Path] = ()) -> Case:
 
 
 def _read(path: Path) -> dict:
-    if path.exists():
-        check_file(path, CaseError)
+    raw = toml_of(path, CaseError)
     try:
-        raw = tomllib.loads(path.read_text(encoding="utf-8"))
         check(raw)
-    except OSError as error:
-        raise CaseError(f"{path}: cannot be read ({error.strerror})") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, KeyProblem) as error:
+    except KeyProblem as error:
         raise CaseError(f"{path}: {error}") from error
     return raw
 

@@ -112,7 +112,9 @@ def _case_toml(case: Case, proposal: Proposal, folder: Path, names: tuple[str, s
         part: [*map(seen, raw["recordings"][part]), name]
         for part, name in zip(("fit", "validate"), names, strict=True)
     }  # fmt: skip
-    raw["limits"] = {c: {"min": r.low, "max": r.high, "rate": r.rate} for c, r in proposal.ranges.items()}
+    raw["limits"] = raw.get("limits", {}) | {
+        c: {"min": r.low, "max": r.high, "rate": r.rate} for c, r in proposal.ranges.items() if r.moves
+    }
     lines = [
         "# The case with the experiment that decides. Play each *.inputs.csv and record all columns of [signals],",
         f"# as {names[0]} and {names[1]} beside this file; then `lacuna explain` this folder.",

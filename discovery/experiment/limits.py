@@ -20,6 +20,11 @@ class Range:
     rate: float
     start: float
 
+    @property
+    def moves(self) -> bool:
+        """Whether it may change at all: an input that was held as it was has no limits that a case could name."""
+        return self.low < self.high and self.rate > 0
+
 
 def ranges(case: Case) -> dict[str, Range]:
     """The range of every input. What case.toml leaves out is as recorded."""

@@ -35,11 +35,9 @@ def build(result: Explanation, amended: Path | None) -> dict[str, Any]:
             for c in result.floor
         }
         diagnosis["parameters"] = _parameters(result, errors)
-    if result.findings:
-        diagnosis["explained"] = explained(result)
-        diagnosis["ties"] = [tie(f) for f in result.findings if f.naming.rivals(f.ranked)]
-    if places := _places(result):
-        diagnosis["places"] = places
+    diagnosis["explained"] = explained(result) if result.findings else 0.0
+    diagnosis["ties"] = [tie(f) for f in result.findings if f.naming.rivals(f.ranked)]
+    diagnosis["places"] = _places(result)
     if amended is not None:
         diagnosis["amended_model"] = amended.name
     diagnosis["sentence"], diagnosis["certainty"] = sentence(result), certainty(result)
@@ -47,8 +45,7 @@ def build(result: Explanation, amended: Path | None) -> dict[str, Any]:
         diagnosis["reason"] = result.reason
     if result.experiment:
         diagnosis["experiment"] = result.experiment
-    if result.trial:
-        diagnosis["next_experiment"] = described(result.case, result.trial)
+    diagnosis["next_experiment"] = described(result.case, result.trial) if result.trial else None
     if result.problems:
         diagnosis["recordings"] = [p.as_dict() for p in result.problems]
     diagnosis["seconds"] = {k: round(v, 2) for k, v in result.seconds.items()}
@@ -227,6 +224,8 @@ def sentence(result: Explanation) -> str:
         if left and result.final.only_instruments:
             more = f"; that of {' and '.join(left)} has a memory, and nothing in the equations would explain it better"
         return f"The model explains the recordings: what is left is noise{more}."
+    if result.stopped:
+        return f"What is missing is not known yet: {result.reason}."
     return "These recordings cannot say what is missing: " + (result.reason or "the residual is not noise") + "."
 
 

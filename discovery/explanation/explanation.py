@@ -30,6 +30,7 @@ class Explanation:
     verdict: str = "undetermined"
     reason: str = ""
     experiment: str = ""
+    stopped: str = ""  # why the search ended before it was done: its time was up
     trial: Proposal | None = None  # the recording that would tell explanations apart
     base: Fit | None = None
     final: Fit | None = None

@@ -18,7 +18,7 @@ from lacuna.discovery.case.noise import Noise, correlation_time, sample_weights
 from lacuna.discovery.case.values import own_name
 from lacuna.discovery.fit.kept.store import remembered
 from lacuna.discovery.fit.machine import Machine
-from lacuna.discovery.fit.objective import STAGES, Objective, anneal
+from lacuna.discovery.fit.objective import STAGES, Objective, alike, anneal
 from lacuna.discovery.fit.solver.free import Free, clipped
 from lacuna.discovery.fit.solver.least_squares import Estimate, Problem
 from lacuna.discovery.fit.starts import unknown_starts, with_starts
@@ -48,6 +48,12 @@ class Fit:
     @property
     def point(self) -> dict[str, float]:
         return self.fixed | self.estimate.point
+
+    @property
+    def settled(self) -> bool:
+        """Whether to carry it on leads nowhere: it has converged, with the levels that its residuals have."""
+        there = {c: max(1.0, float(np.sqrt(self._mean_square(c)))) for c in self.noise}
+        return self.estimate.converged and alike(self.level, there)
 
     def believed(self) -> dict[str, float]:
         """What is believed of the parameters, by name."""
@@ -152,6 +158,7 @@ def fit(
     stages: int = STAGES,
     iterations: int = 4,
     known: Mapping[str, list[np.ndarray]] | None = None,
+    renewed: bool = True,
 ) -> Fit | None:
     """Fit `free` to the recordings, tracking with each bandwidth in turn (the last one 0). None if it cannot run."""
     objective = Objective(machine, recordings, noise)
@@ -160,11 +167,11 @@ def fit(
     values = clipped(free, [first.get(f.name, f.centre if f.start is None else f.start) for f in free])
 
     def led() -> tuple[Estimate | None, dict[str, float]]:
-        return _led(objective, problem, values, bandwidths, known or {}, stages, iterations)
+        return _led(objective, problem, values, bandwidths, known or {}, stages, iterations, renewed)
 
     found, level = remembered(
         lambda: (machine.compiled.hash, recordings, noise, free, dict(fixed), first, tuple(bandwidths), stages,
-                 iterations, bool(known)),
+                 iterations, bool(known), renewed),
         led,
     )  # fmt: skip
     if found is None:
@@ -191,7 +198,7 @@ def carried(found: Fit, machine: Machine, *, stages: int = STAGES, iterations: i
 
 def _led(
     objective: Objective, problem: Problem, values: np.ndarray, bandwidths: Sequence[float],
-    known: Mapping[str, list[np.ndarray]], stages: int, iterations: int,
+    known: Mapping[str, list[np.ndarray]], stages: int, iterations: int, renewed: bool,
 ) -> tuple[Estimate | None, dict[str, float]]:  # fmt: skip
     """The fit led by trackers of falling bandwidth; None where it fails or where the last one still tracks."""
     free, fixed = problem.free, problem.fixed
@@ -200,7 +207,7 @@ def _led(
     def annealed(bandwidth: float, start: np.ndarray) -> tuple[Estimate | None, dict[str, float]]:
         objective.track(bandwidth, fixed | {f.name: v for f, v in zip(free, start, strict=True)})
         columns = {} if objective.stiffness else {k: known[f.name] for k, f in enumerate(free) if f.name in known}
-        return anneal(objective, problem, start, stages=stages, iterations=iterations, known=columns)
+        return anneal(objective, problem, start, stages=stages, iterations=iterations, known=columns, renewed=renewed)
 
     for bandwidth in bandwidths:
         ahead = not bandwidth and len(path) > 1
@@ -225,11 +232,28 @@ def _finish(
     level: dict[str, float],
     simulations: int, fixed: dict[str, float],
 ) -> Fit | None:  # fmt: skip
-    residuals = residuals_of(machine, recordings, fixed | found.point)
+    weights = {r.name: {c: sample_weights(r.columns[c], n) for c, n in noise.items()} for r in recordings}
+    values = fixed | found.point
+    if any(machine.unfitted_states(values, r) for r in recordings):
+        residuals = residuals_of(machine, recordings, values)
+    else:  # as the fit has seen them: there is no need of another run
+        parts = zip(weights, found.residuals, strict=True)
+        residuals = {name: _unweighted(part, weights[name], noise, level) for name, part in parts}
     if residuals is None:
         return None
-    weights = {r.name: {c: sample_weights(r.columns[c], n) for c, n in noise.items()} for r in recordings}
     return Fit(machine, found, {c: level.get(c, 1.0) for c in noise}, residuals, weights, noise, simulations, fixed)
+
+
+def _unweighted(
+    part: np.ndarray, weights: Mapping[str, np.ndarray], noise: Mapping[str, Noise], level: Mapping[str, float]
+) -> dict[str, np.ndarray]:
+    """Measured minus simulated (n,) of each column, SI, from a recording's part of a fit's residual; NaN: missing."""
+    rows = part.reshape(-1, len(next(iter(weights.values()))))
+    scales = {
+        c: np.where(w > 0, w, np.nan) / (n.std * level[c])
+        for (c, n), w in zip(noise.items(), weights.values(), strict=True)
+    }
+    return {c: row / scales[c] for c, row in zip(noise, rows, strict=True)}
 
 
 def residuals_of(

@@ -89,7 +89,7 @@ class Objective:
 
 def anneal(
     objective: Objective, problem: Problem, start: np.ndarray, *, stages: int = STAGES, iterations: int = 4,
-    known: Mapping[int, list[np.ndarray]] | None = None,
+    known: Mapping[int, list[np.ndarray]] | None = None, renewed: bool = True,
 ) -> tuple[Estimate | None, dict[str, float]]:  # fmt: skip
     """Alternate weights from the residuals and a few steps of least squares until both have settled.
 
@@ -107,17 +107,23 @@ def anneal(
         problem.weights = weights
         weighted = {k: [c * w for c, w in zip(cs, weights, strict=True)] for k, cs in columns.items()}
         begin = problem.evaluation(values, [p * w for p, w in zip(parts, weights, strict=True)])
-        best = solve(problem, values, iterations=iterations, damping=1e-6, tolerance=1e-3, known=weighted, here=begin)
+        best = solve(problem, values, iterations=iterations, damping=1e-6, tolerance=1e-3, known=weighted, here=begin,
+                     renewed=renewed)  # fmt: skip
         values, parts = best.values, [p / w for p, w in zip(best.residuals, weights, strict=True)]
         blocks = [block / w[:, None] for block, w in zip(best.jacobian, weights, strict=False)]
         columns = {k: [block[:, k] for block in blocks] for k in range(len(problem.free))} if blocks else {}
         if best.begun - best.cost < WORTH:
             break
-    if best is not None and not best.converged and stages >= STAGES:
+    if best is not None and not best.converged and stages >= STAGES and renewed:
         best = problem.renewed(best)
     return best, level
 
 
 def _settled(before: Mapping[str, float], after: Mapping[str, float], converged: bool) -> bool:
     """Whether another stage leads nowhere: where `converged` ends in the same levels."""
-    return converged and all(abs(np.log(after[n] / before[n])) < SETTLED for n in after)
+    return converged and alike(before, after)
+
+
+def alike(before: Mapping[str, float], after: Mapping[str, float]) -> bool:
+    """Whether levels have settled."""
+    return all(abs(np.log(after[n] / before[n])) < SETTLED for n in after)

@@ -15,7 +15,9 @@ SMALL_STEP = 0.1  # of a start that is predicted to first order, which may still
 def fit_candidate(
     case: Case, base: Fit, stages: int, iterations: int, progress: Progress, candidate: Candidate
 ) -> Fit | None:  # fmt: skip
-    """Fit the base's parameters and the effect's together, from the screened start."""
+    """Fit the base's parameters and the effect's together, from the screened start; what has settled stays."""
+    if candidate.fit is not None and candidate.fit.settled:
+        return candidate.fit
     progress(f"fitting {candidate.attachment.label}")
     free: list[Free] = [*base.estimate.free, *candidate.free]
     start = candidate.fit.point if candidate.fit is not None else _start(case, base, candidate)

@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from lacuna.discovery.fit.fit import Fit, fit
+from lacuna.discovery.fit.fit import Fit, carried, fit
 from lacuna.discovery.fit.solver.free import pulls
 from lacuna.discovery.fit.time_limit import TimeUp
 from lacuna.discovery.naming.screen import Screen
@@ -69,8 +69,9 @@ def explored(found: Fit, progress: Progress) -> tuple[Fit, dict[str, float]]:
                 for f, v in zip(found.estimate.free, found.estimate.values, strict=True)
             }
             other = fit(
-                found.machine, found.machine.case.fit, found.noise, found.estimate.free, found.fixed, start=start
-            )
+                found.machine, found.machine.case.fit, found.noise, found.estimate.free, found.fixed, start=start,
+                known=found.sensitivities(), renewed=False,
+            )  # fmt: skip
             if other is not None:
                 fits.append(other)
     except TimeUp:
@@ -80,4 +81,6 @@ def explored(found: Fit, progress: Progress) -> tuple[Fit, dict[str, float]]:
     near = [f for f, a in zip(fits, above, strict=True) if a <= 2 * np.median(above) and f is not best]
     apart = np.array([f.estimate.values - best.estimate.values for f in near]).reshape(-1, len(best.estimate.values))
     spread = np.sqrt(np.mean(apart**2, axis=0)) if len(apart) else np.zeros(apart.shape[1])
+    if best is not found and not best.estimate.converged:  # its Jacobian is wanted where it ends
+        best = carried(best, best.machine) or best
     return best, {f.name: float(s) for f, s in zip(best.estimate.free, spread, strict=True)}

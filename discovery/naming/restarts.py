@@ -11,10 +11,11 @@ from dataclasses import replace
 from functools import partial
 
 from lacuna.discovery.case.cases import Case
+from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit, linearised
 from lacuna.discovery.fit.solver.least_squares import WORKERS
 from lacuna.discovery.naming.candidate_fit import fit_candidate
-from lacuna.discovery.naming.comparison import Progress, best_correlation, score
+from lacuna.discovery.naming.comparison import TIE, Progress, best_correlation, score
 from lacuna.discovery.naming.race import ROUNDS
 from lacuna.discovery.naming.screen import Candidate, Screen, prepare, telling_recordings
 from lacuna.runtime import SimulationError
@@ -91,12 +92,14 @@ def _contend(case: Case, base: Fit, candidates: list[Candidate], progress: Progr
     """Begin rivals of the best hypothesis again, the base's parameters where that one left them.
 
     Without an effect they stand for it as well as they can, and on the way back a fit may end in a dip: which of two
-    hypotheses that do equally well is named must not hang on that.
+    hypotheses that do equally well is named must not hang on that. Where the best one leaves nothing but noise, those
+    that leave as little are in no dip.
     """
     best = min(candidates, key=lambda c: c.fit.deviance())
     near = _near(base, best)
     close = sorted([c for c in candidates if c.fit.deviance() <= near], key=lambda c: c.fit.deviance())
-    if len(close) < 2:
+    sure = best.fit.deviance() + TIE if is_noise(best.fit) else float("-inf")
+    if len(close) < 2 or close[-1].fit.deviance() <= sure:
         return
     there = linearised(base.machine, case.fit, base.noise, base.estimate.free, base.fixed, best.fit.point)
     if there is None:
@@ -111,7 +114,11 @@ def _contend(case: Case, base: Fit, candidates: list[Candidate], progress: Progr
     with ThreadPoolExecutor(WORKERS) as pool:
         prepared = list(pool.map(partial(_prepared, screen), close))
         least = AS_GOOD * (1.0 - prepared[0].predicted)
-        pairs = [(c, again) for c, again in zip(close, prepared, strict=True) if 1.0 - again.predicted <= least]
+        pairs = [
+            (c, again)
+            for c, again in zip(close, prepared, strict=True)
+            if c.fit.deviance() > sure and 1.0 - again.predicted <= least
+        ]
         list(pool.map(fit_again, *zip(*pairs, strict=True)))
 
 

@@ -29,7 +29,7 @@ PYTHON_MAY_IMPORT = {
 PROJECT = {*STAGES, "lacuna", "cli", "bench", "tests"}
 # What every stage may know of the package: its name, where its libraries are, what an extra brings, units of measure,
 # what becomes of texts, rows of tables, names that may be meant, figures as files, programs that end with us, files
-# that are written whole.
+# that are written whole, files that users give.
 FACE = {
     "lacuna",
     "lacuna.native",
@@ -42,6 +42,7 @@ FACE = {
     "lacuna.drawn",
     "lacuna.children",
     "lacuna.written",
+    "lacuna.given",
 }
 
 C_MAY_INCLUDE = {

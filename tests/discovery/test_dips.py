@@ -50,11 +50,12 @@ def test_ground_is_smooth_where_the_cost_rises_as_derivatives_say(
 
 def ends(values: list[float], deviances: list[float]) -> Iterator[SimpleNamespace]:
     for value, deviance in zip(values, deviances, strict=True):
-        estimate = SimpleNamespace(free=FREE, values=np.array([value]))
+        estimate = SimpleNamespace(free=FREE, values=np.array([value]), converged=True)
         machine = SimpleNamespace(case=SimpleNamespace(fit=[]))
         yield SimpleNamespace(
-            estimate=estimate, machine=machine, noise={}, fixed={}, point={"x": value}, deviance=lambda d=deviance: d
-        )
+            estimate=estimate, machine=machine, noise={}, fixed={}, point={"x": value}, deviance=lambda d=deviance: d,
+            sensitivities=dict,
+        )  # fmt: skip
 
 
 @pytest.fixture

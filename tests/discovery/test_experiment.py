@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 import json
 from pathlib import Path
 import shutil
@@ -16,14 +17,14 @@ from lacuna.discovery.case.cases import CaseError, Limit, load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.experiment.files import write_next
-from lacuna.discovery.experiment.limits import derivatives, ranges
+from lacuna.discovery.experiment.limits import Range, derivatives, ranges
 from lacuna.discovery.experiment.proposal import propose
 from lacuna.discovery.experiment.separation import Rival, refitted_distance, released
 from lacuna.discovery.experiment.waveforms import as_recording, waveforms
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.steps import fit_believed
 from lacuna.runtime import Model, RecordedInput, simulate
-from tests.discovery.conftest import BELIEVED, attachment, write_model
+from tests.discovery.conftest import BELIEVED, attachment, conceal, write_model
 
 
 @pytest.fixture
@@ -133,6 +134,35 @@ def test_what_an_earlier_run_proposed_goes_and_what_was_recorded_stays(motor: tu
     (tmp_path / "next" / "next1.csv").write_text("recorded")
     assert write_next(case, None, tmp_path) == []
     assert [p.name for p in (tmp_path / "next").iterdir()] == ["next1.csv"]
+
+
+def test_the_case_of_the_proposal_is_read_once_it_is_recorded(consistent_case: Path, tmp_path: Path) -> None:
+    """With what holds in one recording only, and with an input that has always been held."""
+    folder = tmp_path / "case"
+    shutil.copytree(consistent_case, folder)
+    with (folder / "case.toml").open("a") as file:
+        file.write('[recording."r1.csv".parameters]\nR = 3.7\n')
+    case = load(folder)
+    base, _ = fit_believed(case, Machine(case, Amendment(read(Library(), case.model))))
+    proposal = propose(case, [Rival("this", base), Rival("that", base)])
+    held = replace(proposal, ranges={"u": Range(2.0, 2.0, 0.0, 2.0)})
+    for proposed, limits in ((proposal, {"u"}), (held, set())):
+        write_next(case, proposed, tmp_path)
+        for k in (1, 2):
+            shutil.copy(folder / "r1.csv", tmp_path / "next" / f"next{k}.csv")
+        then = load(tmp_path / "next")
+        assert [r.name for r in then.fit] == ["r1.csv", "r2.csv", "next1.csv"]
+        assert [r.name for r in then.validate] == ["r3.csv", "next2.csv"]
+        assert then.own["r1.csv"].parameters == {"R": 3.7} and set(then.limits) == limits
+
+
+def test_a_search_that_was_stopped_asks_for_time_not_for_a_recording(tmp_path: Path) -> None:
+    folder = conceal(tmp_path / "case", BELIEVED, friction="CoulombFriction(tau_c=0.0015)")
+    told = lacuna.explain(folder, out=tmp_path / "out", limit=1e-3).diagnosis
+    assert told["verdict"] == "undetermined" and "stopped after" in told["reason"]
+    assert "--limit" in told["experiment"] and told["next_experiment"] is None
+    assert "These recordings cannot say" not in told["sentence"] and not (tmp_path / "out" / "next").exists()
+    assert told["explained"] == 0.0 and told["ties"] == [] and told["places"]
 
 
 ONE_WAY = """title = "one way"

@@ -25,6 +25,7 @@ import traceback
 from typer.testing import CliRunner
 
 import lacuna
+from lacuna.analysis.comparison.scenarios import DEFAULT_FILE
 from lacuna.analysis.settings import PAPER, load_settings
 from lacuna.cli.main import app
 from lacuna.errors import is_user_error
@@ -109,6 +110,10 @@ TARGETS = {
     "against": Target("rec.csv", ("compare", "Decay.mo", "--against", "rec.csv", "--out", "out")),
     "forecast": Target("history.csv", ("forecast", "history.csv", "--out", "out")),
     "fleet": Target("history.csv", ("fleet", "history.csv", "--out", "out")),
+    "format": Target("Column.mo", ("format", "Column.mo")),
+    "scenarios": Target("scenarios.toml", ("compare", "--scenarios", "scenarios.toml", "--only", "x", "--out", "out")),
+    "laws": Target("Decay.mo", ("forecast", "history.csv", "--laws", "Decay.mo", "--out", "out")),
+    "library": Target("Column.mo", ("check", "Driven.mo", "-L", "Column.mo")),
     "verify": Target("result/made-by.json", ("verify", "result")),
     "verify-meta": Target("result/Decay.meta.json", ("verify", "result")),
     "model": Target("Driven.mo", ("simulate", "Driven.mo", "-u", "u=1", "--out", "out")),
@@ -120,6 +125,7 @@ def lay_out(place: Path) -> None:
     for name, text in {
         "Decay.mo": DECAY, "Driven.mo": _DRIVEN, "Column.mo": _COLUMN, "rec.csv": _RECORDING, "u.csv": _RECORDING,
         "column.csv": _RECORDING, "history.csv": HISTORY, "settings.toml": PAPER.read_text(encoding="utf-8"),
+        "scenarios.toml": DEFAULT_FILE.read_text(encoding="utf-8"),
     }.items():  # fmt: skip
         (place / name).write_text(text, encoding="utf-8")
     shutil.copytree(EXAMPLES / "missing-physics", place / "missing-physics")
@@ -133,19 +139,20 @@ def lay_out(place: Path) -> None:
         shutil.copy(place / "result" / f"Decay.{suffix}", place)
 
 
-def try_file(name: str, dice: random.Random, place: Path) -> str:
-    """What came out, in a word. Raises for what must not."""
+def try_file(name: str, dice: random.Random | None, place: Path) -> str:
+    """What came out of the file, mutated by `dice`, in a word. Raises for what must not."""
     target = TARGETS[name]
-    good = (place / target.file).read_bytes()
-    (place / target.file).write_bytes(mutate(good, dice))
-    begin = time.monotonic()
+    path = place / target.file
+    good = path.read_bytes() if dice else b""
+    if dice:
+        path.write_bytes(mutate(good, dice))
     signal.alarm(PATIENCE)
     try:
         return _call(target, place)
     finally:
         signal.alarm(0)
-        if time.monotonic() - begin < PATIENCE:
-            (place / target.file).write_bytes(good)
+        if dice:
+            path.write_bytes(good)
         shutil.rmtree(place / "out", ignore_errors=True)
 
 
@@ -166,7 +173,7 @@ def _call(target: Target, place: Path) -> str:
     return "refused" if result.exit_code else "taken"
 
 
-def _out_of_time(*_: object) -> None:
+def out_of_time(*_: object) -> None:
     raise TimeoutError(f"no end after {PATIENCE} s")
 
 
@@ -176,7 +183,7 @@ def main() -> int:
     parser.add_argument("--seconds", type=float, default=180.0)
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args()
-    signal.signal(signal.SIGALRM, _out_of_time)
+    signal.signal(signal.SIGALRM, out_of_time)
     kept = Path("out/fuzz/files").resolve()
     kept.mkdir(parents=True, exist_ok=True)
     outcomes, seed, end = Counter[str](), options.seed, time.monotonic() + options.seconds

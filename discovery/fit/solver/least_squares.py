@@ -143,14 +143,15 @@ def solve(
     known: dict[int, list[np.ndarray]] | None = None,
     damping: float = 1e-3,
     here: Evaluation | None = None,
+    renewed: bool = True,
 ) -> Estimate | None:
     """Minimise the cost from `start` (default: each parameter's start or centre). None if it cannot be simulated there.
 
     Stops when a step is predicted to lower the cost by less than `tolerance` times the number of parameters, by a
     Jacobian taken there. `known` columns of it (in scaled coordinates) serve while they lead downhill as they say, and
     so does the Jacobian of a step, corrected by what the step has shown (Broyden 1965): differences anew cost a
-    simulation a parameter, and are taken where a step misses its prediction. `here` is what the problem is at the
-    start.
+    simulation a parameter, and are taken where a step misses its prediction; one that is never `renewed` ends
+    there. `here` is what the problem is at the start.
     """
     free = problem.free
     values = clipped(free, [f.centre if f.start is None else f.start for f in free]) if start is None else start.copy()
@@ -168,10 +169,11 @@ def solve(
         if step.taken:
             columns = _corrected(problem, columns, step.values - values, here[2], step.evaluation[2])
             values, here, damping = step.values, step.evaluation, step.damping
-        elif len(missing) == len(free):
-            converged = step.flat
+        elif len(missing) == len(free) or not renewed:
+            converged = step.flat and len(missing) == len(free)
             break
-        renew, damping = not step.taken or step.ratio < TRUSTED, damping if step.taken else 1e-3
+        renew = renewed and (not step.taken or step.ratio < TRUSTED)
+        damping = damping if step.taken else 1e-3
     cost, data, parts = here
     return Estimate(
         free, values, begun, cost, data, parts, normal, converged, count, problem.simulations,

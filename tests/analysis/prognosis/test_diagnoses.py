@@ -84,7 +84,7 @@ def test_what_is_no_diagnosis_is_refused(series):
     with pytest.raises(AnalysisError, match=r"t100.*not a diagnosis"):
         lacuna.forecast(series, limits={"d": 0.1})
     (series / "t100" / "diagnosis.json").unlink()
-    with pytest.raises(AnalysisError, match=r"t100.*is missing"):
+    with pytest.raises(AnalysisError, match=r"t100.*there is no such file"):
         lacuna.forecast(series, limits={"d": 0.1})
     done = CliRunner().invoke(app, ["forecast", str(series), "--limit", "d"])
     assert done.exit_code != 0 and "NAME=VALUE" in done.output

@@ -1,0 +1,49 @@
+"""Files that come from users: of a size that can be read, and text, JSON or TOML as they say; or refused in a line."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+import tomllib
+from typing import Any
+
+LARGEST = 1 << 30  # bytes of a file that is read: a hundred signals for a quarter of an hour at 1 kHz as text
+
+
+def require_file(path: Path, error: type[Exception]) -> None:
+    """Raises `error` where `path` is no file of a size that is read: devices and pipes have no end."""
+    if not path.is_file():
+        raise error(f"{path}: {'is not a file' if path.exists() else 'there is no such file'}")
+    if path.stat().st_size > LARGEST:
+        raise error(f"{path}: larger than {LARGEST >> 20} MB")
+
+
+def text_of(path: Path, error: type[Exception], encoding: str = "utf-8") -> str:
+    """Raises `error` where `path` cannot be read as text."""
+    require_file(path, error)
+    try:
+        return path.read_text(encoding=encoding)
+    except OSError as refused:
+        raise error(f"{path}: cannot be read ({refused.strerror})") from refused
+    except UnicodeDecodeError as refused:
+        raise error(f"{path}: not a text in UTF-8: {refused}") from refused
+
+
+def json_of(path: Path, error: type[Exception]) -> Any:
+    """Raises `error` where `path` holds no JSON."""
+    try:
+        return json.loads(text_of(path, error))
+    except (ValueError, RecursionError) as refused:
+        raise error(f"{path}: no JSON: {refused}") from refused
+
+
+def toml_of(path: Path, error: type[Exception]) -> dict[str, Any]:
+    """Raises `error` where `path` holds no TOML."""
+    return parsed_toml(text_of(path, error), path, error)
+
+
+def parsed_toml(text: str, path: Path, error: type[Exception]) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as refused:
+        raise error(f"{path}: {refused}") from refused
