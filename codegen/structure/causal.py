@@ -159,6 +159,15 @@ def expressions_of(step: Step) -> list[Expr]:
     return own + [a.value for a in step.assignments]
 
 
+def of_nonlinear(steps: Sequence[Step]) -> set[Expr]:
+    """Unknowns that nonlinear equations give, or that follow from those: they may have several values at one point."""
+    found: set[Expr] = set()
+    for step in steps:
+        if isinstance(step, NonlinearBlock) or any(not found.isdisjoint(leaves(e)) for e in expressions_of(step)):
+            found.update(unknowns_of(step))
+    return found
+
+
 def rewritten(step: Step, rule: Callable[[Expr], Expr]) -> Step:
     """The step with `rule` applied to everything that it computes."""
     match step:

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 12
+#define MDL_ABI_VERSION 13
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
@@ -212,6 +212,9 @@ typedef struct mdl_descriptor {
   const int *delay_input; /* [n_delay] */
   int (*delay_times)(const mdl_data *m, double *seconds);
   int (*delays)(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *value);
+
+  /* [n_z] 0: unknown z follows from linear equations, so it has one value at a point; NULL: none does. */
+  const unsigned char *z_branches;
 } mdl_descriptor;
 
 typedef const mdl_descriptor *(*mdl_descriptor_fn)(void);

@@ -56,6 +56,7 @@ bool rt_fold_follow(rt_session *s) {
   double h = s->t - s->t_previous;
   bool jumped = false;
   for (int k = 0; k < s->d->n_z && !jumped && h > 0; k++) {
+    if (s->d->z_branches && !s->d->z_branches[k]) continue;
     double change = moved(s, k, f->v_previous, s->data.v), size = fabs(s->data.v[s->d->z_index[k]]);
     double least = visible * (s->options.rtol * size + s->atol[s->d->n_x + k]);
     jumped = change > least && !(change < sudden * f->rate[k] * h) && jumps(s, k, least);

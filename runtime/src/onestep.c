@@ -61,20 +61,23 @@ static void load(const rt_session *s, rt_onestep *o) {
   o->t0 = s->t;
 }
 
-/* First step size: Hairer, Norsett & Wanner I, II.4, from the sizes of x, x' and x''. */
+/* First step size, after Hairer, Norsett & Wanner I, II.4, from the sizes of x, x' and x'' in tolerances; free of the
+ * unit of time: higher derivatives are taken to grow by the same factor, the rate |x''| / |x'|, of which no less is
+ * believed than one change over the whole run. */
 static double first_step(rt_session *s, rt_onestep *o) {
   double span = s->stop - s->start;
   memcpy(o->x1, o->x0, (size_t)s->d->n_x * sizeof *o->x1);
   double d0 = sqrt(mean_square(s, o, o->x0)), d1 = sqrt(mean_square(s, o, o->f0));
-  double h0 = rt_min(d0 < 1e-5 || d1 < 1e-5 ? 1e-6 * span : 0.01 * d0 / d1, span);
+  double h0 = rt_min(d0 < 1e-5 || d1 * span < 1e-5 ? 1e-6 * span : 0.01 * d0 / d1, span);
   for (int i = 0; i < s->d->n_x; i++)
     o->x1[i] = o->x0[i] + h0 * o->f0[i];
   if (rt_rhs(s, s->t + h0, o->x1, o->f1, s->v_trial)) return h0;
   for (int i = 0; i < s->d->n_x; i++)
     o->error[i] = (o->f1[i] - o->f0[i]) / h0;
-  double largest = rt_max(d1, sqrt(mean_square(s, o, o->error)));
-  double h1 = largest <= 1e-15 ? rt_max(1e-6 * span, 1e-3 * h0) : pow(0.01 / largest, 1.0 / o->scheme->order);
-  return rt_min(100 * h0, h1);
+  double d2 = sqrt(mean_square(s, o, o->error)), speed = rt_max(d1, d2 * h0);
+  if (!(speed * span > 1e-15)) return rt_max(1e-6 * span, 1e-3 * h0);
+  double rate = rt_max(d2 / speed, 1 / span);
+  return rt_min(100 * h0, pow(0.01 * rate / speed, 1.0 / o->scheme->order) / rate);
 }
 
 rt_status rt_onestep_begin(rt_session *s, void *memory) {

@@ -65,17 +65,21 @@ static work *layout(const rt_session *s, void *memory) {
   return w;
 }
 
-/* dF/dy and dF/dy' at the start of the step: the generated Jacobian is linear in c_j. */
-static int differentiate(rt_session *s, work *w) {
+/* dF/dy and dF/dy' at the start of the step: the generated Jacobian is linear in c_j. A c_j of the size that the step
+ * has (1/s) loses no digits of either, and a power of two rounds nothing. */
+static int differentiate(rt_session *s, work *w, double h) {
   const mdl_descriptor *m = s->d;
-  int status;
+  int status, exponent;
+  frexp(1 / (h * gamma_), &exponent);
+  double cj = ldexp(1, exponent), per_cj = ldexp(1, -exponent);
   rt_residual_point(s);
   rt_inputs_at(s, s->t);
   s->result->counters.jacobians++;
-  if ((status = rt_jacobian(s, s->t, s->y, s->yp, 0, w->fy)) || (status = rt_jacobian(s, s->t, s->y, s->yp, 1, w->fyp)))
+  if ((status = rt_jacobian(s, s->t, s->y, s->yp, 0, w->fy)) ||
+      (status = rt_jacobian(s, s->t, s->y, s->yp, cj, w->fyp)))
     return status;
   for (int k = 0; k < m->jac_nnz; k++)
-    w->fyp[k] -= w->fy[k];
+    w->fyp[k] = (w->fyp[k] - w->fy[k]) * per_cj;
   return 0;
 }
 
@@ -125,7 +129,7 @@ static int prepare(rt_session *s, rt_onestep *o, work *w, double h) {
   int status;
   if (!w->known || w->t != o->t0) {
     w->known = false;
-    if ((status = differentiate(s, w)) || (status = differentiate_time(s, o, w, h))) return status;
+    if ((status = differentiate(s, w, h)) || (status = differentiate_time(s, o, w, h))) return status;
     w->t = o->t0;
     w->known = true;
   }

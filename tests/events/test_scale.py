@@ -146,3 +146,50 @@ def test_a_guard_of_rounding_does_not_switch_beside_another(tmp_path: Path, solv
     assert result.complete, result.failure
     assert result["passed"][-1] == 8
     assert result["turned"][-1] == 0
+
+
+def paced(pace: float) -> str:
+    """A swing that is kicked at each turn, a filter that rests at first, a counter at even instants: all of it so many
+    times as fast."""
+    return f"""model Paced
+  constant Real c = {pace!r};
+  Real x(start=1, fixed=true), y(start=0, fixed=true), f(start=0, fixed=true);
+  Integer n(start=0, fixed=true), ticks(start=0, fixed=true);
+equation
+  der(x) = c*y;
+  der(y) = -c*(x + 0.3*x^3 + 0.2*y);
+  f + der(f)/(7*c) = x;
+  when x < 0 then
+    reinit(y, 1.3*pre(y));
+    n = pre(n) + 1;
+  end when;
+  when sample(0.25/c, 0.25/c) then
+    ticks = pre(ticks) + 1;
+  end when;
+  annotation(experiment(StopTime={20 / pace!r}));
+end Paced;
+"""
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_model_in_other_units_of_time_takes_the_same_steps(tmp_path: Path, solver: str) -> None:
+    """Powers of two change no rounding: not one bit may differ. Others change the rounding, and no more."""
+
+    def run(pace: float, rtol: float) -> runtime.Result:
+        result = runtime.simulate(compiled(tmp_path, paced(pace)), solver=solver, rtol=rtol, interval=0)
+        assert result.complete, result.failure
+        return result
+
+    for rtol in (1e-4, 1e-7):
+        one = run(1.0, rtol)
+        assert one["n"][-1] > 2
+        for pace in (2.0**-40, 2.0**30, 60.0, 1 / 3.6e3):
+            other = run(pace, rtol)
+            if solver != "ida" and pace in (2.0**-40, 2.0**30):
+                assert other.counters == one.counters
+                assert np.array_equal(other.time * pace, one.time)
+                assert all(np.array_equal(other[name], one[name]) for name in ("x", "y", "f", "n", "ticks"))
+            # IDA's matrix has other pivots, by the size of numbers
+            assert (other["n"][-1], other["ticks"][-1]) == (one["n"][-1], one["ticks"][-1])
+            assert abs(other.counters["steps"] - one.counters["steps"]) <= 0.05 * one.counters["steps"]
+            assert other["x"][-1] == pytest.approx(one["x"][-1], abs=100 * rtol if solver == "ida" else 1e-9)

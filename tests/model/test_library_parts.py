@@ -22,13 +22,16 @@ ACTUATOR = {
 }  # fmt: skip
 
 
-def run(name: str, shared: Path) -> Result:
-    """A model of parts, at even times: what happens at an event is another matter."""
+def of_parts(name: str, shared: Path) -> Model:
     library = shared / "msl"
     if not library.is_dir():
         pytest.skip(f"needs the Modelica Standard Library; not at {library}")
-    compiled = compile_model(str(MODELS / "library" / f"{name}.mo"), search_path=search_path([library]))
-    result = simulate(Model(compiled.path), interval=0.001, events=False)
+    return Model(compile_model(str(MODELS / "library" / f"{name}.mo"), search_path=search_path([library])).path)
+
+
+def run(name: str, shared: Path) -> Result:
+    """A model of parts, at even times: what happens at an event is another matter."""
+    result = simulate(of_parts(name, shared), interval=0.001, events=False)
     assert result.complete, result.failure
     return result
 
@@ -60,3 +63,18 @@ def test_an_actuator_of_library_parts_moves_like_ours(shared: Path) -> None:
     grows with its load (mu) is left out on both sides, for the same reason."""
     result = run("FlightControlOfParts", shared)
     check(result, result, ACTUATOR)
+
+
+def test_what_sticks_stands_still_at_any_tolerance(shared: Path) -> None:
+    """The library's friction compares its speed with a limit of 1e10 rad/s that is switched off: it must not be the
+    measure of the guards. Nor may rounding of its linear equations pass for a jump that restarts the solver."""
+    model = of_parts("FlightControlOfParts", shared)
+    restarts = simulate(model, solver="dopri5", rtol=1e-10).counters["restarts"]
+    for rtol in (1e-9, 1e-10, 1e-11):
+        result = simulate(model, rtol=rtol)
+        assert result.complete, result.failure
+        for part, speed in (("hingeFriction", 1), ("motorFriction", 160)):
+            stuck = result[f"{part}.mode"] == 0
+            assert stuck.sum() > 20
+            assert np.abs(result[f"{part}.w"][stuck]).max() < 1e-9 * speed
+        assert result.counters["restarts"] <= 1.05 * restarts

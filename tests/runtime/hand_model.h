@@ -155,6 +155,7 @@ template <class M> struct Generated {
                                      0,
                                      nullptr,
                                      nullptr,
+                                     nullptr,
                                      nullptr};
     return &d;
   }

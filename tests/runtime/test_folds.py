@@ -1,4 +1,5 @@
-"""Sensitivities over a fold of an algebraic unknown: there are none, and a flag says so. A steep change is no fold."""
+"""Folds of an algebraic unknown: sensitivities over one are none, and a flag says so. A steep change is no fold, nor is
+what only rounds differently in the two forms of a model."""
 
 from __future__ import annotations
 
@@ -56,3 +57,27 @@ def test_what_is_only_steep_does_not(tmp_path: Path, solver: str) -> None:
         assert result["z"][-1] == pytest.approx(2, rel=1e-3)
         # y(7) = -z (3/p) + z (7 - 3/p) but for what is symmetric: dy/dp = 6 z/p^2
         assert result.sensitivity("y", "p")[-1] == pytest.approx(12, rel=1e-2)
+
+
+ROUGH = """model Rough "Two linear equations that nearly agree: what they give is rounded 1/(p - 1) times more than x"
+  parameter Real p = 1;
+  Real x(start=1, fixed=true), s(start=0, fixed=true), z1, z2;
+equation
+  der(s) = 1;
+  der(x) = z1;
+  p*z1 + cos(s)*z2 = (cos(s) - p)*x;
+  z1 + cos(s)*z2 = (cos(s) - 1)*x;
+end Rough;
+"""
+
+
+@pytest.mark.parametrize(("p", "rtols"), [(1.0001, (1e-8, 1e-9, 1e-10, 1e-11)), (1.000001, (1e-8, 1e-9))])
+def test_rounding_of_linear_equations_restarts_nothing(tmp_path: Path, p: float, rtols: tuple[float, ...]) -> None:
+    """z1 = -x, so that x = exp(-time). Restarts at every other step cost the order of the method, and the error more
+    than the tolerance."""
+    model = compiled(tmp_path, ROUGH)
+    for rtol in rtols:
+        result = runtime.simulate(model, solver="ida", parameters={"p": p}, rtol=rtol, stop=3.0, interval=0.1)
+        assert result.complete, result.failure
+        assert result.counters["restarts"] == 0
+        assert np.abs(result["x"] - np.exp(-result.time)).max() < 10 * rtol

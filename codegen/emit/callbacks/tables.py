@@ -13,6 +13,7 @@ from lacuna.codegen.emit.callbacks.equations import EquationTable
 from lacuna.codegen.emit.text.c_text import SourceNames, c_string
 from lacuna.codegen.emit.text.expression import number
 from lacuna.codegen.errors import Span
+from lacuna.codegen.structure.causal import of_nonlinear
 from lacuna.codegen.structure.system import DeclaredValues
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.symbolic.leaves import leaves
@@ -111,6 +112,10 @@ class Tables:
 
     def z_index(self) -> list[str]:
         return [str(self._p.storage.slot(str(z.value)).index) for z in self._p.residual.tears]
+
+    def z_branches(self) -> list[str]:
+        several = of_nonlinear(self._p.explicit)
+        return [str(int(z in several)) for z in self._p.residual.tears]
 
     def parameter_starts(self) -> list[str]:
         return [number(self._number(self._values.variable(n), 0.0)) for n in self._p.storage.parameters]

@@ -28,6 +28,10 @@ static const int mdl_z_index[] = {
   1
 };
 
+static const unsigned char mdl_z_branches[] = {
+  1
+};
+
 static const int mdl_residual_equation[] = {
   1,
   2
@@ -528,6 +532,7 @@ static const mdl_descriptor mdl_model = {
   .relations = mdl_relations,
   .messages = NULL,
   .z_index = mdl_z_index,
+  .z_branches = mdl_z_branches,
   .residual_equation = mdl_residual_equation,
   .p_start = mdl_p_start,
   .start_time = 0.0,

@@ -350,6 +350,7 @@ static const mdl_descriptor mdl_model = {
   .relations = mdl_relations,
   .messages = NULL,
   .z_index = NULL,
+  .z_branches = NULL,
   .residual_equation = mdl_residual_equation,
   .p_start = mdl_p_start,
   .start_time = 0.0,
