@@ -103,9 +103,10 @@ rt_session *rt_session_new(const rt_model *model, const rt_options *options, cha
     snprintf(message, size, "solver %s needs a step (s) greater than zero", method->name);
     return NULL;
   }
-  if (options->rtol >= 1) {
-    snprintf(message, size, "a relative tolerance of %.9g keeps no digit: give one below 1, such as 1e-6",
-             options->rtol);
+  if (options->rtol >= 1 || options->atol >= 1) {
+    const bool relative = options->rtol >= 1;
+    snprintf(message, size, "%s tolerance of %.9g keeps no digit: give one below 1, such as 1e-6",
+             relative ? "a relative" : "an absolute (per nominal value)", relative ? options->rtol : options->atol);
     return NULL;
   }
   rt_session *s = calloc(1, sizeof *s);
