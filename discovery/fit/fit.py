@@ -43,6 +43,7 @@ class Fit:
     noise: dict[str, Noise]
     simulations: int
     fixed: dict[str, float] = field(default_factory=dict)
+    only_instruments: bool | None = None  # whether what is left is theirs alone; None while nobody has asked
 
     @property
     def point(self) -> dict[str, float]:
