@@ -13,6 +13,7 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.efforts.find import INDIFFERENT
+from lacuna.discovery.efforts.instruments import NATS, gained, only_instruments
 from lacuna.discovery.experiment.proposal import propose
 from lacuna.discovery.explanation.contenders import contenders
 from lacuna.discovery.explanation.explanation import Clock, Explanation
@@ -84,6 +85,8 @@ def _conclude(result: Explanation) -> None:
     """The verdict, from the findings, the whiteness of what is left and the believed parameters."""
     if result.findings and _accuses_sensors(result) and nearly_noise(result.base):
         _believe_again(result)  # an error of an instrument that is smaller than its noise is no finding
+    if result.findings and _is_colour(result):
+        _believe_again(result)
     if result.findings:
         _conclude_from_findings(result)
         return
@@ -96,6 +99,15 @@ def _conclude(result: Explanation) -> None:
         result.experiment = "record the same motion with the quantities that are not recorded now"
     else:
         result.verdict = "parameters" if outside_belief(result.base) else "consistent"
+
+
+def _is_colour(result: Explanation) -> bool:
+    """Whether noise of an unknown level, with a colour of its own, says as much as what was found in it."""
+    case, base = result.case, (replace(result.amendment, attachments=[]), result.base)
+    if not result.lead.direct or not only_instruments(case, *base):
+        return False
+    picked = sum(f.ranked.candidate.pick for f in result.findings)
+    return gained(case, base, (result.amendment, result.final)) < NATS + picked
 
 
 def _holds(result: Explanation) -> bool:
@@ -204,9 +216,14 @@ def _first_place(result: Explanation) -> str:
 def _quiet(result: Explanation) -> bool:
     """Whether what is left, though some of it is not white, is no more than the noise: by its size or by its colour.
 
-    Instruments drift and are off by parts of their noise: what is left of that size, and of no form, is theirs."""
-    final = result.final
-    return within_instruments(final) or like_noise(final) or settled(final, rough=not result.lead.direct)
+    Instruments drift and are off by parts of their noise: what is left of that size, and of no form, is theirs. Where
+    nobody gave its level, noise with a colour is what no effort in the equations explains better."""
+    final, direct = result.final, result.lead.direct
+    if within_instruments(final) or settled(final, rough=not direct):
+        return True
+    if not direct:
+        return like_noise(final)
+    return only_instruments(result.case, result.amendment, final)
 
 
 def experiment_for(best: Ranked, rivals: list[Ranked]) -> str:

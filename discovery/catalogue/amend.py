@@ -66,6 +66,11 @@ class Amendment:
                 return f"{attachment.component}.y"
         return variable
 
+    def added(self) -> frozenset[str]:
+        """Names of components and variables that the amended model has and the believed one has not."""
+        parts = {a.component for a in self.attachments}
+        return frozenset(parts | {_missing(k) for k in range(len(parts))})
+
     def text(self, name: str, values: dict[str, float] | None = None, comment: str = "") -> str:
         """Modelica source of the class; `values` gives parameters of the effects by full name."""
         writer = _Writer(self, values or {})
@@ -205,7 +210,7 @@ class _Writer:
                 self.left_out.append(f"connect({left}, {right})")
             self.equations += [f"connect({left}, {name}.a);", f"connect({name}.b, {right});"]
         else:
-            variable = self.edits.setdefault(site, f"missing_{len(self.edits) + 1}")
+            variable = self.edits.setdefault(site, _missing(len(self.edits)))
             self.sums_at.setdefault(variable, []).append(f"{name}.effort")
         self._signals(attachment)
 
@@ -240,6 +245,10 @@ class _Writer:
             self.equations += [
                 f"connect({name}.flange, {shaft.flange});", f"{name}.phi = {name}_phi;", f"{name}.w = {name}_w;",
             ]  # fmt: skip
+
+
+def _missing(k: int) -> str:
+    return f"missing_{k + 1}"
 
 
 def probe_name(k: int) -> str:

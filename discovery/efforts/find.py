@@ -14,10 +14,11 @@ import numpy as np
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.efforts.instruments import colour_of
+from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.efforts.opened import opened
-from lacuna.discovery.efforts.screening import proposals
 from lacuna.discovery.fit.evidence import nearly_noise, settled
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.law.empirical_law import fitted_law, simplified
@@ -41,6 +42,7 @@ class Found:
     sites: list[Site] = field(default_factory=list)
     closed: list[tuple[str, str]] = field(default_factory=list)
     laws: list[Candidate] = field(default_factory=list)  # best first
+    single: list[Candidate] = field(default_factory=list)  # of one group, where one of two does better; best first
     reason: str = ""  # why nothing could be located
 
 
@@ -58,7 +60,7 @@ def find(
         door = opened(case, amendment, library, [f.name for f in base.estimate.free if _is_common(f.name)])
         locator = Locator(case, door, base)
         progress(f"locating among {len(locator.places)} places")
-        found = Found(locator.ranked(), door.closed)
+        found = Found(_ranked(locator, base), door.closed)
     except (NotNumeric, SimulationError, np.linalg.LinAlgError) as reason:
         return Found(reason=str(reason))
     efforts = [s for s in found.sites if s.place is not None and s.gain > 0 and admitted(s.location)]
@@ -66,12 +68,28 @@ def find(
         enough = bool(found.laws) and nearly_noise(found.laws[0].fit)
         if efforts[0].gain - site.gain > INDIFFERENT and (enough or site.gain < WORTH * efforts[0].gain):
             break
-        law = _law_at(case, amendment, base, locator, site, progress)
-        if law is not None:
-            found.laws.append(law)
-            correlation = min((c.fit for c in found.laws), key=lambda f: f.deviance()).correlation()
-            found.laws.sort(key=lambda c: score(c, base, correlation))
+        law, single = _law_at(case, amendment, base, locator, site, progress)
+        _put(found.laws, law, base)
+        _put(found.single, single, base)
     return found
+
+
+def _put(laws: list[Candidate], law: Candidate | None, base: Fit) -> None:
+    """Add a law to others, best first."""
+    if law is not None:
+        laws.append(law)
+        correlation = min((c.fit for c in laws), key=lambda f: f.deviance()).correlation()
+        laws.sort(key=lambda c: score(c, base, correlation))
+
+
+def _ranked(locator: Locator, base: Fit) -> list[Site]:
+    """Places by their evidence; beside errors of sensors with a memory, where nobody gave the level of their noise and
+    what the best effort leaves is not white."""
+    sites = locator.ranked()
+    if not sites or locator.white(sites[0]) or all(n.given for n in base.noise.values()):
+        return sites
+    locator.colour = colour_of(locator)
+    return locator.ranked()
 
 
 def _is_common(name: str) -> bool:
@@ -80,15 +98,17 @@ def _is_common(name: str) -> bool:
 
 def _law_at(
     case: Case, amendment: Amendment, base: Fit, locator: Locator, site: Site, progress: Progress
-) -> Candidate | None:
-    """The best law at a place: of one group of terms, or of two where one does not leave noise."""
+) -> tuple[Candidate | None, Candidate | None]:
+    """The best law at a place: of one group of terms, or of two where one does not leave noise; and, where it is of two
+    that are not a level and one term, the best of one."""
     try:
         guided = locator.guided(site)
         progress(f"screening laws at {site.location}")
         offered = proposals(locator, site, guided, LAWS)
     except (NotNumeric, SimulationError, np.linalg.LinAlgError):
-        return None
+        return None, None
     best: Proposal | None = None
+    single: Proposal | None = None
     for size in (1, 2):
         if best is not None and settled(best.candidate.fit):
             break
@@ -97,7 +117,11 @@ def _law_at(
             progress(f"fitting a law at {site.location}: {proposal.law.text()}")
             proposal.candidate = fitted_law(case, amendment, base, proposal.law, proposal.start, guided.point)
         best = _best([p for p in (best, *tried) if p is not None and p.candidate is not None], base)
-    return None if best is None else simplified(case, amendment, base, best)
+        single = best if size == 1 else single
+    if best is None:
+        return None, None
+    apart = best is not single and all(g.texts != ("1",) for g in best.law.groups)
+    return simplified(case, amendment, base, best), single.candidate if apart and single else None
 
 
 def _best(fitted: list[Proposal], base: Fit) -> Proposal | None:

@@ -8,7 +8,8 @@ import numpy as np
 
 from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.efforts.opened import Opened, Place
-from lacuna.discovery.efforts.smoother import Latent, Piece, course, evidence, thinned
+from lacuna.discovery.efforts.smoother import Colour, Latent, Piece, Whitener, course, evidence, thinned
+from lacuna.discovery.fit.evidence import SIGMAS
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.runtime import RecordedInput
@@ -52,6 +53,7 @@ class Locator:
         self.sigma = np.array([f.sigma or f.scale for f in self.free])
         self.pieces = [self.piece(base.point, r, None) for r in case.fit]
         self.places = opened.places(self.pieces[0].along)
+        self.colour: Colour | None = None  # errors of sensors that efforts are looked for beside
 
     def piece(self, point: dict[str, float], recording: Recording, effort: tuple[int, np.ndarray] | None) -> Piece:
         """The linear model about a run from `point` with an effort (column, course), and what is left for it."""
@@ -82,7 +84,7 @@ class Locator:
 
     def ranked(self) -> list[Site]:
         """Places and sensors, best first."""
-        hypotheses, owners = self._hypotheses()
+        hypotheses, owners = self.hypotheses()
         thin = thinned_all(self.pieces)
         found = evidence(thin, hypotheses)
         null = float(found.log[-1])
@@ -105,7 +107,7 @@ class Locator:
 
     _chosen: dict[int, tuple[Latent, np.ndarray]]
 
-    def _hypotheses(self) -> tuple[Latent, list[tuple[str, int]]]:
+    def hypotheses(self) -> tuple[Latent, list[tuple[str, int]]]:
         self._chosen = {}
         longest = max(p.along.time[-1] - p.along.time[0] for p in self.pieces)
         misfit = self._size([p.data[:, :, 0] for p in self.pieces])
@@ -121,7 +123,20 @@ class Locator:
             owners += [("sensor", number)] * (len(SIZES) * len(TIMES))
         rows.append((-1, -1, 0.0, longest))
         column, sensor, size, time = (np.array(v) for v in zip(*rows, strict=True))
-        return Latent(column.astype(int), sensor.astype(int), size, time), [*owners, ("none", 0)]
+        colour = self.colour.repeated(len(size)) if self.colour else None
+        return Latent(column.astype(int), sensor.astype(int), size, time, colour), [*owners, ("none", 0)]
+
+    def white(self, site: Site) -> bool:
+        """Whether what the effort at this place leaves has no memory from one sample to the next."""
+        latent, mean = self._chosen[id(site)]
+        pieces = thinned_all(self.pieces)
+        left = [Whitener(p, latent).innovations(p.data[:, :, 0] + p.data[:, :, 1:] @ mean) for p in pieces]
+        for sensor in range(len(self.noise)):
+            rows = [x[:, sensor][np.isfinite(x[:, sensor])] for x in left]
+            power, count = sum(r @ r for r in rows), sum(map(len, rows))
+            if abs(sum(r[1:] @ r[:-1] for r in rows)) > SIGMAS * power / np.sqrt(count):
+                return False
+        return True
 
     def _size(self, outputs: list[np.ndarray]) -> float:
         """RMS over samples and outputs, in units of noise."""
@@ -146,9 +161,9 @@ class Locator:
         return Guided(point, pieces, [e for e, _ in efforts], mean, latent)
 
 
-def thinned_all(pieces: list[Piece]) -> list[Piece]:
+def thinned_all(pieces: list[Piece], samples: int = SAMPLES) -> list[Piece]:
     """The recordings with so few samples that a search over many hypotheses is quick."""
-    every = -(-sum(len(p.along.time) for p in pieces) // SAMPLES)
+    every = -(-sum(len(p.along.time) for p in pieces) // samples)
     return [thinned(p, every) for p in pieces]
 
 
@@ -157,4 +172,5 @@ def _values(free: list[Free], sigma: np.ndarray, mean: np.ndarray) -> dict[str, 
 
 
 def _one(latent: Latent, k: int) -> Latent:
-    return Latent(latent.column[k : k + 1], latent.sensor[k : k + 1], latent.size[k : k + 1], latent.time[k : k + 1])
+    rows = (v[k : k + 1] for v in (latent.column, latent.sensor, latent.size, latent.time))
+    return Latent(*rows, latent.colour.one(k) if latent.colour else None)

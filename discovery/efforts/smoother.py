@@ -19,16 +19,36 @@ from lacuna.discovery.efforts.linear import Along
 
 
 @dataclass(frozen=True)
+class Colour:
+    """Errors of instruments that have a memory, beside their white noise: drifts and coloured noise of unknown level,
+    each a chain like an effort's, added to the reading of its `sensor` (an output's number)."""
+
+    sensor: np.ndarray  # (c,) int
+    size: np.ndarray  # (h, c)
+    time: np.ndarray  # (h, c) s
+
+    def repeated(self, count: int) -> Colour:
+        """Those of the first hypothesis for each of `count`."""
+        return Colour(self.sensor, np.tile(self.size[:1], (count, 1)), np.tile(self.time[:1], (count, 1)))
+
+    def one(self, k: int) -> Colour:
+        """Those of hypothesis k alone."""
+        return Colour(self.sensor, self.size[k : k + 1], self.time[k : k + 1])
+
+
+@dataclass(frozen=True)
 class Latent:
     """Hypotheses side by side: the column where the effort acts (-1: nowhere), its size s and its time constant l, s.
 
-    A `sensor` (an output's number, -1: none) has the effort added to its reading instead.
+    A `sensor` (an output's number, -1: none) has the effort added to its reading instead. `colour` is what instruments
+    may have of their own.
     """
 
     column: np.ndarray  # (h,) int
     sensor: np.ndarray  # (h,) int
     size: np.ndarray  # (h,)
     time: np.ndarray  # (h,)
+    colour: Colour | None = None
 
 
 @dataclass
@@ -84,8 +104,7 @@ def _filtered(piece: Piece, latent: Latent) -> tuple[np.ndarray, np.ndarray]:
         if k < chain.n - 1:
             move, added = chain.move(k)
             state = move @ state
-            cover = move @ cover @ np.swapaxes(move, 1, 2)
-            cover[:, -1, -1] += added
+            cover = move @ cover @ np.swapaxes(move, 1, 2) + added
     return gram, logdet
 
 
@@ -107,7 +126,7 @@ def _joseph(cover: np.ndarray, gain: np.ndarray, read: np.ndarray, noise: np.nda
 
 
 class _Chain:
-    """The Markov chain of states and effort on one recording, for all hypotheses."""
+    """The Markov chain of states, effort and errors of instruments on one recording, for all hypotheses."""
 
     def __init__(self, piece: Piece, latent: Latent) -> None:
         self.piece, self.latent, self.noise = piece, latent, piece.noise
@@ -115,32 +134,41 @@ class _Chain:
         self.x = piece.along.step.shape[1]
         self.acts = np.where(latent.column >= 0, 1.0, 0.0)
         self.column = np.maximum(latent.column, 0)
+        self.size, self.time = latent.size[:, None], latent.time[:, None]
+        outputs = np.arange(len(piece.noise))
+        self.reads = (outputs[None] == latent.sensor[:, None])[:, :, None].astype(float)
+        if latent.colour is not None:
+            colour = latent.colour
+            self.size, self.time = np.hstack([self.size, colour.size]), np.hstack([self.time, colour.time])
+            own = (outputs[:, None] == colour.sensor[None]).astype(float)
+            self.reads = np.concatenate([self.reads, np.broadcast_to(own, (self.h, *own.shape))], axis=2)
+        self.width = self.x + self.size.shape[1]
 
     def begin(self) -> tuple[np.ndarray, np.ndarray]:
-        cover = np.zeros((self.h, self.x + 1, self.x + 1))
-        cover[:, range(self.x), range(self.x)] = self.piece.start**2
-        cover[:, -1, -1] = self.latent.size**2
-        return np.zeros((self.h, self.x + 1, self.m)), cover
+        spread = np.hstack([np.broadcast_to(self.piece.start, (self.h, self.x)), self.size])
+        return np.zeros((self.h, self.width, self.m)), spread[:, :, None] ** 2 * np.eye(self.width)
 
     def read(self, k: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """(readings (h, y, x + 1) with rows of zero where a sample is missing, which are there (y,), the data)."""
+        """(readings (h, y, states) with rows of zero where a sample is missing, which are there (y,), the data)."""
         along, data = self.piece.along, self.piece.data[k]
         seen = np.isfinite(data).all(axis=1)
-        feed = along.feed[k][:, self.column].T * self.acts[:, None] if along.feed.shape[2] else 0.0
-        own = np.arange(len(seen))[None] == self.latent.sensor[:, None]
-        read = np.concatenate([np.broadcast_to(along.read[k], (self.h, *along.read[k].shape)),
-                               (feed + own)[:, :, None]], axis=2)  # fmt: skip
+        read = np.concatenate([np.broadcast_to(along.read[k], (self.h, *along.read[k].shape)), self.reads], axis=2)
+        if along.feed.shape[2]:
+            read[:, :, self.x] += along.feed[k][:, self.column].T * self.acts[:, None]
         return read * seen[None, :, None], seen, np.where(seen[:, None], data, 0.0)
 
     def move(self, k: int) -> tuple[np.ndarray, np.ndarray]:
+        """(matrices (h, states, states) to the next sample, what is added to the covariance)."""
         along = self.piece.along
-        matrix = np.zeros((self.h, self.x + 1, self.x + 1))
+        matrix = np.zeros((self.h, self.width, self.width))
         matrix[:, : self.x, : self.x] = along.step[k]
         if along.drive.shape[2]:
-            matrix[:, : self.x, -1] = along.drive[k][:, self.column].T * self.acts[:, None]
-        keeps = np.exp(-(along.time[k + 1] - along.time[k]) / self.latent.time)
-        matrix[:, -1, -1] = keeps
-        return matrix, self.latent.size**2 * (1 - keeps**2)
+            matrix[:, : self.x, self.x] = along.drive[k][:, self.column].T * self.acts[:, None]
+        keeps = np.exp(-(along.time[k + 1] - along.time[k]) / self.time)
+        tail, added = np.arange(self.x, self.width), np.zeros_like(matrix)
+        matrix[:, tail, tail] = keeps
+        added[:, tail, tail] = self.size**2 * (1 - keeps**2)
+        return matrix, added
 
 
 class Whitener:
@@ -152,6 +180,7 @@ class Whitener:
         self.logdet = 0.0
         self.steps: list[tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]] = []
         self.covers: list[np.ndarray] = []  # of states and effort before each sample is read
+        self.at = chain.x  # where the effort is among the states
         _, cover = chain.begin()
         for k in range(chain.n):
             read, _, _ = chain.read(k)
@@ -159,17 +188,20 @@ class Whitener:
             self.logdet += float(logdet[0])
             self.covers.append(cover[0])
             cover = _joseph(cover, gain, read, chain.noise)
-            move, added = chain.move(k) if k < chain.n - 1 else (np.eye(chain.x + 1)[None], 0.0)
-            cover = move @ cover @ np.swapaxes(move, 1, 2)
-            cover[:, -1, -1] += added
+            move, added = chain.move(k) if k < chain.n - 1 else (np.eye(chain.width)[None], 0.0)
+            cover = move @ cover @ np.swapaxes(move, 1, 2) + added
             self.steps.append((read[0], whitener[0], gain[0], move[0]))
 
     def __call__(self, columns: np.ndarray) -> np.ndarray:
         """(rows, j): innovations of columns (n, y, j) in units of their standard deviations; rows of samples alone."""
         return self._filtered(columns)[0][self.seen]
 
+    def innovations(self, readings: np.ndarray) -> np.ndarray:
+        """(n, y) of readings (n, y), in units of their standard deviations; NaN where there is none."""
+        return np.where(self.seen, self._filtered(readings[:, :, None])[0][:, :, 0], np.nan)
+
     def _filtered(self, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """(innovations (n, y, j), states before each sample (n, x + 1, j))."""
+        """(innovations (n, y, j), states before each sample (n, states, j))."""
         state = np.zeros((len(self.steps[0][3]), columns.shape[2]))
         white, states = np.empty(columns.shape), np.empty((len(columns), *state.shape))
         for k, (read, whitener, gain, move) in enumerate(self.steps):
@@ -190,9 +222,9 @@ class Whitener:
             keep = move - move @ gain @ read
             pull = scaled.T @ white[k, :, 0] + keep.T @ pull
             weight = scaled.T @ scaled + keep.T @ weight @ keep
-            row = self.covers[k][-1]
-            variance = self.covers[k][-1, -1] - row @ weight @ row
-            result[k] = states[k, -1, 0] + row @ pull, np.sqrt(max(variance, 0.0))
+            row = self.covers[k][self.at]
+            variance = row[self.at] - row @ weight @ row
+            result[k] = states[k, self.at, 0] + row @ pull, np.sqrt(max(variance, 0.0))
         return result[:, 0], result[:, 1]
 
 

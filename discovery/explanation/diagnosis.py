@@ -221,6 +221,8 @@ def sentence(result: Explanation) -> str:
     if result.verdict == "consistent":
         left = [w.column for w in whiteness(result.final).values() if not w.passed]
         more = f", and less than that of {' and '.join(left)}, as of an instrument that drifts" if left else ""
+        if left and result.final.only_instruments:
+            more = f"; that of {' and '.join(left)} has a memory, and nothing in the equations would explain it better"
         return f"The model explains the recordings: what is left is noise{more}."
     if result.stopped:
         return f"What is missing is not known yet: {result.reason}."

@@ -77,14 +77,23 @@ def like_noise(fit: Fit) -> bool:
 
     The power of block means of coloured noise grows with the block and then stays; that of a misfit goes on growing.
     """
-    for column, noise in fit.noise.items():
+    if not may_be_coloured(fit):
+        return False
+    for column in fit.noise:
         sizes = {b: _blocks(fit, column, b) for b in BLOCKS}
-        if sizes[1].ratio > (sizes[1].limit if noise.given else COLOURED**2) or _bursts(fit, column):
-            return False
         chance = {b: sizes[b].limit / sizes[1].limit for b in BLOCKS}
         if sizes[200].ratio > GROWTH * chance[200] * max(sizes[40].ratio, 1.0):
             return False
         if sizes[40].ratio > 2 * GROWTH * chance[40] * max(sizes[8].ratio, 1.0):
+            return False
+    return True
+
+
+def may_be_coloured(fit: Fit) -> bool:
+    """Whether what is left is of the given level, or of one that noise as estimated may have, without outbursts."""
+    for column, noise in fit.noise.items():
+        whole = _blocks(fit, column, 1)
+        if whole.ratio > (whole.limit if noise.given else COLOURED**2) or _bursts(fit, column):
             return False
     return True
 

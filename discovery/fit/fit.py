@@ -43,6 +43,7 @@ class Fit:
     noise: dict[str, Noise]
     simulations: int
     fixed: dict[str, float] = field(default_factory=dict)
+    only_instruments: bool | None = None  # whether what is left is theirs alone; None while nobody has asked
 
     @property
     def point(self) -> dict[str, float]:
@@ -197,7 +198,7 @@ def carried(found: Fit, machine: Machine, *, stages: int = STAGES, iterations: i
 
 def _led(
     objective: Objective, problem: Problem, values: np.ndarray, bandwidths: Sequence[float],
-    known: Mapping[str, list[np.ndarray]], stages: int, iterations: int, renewed: bool,
+    known: Mapping[str, list[np.ndarray]], stages: int, iterations: int, renewed: bool = True,
 ) -> tuple[Estimate | None, dict[str, float]]:  # fmt: skip
     """The fit led by trackers of falling bandwidth; None where it fails or where the last one still tracks."""
     free, fixed = problem.free, problem.fixed

@@ -12,7 +12,7 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.efforts.find import Found, find
 from lacuna.discovery.fit.evidence import like_noise, nearly_noise, within_instruments
 from lacuna.discovery.law.beyond import MARGIN
-from lacuna.discovery.law.several import go_on
+from lacuna.discovery.law.several import apart, go_on
 from lacuna.discovery.naming.comparison import (
     MIN_GAIN,
     TIE,
@@ -48,6 +48,8 @@ def explain_open(search: Search, unbegun: Search, library: Library, progress: Pr
     physics = any(not f.ranked.attachment.variable for f in search.findings) and not search.amendment.trackers
     if taken or physics:
         go_on(search, library, progress)
+    if taken and found.single:
+        apart(search, unbegun, found.single[0], library, progress)
     return found
 
 

@@ -16,7 +16,7 @@ from lacuna.discovery.efforts.find import find
 from lacuna.discovery.fit.evidence import pays, within_instruments
 from lacuna.discovery.fit.fit import Fit, linearised
 from lacuna.discovery.law.beyond import MARGIN
-from lacuna.discovery.naming.comparison import MIN_GAIN, Ranked, score, told_by_data
+from lacuna.discovery.naming.comparison import MIN_GAIN, Ranked, price, score, told_by_data
 from lacuna.discovery.naming.judge import Judgement, try_judge
 from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Naming
@@ -41,6 +41,32 @@ def go_on(search: Search, library: Library, progress: Progress) -> None:
         search.take([*search.amendment.attachments, law.attachment], law.fit, after)
         for k in range(len(search.findings) - 1):
             _find_anew(search, k, library, progress)
+
+
+def apart(search: Search, unbegun: Search, single: Candidate, library: Library, progress: Progress) -> None:
+    """Take laws at several places instead of one of two groups at one place, where deviance and prices are less: the
+    second group of the best place may only stand for what is missing at another one.
+
+    `single` is the best law of one group; `unbegun` is the search that has found nothing.
+    """
+    progress("looking for laws at two places")
+    after = try_judge(single.machine, single.fit.point)
+    if after is None:
+        return
+    trial = replace(unbegun, findings=[_finding(single, unbegun.fit, unbegun.judgement, after)], namings=[])
+    trial.take([single.attachment], single.fit, after)
+    go_on(trial, library, progress)
+    correlation = min(search.fit, trial.fit, key=lambda f: f.deviance()).correlation()
+    if len(trial.findings) > 1 and _paid(trial, unbegun.fit, correlation) < _paid(search, unbegun.fit, correlation):
+        search.findings[:] = trial.findings
+        search.take(trial.amendment.attachments, trial.fit, trial.judgement)
+
+
+def _paid(search: Search, base: Fit, correlation: dict[str, float]) -> float:
+    """Deviance of what was found, with the price of its parameters and of having been picked among many."""
+    added = len(search.fit.estimate.free) - len(base.estimate.free)
+    picks = sum(f.ranked.candidate.pick for f in search.findings)
+    return search.fit.deviance(correlation) + price(added, base, correlation) + 2 * picks
 
 
 def _find_anew(search: Search, k: int, library: Library, progress: Progress) -> None:

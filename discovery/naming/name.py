@@ -50,6 +50,15 @@ class Naming:
     def best(self) -> Ranked | None:
         return self.ranked[0] if self.ranked else None
 
+    @property
+    def simplest(self) -> Ranked | None:
+        """The best; or, of the laws that it contains, the best that the data does not tell from it."""
+        best = self.best
+        if best is None:
+            return None
+        contained = [r for r in self.ranked if best.attachment.contains(r.attachment) and r.score < best.score + TIE]
+        return contained[0] if contained else best
+
     def of(self, identity: tuple[str, str]) -> Ranked | None:
         """The best hypothesis of this physics at this place."""
         return next((r for r in self.ranked if r.identity == identity), None)

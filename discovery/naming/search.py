@@ -16,6 +16,7 @@ from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment, Attachment
 from lacuna.discovery.catalogue.catalogue import Effect
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
+from lacuna.discovery.efforts.instruments import only_instruments
 from lacuna.discovery.fit.evidence import astray, holds, nearly_noise, pays, settled
 from lacuna.discovery.fit.fit import Fit, carried, fit, linearised
 from lacuna.discovery.fit.lead import Lead
@@ -91,8 +92,12 @@ class Search:
 
     def settled(self) -> bool:
         """Whether nothing is left to look for."""
-        told = holds(left_out(self.case, self.fit), self.floor, self.fit.noise)
-        return told and settled(self.fit, rough=not self.lead.direct)
+        if not holds(left_out(self.case, self.fit), self.floor, self.fit.noise):
+            return False
+        if settled(self.fit, rough=not self.lead.direct):
+            return True
+        known = bool(self.findings) and self.lead.direct
+        return known and only_instruments(self.case, self.amendment, self.fit)
 
     def lost(self) -> bool:
         """Whether fits that nothing has led leave so much that the search has to begin anew."""
@@ -103,7 +108,7 @@ class Search:
         held = self.lead.hold(self.fit)
         naming = rank(held.machine.case, self.amendment, attachments, held, final=self.lead.direct, progress=progress)
         self.namings.append(naming)
-        best = naming.best
+        best = naming.simplest
         if best is None or best.score > -MIN_GAIN:
             return False
         best, polished = self._best_released(best, naming, progress)

@@ -1,4 +1,4 @@
-"""Recordings as machines give them: other rates, missing stretches, unknown starts, rest, feedback, own values.
+"""Recordings as machines give them: other rates, missing stretches, unknown starts, rest, colour, drift, feedback.
 
 Each is the motor of `conftest` with dry friction concealed in it, spoiled as its test says; the diagnosis is to be the
 same.
@@ -12,6 +12,7 @@ import shutil
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 import lacuna
 from lacuna.codegen.compile import compile_model
@@ -103,6 +104,27 @@ def late(name: str, table: Table) -> Table:
 def test_states_at_the_first_sample_may_be_unknown_in_every_recording(friction_case: Path, tmp_path: Path) -> None:
     toml = '[initial]\ni = "unknown"\nw = "unknown"\ntheta = "unknown"\n'
     assert_finds_friction(spoiled(friction_case, tmp_path / "case", late, toml), tmp_path / "out")
+
+
+def coloured(name: str, table: Table) -> Table:
+    """Noise of three times the level beside that which is there, with a memory of ten samples, and a drift of the size
+    of the old one."""
+    random = np.random.default_rng(int(name[1]))
+    for column, std in NOISE.items():
+        table[column] += 3 * std * lfilter([np.sqrt(1 - 0.9**2)], [1, -0.9], random.normal(size=1500))
+        table[column] += std * np.cumsum(random.normal(size=1500)) / np.sqrt(1500)
+    return table
+
+
+def without_levels(case: Path) -> Path:
+    """The case without what it says of its noise."""
+    lines = (case / "case.toml").read_text(encoding="utf-8").splitlines(keepends=True)
+    (case / "case.toml").write_text("".join(x for x in lines if "noise_std" not in x), encoding="utf-8")
+    return case
+
+
+def test_noise_may_have_a_colour_and_drift(friction_case: Path, tmp_path: Path) -> None:
+    assert_finds_friction(without_levels(spoiled(friction_case, tmp_path / "case", coloured)), tmp_path / "out")
 
 
 def run(case: Path, inputs: dict[str, RecordedInput], time: np.ndarray, outputs: list[str]) -> Table:

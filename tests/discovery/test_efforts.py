@@ -20,7 +20,7 @@ from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.efforts.sites import read
-from lacuna.discovery.efforts.smoother import Latent, Piece, Whitener, course, evidence, thinned
+from lacuna.discovery.efforts.smoother import Colour, Latent, Piece, Whitener, course, evidence, thinned
 from lacuna.discovery.explain import explain, judge_written, write_amended
 from lacuna.discovery.explanation import diagnosis
 from lacuna.discovery.fit.intervals import undetermined
@@ -65,15 +65,26 @@ def dense(p: Piece, latent: Latent) -> tuple[np.ndarray, np.ndarray]:
     seen = np.isfinite(p.data).all(axis=2)
     g, s = answer[seen], start[seen]
     noise = np.broadcast_to(p.noise, seen.shape)[seen]
-    return g @ effort @ g.T + s @ np.diag(p.start**2) @ s.T + np.diag(noise**2), effort @ g.T
+    cover = g @ effort @ g.T + s @ np.diag(p.start**2) @ s.T + np.diag(noise**2)
+    when, output = np.nonzero(seen)
+    apart = np.abs(np.subtract.outer(p.along.time[when], p.along.time[when]))
+    own = latent.colour
+    for sensor, size, time in zip(own.sensor, own.size[0], own.time[0], strict=True) if own else ():
+        both = np.outer(output == sensor, output == sensor)
+        cover += both * size**2 * np.exp(-apart / time)
+    return cover, effort @ g.T
 
 
 LATENT = Latent(np.array([1]), np.array([-1]), np.array([0.8]), np.array([3.0]))
 
 
-def test_the_smoother_equals_one_dense_solve() -> None:
+COLOUR = Colour(np.array([1, 0, 1]), np.array([[0.5, 0.2, 1.1]]), np.array([[2.0, 0.7, 40.0]]))
+
+
+@pytest.mark.parametrize("latent", [LATENT, replace(LATENT, colour=COLOUR)], ids=["white", "coloured"])
+def test_the_smoother_equals_one_dense_solve(latent: Latent) -> None:
     pieces = [piece(30, missing=7), piece(21)]
-    parts = [dense(p, LATENT) for p in pieces]
+    parts = [dense(p, latent) for p in pieces]
     rows = np.concatenate([p.data[np.isfinite(p.data).all(axis=2)] for p in pieces])
     noise = np.concatenate(
         [np.broadcast_to(p.noise, p.data.shape[:2])[np.isfinite(p.data).all(axis=2)] for p in pieces]
@@ -81,16 +92,16 @@ def test_the_smoother_equals_one_dense_solve() -> None:
     cover, residual, answers = block_diag(*(c for c, _ in parts)), rows[:, 0], -rows[:, 1:]
     whole = cover + answers @ answers.T
     log = -0.5 * (residual @ np.linalg.solve(whole, residual) + np.linalg.slogdet(whole)[1] - 2 * np.log(noise).sum())
-    found = evidence(pieces, LATENT)
+    found = evidence(pieces, latent)
     assert found.log[0] == pytest.approx(log, rel=1e-9)
     mean = answers.T @ np.linalg.solve(whole, residual)
     np.testing.assert_allclose(found.mean[0], mean, rtol=1e-9)
     at = 0
     for p, (c, crossed) in zip(pieces, parts, strict=True):
         left = (residual - answers @ mean)[at : at + len(c)]
-        effort, error = course(p, LATENT, mean)
+        effort, error = course(p, latent, mean)
         np.testing.assert_allclose(effort, crossed @ np.linalg.solve(c, left), rtol=1e-8, atol=1e-10)
-        variance = LATENT.size[0] ** 2 - np.sum(crossed * np.linalg.solve(c, crossed.T).T, axis=1)
+        variance = latent.size[0] ** 2 - np.sum(crossed * np.linalg.solve(c, crossed.T).T, axis=1)
         np.testing.assert_allclose(error**2, variance, rtol=1e-7)
         at += len(c)
 

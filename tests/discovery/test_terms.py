@@ -6,9 +6,9 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from lacuna.discovery.efforts.laws.terms import counts, groups, variables
 from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.sites import Site as Place
-from lacuna.discovery.efforts.terms import counts, groups, variables
 from lacuna.discovery.law.empirical_law import _free
 from lacuna.discovery.law.law import Law, Site, attach
 from lacuna.discovery.law.law_terms import Group, Variable

@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 import sys
+import time
 
 from tests.proof.machines.generate import generate
 from tests.proof.machines.plan import plan, small
@@ -22,10 +23,11 @@ def _arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=Path, default=ROOT / "out" / "prove-machines")
     parser.add_argument("--seed", type=int, default=101)
-    parser.add_argument("--small", action="store_true", help="two cases of every machine")
+    parser.add_argument("--small", action="store_true", help="two cases of every machine, and of strangers the pairs")
     parser.add_argument("--prepare", action="store_true", help="only the cases")
     parser.add_argument("--report", action="store_true", help="score and write up what is finished by this version")
     parser.add_argument("--jobs", type=int, default=1)
+    parser.add_argument("--minutes", type=float, default=float("inf"), help="after which no further case is begun")
     return parser.parse_args()
 
 
@@ -33,10 +35,14 @@ def main() -> int:
     arguments = _arguments()
     cases = plan(arguments.seed)
     cases = small(cases) if arguments.small else cases
-    out = arguments.out / f"seed{arguments.seed}-{content_hash([Path(__file__).parent / 'generate.py'])[:6]}"
-    version = tool_hash()
+    here = Path(__file__).parent
+    drawn_by = [f for f in here.rglob("*.py") if f.name not in ("__main__.py", "score.py", "test_machines.py")]
+    out = arguments.out / f"seed{arguments.seed}-{content_hash(sorted(drawn_by))[:6]}"
+    version, end = tool_hash(), time.monotonic() + 60 * arguments.minutes
 
     def work(name: str) -> str:
+        if time.monotonic() > end:
+            return "left for the next call"
         if not (out / "truth" / f"{name}.toml").exists():
             generate(next(c for c in cases if c[0] == name), out)
         if arguments.prepare:

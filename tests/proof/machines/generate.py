@@ -13,10 +13,13 @@ import numpy as np
 
 from tests.proof.machines.machine import Hidden, Machine, simulate
 from tests.proof.machines.plan import Plan, plan
+from tests.proof.machines.truth import columns, each_shows, truth
 from tests.proof.machines.write import write_case, write_truth
 
 NUISANCE = (0.3, 0.8)  # of the noise, the RMS of what is wrong with the instruments beside it
-SIZINGS = 6  # refits at most, after which the size of what is concealed stays
+SIZINGS = 6  # refits at most to bring what is concealed to its size
+REACHED = 1.5  # times the misfit that is wanted, or its inverse, within which a case counts as sized
+DRAWS = 6  # of one case, until what is concealed shows at all in its fit recordings
 
 
 @dataclass
@@ -31,6 +34,7 @@ class Drawn:
     given: bool  # whether case.toml says how much noise there is
     error: dict[str, np.ndarray] = field(default_factory=dict)  # noise and nuisances
     hidden: tuple[tuple[Hidden, float], ...] = ()
+    substeps: int = 0  # of the truth's integration; the machine's own until it is known what they are to be
     off: str = ""
     nuisances: list[str] = field(default_factory=list)
 
@@ -39,13 +43,32 @@ class Drawn:
         return self.plan.machine
 
     @property
+    def recordings(self) -> int:
+        return next(iter(self.drive.values())).shape[1]
+
+    @property
     def outputs(self) -> tuple[str, ...]:
         return self.plan.outputs or tuple(self.machine.outputs)
 
 
 def draw(wanted: Plan, seed: int) -> tuple[Drawn, dict[str, np.ndarray], dict]:
-    """(the case, what was measured (samples, recordings), the errors of both ends)."""
-    rng = np.random.default_rng(seed)
+    """(the case, what was measured (samples, recordings), the errors of both ends).
+
+    Where what is concealed cannot be brought to its size, or one of two does not show at all (a threshold that no input
+    comes near), the case is drawn anew.
+    """
+    for attempt in range(DRAWS):
+        rng = np.random.default_rng([seed, attempt] if attempt else seed)
+        case = _drawn(wanted, rng)
+        target = float(np.exp(rng.uniform(*np.log(wanted.misfit))))
+        measured, ends = _sized(case, target)
+        sized = not case.hidden or abs(np.log(_misfit(ends) / target)) < np.log(REACHED)
+        if sized and each_shows(case, slice(0, _fitted(case.recordings))):
+            return case, measured, ends
+    raise ValueError(f"{wanted.machine.name}: {[h.name for h, _ in case.hidden]} cannot be brought to a size")
+
+
+def _drawn(wanted: Plan, rng: np.random.Generator) -> Drawn:
     machine = wanted.machine
     believed = {
         n: p.value * (np.exp(0.25 * rng.standard_normal()) if p.sigma else 1.0) for n, p in machine.parameters.items()
@@ -60,11 +83,11 @@ def draw(wanted: Plan, seed: int) -> tuple[Drawn, dict[str, np.ndarray], dict]:
     case = Drawn(wanted, believed, true, drive, {}, bool(rng.random() < 0.6))
     if wanted.kind == "parameters":
         _put_off(case, rng)
-    clean = simulate(machine, _columns(case.true, recordings), drive)
+    clean = simulate(machine, columns(case.true, recordings), drive)
     case.noise = {n: float(np.std(clean[n]) * rng.uniform(0.004, 0.012)) for n in machine.outputs}
     _instruments(case, rng, recordings)
     case.hidden = tuple((machine.hidden[k], machine.hidden[k].size) for k in wanted.hidden)
-    return (case, *_sized(case, float(np.exp(rng.uniform(*np.log(wanted.misfit))))))
+    return case
 
 
 def _input(rng: np.random.Generator, samples: int, low: float, high: float) -> np.ndarray:
@@ -84,8 +107,8 @@ def _put_off(case: Drawn, rng: np.random.Generator) -> None:
     """One parameter that the recordings determine well, four to seven believed sigmas from its belief."""
     machine = case.machine
     names = [n for n, p in machine.parameters.items() if p.sigma]
-    recordings = next(iter(case.drive.values())).shape[1]
-    clean = simulate(machine, _columns(case.true, recordings), case.drive)
+    recordings = case.recordings
+    clean = simulate(machine, columns(case.true, recordings), case.drive)
     level = {n: 0.01 * float(np.std(clean[n])) for n in case.outputs}
     jacobian = _jacobian(case, case.true, clean, level, names)
     error = np.sqrt(np.diag(np.linalg.inv(jacobian.T @ jacobian)))
@@ -120,17 +143,17 @@ def _instruments(case: Drawn, rng: np.random.Generator, recordings: int) -> None
 
 def _sized(case: Drawn, target: float) -> tuple[dict[str, np.ndarray], dict]:
     """What is concealed scaled until the refit of the believed model errs `target` times the floor."""
-    recordings = next(iter(case.drive.values())).shape[1]
     measured: dict[str, np.ndarray] = {}
+    refitted = dict(case.believed)
     for _ in range(SIZINGS if case.hidden else 1):
-        clean = simulate(case.machine, _columns(case.true, recordings), case.drive, case.hidden)
-        if not all(np.isfinite(c).all() for c in clean.values()):
+        clean = truth(case)
+        if clean is None:
             case.hidden = tuple((h, q / 4) for h, q in case.hidden)
             continue
         measured = {n: clean[n] + case.error[n] for n in case.outputs}
-        refitted = _refit(case, measured)
+        refitted = _refit(case, measured, refitted)
         ends = _ends(case, measured, clean, refitted)
-        ratio = ends["fit"]["refit_believed"] / ends["fit"]["floor"]
+        ratio = _misfit(ends)
         if not case.hidden or abs(np.log(ratio / target)) < 0.1:
             break
         scale = np.sqrt((target**2 - 1) / max(ratio**2 - 1, 0.01))
@@ -140,8 +163,9 @@ def _sized(case: Drawn, target: float) -> tuple[dict[str, np.ndarray], dict]:
     return measured, ends
 
 
-def _columns(values: dict[str, float], count: int) -> dict[str, np.ndarray]:
-    return {n: np.full(count, v) for n, v in values.items()}
+def _misfit(ends: dict) -> float:
+    """Error of the refitted believed model over the floor, on the fit recordings."""
+    return ends["fit"]["refit_believed"] / ends["fit"]["floor"]
 
 
 def _fitted(recordings: int) -> int:
@@ -150,7 +174,7 @@ def _fitted(recordings: int) -> int:
 
 def _jacobian(case: Drawn, at: dict, base: dict, level: dict, names: list[str]) -> np.ndarray:
     """(samples, names): change of the outputs on the fit recordings, in `level`s, for a relative change of each."""
-    recordings = next(iter(case.drive.values())).shape[1]
+    recordings = case.recordings
     batch = {n: np.repeat(np.full(len(names), v), recordings) for n, v in at.items()}
     for k, n in enumerate(names):
         batch[n][k * recordings : (k + 1) * recordings] *= 1.001
@@ -166,18 +190,19 @@ def _jacobian(case: Drawn, at: dict, base: dict, level: dict, names: list[str]) 
     return np.column_stack(columns)
 
 
-def _refit(case: Drawn, measured: dict[str, np.ndarray]) -> dict[str, float]:
-    """The believed model's parameters fitted to the fit recordings, beliefs as priors (Gauss-Newton, halved steps)."""
+def _refit(case: Drawn, measured: dict[str, np.ndarray], start: dict[str, float]) -> dict[str, float]:
+    """The believed model's parameters fitted to the fit recordings from `start` on, beliefs as priors (Gauss-Newton,
+    halved steps)."""
     machine = case.machine
     names = [n for n, p in machine.parameters.items() if p.sigma]
     sigma = np.array([machine.parameters[n].sigma for n in names])
-    recordings = next(iter(case.drive.values())).shape[1]
+    recordings = case.recordings
     fit = _fitted(recordings)
-    factor = np.ones(len(names))
+    factor = np.array([start[n] / case.believed[n] for n in names])
 
     def residual(factor: np.ndarray) -> tuple[np.ndarray, dict, dict]:
         at = case.believed | {n: case.believed[n] * f for n, f in zip(names, factor, strict=True)}
-        base = simulate(machine, _columns(at, recordings), case.drive)
+        base = simulate(machine, columns(at, recordings), case.drive)
         rows = [((measured[o] - base[o])[:, :fit] / case.noise[o]).ravel() for o in case.outputs]
         return np.concatenate([*rows, (1 - factor) / sigma]), base, at
 
@@ -201,8 +226,8 @@ def _refit(case: Drawn, measured: dict[str, np.ndarray]) -> dict[str, float]:
 
 def _ends(case: Drawn, measured: dict, clean: dict, refitted: dict[str, float]) -> dict:
     """NRMSE of the refitted believed model and of the truth, on the fit and the validation recordings."""
-    recordings = next(iter(case.drive.values())).shape[1]
-    base = simulate(case.machine, _columns(refitted, recordings), case.drive)
+    recordings = case.recordings
+    base = simulate(case.machine, columns(refitted, recordings), case.drive)
     ends: dict = {"refitted": refitted}
     for part, of in (("fit", slice(0, _fitted(recordings))), ("validate", slice(_fitted(recordings), recordings))):
 

@@ -64,10 +64,12 @@ def plan(seed: int) -> list[tuple[str, Plan, int]]:
 
 
 def small(cases: list[tuple[str, Plan, int]]) -> list[tuple[str, Plan, int]]:
-    """Two cases of every machine, one with something missing and one null, drawn by the order of the plan."""
+    """Two cases of every machine, one with something missing and one null, drawn by the order of the plan; and, of
+    strangers, every pair."""
     chosen: dict[tuple[str, bool], tuple[str, Plan, int]] = {}
     for case in cases:
         wanted = case[1]
         if wanted.kind in ("effect", "consistent", "parameters"):
             chosen.setdefault((wanted.machine.name, wanted.kind == "effect"), case)
-    return list(chosen.values())
+    pairs = [c for c in cases if c[1].kind == "two" and c[1].machine in strangers.MACHINES]
+    return [*chosen.values(), *pairs]

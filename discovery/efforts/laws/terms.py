@@ -34,9 +34,10 @@ _WHOLE = (1 / 3, 2 / 3, 1.0, 7 / 4, *EXPONENTS, 5.0)
 
 def variables(
     along: Sequence[Along], location: str, known: Mapping[str, ModelVariable], states: list[str],
-    answering: frozenset[str],
+    answering: frozenset[str], added: frozenset[str] = frozenset(),
 ) -> list[Variable]:  # fmt: skip
-    """The variables of a law at `location`, the nearest first; those that follow from another one are left out.
+    """The variables of a law at `location`, the nearest first; those that follow from another one are left out, and
+    those of components that were `added` to the believed model: what is found there may yet be found anew.
 
     `answering` are those that the effort changes at once: they are in the balance that says what the effort is, and a
     sum of them is that balance again. Of them only rates of states serve, where something else multiplies them.
@@ -44,6 +45,7 @@ def variables(
     units = {n: v.unit for n, v in known.items()}
     names = [n for n, v in along[0].values.items() if np.ndim(v) == 1 and (n in units or n.startswith("der("))]
     names = [n for n in names if not n.startswith("probe") and (n not in answering or n.startswith("der("))]
+    names = [n for n in names if n.removeprefix("der(").partition(".")[0] not in added]
     largest: dict[str, float] = {}
     for n in names:
         unit = units.get(n, n)
@@ -72,7 +74,8 @@ def variables(
         courses.append(scaled)
         if len(kept) == MOST:
             break
-    return [*kept, *_differences(along, kept, units, location)]
+    believed = {n: u for n, u in units.items() if n.partition(".")[0] not in added}
+    return [*kept, *_differences(along, kept, believed, location)]
 
 
 def _differences(

@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
 
+from lacuna.discovery.efforts.laws.regression import Regression
+from lacuna.discovery.efforts.laws.terms import counts, groups, variables
 from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.located import Guided, Locator, Site
-from lacuna.discovery.efforts.regression import Regression
-from lacuna.discovery.efforts.terms import counts, groups, variables
 from lacuna.discovery.law.law import Law
 from lacuna.discovery.law.law import Site as LawSite
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.law.law_terms import Group
 
-KINDS = 40  # kinds of terms that are kept
 FAMILIES = 12  # kinds of terms whose shapes are refined
 ZOOMS, FINE = 3, 9  # times that a shape is refined, and values each time; each is a quarter of the last one's spacing
 FIRST = 12  # terms that a second one is looked for beside, and a constant: zero of a temperature is anywhere
-CHECKED = 400  # pairs that are looked through for those
 PAIRS = 6  # kinds of pairs whose shapes are refined
 SAME = 1e-3  # share of what a law explains, by which another one must differ to be tried beside it
 
@@ -28,8 +27,9 @@ def proposals(locator: Locator, site: Site, guided: Guided, most: int) -> list[P
     """Laws of one and of two groups of terms at a place, `most` of each, the most telling first."""
     along = [p.along for p in guided.pieces]
     answering = _answering(locator, along[0], site.place.column)
+    added = locator.base.machine.amendment.added()
     found = variables(
-        along, site.location, locator.base.machine.model.variables, locator.opened.linear.states, answering
+        along, site.location, locator.base.machine.model.variables, locator.opened.linear.states, answering, added
     )
     courses = {v.local: np.concatenate([v.course(a.values) for a in along]) / v.size for v in found}
     ranges = {local: (float(c.min()), float(c.max())) for local, c in courses.items()}
@@ -45,7 +45,7 @@ def proposals(locator: Locator, site: Site, guided: Guided, most: int) -> list[P
     return [_proposal(regression, groups) for groups in chosen]
 
 
-def _distinct(regression: Regression, found: list[tuple[int, ...]], most: int) -> list[tuple[int, ...]]:
+def _distinct(regression: Regression, found: Iterable[tuple[int, ...]], most: int) -> list[tuple[int, ...]]:
     """The first `most` that explain different things: |x| beside x, where x has one sign, is the same law again."""
     kept: list[tuple[int, ...]] = []
     courses: list[np.ndarray] = []
@@ -71,7 +71,7 @@ def _refined(regression: Regression, every: range) -> list[tuple[int, ...]]:
     scored = dict(zip(every, regression.scores((), every), strict=True))
     best: dict[tuple[str, ...], int] = {}
     for g in sorted(scored, key=lambda g: scored[g]):
-        if len(best) < KINDS and regression.groups[g].texts not in best and regression.plausible((g,)):
+        if regression.groups[g].texts not in best and regression.plausible((g,)):
             best[regression.groups[g].texts] = g
     kinds = list(best.values())
     for zoom in range(ZOOMS):
@@ -108,10 +108,9 @@ def _doubled(regression: Regression, single: list[tuple[int, ...]], every: range
         for other, score in zip(others, regression.scores(first, others), strict=True):
             scored[(*first, other)] = score
     kinds: dict[frozenset, tuple[int, ...]] = {}
-    for key in sorted(scored, key=lambda k: scored[k])[:CHECKED]:
+    for key in sorted(scored, key=lambda k: scored[k]):
         kinds.setdefault(frozenset(regression.groups[g].texts for g in key), key)
-    plausible = [key for key in kinds.values() if regression.plausible(key)]
-    kept = _distinct(regression, plausible, PAIRS)
+    kept = _distinct(regression, filter(regression.plausible, kinds.values()), PAIRS)
     better = _refined_pairs(regression, [(key, scored[key]) for key in kept])
     return [pair for pair, _ in sorted(better, key=lambda b: b[1])]
 

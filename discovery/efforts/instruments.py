@@ -1,0 +1,138 @@
+"""Whether what a fit leaves may be the instruments' own: noise with a memory and drifts, of a level that nobody gave.
+
+Two answers are weighed by their evidence, over all recordings together: sensors have errors of their own, chains with
+sizes and time constants that the data chooses; or, beside these, an effort is missing at one place of the equations. An
+effort reaches the outputs through the machine, all of them at once, and errors of sensors do not: so the colour of the
+noise is estimated beside the physics and cannot eat it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from lacuna.discovery.case.cases import Case
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.efforts.located import SIZES, TIMES, Locator, thinned_all
+from lacuna.discovery.efforts.numeric import NotNumeric
+from lacuna.discovery.efforts.opened import opened
+from lacuna.discovery.efforts.smoother import Colour, Latent, Piece, evidence
+from lacuna.discovery.fit.evidence import may_be_coloured
+from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.naming.comparison import MIN_GAIN
+from lacuna.runtime import SimulationError
+
+SAMPLES = 600  # of all recordings together: what is weighed are tens of nats, and noise is slow where it matters
+STEPS = (1.0, 0.5)  # half decades of size and time constant, in which a chain is sought: as near as tells a nat
+NATS = MIN_GAIN / 2  # of log evidence, below which nothing is believed to be there
+
+Rows = tuple[np.ndarray, np.ndarray]  # (sizes (h,), times (h,)) that one chain is tried with
+
+
+def only_instruments(case: Case, amendment: Amendment, fit: Fit) -> bool:
+    """Whether what `fit`, that of `amendment`, leaves may be noise of an unknown level with a colour of its own.
+
+    False where levels are given and exceeded, where it comes in bursts, and where the equations cannot be opened.
+    """
+    if fit.only_instruments is None:
+        locator = _locator(case, amendment, fit) if may_be_coloured(fit) else None
+        fit.only_instruments = locator is not None and weighed(locator) < NATS
+    return fit.only_instruments
+
+
+def gained(case: Case, before: tuple[Amendment, Fit], after: tuple[Amendment, Fit]) -> float:
+    """Nats that a model has over another one where what either leaves is the instruments' own: what is found in noise
+    with a colour has to explain more than the colour does. Minus infinity where one cannot be opened."""
+    locators = [_locator(case, *model) for model in (before, after)]
+    if None in locators:
+        return -np.inf
+    without, with_it = (_fitted(thinned_all(x.pieces, SAMPLES), _NOTHING)[1] for x in locators)
+    return with_it - without
+
+
+def _locator(case: Case, amendment: Amendment, fit: Fit) -> Locator | None:
+    try:
+        common = [f.name for f in fit.estimate.free if not f.name.startswith("start:") and "@" not in f.name]
+        return Locator(case, opened(case, amendment, case.library(), common), fit)
+    except (NotNumeric, SimulationError, np.linalg.LinAlgError):
+        return None
+
+
+def weighed(locator: Locator) -> float:
+    """What an effort at any place explains beside the instruments' own errors, in nats over these alone."""
+    pieces = thinned_all(locator.pieces, SAMPLES)
+    alone, log = _fitted(pieces, _NOTHING)
+    _, more = _fitted(pieces, _with_effort(locator, pieces, alone.colour))
+    return more - log
+
+
+def colour_of(locator: Locator) -> Colour:
+    """Errors of instruments with a memory, as they are beside an effort at the best place."""
+    pieces = thinned_all(locator.pieces, SAMPLES)
+    return _fitted(pieces, _with_effort(locator, pieces, _NOTHING.colour))[0].colour
+
+
+_NOTHING = Latent(
+    np.array([-1]), np.array([-1]), np.zeros(1), np.ones(1),
+    Colour(np.zeros(0, dtype=int), np.zeros((1, 0)), np.zeros((1, 0))),
+)  # fmt: skip
+
+
+def _with_effort(locator: Locator, pieces: list[Piece], colour: Colour) -> Latent:
+    """The place, size and time constant of the effort that explains most beside these errors of sensors."""
+    rows, _ = locator.hypotheses()
+    efforts = np.flatnonzero(rows.column >= 0)
+    tried = Latent(rows.column[efforts], rows.sensor[efforts], rows.size[efforts], rows.time[efforts])
+    best = int(np.nanargmax(evidence(pieces, replace(tried, colour=colour.repeated(len(efforts)))).log))
+    chosen = (v[best : best + 1] for v in (tried.column, tried.sensor, tried.size, tried.time))
+    return Latent(*chosen, colour)
+
+
+def _fitted(pieces: list[Piece], latent: Latent) -> tuple[Latent, float]:
+    """The hypothesis with as many chains of sensors as the data asks for, and its log evidence."""
+    latent, log = _refined(pieces, latent)
+    while True:
+        trials = [_best(pieces, *_with_chain(pieces, latent, sensor)) for sensor in range(len(pieces[0].noise))]
+        trial = max(trials, key=lambda t: t[1])
+        if trial[1] < log + NATS:
+            return latent, log
+        latent, log = _refined(pieces, trial[0])
+
+
+def _with_chain(pieces: list[Piece], latent: Latent, sensor: int) -> tuple[Latent, int, Rows]:
+    """A further chain of a sensor, from noise to drift, small to large: what `_best` takes."""
+    longest = max(p.along.time[-1] - p.along.time[0] for p in pieces)
+    colour, more = latent.colour, np.ones((1, 1))
+    own = Colour(np.append(colour.sensor, sensor), np.hstack([colour.size, more]), np.hstack([colour.time, more]))
+    rows = _grid(SIZES * pieces[0].noise[sensor], longest * np.array(TIMES))
+    return replace(latent, colour=own), len(colour.sensor), rows
+
+
+def _refined(pieces: list[Piece], latent: Latent) -> tuple[Latent, float]:
+    """Its chains moved one after the other while that is better, in ever finer steps."""
+    log = float(evidence(pieces, latent).log[0])
+    for step in STEPS:
+        around, before = 10 ** (0.5 * step * np.array([-1.0, 0.0, 1.0])), -np.inf
+        while log > before:
+            before = log
+            for k in range(len(latent.colour.sensor)):
+                size, time = latent.colour.size[0, k], latent.colour.time[0, k]
+                latent, log = _best(pieces, latent, k, _grid(size * around, time * around))
+    return latent, log
+
+
+def _grid(sizes: np.ndarray, times: np.ndarray) -> Rows:
+    size, time = np.meshgrid(sizes, times, indexing="ij")
+    return size.ravel(), time.ravel()
+
+
+def _best(pieces: list[Piece], latent: Latent, k: int, rows: Rows) -> tuple[Latent, float]:
+    """The hypothesis with chain k at the best of these rows, and its log evidence."""
+    count = len(rows[0])
+    colour = latent.colour.repeated(count)
+    colour.size[:, k], colour.time[:, k] = rows
+    fields = (np.repeat(v, count) for v in (latent.column, latent.sensor, latent.size, latent.time))
+    log = evidence(pieces, Latent(*fields, colour)).log
+    best = int(np.nanargmax(log))
+    return replace(latent, colour=colour.one(best)), float(log[best])

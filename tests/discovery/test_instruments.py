@@ -1,0 +1,81 @@
+"""Errors of sensors with a memory against an unknown effort: two tanks whose noise is coloured and drifts, of no level
+that anybody gave, alone and with a leak that goes as a square."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+
+from lacuna.codegen.compile import compile_model
+from lacuna.discovery.case.cases import load
+from lacuna.discovery.efforts.instruments import only_instruments
+from lacuna.discovery.explain import explain
+from lacuna.discovery.fit.evidence import is_noise
+from lacuna.discovery.steps import fitted
+from lacuna.runtime import Model, RecordedInput, simulate
+
+from .test_efforts import BELIEVED, CASCADE, CASE
+
+LEAKING = CASCADE.format(upper="k*upper", lower="(k*lower + c*lower^2)").replace(
+    "  input", '  parameter Real c(unit="m/s") = 6e-4;\n  input'
+)
+SAMPLES, STEP = 400, 2.0  # s
+
+
+def noise(random: np.random.Generator) -> np.ndarray:
+    """White, with a memory of ten samples at three times that level, and a drift."""
+    white, more, drift = random.normal(size=(3, SAMPLES))
+    coloured = lfilter([np.sqrt(1 - 0.9**2)], [1, -0.9], more)
+    return 1e-3 * (white + 3 * coloured + np.cumsum(drift) / np.sqrt(SAMPLES))
+
+
+def written(folder: Path, truth: str) -> Path:
+    """A case of the believed cascade whose recordings are of `truth`."""
+    source = folder / "truth" / "Cascade.mo"
+    source.parent.mkdir(parents=True)
+    source.write_text(truth, encoding="utf-8")
+    machine = Model(compile_model(str(source)).path)
+    time, random = STEP * np.arange(SAMPLES), np.random.default_rng(3)
+    for name in ("r1.csv", "r2.csv", "r3.csv"):
+        q = 1e-4 * (1 + np.cumsum(random.normal(size=SAMPLES // 50))).clip(0.2, 3).repeat(50)
+        run = simulate(
+            machine, solver="dopri5", rtol=1e-8, inputs={"q": RecordedInput(time, q)}, start=0.0, stop=float(time[-1]),
+            output_times=time, outputs=["lower", "upper"], events=False,
+        )  # fmt: skip
+        columns = [time, q, *(np.array(run[n]) + noise(random) for n in ("lower", "upper"))]
+        np.savetxt(folder / name, np.column_stack(columns), "%.8g", ",", header="time,q,lower,upper", comments="")
+    (folder / "Cascade.mo").write_text(BELIEVED, encoding="utf-8")
+    (folder / "case.toml").write_text(CASE.replace("noise_std = 0.001\n", ""), encoding="utf-8")
+    return folder
+
+
+def test_such_noise_is_the_instruments_own(tmp_path: Path) -> None:
+    case = load(written(tmp_path / "case", BELIEVED))
+    base = fitted(case, lambda text: None)
+    assert not is_noise(base.base)
+    assert only_instruments(base.case, base.amendment, base.base)
+    found = explain(case)
+    assert found.verdict in ("consistent", "parameters")
+    assert not found.findings
+
+
+def test_a_leak_in_such_noise_is_found(tmp_path: Path) -> None:
+    case = load(written(tmp_path / "case", LEAKING))
+    base = fitted(case, lambda text: None)
+    assert not only_instruments(base.case, base.amendment, base.base)
+    found = explain(case)
+    assert found.verdict == "missing_physics"
+    assert [f.ranked.attachment.location for f in found.findings] == ["lower"]
+
+
+@pytest.mark.parametrize("level", [0.002, 0.001])
+def test_a_given_level_is_not_exceeded(tmp_path: Path, level: float) -> None:
+    folder = written(tmp_path / "case", BELIEVED)
+    toml = (folder / "case.toml").read_text(encoding="utf-8")
+    toml = toml.replace('unit = "m"\n', f'unit = "m"\nnoise_std = {level}\n')
+    (folder / "case.toml").write_text(toml, encoding="utf-8")
+    base = fitted(load(folder), lambda text: None)
+    assert not only_instruments(base.case, base.amendment, base.base)
