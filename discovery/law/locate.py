@@ -119,7 +119,7 @@ def _smoothest(screen: Screen, blocks: list[np.ndarray]) -> tuple[float, np.ndar
     bends = np.kron(np.eye(len(blocks)), np.diff(np.eye(NODES), 2, axis=0))
     smoothed = normal + bends.T @ bends * 1e-3 * SMOOTHING * float(np.mean(np.diag(normal)))
     nodes = np.linalg.lstsq(smoothed, right, rcond=1e-10)[0]
-    left = float(target @ target) - 2 * float(right @ nodes) + float(nodes @ normal @ nodes)
+    left = max(float(target @ target) - 2 * float(right @ nodes) + float(nodes @ normal @ nodes), 0.0)
     errors = np.sqrt(np.maximum(np.diag(np.linalg.pinv(smoothed, hermitian=True)), 0.0))
     return 1.0 - left / screen.cost, nodes, errors
 
