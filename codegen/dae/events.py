@@ -93,7 +93,8 @@ class _Followed:
             if a.op == "var" and a.value in follow and a not in leaves(b):
                 self._values.setdefault(str(a.value), b)
         self._follow = follow - at_events
-        self._implicit = [leaves(eq.lhs) | leaves(eq.rhs) for eq in model.equations if eq.lhs.op != "var" != eq.rhs.op]
+        whole = [leaves(eq.lhs) | leaves(eq.rhs) for eq in model.equations if eq.lhs.op != "var" != eq.rhs.op]
+        self._implicit = [e for e in whole if all(n.op != "der" for n in e)]  # with a derivative: that follows from it
         self._sources: dict[str, frozenset[str]] = {}
 
     def sources(self, name: str) -> frozenset[str]:
