@@ -197,7 +197,7 @@ class _Writer:
     def _site(self, attachment: Attachment) -> None:
         """At any place: a port at a node, two in an edge, or a variable that is added to an equation."""
         site, name = attachment.site, attachment.component
-        self._declare(attachment)
+        self._declare(attachment, ", ".join(f"{local}={variable}" for local, variable in attachment.signals))
         if site.kind == "node":
             self.equations.append(f"connect({name}.port, {site.ends[0]});")
         elif site.kind == "edge":
@@ -212,7 +212,6 @@ class _Writer:
         else:
             variable = self.edits.setdefault(site, _missing(len(self.edits)))
             self.sums_at.setdefault(variable, []).append(f"{name}.effort")
-        self._signals(attachment)
 
     def _sensor(self, attachment: Attachment) -> None:
         self._declare(attachment)
