@@ -195,11 +195,14 @@ class _Writer:
         self.sums.setdefault(device.variable, [f"{device.part}.f"]).append(f"{name}.f")
 
     def _site(self, attachment: Attachment) -> None:
-        """At any place: a port at a node, two in an edge, or a variable that is added to an equation."""
+        """At any place: a port at a node, two in an edge or past a component, or a variable that is added to an
+        equation."""
         site, name = attachment.site, attachment.component
         self._declare(attachment)
         if site.kind == "node":
-            self.equations.append(f"connect({name}.port, {site.ends[0]});")
+            self.equations.append(f"connect({site.ends[0]}, {name}.port);")
+        elif site.kind == "branch":
+            self.equations += [f"connect({end}, {name}.{port});" for end, port in zip(site.ends, "ab", strict=True)]
         elif site.kind == "edge":
             left, right = site.ends
             chain = next((e for e in self.equations if e.endswith(f", {right});")), None)
