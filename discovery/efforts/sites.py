@@ -87,13 +87,14 @@ def read(library: Library, name: str) -> Sites:
 
 
 def _branches(group: dict[str, str], ports: dict[str, Port]) -> list[Site]:
-    """Past every component that joins two nodes: what goes on between them may have been left out."""
-    of: dict[str, list[str]] = {}
-    for end in ports:
-        of.setdefault(end.rpartition(".")[0], []).append(end)
+    """Past every component that joins two nodes: what goes on between them may have been left out. Its ports are of one
+    kind where the language lets them be connected: their variables have the same names (specification 9.3)."""
+    of: dict[tuple[str, str, str], list[str]] = {}
+    for end, port in ports.items():
+        of.setdefault((end.rpartition(".")[0], port.flow, port.potential), []).append(end)
     return [
-        Site("branch", name, (a, b), ports[a]) for name, (a, b) in ((n, e) for n, e in of.items() if len(e) == 2)
-        if ports[a] == ports[b] and _root(group, a) != _root(group, b)
+        Site("branch", name, (ends[0], ends[1]), ports[ends[0]]) for (name, *_), ends in of.items()
+        if len(ends) == 2 and _root(group, ends[0]) != _root(group, ends[1])
     ]  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""What goes on between two nodes, beside a component that joins them: a place of its own, in connectors of anybody's."""
+"""What goes on beside a component that joins two nodes: a place of its own, in connectors of anybody's."""
 
 from __future__ import annotations
 
@@ -107,8 +107,10 @@ def train(tmp_path_factory: pytest.TempPathFactory) -> Path:
     random, time = np.random.default_rng(8), np.arange(600) * 0.02
     for n in (1, 2, 3):
         u = 1500 * np.repeat(random.uniform(-1, 1, 20), 30)
-        run = simulate(machine, solver="dopri5", rtol=1e-9, inputs={"u": RecordedInput(time, u)}, start=0.0,
-                       stop=float(time[-1]), output_times=time, outputs=["first.v", "last.v"], events=False)  # fmt: skip
+        run = simulate(
+            machine, solver="dopri5", rtol=1e-9, inputs={"u": RecordedInput(time, u)}, start=0.0,
+            stop=float(time[-1]), output_times=time, outputs=["first.v", "last.v"], events=False,
+        )  # fmt: skip
         speeds = [run[v] + 0.003 * random.normal(size=600) for v in ("first.v", "last.v")]
         np.savetxt(case / f"r{n}.csv", np.column_stack([time, u, *speeds]), "%.7g", ",", header="time,u,first,last",
                    comments="")  # fmt: skip
