@@ -13,11 +13,12 @@ PYTEST := LACUNA_CACHE=$(abspath $(BUILD))/cache $(PYTHON) -m pytest -q -n 2 --d
 run_ctest = ctest --test-dir $(1) --output-on-failure -j 2 > $(1)/ctest.log && tail -n 3 $(1)/ctest.log \
   || { cat $(1)/ctest.log; exit 1; }
 FUZZ_SECONDS ?= 180
+COVERED ?= tests
 FUZZ_TARGETS := stream table inputs
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*' ':!:fmi/standard/*')
 
 .PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined prognosis tolerance-study \
-        prove-machines prove-experiments figures docs wheel vsix examples belts hybrid automata units msl compliance format lint sanitize sanitize-models threads ctest pytest lock clean
+        prove-machines prove-experiments figures docs wheel vsix examples belts hybrid automata units msl compliance format style lint sanitize sanitize-models threads coverage ctest pytest lock clean
 
 help: ## Print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -125,10 +126,12 @@ pytest: setup
 check: lint sanitize ctest ## All checks: format, lint, warnings as errors, sanitizers, every test
 	@$(PYTEST)
 
-lint: setup
-	@$(PYTHON) -m ruff format --check .
-	@$(PYTHON) -m ruff check .
+style: setup
+	@$(PYTHON) -m ruff format --quiet --check .
+	@$(PYTHON) -m ruff check --quiet .
 	@clang-format --dry-run -Werror $(C_SOURCES)
+
+lint: style
 	@printf '%s\n' $(filter runtime/%.c analysis/%.cpp bench/%.c,$(C_SOURCES)) \
 	  | xargs -P 2 -n 4 clang-tidy -p $(BUILD) --quiet 2>&1 | { grep -vE '^[0-9]+ warnings? (generated|treated)' || true; }
 
@@ -141,14 +144,31 @@ sanitize-models: sanitize threads ## Generated models in four threads under the 
 	@$(PYTHON) -m tests.sanitize $(BUILD)/sanitize
 	@$(PYTHON) -m tests.sanitize $(BUILD)/thread
 
+coverage: setup ## [COVERED="tests"] lines and branches of C, C++ and Python that tests reach (long), into out/coverage/
+	@$(PYTHON) -m pip install --quiet --disable-pip-version-check 'coverage>=7.10' 'gcovr>=8'
+	@cmake -S . -B $(BUILD)/coverage -G Ninja -DCMAKE_BUILD_TYPE=Debug -DLACUNA_COVERAGE=ON > $(BUILD)/coverage.log
+	@ninja -C $(BUILD)/coverage --quiet | sed '/no work to do/d'
+	@mkdir -p $(OUT)/coverage && rm -f $(OUT)/coverage/data* && find $(BUILD)/coverage -name '*.gcda' -delete
+	@$(call run_ctest,$(BUILD)/coverage)
+	@export COVERAGE_FILE=$(abspath $(OUT))/coverage/data LACUNA_BUILD=$(abspath $(BUILD))/coverage; \
+	  LACUNA_CACHE=$(abspath $(BUILD))/cache $(PYTHON) -m coverage run -m pytest -q -m "not slow" -n 2 --dist loadgroup $(COVERED) \
+	  || echo 'some tests failed: what is counted is what they reached'; \
+	  $(PYTHON) -m coverage combine --quiet; $(PYTHON) -m coverage html --quiet --directory $(OUT)/coverage/python; \
+	  $(PYTHON) -m coverage report --format=total | sed 's/^/Python, lines and branches together, per cent: /'
+	@mkdir -p $(OUT)/coverage/c
+	@$(PYTHON) -m gcovr --root . --filter runtime/src --filter analysis/native --filter fmi --exclude-throw-branches \
+	  --html-details $(OUT)/coverage/c/index.html --txt-summary $(BUILD)/coverage
+
 threads: $(BUILD)/.debian ## The C and C++ tests under the thread sanitizer
 	@cmake -S . -B $(BUILD)/thread -G Ninja -DCMAKE_BUILD_TYPE=Debug -DLACUNA_SANITIZE=thread > $(BUILD)/thread.log
 	@ninja -C $(BUILD)/thread --quiet | sed '/no work to do/d'
 	@$(call run_ctest,$(BUILD)/thread)
 
-fuzz: setup ## [FUZZ_SECONDS=180] each of: models through the parser, systems by three solvers, libFuzzer's targets (clang)
+fuzz: setup ## [FUZZ_SECONDS=180] each of: models through the parser, systems by three solvers, the oracle, files, libFuzzer
 	@$(PYTHON) -m tests.codegen.fuzz --seconds $(FUZZ_SECONDS)
 	@$(PYTHON) -m tests.fuzz --seconds $(FUZZ_SECONDS)
+	@$(PYTHON) -m tests.fuzz.oracle --seconds $(FUZZ_SECONDS)
+	@$(PYTHON) -m tests.fuzz.files --seconds $(FUZZ_SECONDS)
 	@cmake -S . -B $(BUILD)/fuzz -G Ninja -C tests/fuzz/clang.cmake > $(BUILD)/fuzz.log 2>&1 || { cat $(BUILD)/fuzz.log; exit 1; }
 	@ninja -C $(BUILD)/fuzz --quiet $(FUZZ_TARGETS:%=fuzz_%)
 	@for target in $(FUZZ_TARGETS); do mkdir -p $(OUT)/fuzz/$$target; (cd $(OUT)/fuzz/$$target && mkdir -p found && \

@@ -12,14 +12,17 @@ from bench.editor import Editor, drive
 MODEL = Path(__file__).parents[1] / "model" / "Actuators" / "FlightControlEma.mo"
 GOAL = 0.150  # s
 KEYSTROKES = 40
+ADDITIONS = 1_000_000  # of the loop that says how fast Python is on this machine, at this hour
 TYPED = '  assert(time < 1e9, "late");'
 
 
 def from_keystroke_to_findings(rounds: int) -> list[dict[str, object]]:
     """One row: median and longest of `rounds` times KEYSTROKES changes of the whole actuator's text, s, by the clock
-    and of the server's processor time, which other work on the machine hardly changes."""
+    and of the server's processor time; and as multiples of a loop that runs beside them, which other work on the
+    machine slows down as much."""
     seconds: list[float] = []
     busy: list[float] = []
+    loops: list[float] = []
 
     async def script(editor: Editor) -> None:
         text = MODEL.read_text(encoding="utf-8")
@@ -29,15 +32,26 @@ def from_keystroke_to_findings(rounds: int) -> list[dict[str, object]]:
             await editor.type(changed)
             seconds.append(time.perf_counter() - begin)
             busy.append(editor.busy() - used)
+            loops.append(_loop())
 
     drive(MODEL, script)  # in memory: nothing is saved
     return [
         {
             "model": MODEL.stem, "median s": statistics.median(seconds), "longest s": max(seconds), "goal s": GOAL,
             "processor, median s": statistics.median(busy), "processor, longest s": max(busy),
+            "a million additions, s": statistics.median(loops),
+            "longest, in those": max(b / loop for b, loop in zip(busy, loops, strict=True)),
             "keystrokes": len(seconds),
         }
     ]  # fmt: skip
+
+
+def _loop() -> float:
+    """Processor time of a million additions, s."""
+    begin, total = time.process_time(), 0
+    for k in range(ADDITIONS):
+        total += k
+    return time.process_time() - begin
 
 
 def _typed(text: str, rounds: int) -> Iterator[str]:

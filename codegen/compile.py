@@ -18,7 +18,7 @@ from lacuna.codegen.dae.divisions import divisions
 from lacuna.codegen.dae.free_parameters import free_parameters
 from lacuna.codegen.dae.guards import guard_shapes
 from lacuna.codegen.dae.initial import initial_system
-from lacuna.codegen.dae.operators import delays, homotopy
+from lacuna.codegen.dae.operators import delays, homotopy, transports
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.relations import Relation
 from lacuna.codegen.dae.storage import Storage
@@ -86,7 +86,8 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     aliases = report.run("aliases", eliminate_aliases, declared)
     split = report.run("initial system", homotopy.split, aliases.model)
     split, delayed = report.run("hybrid", delays.split, split)
-    frozen = report.run("hybrid", hybrid.analyse, split)
+    split, carried = report.run("hybrid", transports.split, split)
+    frozen = report.run("hybrid", hybrid.analyse, report.run("hybrid", events.settled, split))
     model = report.run("initial system", discrete_starts, frozen.model)
     continuous, discrete = report.run("hybrid", events.split, model)
     system = report.run("index reduction", reduce_index, model, continuous, len(frozen.relations))
@@ -107,7 +108,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     report.warnings += [*declared.warnings, *initial.warnings]
     return Prepared(
         declared, aliases.representative, system, Storage(system), relations, frozen.samples, steps, explicit,
-        residual, matrix, initial, sizes, quotients, shapes, delayed,
+        residual, matrix, initial, sizes, quotients, shapes, delayed, carried,
     )  # fmt: skip
 
 

@@ -121,7 +121,9 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
 
     Where the time is up, what was found until then stands.
     """
-    unbegun = _search(result, catalogue.read(library))
+    unbegun = _search(result, [])
+    if not unbegun.settled():
+        unbegun.effects = catalogue.read(library)
     search = _begun(unbegun)
     shafts = trackable(result.case, result.base.machine.model, result.amendment.structure)[:1]
     search.restarts = bool(shafts)

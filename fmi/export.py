@@ -70,6 +70,11 @@ def export_fmu(request: FmuRequest, path: Path) -> Fmu:
     }  # fmt: skip
     with own_table():
         prepared, _ = translate(request.name, **given)
+        if prepared.transports:
+            raise FmuError(
+                f"{request.name}: spatialDistribution() is not exported: what the pipe holds is no part of the state "
+                "that an FMU can save"
+            )
         if prepared.delays and request.kind != "cs":
             raise FmuError(
                 f"{request.name}: delay() is exported for co-simulation only (--type cs): in model exchange the past "

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from lacuna.analysis.comparison.study import Study
     import lacuna.runtime as runtime
 
+SHOWN = 4  # signals in the overlay of a user's model
 OWN_REFERENCE = 1e-10  # relative tolerance of the reference run of a user's model; tighter may be below its rounding
 Row = tuple[str, ...]
 
@@ -117,13 +118,17 @@ def _own(
     name: str, model: Model, steps: Sequence[float] | None, stop: float | None, parameters: Mapping[str, float],
     inputs: Mapping[str, Input],
 ) -> Scenario:  # fmt: skip
-    """A user's model as a scenario: its experiment, its states in the overlay, steps from the interval downwards."""
+    """A user's model as a scenario: its experiment, steps from the interval downwards; in the overlay its states, or
+    where it has none, or events choose them, what is computed."""
     from lacuna.analysis.comparison.scenarios import Scenario
 
     end = stop or model.stop_time
     interval = model.interval or end / 1000
+    if not {v.kind for v in model.variables.values()} - {"parameter"}:
+        raise UserError(f"{name} has no variable that changes: there is nothing to compare")
     tried = tuple(steps or [interval / k for k in (1, 2, 4)])
-    short, shown = file_name(model.name), tuple(model.states)[:4]
+    continuous = [name for name, v in model.variables.items() if v.kind in ("algebraic", "discrete")]
+    short, shown = file_name(model.name), tuple(model.states or continuous)[:SHOWN]
     return Scenario(
         short, model.name, name, end, interval, tried, shown, dict(parameters),
         as_inputs(inputs, model.variables), reference_rtol=OWN_REFERENCE,

@@ -27,8 +27,9 @@ def format_model(text: str, file: str = "") -> str:
     return format_text(text, file)
 
 
-def format_file(path: Path, *, check: bool = False) -> bool:
+def format_file(path: str | Path, *, check: bool = False) -> bool:
     """Format a .mo file in place, or with `check` only say whether it would change; True where it does."""
+    path = Path(path)
     text = text_of(path, UserError)
     formatted = format_model(text, str(path))
     if formatted != text and not check:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 import time
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 
@@ -74,6 +74,8 @@ def dump(
 ) -> str:
     """What the passes made of a model, as text: its flat equations (also where later passes refuse it), its structure,
     or the generated C. Raises Diagnostic where the model is wrong."""
+    if what not in get_args(Dump):
+        raise UserError(f"what may be {', '.join(get_args(Dump))}, not {what!r}")
     source = Source.of(model, class_name, libraries, units, data, allow_external)
     if what == "flat":
         return dump_flat(flatten(Library(source.path, source.access), source.name, units=units))

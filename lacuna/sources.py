@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Literal, get_args
 
 from lacuna.codegen.compile import CompiledModel, compile_model
 from lacuna.codegen.library.access import NONE, Access
 from lacuna.codegen.library.search_path import search_path
+from lacuna.errors import UserError
 
-Units = Literal["error", "warn"]
+Units = Literal["error", "warn", "all"]  # "all": an error also inside the files of libraries
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,8 @@ class Source:
         cls, model: str | Path, class_name: str, libraries: Iterable[str | Path], units: Units = "error",
         data: Iterable[str | Path] = (), allow_external: bool = False,
     ) -> Source:  # fmt: skip
+        if units not in get_args(Units):
+            raise UserError(f"units may be {' or '.join(get_args(Units))}, not {units!r}")
         name = f"{model}:{class_name}" if class_name else str(model)
         return cls(name, tuple(search_path(libraries)), units, Access.of(data, allow_external))
 

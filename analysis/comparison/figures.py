@@ -120,5 +120,6 @@ def work_precision(study: Study, units: Mapping[str, str]) -> Figure:
     axes.set_xlabel("processor time of the run (s)")
     axes.set_ylabel("largest relative deviation of any signal")
     axes.set_title(f"{study.scenario.title}: work and precision")
-    figure.legend(loc="outside right center", fontsize=8, frameon=False)
+    if axes.get_legend_handles_labels()[0]:  # none where all runs are equal to the reference
+        figure.legend(loc="outside right center", fontsize=8, frameon=False)
     return figure

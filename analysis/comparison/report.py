@@ -60,9 +60,8 @@ def findings(studies: Sequence[Study]) -> list[str]:
         on_course = [s.orders[family] for s in studies if family in s.orders and family not in s.off_course]
         known = [order for order in on_course if not np.isnan(order)]
         if known:
-            said.append(
-                f"{family}: order {min(known):.2f} to {max(known):.2f}, {len(known)} of {_scenarios(len(studies))}"
-            )
+            span = " to ".join(dict.fromkeys(f"{order:.2f}" for order in (min(known), max(known))))
+            said.append(f"{family}: order {span}, {len(known)} of {_scenarios(len(studies))}")
     finest = [min((r for r in s.lanes if r.lane.family == "rk4"), key=lambda r: r.lane.step) for s in studies]
     if finest:
         worst = max(r.events.maximum for r in finest)

@@ -115,7 +115,9 @@ def run(scenario: Scenario, model: runtime.Model, tick: Callable[[Lane], None] =
         lanes.append(_measure(scenario, lane, elapsed, reference, result, signals))
     own = _measure(scenario, first, seconds, reference, reference, signals)
     second, *lanes = lanes
-    return Study(scenario, grid, own, second, lanes, _orders(lanes, REFERENCE_MARGIN * second.rms_error))
+    return Study(
+        scenario, grid[: len(reference.time)], own, second, lanes, _orders(lanes, REFERENCE_MARGIN * second.rms_error)
+    )
 
 
 def _simulate(scenario: Scenario, model: runtime.Model, lane: Lane, grid: np.ndarray) -> tuple[runtime.Result, float]:

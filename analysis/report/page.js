@@ -34,3 +34,5 @@ for (const svg of document.querySelectorAll("figure svg[viewBox]")) {
     back.hidden = false;
   });
 }
+// On paper nothing can be opened: what is folded away is printed whole.
+addEventListener("beforeprint", () => document.querySelectorAll("details").forEach(part => (part.open = true)));

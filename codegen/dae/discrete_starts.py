@@ -87,6 +87,9 @@ def _defined(
 ) -> str | None:
     """The discrete variable that an initial equation gives a value: pre(n) first, then one that no event sets."""
     candidates = []
+    if _discrete_name(eq.lhs) == _discrete_name(eq.rhs) in at_events:
+        message = f"the steady state of the discrete variable {_discrete_name(eq.lhs)} is not solved for"
+        raise Diagnostic("S024", message, eq.span, "give its value before the start: pre(n) = ...")
     for side in (eq.lhs, eq.rhs):
         v = variables.get(_discrete_name(side))
         if v is None or v.variability != flat.DISCRETE or v.name in computed or v.causality == "input":

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.sorting.blocks import strong_components
-from lacuna.codegen.symbolic.expr import REAL, Expr
+from lacuna.codegen.symbolic.expr import REAL, Expr, var
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import Rewriter, assigned, expressions
 
@@ -57,6 +58,78 @@ def _directed(eq: flat.Equation, model: flat.FlatModel, taken: set[str]) -> Disc
         "S010", f"no discrete variable is left for which the equation `{eq.text or eq.lhs}` could be solved", eq.span,
         "write discrete equations as `variable = expression`, one for each variable that no when clause assigns",
     )  # fmt: skip
+
+
+def settled(model: flat.FlatModel) -> flat.FlatModel:
+    """The model with when-clauses that read, in place of a continuous variable, the expression that an equation gives
+    it, where that follows what events set: it changes with them, in the same instant (8.3.5, 8.5).
+
+    Raises S013 where a value would follow itself that way.
+    """
+    at_events = {n for w in model.whens for n in assigned([w])}.union(*(a.targets for a in model.algorithms))
+    if not at_events:
+        return model
+    followed = _Followed(model, at_events)
+    whens = [followed.in_clause(w) for w in model.whens]
+    algorithms = [
+        replace(a, statements=followed.rewriter(a.targets).statements(a.statements)) for a in model.algorithms
+    ]
+    return replace(model, whens=whens, algorithms=algorithms)
+
+
+class _Followed:
+    """What continuous variables follow at events, through equations `v = e`."""
+
+    def __init__(self, model: flat.FlatModel, at_events: set[str]) -> None:
+        self._at_events = at_events
+        self._values: dict[str, Expr] = {}
+        sides = [(a, b) for eq in model.equations for a, b in ((eq.lhs, eq.rhs), (eq.rhs, eq.lhs))]
+        states = {n.args[0].value for a, _ in sides for n in leaves(a) if n.op == "der" and n.args[0].op == "var"}
+        for a, b in sides:
+            v = model.variables.get(str(a.value)) if a.op == "var" and a.value not in states else None
+            if v is not None and v.variability == flat.CONTINUOUS and v.causality != "input" and a not in leaves(b):
+                self._values.setdefault(v.name, b)
+        self._implicit = [leaves(eq.lhs) | leaves(eq.rhs) for eq in model.equations if eq.lhs.op != "var" != eq.rhs.op]
+        self._sources: dict[str, frozenset[str]] = {}
+
+    def sources(self, name: str) -> frozenset[str]:
+        """The variables set at events that `name` follows."""
+        if name in self._at_events:
+            return frozenset((name,))
+        if name not in self._sources:
+            self._sources[name] = frozenset()  # ends a circle
+            value = self._values.get(name)
+            names = [str(n.value) for n in leaves(value) if n.op == "var"] if value is not None else []
+            self._sources[name] = frozenset().union(*map(self.sources, names))
+        return self._sources[name]
+
+    def rewriter(self, own: Collection[str] = ()) -> Rewriter:
+        """For what reads these variables; those that follow one of `own` stay, as the statements before set it."""
+
+        def rule(n: Expr) -> Expr | None:
+            if n.op in ("der", "pre"):
+                return n
+            name = str(n.value) if n.op == "var" else ""
+            found = self.sources(name) if name in self._values else frozenset()
+            return within.expression(self._values[name]) if found and found.isdisjoint(own) else None
+
+        within = Rewriter(rule)
+        return within
+
+    def in_clause(self, w: flat.When) -> flat.When:
+        rewriter = self.rewriter()
+        branches = [(c, rewriter.statements(body)) for c, body in w.branches]
+        for _, body in branches:
+            for s in (s for s in body if isinstance(s, flat.Assign)):
+                self._refuse_circle(s)
+        return replace(w, branches=branches)
+
+    def _refuse_circle(self, s: flat.Assign) -> None:
+        read = {n for n in leaves(s.value) if n.op == "var"}
+        through = [n for n in read if any(n in e and var(s.target, n.type) in e for e in self._implicit)]
+        if any(n.value == s.target for n in read) or through:
+            hint = "solve it for the variable, or break the loop with pre(...)"
+            raise Diagnostic("S013", f"the value that the when-clause gives {s.target} follows itself", s.span, hint)
 
 
 def order(model: flat.FlatModel, discrete: list[DiscreteEquation], rewriter: Rewriter) -> list[EventStep]:
@@ -135,4 +208,14 @@ def sorted_body(body: list[flat.Statement]) -> list[flat.Statement]:
                 and n.value in writer} - {k})
         for k, s in enumerate(body)
     ]  # fmt: skip
-    return [body[k] for component in strong_components(needs) for k in sorted(component)]
+    components = strong_components(needs)
+    for component in components:
+        if len(component) > 1:
+            statements = [body[k] for k in sorted(component)]
+            names = ", ".join(n for s in statements for n in assigned([s]))
+            raise Diagnostic(
+                "S013", f"equations of a when-clause depend on each other in a loop: {names}", statements[0].span,
+                "break the loop with pre(...) where the value from before the event is meant",
+                [(s.span, "and this equation") for s in statements[1:]],
+            )  # fmt: skip
+    return [body[k] for component in components for k in component]

@@ -74,7 +74,9 @@ def _converted(variables: dict[str, flat.Variable], initial: list[flat.Equation]
     """`name` as a variable, with the equation that it needs while it does not move."""
     v = variables[name]
     users = [eq for eq in initial if var(name, v.type) in leaves(eq.lhs) | leaves(eq.rhs)]
-    if (len(users) == 1 or v.type != REAL) and any(n == name for eq in users for n, _ in _definitions(eq)):
+    given = [e for eq in users for n, e in _definitions(eq) if n == name]
+    explicit = given and not any(_follows(e, name, variables) for e in given)
+    if (len(users) == 1 or v.type != REAL) and explicit:
         variables[name] = replace(v, variability=flat.DISCRETE)
         return []
     if v.type != REAL:
@@ -85,6 +87,13 @@ def _converted(variables: dict[str, flat.Variable], initial: list[flat.Equation]
     variables[name] = replace(v, variability=flat.CONTINUOUS)
     text = f"der({name}) = 0"
     return [flat.Equation(der(var(name)), ZERO, v.span, "", text)]
+
+
+def _follows(e: Expr, name: str, variables: dict[str, flat.Variable]) -> bool:
+    """Does `e` depend on `name` through the bindings of other parameters?"""
+    names = [str(n.value) for n in leaves(e) if n.op == "var"]
+    bindings = [variables[n].binding for n in names if n in variables]
+    return name in names or any(b is not None and _follows(b, name, variables) for b in bindings)
 
 
 def _followers(variables: dict[str, flat.Variable]) -> list[flat.Equation]:

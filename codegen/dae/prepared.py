@@ -10,6 +10,7 @@ from lacuna.codegen.dae.events import EventStep
 from lacuna.codegen.dae.guards import GuardShapes
 from lacuna.codegen.dae.initial import InitialSystem
 from lacuna.codegen.dae.operators.delays import Delay
+from lacuna.codegen.dae.operators.transports import Transport
 from lacuna.codegen.dae.relations import Relation
 from lacuna.codegen.dae.storage import Storage
 from lacuna.codegen.structure.causal import Step
@@ -36,6 +37,7 @@ class Prepared:
     divisions: list[Quotient]
     guards: GuardShapes
     delays: list[Delay] = field(default_factory=list)
+    transports: list[Transport] = field(default_factory=list)
     hash: str = ""
 
     @property

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from lacuna.codegen import flat
 from lacuna.codegen.dae.events import DiscreteEquation
+from lacuna.codegen.dae.operators.transports import OPERATOR
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.emit.callbacks.asserts import assert_index
 from lacuna.codegen.emit.callbacks.checks import Checks
@@ -29,15 +30,17 @@ _CALLBACKS = (
     "next_time_event", "event", "check", "nominals", "divisions",
 )  # fmt: skip
 _DELAYS = {"delays": "mdl_delays", "delay_times": "mdl_delay_times", "delay_input": "mdl_delay_input"}
-_COUNTED = ("variables", "equations", "asserts", "messages", "z", "computed", "divisions", "delay")
+_TRANSPORTS = {key: f"mdl_{key}" for key in ("transports", "transport_initial", "transport_input", "transport_points")}
+_SELDOM = ("delay", "transport")
+_COUNTED = ("variables", "equations", "asserts", "messages", "z", "computed", "divisions", *_SELDOM)
 
 
 def generate(prepared: Prepared, sensitivities: bool = False) -> str:
     """The C source of a prepared model, with its derivatives on request; the same bytes for the same model."""
     model, storage = prepared.model, prepared.storage
-    if sensitivities and prepared.delays:
-        hint = "vary parameters by finite differences of runs"
-        raise Diagnostic("R091", "sensitivities of a model with delay() are outside the subset", model.span, hint)
+    if sensitivities and (prepared.delays or prepared.transports):
+        hint, what = "vary parameters by finite differences of runs", "delay()" if prepared.delays else f"{OPERATOR}()"
+        raise Diagnostic("R091", f"sensitivities of a model with {what} are outside the subset", model.span, hint)
     equations = EquationTable([row.source for row in prepared.system.rows])
     names = Names(model.variables)
     tables = Tables(prepared, equations)
@@ -51,7 +54,7 @@ def generate(prepared: Prepared, sensitivities: bool = False) -> str:
         large.residual() or continuous.residual(), large.jacobian() or continuous.jacobian(),
         large.roots() or continuous.roots(), discrete.time_relations(), discrete.next_time_event(), discrete.event(),
         large.check() or continuous.check(), checks.nominals(), checks.divisions(),
-        *filter(None, [checks.phases()]), *checks.delays(),
+        *filter(None, [checks.phases()]), *checks.delays(), *checks.transports(),
     ]  # fmt: skip
     everything = expressions_of_model(prepared)
     tangents = Tangents(prepared, names, equations, tables.rows()) if sensitivities else None
@@ -92,7 +95,7 @@ def expressions_of_model(prepared: Prepared) -> list[Expr]:
     for step in prepared.events:
         roots += [step.value] if isinstance(step, DiscreteEquation) else expressions(
             [step] if isinstance(step, flat.When) else step.statements)  # fmt: skip
-    roots += [d.seconds for d in prepared.delays]
+    roots += [d.seconds for d in prepared.delays] + [e for t in prepared.transports for e in (*t.points, *t.values)]
     roots += [*prepared.guards.phases, *(a.condition for a in model.asserts)]
     roots += [e for v in model.variables.values() for e in (v.binding, v.start, v.min, v.max) if e is not None]
     return roots
@@ -137,9 +140,11 @@ def _arrays(tables: Tables, checks: Checks, messages: list[str]) -> tuple[list[s
         "equation_variables": ("int mdl_equation_variables", variables),
         "divisions": ("int mdl_division_equation", divided),
         "delay": ("int mdl_delay_input", checks.delay_inputs()),
+        "transport": ("int mdl_transport_points", checks.transport_points()),
+        "marks": ("int mdl_transport_input", checks.transport_inputs()),
     }
     arrays = [tables.array(declaration, rows) for declaration, rows in contents.values()]
-    counts = {f"n_{key}": len(contents[key][1]) for key in _COUNTED if contents[key][1] or key != "delay"}
+    counts = {f"n_{key}": len(contents[key][1]) for key in _COUNTED if contents[key][1] or key not in _SELDOM}
     counts["n_shown"] = len(variables)
     counts["n_rel"], counts["jac_nnz"] = len(contents["relations"][1]), len(contents["rowidx"][1])
     return arrays, counts
@@ -175,6 +180,7 @@ def _descriptor(prepared: Prepared, counts: dict[str, int], tangents: bool) -> s
         **{name: f"mdl_{name}" for name in _CALLBACKS},
         **_guards(prepared),
         **(_DELAYS if prepared.delays else {}),
+        **(_TRANSPORTS if prepared.transports else {}),
         **({"tangents": "&mdl_model_tangents"} if tangents else {}),
     }
     rows = "\n".join(f"  .{key} = {value}," for key, value in fields.items())

@@ -10,7 +10,7 @@ from lacuna.codegen.flatten.functions import calls, overloads
 from lacuna.codegen.flatten.functions.code import run
 from lacuna.codegen.flatten.names.context import Lowering
 from lacuna.codegen.flatten.references import iterators
-from lacuna.codegen.flatten.references.references import read
+from lacuna.codegen.flatten.references.references import read, read_part
 from lacuna.codegen.syntax import ast
 
 _OF_CONNECTIONS = {
@@ -22,7 +22,7 @@ _OF_CONNECTIONS = {
     "rooted": rooted,
 }
 LOWERING = Lowering(
-    nodes={**lower.OPERATORS, ast.Ref: read, ast.Call: calls.lower_call, **iterators.RANGES},
+    nodes={**lower.OPERATORS, ast.Ref: read, ast.Part: read_part, ast.Call: calls.lower_call, **iterators.RANGES},
     functions={**_OF_CONNECTIONS, **arrays.FUNCTIONS, **operators.SCALAR_FUNCTIONS, **operators.OPERATORS},
     results=calls.call_of_model,
     overloaded=overloads.overloaded,

@@ -14,6 +14,7 @@ from lacuna.codegen.flatten.classes.leaf import Leaf
 from lacuna.codegen.flatten.connections.balance import check_balance
 from lacuna.codegen.flatten.connections.connections import connection_equations
 from lacuna.codegen.flatten.connections.expandable import expand
+from lacuna.codegen.flatten.connections.local_balance import check_components
 from lacuna.codegen.flatten.connections.streams import stream_variables
 from lacuna.codegen.flatten.connections.structure import Structure
 from lacuna.codegen.flatten.equations.algorithms import flatten_algorithm
@@ -74,8 +75,9 @@ def flatten(
     model.equations += body.equations + connection_equations(body.connections, context)
     stream_variables(model, context)
     context.finish()
-    model.whens, model.algorithms, model.asserts = body.whens, body.algorithms, body.asserts + initial.asserts
-    model.initial_equations = initial.equations
+    check_components(leaves, buses, body, context)
+    model.whens, model.algorithms, model.initial_equations = body.whens, body.algorithms, initial.equations
+    model.asserts = body.asserts + initial.asserts
     model.functions = context.functions
     at_events = assigned([*model.whens, *(s for a in model.algorithms for s in a.statements)])
     with context.attempt():
@@ -86,8 +88,7 @@ def flatten(
     mark_evaluated(model, context.evaluated)
     model.experiment = _experiment(top)
     _check_units(model, context, units)
-    model.files = {**library.files, **context.files}
-    model.warnings = context.warnings
+    model.files, model.warnings = {**library.files, **context.files}, context.warnings
     model.foreign = context.table(flat.ForeignCode)
     context.finish()
     return model

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.constants import evaluate_constants, parametric_unknowns
-from lacuna.codegen.symbolic.expr import Expr, const, der, is_const, neg, pre, var
+from lacuna.codegen.symbolic.expr import ZERO, Expr, const, der, is_const, neg, pre, var
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import Rewriter, assigned
 
@@ -145,6 +145,9 @@ def _alias_pairs(
             continue
         (a, sign_a), (b, sign_b) = union.find(pair[0]), union.find(pair[1])
         keep, drop = (a, b) if rank(a) >= rank(b) else (b, a)
+        if a == b and pair[2] * sign_a * sign_b > 0:
+            kept.append(replace(eq, lhs=ZERO, rhs=ZERO, text=eq.text or f"{eq.lhs} = {eq.rhs}"))
+            continue
         if a == b or not removable(drop, keep) or (pair[2] * sign_a * sign_b < 0 and not solvable(drop)):
             kept.append(eq)
             continue

@@ -130,6 +130,14 @@ class Differentiator:
     def _wrapper(self, e: Expr) -> Expr:
         return special("noEvent", self(e.args[-1]), type=REAL)
 
+    def _carriage(self, e: Expr) -> Expr:
+        """What an end of a pipe holds, by the position; its bends are few, and a slope of its slope is not kept."""
+        number, end, x, order = e.args
+        inner = self(x)
+        if is_const(inner, 0) or not is_const(order, 0):
+            return ZERO
+        return mul(special("carried", number, end, x, ONE, type=REAL), inner)
+
     def _elements(self, e: Expr) -> Expr:
         return array(*map(self, e.args))
 
@@ -163,7 +171,7 @@ class Differentiator:
 _RULES = {
     "+": "sum", "-": "sum", "neg": "negation", "*": "product", "/": "quotient", "^": "power", "if": "choice",
     "min": "extremum", "max": "extremum", "noEvent": "wrapper", "smooth": "wrapper", "array": "elements",
-    "call": "call",
+    "call": "call", "carried": "carriage",
 }  # fmt: skip
 
 

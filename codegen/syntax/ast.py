@@ -39,6 +39,12 @@ from lacuna.codegen.syntax.expression_nodes import (
     MatrixLiteral as MatrixLiteral,
 )
 from lacuna.codegen.syntax.expression_nodes import (
+    NoValue as NoValue,
+)
+from lacuna.codegen.syntax.expression_nodes import (
+    Part as Part,
+)
+from lacuna.codegen.syntax.expression_nodes import (
     PartialFunction as PartialFunction,
 )
 from lacuna.codegen.syntax.expression_nodes import (
@@ -258,6 +264,7 @@ class Class:
     whole: Class | None = None
     written: object = None  # the scope of its modifications
     constrained: tuple[Modification, Class] | None = None  # of a constraining clause, and where that stands
+    stands_for: Class | None = None  # the class that it was redeclared in place of
     number: int = 1  # among the views that would have one path
 
     @property

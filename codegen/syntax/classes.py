@@ -9,7 +9,8 @@ from lacuna.codegen.syntax.equations import SECTION_STARTS, EquationParser
 from lacuna.codegen.syntax.lexer import string_value, tokenize
 from lacuna.codegen.syntax.modifications import CLASS_STARTS, KINDS
 
-_PREFIXES = ("partial", "encapsulated", "pure", "impure", "expandable", "operator")
+_PREFIXES = ("encapsulated", "partial", "expandable", "pure", "impure", "operator")  # in this order (A.2.2)
+_KINDS_OF = {"expandable": "connector", "pure": "function", "impure": "function", "operator": "record function"}
 
 
 def parse(text: str, file: str) -> list[ast.Class]:
@@ -72,10 +73,13 @@ class ClassParser(EquationParser):
 
     def _class_prefixes(self) -> tuple[str, dict[str, bool]]:
         """The kind of a class definition, and what stands before it."""
-        found: dict[str, bool] = {}
-        while self.kind in _PREFIXES:
-            found[self.kind] = True
-            self.at += 1
+        start = self.at
+        found = {word: True for word, stands in self.flags(*_PREFIXES).items() if stands}
+        kinds = [k for word in found for k in (_KINDS_OF.get(word, self.kind),) if self.kind not in k.split()]
+        if kinds and self.kind in KINDS:
+            hint = f"it stands before {' or '.join(kinds[0].split())}"
+            message = f"a prefix of this {self.kind} belongs to another kind of class"
+            raise Diagnostic("P021", message, self.span_from(start), hint)
         found.pop("pure", None)
         if self.kind not in KINDS:
             if found.get("operator"):

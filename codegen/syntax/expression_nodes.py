@@ -44,6 +44,23 @@ class PartialFunction:
 
 
 @dataclass(slots=True, eq=False)
+class Part:
+    """(e)[1, :] or (e).name: elements of the value of an expression in parentheses."""
+
+    span: Span
+    whole: Expression
+    subscripts: tuple[Expression, ...] | None = None
+    name: str = ""
+
+
+@dataclass(slots=True, eq=False)
+class NoValue:
+    """`break` in the place of a modification's value: what is declared there is taken away (7.2.7)."""
+
+    span: Span
+
+
+@dataclass(slots=True, eq=False)
 class Unary:
     span: Span
     op: str  # - + not .- .+
@@ -125,5 +142,5 @@ class Tuple:
 
 Expression = (
     Literal | Ref | Call | Unary | Binary | IfExpression | ArrayLiteral | MatrixLiteral | Range | Comprehension
-    | Colon | End | Tuple | PartialFunction
+    | Colon | End | Tuple | PartialFunction | Part | NoValue
 )  # fmt: skip

@@ -247,8 +247,16 @@ class ExpressionParser(ArgumentParser):
                 break
         self.expect(")", "')' or an operator")
         if len(items) == 1 and items[0] is not None:
-            return items[0]
+            return self._part(items[0], start)
         return ast.Tuple(self.span_from(start), items)
+
+    def _part(self, whole: ast.Expression, start: int) -> ast.Expression:
+        """What is in parentheses, or the elements of it that follow: (e)[1], (e).name (A.2.7)."""
+        if self.kind == "[":
+            return ast.Part(self.span(start), whole, tuple(self.subscripts()))
+        if self.accept("."):
+            return ast.Part(self.span(start), whole, name=self.identifier("a name after '.'"))
+        return whole
 
     def _braces(self) -> ast.Expression:
         start = self.at

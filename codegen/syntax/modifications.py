@@ -32,12 +32,16 @@ class ModificationParser(ExpressionParser):
         return text
 
     def element_prefixes(self) -> dict[str, object]:
-        """redeclare final inner outer replaceable, in any order."""
-        found = dict.fromkeys(("redeclare", "final", "inner", "outer", "replaceable"), False)
-        while self.kind in found:
-            found[self.kind] = True
-            self.at += 1
-        return dict(found)
+        """[redeclare] [final] [inner] [outer] [replaceable], in this order (A.2.3)."""
+        return dict(self.flags("redeclare", "final", "inner", "outer", "replaceable"))
+
+    def flags(self, *words: str) -> dict[str, bool]:
+        """Which of these words stand here, in this order. Raises P021 for one that comes too late or twice."""
+        found = {word: self.accept(word) for word in words}
+        if self.kind in found:
+            hint = f"prefixes stand in this order: {', '.join(words)}"
+            raise Diagnostic("P021", f"the prefix '{self.word}' cannot stand here", self.span(), hint)
+        return found
 
     def component_clause(self, prefixes: dict[str, object], single: bool = False) -> list[ast.Component]:
         """flow parameter input TYPE[dims] a(...) = 1 "text", b ...; `single` allows only one component."""
@@ -123,7 +127,8 @@ class ModificationParser(ExpressionParser):
         if self.kind == ":=":
             raise Diagnostic("P004", "':=' in a declaration", self.span(), "a declaration is bound with =")
         if self.accept("="):
-            result.value = self.expression()
+            start = self.at
+            result.value = ast.NoValue(self.span(start)) if self.accept("break") else self.expression()
         return result
 
     def _arguments_into(self, result: ast.Modification, selective: bool = False) -> None:
@@ -141,10 +146,7 @@ class ModificationParser(ExpressionParser):
 
     def _argument(self) -> ast.Argument:
         start = self.at
-        flags = {"each": False, "final": False, "redeclare": False, "replaceable": False}
-        while self.kind in flags:
-            flags[self.kind] = True
-            self.at += 1
+        flags = self.flags("redeclare", "each", "final", "replaceable")
         if flags["redeclare"] or flags["replaceable"]:
             return self._redeclaration(start, flags)
         name_at = self.at
@@ -154,10 +156,10 @@ class ModificationParser(ExpressionParser):
         span = self.span(name_at)
         inner = self.modification()
         self.description()
-        for name in reversed(names[1:]):
-            nested = ast.Argument(span, name, inner)
-            inner = ast.Modification(inner.span, [nested])
-        return ast.Argument(span, names[0], inner, flags["each"], flags["final"])
+        result = ast.Argument(span, names[-1], inner, flags["each"], flags["final"])
+        for name in reversed(names[:-1]):
+            result = ast.Argument(span, name, ast.Modification(inner.span, [result]))
+        return result
 
     def _redeclaration(self, start: int, flags: dict[str, bool]) -> ast.Argument:
         if self.kind in CLASS_STARTS:

@@ -78,6 +78,9 @@ class UnitInference:
             return UNKNOWN
         if op == "call":
             return self._call(e)
+        if op == "spatialDistribution":  # which result, in0, in1, x, positiveVelocity, points, values
+            self._all(e.args[3:5])
+            return self.common(e.args[1:3], e, "in0 and in1")
         if op == "delay":
             for a in e.args[1:]:
                 self.require(a, SECOND, "delay takes a time")

@@ -22,7 +22,7 @@ from lacuna.discovery.explanation.confidence import certainty
 from lacuna.discovery.explanation.diagnosis import build, left_over, sentence
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.explanation.figures import Curve, courses, missing
-from lacuna.discovery.explanation.wording import action, equation_of, with_error
+from lacuna.discovery.explanation.wording import action, equation_of, rounded, with_error
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.objective import noise_of
 from lacuna.discovery.naming.judge import Judgement, noise_floor
@@ -193,7 +193,7 @@ def _parameters(result: Explanation) -> list[str]:
     rows, refitted = [], result.base.point
     for name, p in build(result, None)["parameters"].items():
         flag = "more than 3 sigma from what was believed" if p["outside_belief"] else ""
-        before = with_error(refitted[name], p["std"]).partition(" \u00b1")[0]
+        before = rounded(refitted[name], p["std"])
         rows.append([name, p["believed"], before, with_error(p["value"], p["std"]), p["unit"], flag])
     header = ["parameter", "believed", "fitted to the believed model", "now, with its 95 % interval", "unit", ""]
     return ["<h2>Parameters</h2>", _table(header, rows)]

@@ -36,6 +36,12 @@ def with_error(value: float, std: float | None) -> str:
     return text if scale == 1.0 else f"({text})e{size}"
 
 
+def rounded(value: float, std: float | None) -> str:
+    """The value alone, to the digits that `with_error` gives it."""
+    shown, _, rest = with_error(value, std).partition(" \u00b1")
+    return shown.removeprefix("(") + rest.partition(")")[2] if rest else shown
+
+
 def equation_of(result: Explanation, finding: Finding) -> str:
     """The equations of an effect of the catalogue, as its file has them; "" where it has no class of its own."""
     effect = finding.ranked.attachment.effect

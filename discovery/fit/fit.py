@@ -198,7 +198,7 @@ def carried(found: Fit, machine: Machine, *, stages: int = STAGES, iterations: i
 
 def _led(
     objective: Objective, problem: Problem, values: np.ndarray, bandwidths: Sequence[float],
-    known: Mapping[str, list[np.ndarray]], stages: int, iterations: int, renewed: bool,
+    known: Mapping[str, list[np.ndarray]], stages: int, iterations: int, renewed: bool = True,
 ) -> tuple[Estimate | None, dict[str, float]]:  # fmt: skip
     """The fit led by trackers of falling bandwidth; None where it fails or where the last one still tracks."""
     free, fixed = problem.free, problem.fixed

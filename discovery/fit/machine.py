@@ -270,6 +270,8 @@ def _differ(
 def _recorded(signal: Signal, recording: Recording) -> RecordedInput:
     values = recording.columns[signal.column]
     good = np.isfinite(values)
+    if good.all():  # the samples themselves: every model of a case shares them
+        return RecordedInput(recording.time, values, signal.interpolation)
     return RecordedInput(recording.time[good], values[good], signal.interpolation)
 
 

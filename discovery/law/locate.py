@@ -9,6 +9,7 @@ error of a sensor explains its own signal only.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -93,8 +94,9 @@ def place_of(probe: Shaft | Line) -> str:
 def _probe(machine: Machine, screen: Screen, base: Fit, k: int, probe: Shaft | Line) -> PlaceEffort:
     torque = isinstance(probe, Shaft)
     response = respond(machine, base, k, NODES)
-    blocks = [b * w[:, None] for b, w in zip(response.blocks, screen.weights, strict=True)]
-    share, nodes, errors = _smoothest(screen, block_diag(*blocks))
+    for block, weight in zip(response.blocks, screen.weights, strict=True):
+        block *= weight[:, None]
+    share, nodes, errors = _smoothest(screen, response.blocks)
     own = {r.name: slice(i * NODES, (i + 1) * NODES) for i, r in enumerate(screen.recordings)}
     effort = {name: (response.nodes[i], nodes[rows]) for i, (name, rows) in enumerate(own.items())}
     error = {name: errors[rows] for name, rows in own.items()}
@@ -103,19 +105,23 @@ def _probe(machine: Machine, screen: Screen, base: Fit, k: int, probe: Shaft | L
     )
 
 
-def _smoothest(screen: Screen, columns: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
-    """(share of the cost explained, nodes, their 1-sigma) of the effort with the least bends for the residual."""
-    pad = np.zeros((len(screen.load) - len(screen.residual), columns.shape[1]))
-    stack = np.vstack([columns, pad])
-    stack = stack - screen.orthogonal @ (screen.orthogonal.T @ stack)
+def _smoothest(screen: Screen, blocks: list[np.ndarray]) -> tuple[float, np.ndarray, np.ndarray]:
+    """(share of the cost explained, nodes, their 1-sigma) of the effort with the least bends for the residual.
+
+    `blocks[i]` (rows, nodes) answers in recording i alone: so the normal equations are built a recording at a time.
+    """
     target = screen.load - screen.orthogonal @ (screen.orthogonal.T @ screen.load)
-    normal, right = stack.T @ stack, -stack.T @ target
-    bends = np.kron(np.eye(columns.shape[1] // NODES), np.diff(np.eye(NODES), 2, axis=0))
-    smooth = bends.T @ bends * SMOOTHING * float(np.mean(np.diag(normal)))
-    nodes = np.linalg.lstsq(normal + 1e-3 * smooth, right, rcond=1e-10)[0]
-    left = target + stack @ nodes
-    errors = np.sqrt(np.maximum(np.diag(np.linalg.pinv(normal + 1e-3 * smooth, hermitian=True)), 0.0))
-    return 1.0 - float(left @ left) / screen.cost, nodes, errors
+    ends = np.cumsum([0, *(len(b) for b in blocks)])
+    rows = [slice(a, b) for a, b in pairwise(ends)]
+    taken = np.hstack([screen.orthogonal[r].T @ b for r, b in zip(rows, blocks, strict=True)])  # by the parameters
+    normal = block_diag(*(b.T @ b for b in blocks)) - taken.T @ taken
+    right = -np.concatenate([b.T @ target[r] for r, b in zip(rows, blocks, strict=True)])
+    bends = np.kron(np.eye(len(blocks)), np.diff(np.eye(NODES), 2, axis=0))
+    smoothed = normal + bends.T @ bends * 1e-3 * SMOOTHING * float(np.mean(np.diag(normal)))
+    nodes = np.linalg.lstsq(smoothed, right, rcond=1e-10)[0]
+    left = max(float(target @ target) - 2 * float(right @ nodes) + float(nodes @ normal @ nodes), 0.0)
+    errors = np.sqrt(np.maximum(np.diag(np.linalg.pinv(smoothed, hermitian=True)), 0.0))
+    return 1.0 - left / screen.cost, nodes, errors
 
 
 def _sensor(case: Case, screen: Screen, k: int) -> PlaceEffort:

@@ -70,9 +70,14 @@ def respond(machine: Machine, base: Fit, probe: int, hats: int) -> Response:
         if LINEAR[0] * size < answer < LINEAR[1] * size:
             break
         amount *= min(max(0.03 * size / answer, 1e-4), 1e4) if answer > 0 else 1e4
-    tasks = [(i, j, amount) for i in range(len(recordings)) for j in range(hats)]
-    columns = list(_pool.map(one, tasks))
-    return Response(nodes, [np.column_stack(columns[i * hats : (i + 1) * hats]) for i in range(len(recordings))])
+    blocks = [np.empty((len(s), hats)) for s in still]
+
+    def fill(task: tuple[int, int]) -> None:
+        i, j = task
+        blocks[i][:, j] = one((i, j, amount))
+
+    list(_pool.map(fill, [(i, j) for i in range(len(recordings)) for j in range(hats)]))
+    return Response(nodes, blocks)
 
 
 def _residual(objective: Objective, base: Fit, piece: int, efforts: dict[str, RecordedInput]) -> np.ndarray | None:

@@ -81,6 +81,13 @@ def explored(found: Fit, progress: Progress) -> tuple[Fit, dict[str, float]]:
     near = [f for f, a in zip(fits, above, strict=True) if a <= 2 * np.median(above) and f is not best]
     apart = np.array([f.estimate.values - best.estimate.values for f in near]).reshape(-1, len(best.estimate.values))
     spread = np.sqrt(np.mean(apart**2, axis=0)) if len(apart) else np.zeros(apart.shape[1])
-    if best is not found and not best.estimate.converged:  # its Jacobian is wanted where it ends
-        best = carried(best, best.machine) or best
-    return best, {f.name: float(s) for f, s in zip(best.estimate.free, spread, strict=True)}
+    scatter = {f.name: float(s) for f, s in zip(best.estimate.free, spread, strict=True)}
+    return found if best is found else _carried_on(best), scatter
+
+
+def _carried_on(best: Fit) -> Fit:
+    """The fit with a Jacobian of where it ends; as it is where the time is up."""
+    try:
+        return best if best.estimate.converged else carried(best, best.machine) or best
+    except TimeUp:
+        return best

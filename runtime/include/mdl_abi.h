@@ -63,7 +63,9 @@ typedef struct mdl_data {
   long stack;        /* bytes of the stack that functions of the model now hold, about; 0 outside of them */
   long rounds;       /* loops' rounds and calls since the outermost function was entered */
   int undetermined;  /* set by rhs(): 1 + an equation of a linear block that leaves unknowns open in this mode */
-  double shift;      /* 0; by as many nominal values rhs() moves what is open away from the solution next to zero */
+  void *transports;  /* the runtime's; what the model reads there by */
+  double (*carried)(const struct mdl_data *m, int k, double end, double x, int order);
+  double shift; /* 0; by as many nominal values rhs() moves what is open away from the solution next to zero */
 } mdl_data;
 
 typedef enum {
@@ -212,6 +214,17 @@ typedef struct mdl_descriptor {
   const int *delay_input; /* [n_delay] */
   int (*delay_times)(const mdl_data *m, double *seconds);
   int (*delays)(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *value);
+
+  /* spatialDistribution(): m->carried(m, k, end, x, order) is what transport k holds at `end` (0 or 1) when it is at
+   * position x, or its derivative by x. `transports` gives in0, in1, x and whether it moves forward (0/1) of each at a
+   * complete point; `transport_initial` the transport_points[k] initial points of each, each followed by their values.
+   * u[transport_input[2 k]] and [2 k + 1] are positions x, above and below the present one, at which what comes to an
+   * end jumps or bends: an event. */
+  int n_transport;
+  const int *transport_input;  /* [2 n_transport] */
+  const int *transport_points; /* [n_transport] */
+  int (*transport_initial)(const mdl_data *m, double *value);
+  int (*transports)(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *value);
 
   /* [n_z] 0: unknown z follows from linear equations, so it has one value at a point; NULL: none does. */
   const unsigned char *z_branches;

@@ -129,21 +129,26 @@ static bool append(rt_session *s, int k) {
   return true;
 }
 
+/* What `values` gives at the points of the last step, [count] each, from the second on. */
+int rt_at_nodes(rt_session *s, rt_point_values values, int count, double *at_node) {
+  memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
+  int status = values(&s->data, s->t, s->data.x, s->data.xdot, s->data.v, at_node + (NODES - 1) * count);
+  for (int i = NODES - 2; i > 0 && !status; i--) {
+    double t = s->t_previous + node[i] * (s->t - s->t_previous);
+    rt_dense_point(s, t, false, s->x_trial);
+    status = rt_rhs(s, t, s->x_trial, s->xdot_trial, s->v_trial);
+    if (!status) status = values(&s->data, t, s->x_trial, s->xdot_trial, s->v_trial, at_node + i * count);
+  }
+  rt_inputs_at(s, s->t);
+  return status;
+}
+
 /* The step from t_previous to t is done. */
 rt_status rt_delays_follow(rt_session *s) {
   rt_delays *d = s->delays;
   if (!d || !(s->t > s->t_previous)) return RT_OK;
   memcpy(d->at_node, d->left, (size_t)d->n * sizeof *d->left);
-  memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
-  int status = values_at(s, s->t, s->data.x, s->data.xdot, s->data.v, d->at_node + (NODES - 1) * d->n);
-  for (int i = NODES - 2; i > 0 && !status; i--) {
-    double t = s->t_previous + node[i] * (s->t - s->t_previous);
-    rt_dense_point(s, t, false, s->x_trial);
-    status = rt_rhs(s, t, s->x_trial, s->xdot_trial, s->v_trial);
-    if (!status) status = values_at(s, t, s->x_trial, s->xdot_trial, s->v_trial, d->at_node + i * d->n);
-  }
-  if (status) return rt_fail_model(s, s->t, "keeping what is delayed");
-  rt_inputs_at(s, s->t);
+  if (rt_at_nodes(s, s->d->delays, d->n, d->at_node)) return rt_fail_model(s, s->t, "keeping what is delayed");
   for (int k = 0; k < d->n; k++)
     if (!append(s, k)) return rt_fail(s, RT_MEMORY, s->t, -1, NULL, "out of memory for what is delayed");
   d->fresh = false;

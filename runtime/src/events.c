@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "sensitivity.h"
+#include "transport.h"
 #include "undetermined.h"
 
 enum {
@@ -208,6 +209,7 @@ rt_status rt_event(rt_session *s) {
   long switched = s->result->counters.state_events;
   if (s->pending & RT_PENDING_JUMP) s->result->counters.input_jumps++;
   rt_inputs_begin(s, s->t);
+  if ((status = rt_transports_leave(s, true))) return status;
   if (s->pending & RT_PENDING_STATE) switch_relations(s);
   if (s->pending & (RT_PENDING_TIME | RT_PENDING_SAMPLE)) rt_clock_tick(s);
   rt_jump_begin(s);

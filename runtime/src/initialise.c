@@ -4,6 +4,7 @@
 
 #include "delay.h"
 #include "sensitivity.h"
+#include "transport.h"
 
 enum { MAX_ITERATIONS = 50, WATCHED_ITERATIONS = 8 };
 static const double same = 1e-9; /* of a state: far above rounding, far below any tolerance */
@@ -156,7 +157,7 @@ static rt_status solve_initial_equations(rt_session *s) {
     rt_inputs_at(s, s->t);
     if (solve_initial_system(s)) return fail_initialisation(s);
     if (!s->n_initial && check_open(s)) return s->failure.status;
-    if (rt_delays_start(s)) return fail_initialisation(s);
+    if (rt_delays_start(s) || rt_transports_start(s)) return fail_initialisation(s);
     if (rt_tangent_initial(s, true)) return s->failure.status;
     for (int k = 0; k < s->n_initial; k++)
       m->x[s->initial_index[k]] = s->initial_value[k];
@@ -198,7 +199,7 @@ rt_status rt_initialise(rt_session *s) {
   if (!status) status = rt_clock_begin(s);
   if (status) return status;
   rt_inputs_reset(s);
-  if ((status = rt_delays_begin(s))) return status;
+  if ((status = rt_delays_begin(s)) || (status = rt_transports_begin(s))) return status;
   rt_inputs_begin(s, s->start);
   if ((status = solve_initial_equations(s))) return status;
   return first_events(s);

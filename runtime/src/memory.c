@@ -5,6 +5,7 @@
 
 #include "delay.h"
 #include "sensitivity.h"
+#include "transport.h"
 #include "undetermined.h"
 
 /* With RT_OWN_METHODS the runtime is ours alone, without SUNDIALS: what an FMU carries as source. */
@@ -90,7 +91,7 @@ static bool allocate_session(rt_session *s) {
   s->initial_index = calloc((size_t)s->d->n_x + 1, sizeof *s->initial_index);
   s->held = calloc((size_t)(s->d->n_x + s->d->n_z) + 1, sizeof *s->held);
   return s->inputs && s->held && s->clock.next && s->initial_index && allocate_numbers(s) && allocate_flags(s) &&
-         rt_delays_create(s);
+         rt_delays_create(s) && rt_transports_create(s);
 }
 
 rt_session *rt_session_new(const rt_model *model, const rt_options *options, char *message, size_t size) {
@@ -103,9 +104,10 @@ rt_session *rt_session_new(const rt_model *model, const rt_options *options, cha
     snprintf(message, size, "solver %s needs a step (s) greater than zero", method->name);
     return NULL;
   }
-  if (options->rtol >= 1) {
-    snprintf(message, size, "a relative tolerance of %.9g keeps no digit: give one below 1, such as 1e-6",
-             options->rtol);
+  if (options->rtol >= 1 || options->atol >= 1) {
+    const bool relative = options->rtol >= 1;
+    snprintf(message, size, "%s tolerance of %.9g keeps no digit: give one below 1, such as 1e-6",
+             relative ? "a relative" : "an absolute (per nominal value)", relative ? options->rtol : options->atol);
     return NULL;
   }
   rt_session *s = calloc(1, sizeof *s);
@@ -134,6 +136,7 @@ void rt_session_free(rt_session *s) {
   if (!s) return;
   rt_sensitivities_free(s);
   rt_delays_free(s);
+  rt_transports_free(s);
   if (s->memory) s->method->destroy(s->memory);
   free(s->inputs);
   free(s->held);

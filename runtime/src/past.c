@@ -3,15 +3,20 @@
 
 #include "past.h"
 
-static double inside(const rt_piece *p, double t) {
-  double theta = rt_min(1, rt_max(0, (t - p->begin) / p->length)), above = 0, below = 0;
+/* A polynomial through values at the nodes, at a fraction of their interval. */
+double rt_along(const double *value, double theta) {
+  double above = 0, below = 0;
   for (int i = 0; i < NODES; i++) {
     double off = theta - node[i];
-    if (off == 0) return p->value[i];
-    above += weight[i] / off * (p->value[i] - p->value[0]);
+    if (off == 0) return value[i];
+    above += weight[i] / off * (value[i] - value[0]);
     below += weight[i] / off;
   }
-  return p->value[0] + above / below;
+  return value[0] + above / below;
+}
+
+static double inside(const rt_piece *p, double t) {
+  return rt_along(p->value, rt_min(1, rt_max(0, (t - p->begin) / p->length)));
 }
 
 /* The piece that holds t, not beyond a jump. */

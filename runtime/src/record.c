@@ -150,7 +150,7 @@ static bool are_few(const rt_session *s, size_t points) {
 }
 
 /* Grid points of the last step: those before its end, or with `closed` up to its end. */
-rt_status rt_record_grid(rt_session *s, bool closed) {
+static rt_status record_grid(rt_session *s, bool closed) {
   rt_recorder *r = &s->recorder;
   rt_status status = RT_OK;
   if (!on_grid(r)) return status;
@@ -175,9 +175,21 @@ rt_status rt_record_grid(rt_session *s, bool closed) {
 
 /* What the end of a step adds to the record. What happens at events adds its own rows. */
 rt_status rt_record_step(rt_session *s) {
-  if (on_grid(&s->recorder)) return rt_record_grid(s, !s->pending);
+  if (on_grid(&s->recorder)) return record_grid(s, !s->pending);
   bool event_rows_follow = s->options.record_events && s->pending & ~RT_PENDING_INPUT;
   return event_rows_follow ? RT_OK : write_present(s, s->t, 0);
+}
+
+/* The last rows. What happened at the end stands in the row of the end, which the last step may have written. */
+rt_status rt_record_end(rt_session *s) {
+  rt_result *r = s->result;
+  rt_status status = record_grid(s, true);
+  if (status || !r->rows || s->sensitivities || !s->d->n_d) return status;
+  size_t last = r->rows - 1;
+  if (r->time[last] < s->t - s->clock.tolerance) return status;
+  r->rows--;
+  rt_inputs_at(s, s->t);
+  return write_present(s, r->time[last], r->event[last]);
 }
 
 /* A row at an event, before or after it; after it, it stands for a grid point at the same instant too. */

@@ -99,7 +99,6 @@ struct rt_session {
   rt_options options;
   const rt_method *method;
   void *memory;
-
   double *numbers;               /* the block that all arrays of doubles here and in data are slices of */
   unsigned char *flags;          /* and that of all arrays of flags */
   size_t n_numbers, n_flags;     /* their lengths */
@@ -150,9 +149,10 @@ struct rt_session {
   int undetermined, n_held;   /* mdl_data.undetermined since the last event; terms that hold what it leaves open */
   struct rt_held *held;       /* [n_x + n_z], undetermined.h */
   rt_recorder recorder;
-  struct rt_delays *delays;        /* delay.c; NULL: the model has none */
-  rt_sensitivities *sensitivities; /* NULL: none are asked for */
-  int (*interrupted)(double time); /* asked now and then; NULL: never */
+  struct rt_delays *delays;         /* delay.c; NULL: the model has none */
+  struct rt_transports *transports; /* transport.c; NULL: the model has none */
+  rt_sensitivities *sensitivities;  /* NULL: none are asked for */
+  int (*interrupted)(double time);  /* asked now and then; NULL: never */
   long looks;
   double looked_at, patient_from, patient_t; /* monotonic clock; processor time and t where patience began */
   rt_failure failure;
@@ -289,7 +289,7 @@ rt_status rt_initialise(rt_session *s);
 
 /* record.c */
 void rt_record_begin(rt_session *s);
-rt_status rt_record_grid(rt_session *s, bool closed);
+rt_status rt_record_end(rt_session *s);
 rt_status rt_record_step(rt_session *s);
 rt_status rt_record_event_row(rt_session *s);
 

@@ -6,6 +6,7 @@
 #include "delay.h"
 #include "looks.h"
 #include "sensitivity.h"
+#include "transport.h"
 #include "undetermined.h"
 
 enum { MAX_TINY_STEPS = 100, STEPS_BETWEEN_LOOKS = 64 };
@@ -133,10 +134,12 @@ static rt_status move_on(rt_session *s) {
 rt_status rt_advance(rt_session *s) {
   rt_status status = look_up(s);
   if (!status) status = rt_delays_leave(s);
+  if (!status) status = rt_transports_leave(s, false);
   if (!status) status = move_on(s);
   if (!status) status = rt_find_state_event(s);
   if (!status) status = rt_tangent_follow(s);
   if (!status) status = rt_delays_follow(s);
+  if (!status) status = rt_transports_follow(s);
   if (!status) status = rt_check_asserts(s);
   if (!status) status = rt_check_point(s, false);
   if (status) return status;
@@ -150,6 +153,7 @@ rt_status rt_happen(rt_session *s) {
   if (!s->pending) return RT_OK;
   rt_status status = rt_event(s);
   rt_delays_event(s);
+  rt_transports_event(s);
   s->pending = 0;
   return status ? status : rt_check_point(s, true);
 }
@@ -161,7 +165,7 @@ static rt_status finish(rt_session *s, rt_status status) {
     s->data.terminal = 1;
     status = rt_iterate_event(s);
   }
-  if (!status) status = rt_record_grid(s, true);
+  if (!status) status = rt_record_end(s);
   if (!status && s->result->lost)
     status = rt_fail(s, RT_MEMORY, s->t, -1, NULL, "out of memory: the log of events is not complete");
   memcpy(s->result->parameters, s->data.p, (size_t)s->d->n_p * sizeof *s->data.p);

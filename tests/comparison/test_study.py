@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+import hashlib
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import lacuna
 from lacuna import runtime
 from lacuna.analysis.comparison.report import findings, order_text
 from lacuna.analysis.comparison.scenarios import Scenario, load
@@ -64,3 +66,26 @@ def test_a_run_on_another_course_is_starred(study: Study) -> None:
 def test_scenarios_of_the_project_halve_their_steps() -> None:
     for scenario in load():
         assert np.allclose(np.divide(scenario.steps[:-1], scenario.steps[1:]), 2.0), scenario.name
+
+
+STOPS = "model Stops\n  discrete Real n(start=0, fixed=true);\nequation\n  when sample(0.1, 0.1) then\n" \
+        "    n = pre(n) + 1;\n    if n > 4.5 then\n      terminate(\"enough\");\n    end if;\n  end when;\n" \
+        "  annotation(experiment(StopTime=1));\nend Stops;\n"  # fmt: skip
+
+
+def test_a_model_without_states_that_ends_itself_is_compared_up_to_there(tmp_path: Path) -> None:
+    (tmp_path / "Stops.mo").write_text(STOPS, encoding="utf-8")
+    done = lacuna.compare(tmp_path / "Stops.mo", out=tmp_path / "out")
+    table = (tmp_path / "out" / "Stops_overlay.csv").read_text(encoding="utf-8").splitlines()
+    drawn = [line for line in table if "reference (ida)" in line]
+    assert done.folder == tmp_path / "out" and float(drawn[-1].split(",")[-2]) == pytest.approx(0.5)
+    page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    hashed = hashlib.sha256((tmp_path / "Stops.mo").read_bytes()).hexdigest()
+    assert hashed in page and "deviations.csv" not in page.split("What it was made from")[1]
+
+
+def test_a_model_in_which_nothing_changes_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "Still.mo").write_text("model Still\n  parameter Real p = 1;\nend Still;\n", encoding="utf-8")
+    with pytest.raises(lacuna.UserError, match="nothing to compare"):
+        lacuna.compare(tmp_path / "Still.mo", out=tmp_path / "out")
+    assert not (tmp_path / "out").exists()

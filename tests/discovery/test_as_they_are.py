@@ -127,12 +127,6 @@ def test_noise_may_have_a_colour_and_drift(friction_case: Path, tmp_path: Path) 
     assert_finds_friction(without_levels(spoiled(friction_case, tmp_path / "case", coloured)), tmp_path / "out")
 
 
-def test_such_noise_alone_is_no_physics(consistent_case: Path, tmp_path: Path) -> None:
-    case = without_levels(spoiled(consistent_case, tmp_path / "case", coloured))
-    found = lacuna.explain(case, out=tmp_path / "out").diagnosis
-    assert found["verdict"] in ("consistent", "parameters") and not found["findings"], found["sentence"]
-
-
 def run(case: Path, inputs: dict[str, RecordedInput], time: np.ndarray, outputs: list[str]) -> Table:
     """The motor of a case with its friction."""
     model = Model(compile_model(str(case / "ConcealingServo.mo")).path)

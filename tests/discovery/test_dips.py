@@ -74,6 +74,30 @@ def test_the_best_end_is_taken_and_the_others_say_how_far_off_it_may_be(five_end
     assert spread["x"] == pytest.approx(np.sqrt(np.mean(np.square([0.1, 0.2, 0.2, 0.1]))))
 
 
+@pytest.mark.parametrize("up", [False, True], ids=["", "the time is up"])
+def test_the_best_end_is_carried_on_where_its_derivatives_were_led_along(
+    five_ends: SimpleNamespace, up: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    further = SimpleNamespace(estimate=SimpleNamespace(values=np.array([1.05])))
+
+    def carried(fit: SimpleNamespace, machine: SimpleNamespace) -> SimpleNamespace:
+        if up:
+            raise TimeUp("the search was stopped")
+        return further
+
+    monkeypatch.setattr(dips, "carried", carried)
+    led = dips.fit
+
+    def fit(*arguments: object, **options: object) -> SimpleNamespace:
+        found = led(*arguments, **options)
+        found.estimate.converged = False
+        return found
+
+    monkeypatch.setattr(dips, "fit", fit)
+    best, _ = dips.explored(five_ends, lambda text: None)
+    assert best.estimate.values[0] == (1.1 if up else 1.05)
+
+
 def test_when_time_is_up_what_was_tried_counts(five_ends: SimpleNamespace) -> None:
     calls = iter(range(2))
 

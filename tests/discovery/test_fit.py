@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.case.cases import load
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.fit import fit as fitting
-from lacuna.discovery.fit.objective import anneal
+from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.objective import anneal, noise_of
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.fit.solver.least_squares import Problem
 
@@ -64,3 +70,23 @@ def test_a_start_that_cannot_run_gives_way_to_the_last_one_that_was_tracked(monk
     monkeypatch.setattr(fitting, "_extrapolated", lambda *_: np.array([6.0]))
     found, _ = fitting._led(objective, problem(objective), np.array([1.0]), (8.0, 4.0, 0.0), {}, 10, 4)
     assert found.values[0] == pytest.approx(2.0, abs=1e-3)
+
+
+def test_what_a_fit_leaves_is_what_its_model_leaves_when_it_is_run(consistent_case: Path) -> None:
+    """Residuals are those that the fit has seen, in SI again; missing samples stay missing."""
+    case = load(consistent_case)
+    case.fit[0].columns["i"][7] = np.nan
+    machine = Machine(case, Amendment(read(Library(), case.model)))
+    free, fixed = fitting.believed(case, machine)
+    found = fitting.fit(machine, case.fit, noise_of(case), free, fixed)
+    again = fitting.residuals_of(machine, case.fit, found.point)
+    for name, columns in again.items():
+        for column, expected in columns.items():
+            np.testing.assert_allclose(found.residuals[name][column], expected, rtol=1e-9, atol=1e-12)
+    assert np.isnan(found.residuals["r1.csv"]["i"][7])
+    for _ in range(3):
+        found = found if found.settled else fitting.carried(found, machine)
+    assert found.settled
+    assert abs(fitting.carried(found, machine).deviance() - found.deviance()) < 1.0
+    begun = fitting.fit(machine, case.fit, noise_of(case), free, fixed, stages=1, iterations=0)
+    assert not begun.settled

@@ -156,6 +156,11 @@ template <class M> struct Generated {
                                      nullptr,
                                      nullptr,
                                      nullptr,
+                                     0,
+                                     nullptr,
+                                     nullptr,
+                                     nullptr,
+                                     nullptr,
                                      nullptr};
     return &d;
   }

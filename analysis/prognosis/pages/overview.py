@@ -26,7 +26,7 @@ _COUNTS = Markup("""<p class="counts"><span><b>{total}</b> actuators</span> <spa
 <span><b>{steady}</b> steady</span></p>""")
 _ABOVE = Markup(
     "<p>{shown} at greatest risk, with their severity: use that remains to {limit} (median, 80 % and 95 % intervals), "
-    "and the last advised test (red).</p>"
+    "and the last advised test (red). An arrow at the right: it lies beyond the axis.</p>"
 )
 
 
@@ -74,12 +74,19 @@ def _round(value: float) -> float:
 def _drawing(rows: list[dict], limits: Mapping[str, Limits]) -> str:
     """A bar for each actuator, by remaining use; what is beyond the axis runs out of it."""
     ends = sorted(r["high80"] if r["high80"] is not None else r["median"] or 0 for r in rows)
-    top = max(ends[int(0.9 * (len(ends) - 1))], 1e-12) * 1.1
+    top = max(ends[math.ceil(0.9 * (len(ends) - 1))], 1e-12) * 1.1  # few of the longest lives run out of it
     left, height = 190, ROW * (len(rows) + 2)
     step = _round(top / 4)
 
     def at(left_over: float | None) -> float:
         return left + (WIDTH - MARGIN - left) * min(1.0, (top if left_over is None else left_over) / top)
+
+    def mark(left_over: float, y: float, inside: str, colour: str) -> str:
+        """`inside` where the axis reaches as far, else an arrow at its end."""
+        if left_over <= top:
+            return f'<{inside} fill="{colour}"/>'
+        x = WIDTH - MARGIN
+        return f'<path d="M{x} {y - 5:.1f}l8 5-8 5z" fill="{colour}"/>'
 
     parts = [f'<svg viewBox="0 0 {WIDTH} {height}" font-size="{FONT}" font-family="system-ui,sans-serif">']
     for k in range(int(top / step) + 1):
@@ -96,7 +103,10 @@ def _drawing(rows: list[dict], limits: Mapping[str, Limits]) -> str:
             parts.append(
                 f'<rect x="{x:.1f}" y="{y - 5:.1f}" width="{max(end - x, 1):.1f}" height="10" fill="{colour}"/>'
             )
-        parts.append(f'<rect x="{at(r["median"]):.1f}" y="{y - 6:.1f}" width="2" height="12" fill="#0b3d6b"/>')
+        median = math.inf if r["median"] is None else r["median"]
+        bar = f'rect x="{at(r["median"]):.1f}" y="{y - 6:.1f}" width="2" height="12"'
+        parts.append(mark(median, y, bar, "#0b3d6b"))
         if r["advised_last_test"] is not None:
-            parts.append(f'<circle cx="{at(r["advised_last_test"] - r["at"]):.1f}" cy="{y:.1f}" r="4" fill="#b3261e"/>')
+            last = r["advised_last_test"] - r["at"]
+            parts.append(mark(last, y, f'circle cx="{at(last):.1f}" cy="{y:.1f}" r="4"', "#b3261e"))
     return "".join([*parts, "</svg>"])

@@ -1,1 +1,1 @@
-"""Operators that the passes take apart: homotopy, delay."""
+"""Operators that the passes take apart: homotopy, delay, spatialDistribution."""

@@ -18,7 +18,7 @@ from lacuna.codegen.structure.causal import Assignment, Division, Step
 from lacuna.codegen.structure.constants import dependency_order
 from lacuna.codegen.structure.nominal import difference
 from lacuna.codegen.structure.sizes import told
-from lacuna.codegen.symbolic.expr import ZERO, Expr, var
+from lacuna.codegen.symbolic.expr import BOOLEAN, REAL, ZERO, Expr, var
 from lacuna.codegen.symbolic.leaves import leaves
 
 NOMINALS = "static int mdl_nominals(mdl_data *m, double *nominal)"
@@ -27,6 +27,8 @@ DIVISIONS = f"static int mdl_divisions({_POINT}, double *value)"
 PHASES = f"static int mdl_phases({_POINT}, double *phase)"
 DELAYS = f"static int mdl_delays({_POINT}, double *value)"
 DELAY_TIMES = "static int mdl_delay_times(const mdl_data *m, double *seconds)"
+TRANSPORTS = f"static int mdl_transports({_POINT}, double *value)"
+TRANSPORT_INITIAL = "static int mdl_transport_initial(const mdl_data *m, double *value)"
 SMALL = 50  # rows up to which each is a line of its own
 MAX_SHOWN = 8  # variables whose values a message shows
 
@@ -108,6 +110,25 @@ class Checks:
 
     def delay_inputs(self) -> list[str]:
         return [str(self.prepared.storage.slot(d.input).index) for d in self.prepared.delays]
+
+    def transports(self) -> list[str]:
+        """What is carried, and with what it begins; nothing where nothing is."""
+        carried = self.prepared.transports
+        if not carried:
+            return []
+        start = Body(self.names, self.prepared.storage.frozen)
+        for k, e in enumerate(e for t in carried for e in (*t.points, *t.values)):
+            start.line(f"value[{k}] = {start.value(e)};")
+        types = (REAL, REAL, REAL, BOOLEAN)
+        rows = [(var(n, kind), "") for t in carried for n, kind in zip(t.now, types, strict=True)]
+        now = [(f"value[{k}]", value, note) for k, (value, note) in enumerate(rows)]
+        return [function(TRANSPORT_INITIAL, start), self._write(TRANSPORTS, now, self.prepared.storage.point)]
+
+    def transport_inputs(self) -> list[str]:
+        return [str(self.prepared.storage.slot(n).index) for t in self.prepared.transports for n in t.marks]
+
+    def transport_points(self) -> list[str]:
+        return [str(len(t.points)) for t in self.prepared.transports]
 
     def _write(self, signature: str, rows: list[tuple[str, Expr, str]], access: Access) -> str:
         """A callback that stores the value of each row (place, value, comment)."""

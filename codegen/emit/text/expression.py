@@ -85,6 +85,9 @@ def _print(e: Expr, name: Lookup) -> tuple[str, int]:
         return f"(const double[]){{{_list(e.args, name) or '0.0'}}}", _PRIMARY  # C has no empty arrays
     if e.op == "call":
         return _print_call(e, name), _PRIMARY
+    if e.op == "carried":
+        number_of, end, x, order = (to_c(a, name) for a in e.args)
+        return f"m->carried(m, (int){number_of}, {end}, {x}, (int){order})", _PRIMARY
     if e.op in ("noEvent", "smooth"):
         return _print(e.args[-1], name)
     raise AssertionError(f"no C for {e.op}: {e}")

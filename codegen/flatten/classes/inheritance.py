@@ -8,7 +8,7 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.restrictions import check_class
 from lacuna.codegen.flatten.names.component import Component
 from lacuna.codegen.flatten.names.context import Context
-from lacuna.codegen.flatten.names.modifiers import Modifier, from_tree, merge
+from lacuna.codegen.flatten.names.modifiers import Modifier, from_tree, merge, same_modifier
 from lacuna.codegen.flatten.names.scope import PRIMITIVES, Scope, base_class, base_clauses, find_class, own_or_inherited
 from lacuna.codegen.flatten.names.unknown import unknown_class
 from lacuna.codegen.syntax import ast
@@ -39,14 +39,18 @@ class Inheritance:
         self.sections: list[tuple[ast.Section, ast.Class]] = []
         self.classes: list[ast.Class] = []  # own class and bases
         self.visible: dict[int, set[str]] = {}  # names of elements, by identity of the class whose text may use them
+        self._clauses: list[ast.Ref] = []  # of the bases that are being collected, outermost first
         self._collect(cls, modifier)
+        if len(self.sections) > 1:
+            self.sections = _once(self.sections)
         if modifier is not None:
             self._refuse_unknown(modifier, self.elements, cls)
             self._refuse_protected(modifier, cls)
 
     def _collect(self, cls: ast.Class, modifier: Modifier | None, depth: int = 0) -> None:
         if depth > MAX_DEPTH:
-            raise Diagnostic("R011", f"{cls.name} extends itself", cls.span, "break the circle of extends")
+            clause = next(iter(base_clauses(cls)))[0]
+            raise Diagnostic("R011", f"{cls.name} extends itself", clause.span, "break the circle of extends")
         context = self._context
         scope = Scope(context, cls, self._instance)
         if isinstance(cls.written, Scope):
@@ -58,6 +62,7 @@ class Inheritance:
         if cls.alias is None:
             modifier = merge(modifier, constraint)
         self.classes.append(cls)
+        known = set(self.elements)
         visible = self.visible.setdefault(id(cls.origin or cls), set())
         for reference, tree in base_clauses(cls):
             base = base_class(context.library, cls, reference, tree)
@@ -67,7 +72,9 @@ class Inheritance:
             if cls.alias is not None and constraint is not None:
                 inner = merge(inner, constraint)
             before, sections = dict(self.elements), len(self.sections)
+            self._clauses.append(reference)
             self._collect(base, modifier if inner.empty else merge(modifier, inner), depth + 1)
+            self._clauses.pop()
             if tree.left_out:
                 self._leave_out(tree.left_out, sections, base)
             inherited = {n: e for n, e in self.elements.items() if before.get(n) is not e}
@@ -79,6 +86,8 @@ class Inheritance:
         for declaration in cls.components:
             outer = modifier.children.get(declaration.name) if modifier else None
             self._add(Element(declaration, cls, outer))
+        if cls.final and modifier is not None:
+            self._refuse_final(cls, modifier, known)
         visible.update(c.name for c in cls.components)
         self.sections += [(section, cls) for section in cls.sections]
 
@@ -121,8 +130,9 @@ class Inheritance:
         if element.declaration.redeclares:
             element = _redeclared(element, present)
         elif present is not None and not self._is_same(present, element):
-            error = Diagnostic("R010", f"{name} is declared twice", element.declaration.span, "rename one of them")
-            error.notes.append((present.declaration.span, "the other declaration"))
+            places = [*(c.span for c in self._clauses[:1]), element.declaration.span, present.declaration.span]
+            error = Diagnostic("R010", f"{name} is declared twice", places[0], "rename one of them")
+            error.notes += [(place, "the other declaration") for place in places[1:]]
             raise error
         self.elements[name] = element
 
@@ -130,7 +140,7 @@ class Inheritance:
         """Whether an element is inherited again: of the same type, each by the names of its own class, and
         with the same prefixes, sizes and modifications (7.1.2)."""
         if one.declaration is other.declaration:
-            return True
+            return same_modifier(one.modifier, other.modifier)
         if one.cls is other.cls or not alike(one.declaration, other.declaration, beside=("type",)):
             return False
         if str(one.declaration.type) == str(other.declaration.type) and str(one.declaration.type) in PRIMITIVES:
@@ -144,6 +154,13 @@ class Inheritance:
                 hint = did_you_mean(name, elements, f"{cls.name} has {', '.join(list(elements)[:10]) or 'no elements'}")
                 raise Diagnostic("R032", f"{cls.path} has no element {name} to modify", child.span, hint)
 
+    def _refuse_final(self, cls: ast.Class, modifier: Modifier, others: set[str]) -> None:
+        """Nothing of a class that is final is modified (7.2.6). Raises R031."""
+        for name, child in modifier.children.items():
+            if name in self.elements and name not in others and not child.empty:
+                hint = "remove the modification"
+                raise Diagnostic("R031", f"{cls.name} is final and cannot be modified", child.span, hint)
+
     def _refuse_protected(self, modifier: Modifier, cls: ast.Class) -> None:
         for name, child in modifier.children.items():
             declaration = self.elements[name].declaration if name in self.elements else None
@@ -152,6 +169,29 @@ class Inheritance:
                 error = Diagnostic("R037", f"{name} is protected in {cls.name}", child.span, hint)
                 error.notes.append((declaration.span, "declared here"))
                 raise error
+
+
+def _once(sections: list[tuple[ast.Section, ast.Class]]) -> list[tuple[ast.Section, ast.Class]]:
+    """Sections without what is inherited twice, and equations without those written twice alike (7.1)."""
+    kept, sections_seen = [], set()
+    written: dict[tuple[bool, str], int] = {}  # by equation, the class it stands in
+    for section, cls in sections:
+        if id(section) in sections_seen:
+            continue
+        sections_seen.add(id(section))
+        keys = [_key(item, section) for item in section.items]
+        again = [written.get(key, id(cls)) != id(cls) for key in keys]
+        written.update((key, id(cls)) for key in keys if key)
+        if any(again):
+            section = replace(section, items=[i for i, twice in zip(section.items, again, strict=True) if not twice])
+        kept.append((section, cls))
+    return kept
+
+
+def _key(item: ast.Item, section: ast.Section) -> tuple[bool, str] | None:
+    """An equation as it is written, blanks aside; None for anything else."""
+    plain = isinstance(item, ast.Equality) and not section.algorithm
+    return (section.initial, "".join(item.text.split())) if plain else None
 
 
 def _redeclared(element: Element, present: Element | None) -> Element:

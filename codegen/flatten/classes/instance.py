@@ -10,18 +10,26 @@ from functools import cached_property
 from math import prod
 
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.classes.inheritance import Element, Inheritance, inheriting, refuse_redeclaration
+from lacuna.codegen.flatten.classes.inheritance import Element, Inheritance
 from lacuna.codegen.flatten.classes.leaf import Leaf
-from lacuna.codegen.flatten.classes.prefixes import check_block, check_outer, check_prefixes
-from lacuna.codegen.flatten.classes.redeclared import check_modifier, check_redeclared, seen
+from lacuna.codegen.flatten.classes.prefixes import check_block, check_component, check_outer, check_prefixes
+from lacuna.codegen.flatten.classes.redeclared import check_modifier, check_redeclared, redeclaration, seen
 from lacuna.codegen.flatten.classes.restrictions import check_flow_record
-from lacuna.codegen.flatten.classes.subtypes import mismatch, require_subtype
+from lacuna.codegen.flatten.classes.subtypes import mismatch
 from lacuna.codegen.flatten.classes.types import Type, causality_of, resolve_type
 from lacuna.codegen.flatten.expressions.enumerations import IndexType, index_type
 from lacuna.codegen.flatten.expressions.evaluate import evaluate_boolean, evaluate_dimensions
 from lacuna.codegen.flatten.expressions.lower import modifier_value
 from lacuna.codegen.flatten.names.context import Context
-from lacuna.codegen.flatten.names.modifiers import Modifier, for_each, from_tree, merge, narrow
+from lacuna.codegen.flatten.names.modifiers import (
+    Modifier,
+    for_each,
+    from_tree,
+    merge,
+    narrow,
+    refuse_each,
+    without_removed,
+)
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Array, Record, Value, indices
 from lacuna.codegen.symbolic import expr as ex
@@ -154,7 +162,7 @@ class Instance:
         scope = Scope(self.context, element.cls, self)
         redeclared = element.modifier is not None and isinstance(element.modifier.redeclare, ast.Component)
         own = self._own_modifier(declaration, scope, redeclared)
-        modifier = merge(element.modifier, own) or own
+        modifier = without_removed(merge(element.modifier, own) or own)
         if declaration.outer and not declaration.inner:
             check_outer(declaration, element.modifier)
             return self._outer(declaration, scope)
@@ -162,24 +170,30 @@ class Instance:
             return Absent(self.path_of(declaration.name), declaration.span)
         type_scope = scope
         if redeclared:
-            declaration, type_scope = self._redeclared(element, modifier)
+            declaration, type_scope = redeclaration(element, modifier, scope, self._elements_of)
         found = resolve_type(declaration.type, type_scope)
         check_prefixes(declaration, found, self._elements_of)
         check_block(element.cls, declaration, found, self._elements_of)
         record, outside = self._record_value(), element.modifier
         given = record is not None and declaration.name in record.fields
-        if given and (outside is None or outside.value is None or outside.weak):
+        if given and outside is not None and outside.value is not None and not outside.weak:
+            hint = f"modify {declaration.name} in the value of {self.name}"
+            message = f"{declaration.name} is modified, and {self.name} has a value as a whole"
+            raise Diagnostic("R030", message, outside.span, hint)
+        if given:
             modifier = replace(modifier, value=record.fields[declaration.name], index=())
         sizes = evaluate_dimensions([*declaration.dimensions], type_scope, modifier, declaration.name)
         index_types = tuple(index_type(d, type_scope) for d in declaration.dimensions)
         sizes += found.dimensions
         self.context.spend(prod(sizes), declaration.span)
+        if not sizes:
+            refuse_each(own, element.modifier)
         name = self.path_of(declaration.name)
         if found.primitive is not None:
             attributes = for_each(found.modifier) if sizes else found.modifier
             complete = merge(modifier, attributes) or modifier
             return Leaf(self.context, self, declaration, name, found, tuple(sizes), complete, index_types)
-        self._check_component(declaration, found)
+        check_component(declaration, found, self.context)
         if not sizes:
             return Instance(self.context, found.cls, name, self, merge(modifier, found.modifier), declaration)
         items = []
@@ -205,22 +219,12 @@ class Instance:
             if not isinstance(value, Record):
                 hint = "bind its fields, or give a record"
                 raise Diagnostic("R041", f"{self.name} is no scalar and cannot be bound", self._modifier.span, hint)
+            more = [name for name in value.fields if name not in self.elements]
+            if more:
+                hint = f"give a {self.cls.name}"
+                raise Diagnostic("R041", f"{self.name} has no {more[0]}, its value has", self._modifier.span, hint)
             self._record = value
         return self._record
-
-    def _redeclared(self, element: Element, modifier: Modifier) -> tuple[ast.Component, Scope]:
-        """The declaration that stands in place of a replaceable one, and the scope of its type. Raises R033, R034."""
-        old, new, scope = element.declaration, modifier.redeclare, modifier.redeclared_in
-        own = Scope(self.context, element.cls, self)
-        chosen = resolve_type(new.type, scope)
-        if not old.replaceable and new.dimensions:
-            declared = resolve_type(old.type, own)
-            if (declared.primitive, declared.cls) == (chosen.primitive, chosen.cls):
-                return inheriting(new, old), scope  # sizes may be redeclared anyway
-        refuse_redeclaration(new, old, modifier.span)
-        bound = resolve_type(old.constraint.base if old.constraint else old.type, own)
-        require_subtype(chosen, bound, self.context, self._elements_of, f"{new.type} for {old.name}", new.span)
-        return inheriting(new, old), scope
 
     def _elements_of(self, cls: ast.Class) -> dict[str, Element]:
         return Instance(self.context, cls, "", None, None).elements
@@ -275,18 +279,6 @@ class Instance:
         message = f"no 'inner' matches the 'outer' {name}: the model has one with its default values"
         self.context.warnings.append(Diagnostic("W008", message, declaration.span, hint, severity="warning"))
         return top.child(name)
-
-    @staticmethod
-    def _check_component(declaration: ast.Component, found: Type) -> None:
-        cls = found.cls
-        if cls.kind in ("package", "function"):
-            hint = "components are of a model, block, connector, record or type"
-            raise Diagnostic("R014", f"{cls.name} is a {cls.kind}, not a component class", declaration.span, hint)
-        if cls.partial:
-            hint = "use a class that extends it"
-            if declaration.replaceable:
-                hint = f"redeclare it: {declaration.name}(redeclare CLASS {declaration.name})"
-            raise Diagnostic("R015", f"{cls.name} is partial and cannot be a component", declaration.span, hint)
 
 
 Node = Instance | Leaf | ArrayNode | Absent

@@ -137,6 +137,9 @@ class Leaf:
         if isinstance(value, Record):
             hint = "use one field of it"
             raise Diagnostic("R041", f"a record for the {self.primitive} {self.name}", modifier.span, hint)
+        if modifier.each and isinstance(value, Array) and not self.type.dimensions and what != "the binding":
+            message = f"each {what} is an array of size {shape_text(value.shape)}, one element is wanted"
+            raise Diagnostic("R036", message, modifier.span, "remove 'each', or give the value of one element")
         if shape_of(value) == self.shape:
             return value
         if not isinstance(value, Array) and modifier.each:

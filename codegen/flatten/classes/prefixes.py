@@ -6,7 +6,8 @@ from collections.abc import Callable, Mapping
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.inheritance import Element
-from lacuna.codegen.flatten.classes.types import Type
+from lacuna.codegen.flatten.classes.types import Type, is_partial
+from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier
 from lacuna.codegen.symbolic.expr import REAL
 from lacuna.codegen.syntax import ast
@@ -65,13 +66,28 @@ def check_block(cls: ast.Class, declaration: ast.Component, found: Type, element
     """Raises R070 for a connector of a block whose direction is open (4.7)."""
     if cls.kind != "block" or declaration.protected or declaration.causality or declaration.outer:
         return
-    if found.cls is None or found.cls.kind != "connector" or found.cls.expandable or found.causality:
+    kind = found.named if found.primitive is not None else found.cls
+    if kind is None or kind.kind != "connector" or kind.expandable or found.causality:
         return
+    held = {} if found.primitive is not None else elements(kind)
     open_ended = [
-        name for name, e in elements(found.cls).items()
+        name for name, e in held.items()
         if not e.declaration.causality and e.declaration.variability not in ("parameter", "constant")
     ]  # fmt: skip
-    if found.primitive is None and open_ended and any(elements(found.cls)[n].declaration.flow for n in open_ended):
+    if found.primitive is not None or any(held[name].declaration.flow for name in open_ended):
         hint = "write a model, or connectors of inputs and outputs"
         message = f"{declaration.name} of a block is neither input nor output"
         raise Diagnostic("R070", message, declaration.span, hint)
+
+
+def check_component(declaration: ast.Component, found: Type, context: Context) -> None:
+    """Raises R014 or R015 for a class that no component is of: packages, functions, what is partial."""
+    cls = found.cls
+    if cls.kind in ("package", "function"):
+        hint = "components are of a model, block, connector, record or type"
+        raise Diagnostic("R014", f"{cls.name} is a {cls.kind}, not a component class", declaration.span, hint)
+    if is_partial(cls, context):
+        hint = "use a class that extends it"
+        if declaration.replaceable:
+            hint = f"redeclare it: {declaration.name}(redeclare CLASS {declaration.name})"
+        raise Diagnostic("R015", f"{cls.name} is partial and cannot be a component", declaration.span, hint)

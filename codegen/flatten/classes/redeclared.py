@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.classes.inheritance import Element, inheriting, refuse_redeclaration
 from lacuna.codegen.flatten.classes.subtypes import ElementsOf, require_subtype
 from lacuna.codegen.flatten.classes.types import Type, resolve_type, type_of
 from lacuna.codegen.flatten.names.context import Context
@@ -11,6 +12,38 @@ from lacuna.codegen.flatten.names.scope import Scope, base_class, base_classes, 
 from lacuna.codegen.flatten.names.views import constrain, modified, view
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.syntax import ast
+
+
+def redeclaration(
+    element: Element, modifier: Modifier, own: Scope, elements: ElementsOf
+) -> tuple[ast.Component, Scope]:
+    """The declaration in place of a replaceable one, and the scope of its type; `own` is the scope of the replaced one.
+
+    Raises R033, R034.
+    """
+    old, new, scope = element.declaration, modifier.redeclare, modifier.redeclared_in
+    chosen = resolve_type(new.type, scope)
+    if not old.replaceable and new.dimensions:
+        declared = resolve_type(old.type, own)
+        if (declared.primitive, declared.cls) == (chosen.primitive, chosen.cls):
+            return inheriting(new, old), scope  # sizes may be redeclared anyway
+    refuse_redeclaration(new, old, modifier.span)
+    bound = resolve_type(old.constraint.base if old.constraint else old.type, own)
+    for made in reversed(modifier.replaced):
+        bound = _narrowed(made.redeclare, made.redeclared_in, bound, elements)
+    require_subtype(chosen, bound, own.context, elements, f"{new.type} for {old.name}", new.span)
+    _narrowed(new, scope, bound, elements)
+    return inheriting(new, old), scope
+
+
+def _narrowed(new: ast.Component, scope: Scope, bound: Type, elements: ElementsOf) -> Type:
+    """What binds the next redeclaration: the constraining type of this one, a subtype of `bound` (7.3.2)."""
+    if new.constraint is None:
+        return bound
+    found = resolve_type(new.constraint.base, scope)
+    what = f"{new.constraint.base} as the constraining type of {new.name}"
+    require_subtype(found, bound, scope.context, elements, what, new.constraint.span)
+    return found
 
 
 class _Checked(set[int]):
@@ -81,6 +114,8 @@ def _in_place(new: ast.Class, old: ast.Class | None, context: Context, elements:
     if old is None:
         return
     constrain(context.library, new, old, by_element=False)
+    while old.constraint is None and old.stands_for is not None:
+        old = old.stands_for
     bound: Type = type_of(old, context)
     if old.constraint is not None and old.parent is not None:
         bound = resolve_type(old.constraint.base, Scope(context, old.parent))

@@ -8,9 +8,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.classes.imports import check_imports
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import PRIMITIVES, base_class, base_clauses, own_or_inherited
 from lacuna.codegen.syntax import ast
+from lacuna.codegen.syntax.alike import alike
 
 # What each kind of class may extend besides `class` (7.1.3).
 MAY_EXTEND = {
@@ -34,13 +36,14 @@ class _Checked(set[int]):
 
 
 def check_class(cls: ast.Class, context: Context) -> None:
-    """Raises R070 (contents of a specialised class), R071 (what it extends) or R074 (names)."""
+    """Raises R070 (contents of a specialised class), R071 (what it extends), R074 (names), or what imports raise."""
     checked, origin = context.table(_Checked), cls.origin or cls
     if id(origin) in checked:
         return
     checked.add(id(origin))
     for finding in _findings(origin):
         raise finding
+    check_imports(origin, context.library)
     _check_bases(cls, context)
 
 
@@ -49,6 +52,8 @@ def _findings(cls: ast.Class) -> Iterator[Diagnostic]:
     yield from _sections(cls)
     for component in cls.components:
         yield from _component(cls, component)
+    if cls.kind == "operator":
+        yield from _operator(cls)
 
 
 def _names(cls: ast.Class) -> Iterator[Diagnostic]:
@@ -57,10 +62,17 @@ def _names(cls: ast.Class) -> Iterator[Diagnostic]:
             yield Diagnostic(
                 "R074", f"{name} is the name of a predefined type", span, f"rename it, for example my{name}"
             )
+    named = {component.name for component in cls.components}
     for component in cls.components:
         if component.name in cls.classes:
             hint = "rename one of them"
-            yield Diagnostic("R010", f"{component.name} is declared as a class, too", component.span, hint)
+            both = sorted((component.span, cls.classes[component.name].span), key=lambda s: s.line)
+            yield Diagnostic("R010", f"{component.name} is declared as a class, too", both[1], hint)
+        first = component.type.names[0]
+        if first in named and not component.type.absolute:
+            hint = f"rename the component {first}, or write .{component.type}"
+            message = f"{first} is a component here, which hides the class of that name"
+            yield Diagnostic("R074", message, component.span, hint)
     seen: set[str] = set()
     for literal, _ in cls.literals or ():
         if literal in _ATTRIBUTES_OF_ENUMERATIONS:
@@ -113,13 +125,21 @@ def _component(cls: ast.Class, component: ast.Component) -> Iterator[Diagnostic]
         )
 
 
+def _operator(cls: ast.Class) -> Iterator[Diagnostic]:
+    held = [(c.span, c.name) for c in cls.components]
+    held += [(c.span, c.name) for c in cls.classes.values() if c.kind != "function"]
+    for span, name in held:
+        yield Diagnostic("R070", f"{name}: an operator holds functions only", span, "move it out of the operator")
+
+
 def _check_bases(cls: ast.Class, context: Context) -> None:
-    if cls.alias is not None:
-        return
-    allowed = MAY_EXTEND.get(cls.kind, ())
+    if cls.alias is not None and str(cls.alias.base) in PRIMITIVES and cls.kind not in ("type", "connector", "class"):
+        hint = f"write: type {cls.name} = {cls.alias.base}"
+        raise Diagnostic("R071", f"the {cls.kind} {cls.name} is a {cls.alias.base}", cls.alias.base.span, hint)
+    allowed = MAY_EXTEND.get(cls.kind, ()) if cls.alias is None or cls.kind != "type" else MAY_EXTEND["class"]
     for reference, tree in base_clauses(cls):
         base = base_class(context.library, cls, reference, tree)
-        if base is not None:
+        if base is not None and cls.alias is None:
             _check_operators(cls, base, reference)
         if base is None or base.kind in (*allowed, "class"):
             continue
@@ -128,6 +148,7 @@ def _check_bases(cls: ast.Class, context: Context) -> None:
         hint = f"a {cls.kind} extends {' or '.join(allowed)}"
         raise Diagnostic("R071", f"the {cls.kind} {cls.name} extends the {base.kind} {base.name}", reference.span, hint)
     _check_replaceable_bases(cls, context)
+    _check_hidden(cls, context)
     if cls.alias is None and len(cls.extends) + len(cls.components) > 1:
         for clause in cls.extends:
             if _is_simple(clause.base, cls, context):
@@ -161,6 +182,30 @@ def _check_replaceable_bases(cls: ast.Class, context: Context) -> None:
         if base is not None and ((base.replaceable and base.alias is None) or (base.origin or base).replaceable):
             hint = "extend a class that is not replaceable (7.1.4)"
             raise Diagnostic("R071", f"{cls.name} extends the replaceable {base.name}", clause.base.span, hint)
+
+
+def _check_hidden(cls: ast.Class, context: Context) -> None:
+    """A class of the name of an inherited one is the same, or redeclares it (7.1)."""
+    own = [c for c in cls.classes.values() if not c.redeclares and c.extends_same is None]
+    for nested in own if cls.extends else ():
+        for reference, tree in base_clauses(cls):
+            base = base_class(context.library, cls, reference, tree)
+            old = own_or_inherited(context.library, base, nested.name) if base is not None else None
+            if old is not None and not _same(old.origin or old, nested):
+                hint = "rename it, or write 'redeclare' before it where the inherited one is replaceable"
+                error = Diagnostic("R010", f"{nested.name} is inherited from {base.name}, too", nested.span, hint)
+                error.notes.append((old.span, "the inherited one"))
+                raise error
+
+
+def _same(one: ast.Class, other: ast.Class) -> bool:
+    """Whether two classes are written alike."""
+    parts = ("kind", "components", "extends", "extends_same", "alias", "literals", "sections", "external")
+    return (
+        all(alike(getattr(one, p), getattr(other, p)) for p in parts)
+        and one.classes.keys() == other.classes.keys()
+        and all(_same(one.classes[n], other.classes[n]) for n in one.classes)
+    )
 
 
 def _is_simple(reference: ast.Ref, cls: ast.Class, context: Context, depth: int = 0) -> bool:

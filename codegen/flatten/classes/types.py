@@ -56,6 +56,7 @@ def type_of(cls: ast.Class, context: Context, depth: int = 0) -> Type:
         return Type("Integer", cls, tuple(name for name, _ in cls.literals))
     inside = cls.written if isinstance(cls.written, Scope) else Scope(context, cls, None)
     if cls.alias is not None:
+        check_class(cls, context)
         found = _of_alias(cls, context, depth)
         if found.primitive is None and not cls.alias.dimensions:
             return Type(None, cls)
@@ -79,14 +80,23 @@ def type_of(cls: ast.Class, context: Context, depth: int = 0) -> Type:
     return Type(None, cls)
 
 
-def causality_of(cls: ast.Class, context: Context) -> str:
+def causality_of(cls: ast.Class | None, context: Context) -> str:
     """The direction that short definitions give a class: `connector ComplexInput = input Complex`."""
-    seen: ast.Class | None = cls
+    seen = cls
     while seen is not None and seen.alias is not None:
         if seen.alias.causality:
             return seen.alias.causality
         seen = base_class(context.library, seen, seen.alias.base, seen.alias.modification)
     return ""
+
+
+def is_partial(cls: ast.Class, context: Context) -> bool:
+    """Is it partial, or a short definition of what is?"""
+    seen: ast.Class | None = cls
+    while seen is not None and not seen.partial:
+        alias = seen.alias
+        seen = base_class(context.library, seen, alias.base, alias.modification) if alias is not None else None
+    return seen is not None
 
 
 def is_external(cls: ast.Class) -> bool:

@@ -21,6 +21,7 @@ class ConnectionSets:
     origin: dict[End, str] = field(default_factory=dict)
     sources: UnionFind = field(default_factory=UnionFind)  # (model, causal scalar)
     causal: dict[Hashable, tuple[Part, Span]] = field(default_factory=dict)
+    outside: set[tuple[str, str]] = field(default_factory=set)  # (model, scalar of its own connector): acausal ones
 
     def join(self, a: Part, b: Part, span: Span, origin: str) -> None:
         ends = [p.end if p.kind != "potential" else End(p.end.name, False) for p in (a, b)]
@@ -35,6 +36,8 @@ class ConnectionSets:
             self.sources.join(*keys)
             for key, part in zip(keys, (a, b), strict=True):
                 self.causal[key] = (part, span)
+        else:
+            self.outside.update((origin, p.end.name) for p in (a, b) if p.end.outside)
 
     def check_sources(self) -> None:
         """Raises R077 where two outputs drive one signal (9.3)."""

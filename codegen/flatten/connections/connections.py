@@ -21,7 +21,7 @@ Connections = list[tuple[ast.Connect, Scope]]
 
 def connection_equations(connections: Connections, context: Context) -> list[flat.Equation]:
     """Equations of all connections, and zero for each flow that nothing is connected to."""
-    sets = ConnectionSets()
+    sets = context.table(ConnectionSets)
     equations: list[flat.Equation] = []
     for item, scope in connections:
         with context.attempt():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 from lacuna.codegen import flat
@@ -11,6 +12,7 @@ from lacuna.codegen.flatten.equations.symbolic_run import SymbolicRun
 from lacuna.codegen.flatten.equations.when import procedure, when_conditions
 from lacuna.codegen.flatten.expressions.constants import is_known, known
 from lacuna.codegen.flatten.expressions.lower import NOT_THERE, lower, lower_results, lower_scalar
+from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import scalars, shape_of, shape_text
 from lacuna.codegen.symbolic import expr as ex
@@ -22,21 +24,39 @@ from lacuna.codegen.syntax import ast
 
 def flatten_algorithm(section: ast.Section, scope: Scope, out: Collected) -> None:
     """Add what an algorithm section computes, as an Algorithm or as equations."""
+    _refuse_inner_whens(section.items)
     statements = _statements(section.items, scope, in_when=False)
-    targets = tuple(assigned(statements))
+    targets = _with_whole_arrays(assigned(statements), scope.context)
     if any(isinstance(s, flat.When) for s in _nested(statements)):
         out.algorithms.append(flat.Algorithm(statements, targets, section.span, origin_of(scope)))
         return
     run = SymbolicRun(scope, targets)
     if run.block(statements, TRUE) is not FALSE:
         raise Diagnostic("R059", "'break' outside of a loop", section.span, "it ends the loop around it")
-    for target in targets:
-        if target in run.values:  # else in a loop of no rounds only
-            variable, value = ex.var(target, run.types[target]), run.result(target)
-            out.equations.append(
-                flat.Equation(variable, value, run.where[target], origin_of(scope), f"{target} := ...")
-            )
+    given = set(_with_whole_arrays(run.values, scope.context))  # not what is in loops of no rounds only
+    for target in (t for t in targets if t in given):
+        value = run.result(target) if target in run.values else run.unassigned(target)
+        variable, span = ex.var(target, run.type_of(target)), run.where.get(target, section.span)
+        out.equations.append(flat.Equation(variable, value, span, origin_of(scope), f"{target} := ..."))
     out.asserts += run.asserts
+
+
+def _refuse_inner_whens(items: list[ast.Item], inside: str = "") -> None:
+    """A when-statement stands in no other statement (11.2.7.2). Raises R057."""
+    for item in items:
+        if isinstance(item, ast.When) and inside:
+            raise Diagnostic("R057", f"'when' inside of {inside}", item.span, "write 'when' around, or its condition")
+        bodies = [body for _, body in item.branches] if isinstance(item, ast.If) else []
+        bodies += [item.body] if isinstance(item, ast.For | ast.While) else []
+        for body in bodies:
+            _refuse_inner_whens(body, type(item).__name__.lower())
+
+
+def _with_whole_arrays(names: Iterable[str], context: Context) -> tuple[str, ...]:
+    """An algorithm that assigns elements of an array gives the whole of it: the others keep what they start with
+    (11.1.2)."""
+    given = list(names)
+    return tuple(dict.fromkeys([*given, *(n for name in given for n in context.scalars[name][0].names)]))
 
 
 def _nested(statements: list[flat.Statement]) -> list[flat.Statement]:

@@ -112,17 +112,22 @@ def check_discrete(
                 message = f"the discrete {a.value} equals what varies continuously"
                 raise Diagnostic("R063", message, e.span, hint)
     _check_declared(leaves, assigned)
-    _check_before(equations)
+    _check_before(equations, assigned, context)
 
 
-def _check_before(equations: list[flat.Equation]) -> None:
-    """Outside of when-clauses there is no value before of what has a derivative (3.7.5). Raises R052."""
-    nodes = [(n, e) for e in equations for side in (e.lhs, e.rhs) for n in walk(side) if n.op in ("der", "pre")]
-    states = {n.args[0] for n, _ in nodes if n.op == "der"}
-    for n, e in nodes:
-        if n.op == "pre" and n.args[0] in states:
-            hint = "use it inside of when, or keep the value in a discrete variable"
-            raise Diagnostic("R052", f"{to_text(n)}: {to_text(n.args[0])} varies continuously", e.span, hint)
+def _check_before(equations: list[flat.Equation], assigned: set[str], context: Context) -> None:
+    """Outside of when-clauses there is no value before of what varies continuously, and what is set at events only has
+    no derivative (3.7.4.2, 3.7.5). Raises R052, R054."""
+    for e in equations:
+        for n in (n for side in (e.lhs, e.rhs) for n in walk(side) if n.op in ("der", "pre")):
+            name = n.args[0].value
+            continuous = n.args[0].op == "var" and variability(n.args[0], context) == "continuous"
+            if n.op == "pre" and continuous and name not in assigned:
+                hint = "use it inside of when, or keep the value in a discrete variable"
+                raise Diagnostic("R052", f"{to_text(n)}: {name} varies continuously", e.span, hint)
+            if n.op == "der" and name in assigned:
+                hint = "it is constant between events"
+                raise Diagnostic("R054", f"the derivative of the discrete {name}", e.span, hint)
 
 
 def _check_declared(leaves: Iterable[Leaf], assigned: set[str]) -> None:
@@ -141,6 +146,9 @@ def _several(item: ast.Equality, scope: Scope) -> list[flat.Equation]:
         message = f"{item.right.function} has {len(results)} results, {len(item.left.items)} are wanted"
         raise Diagnostic("R023", message, item.left.span, "leave some out")
     equations = []
+    for target in item.left.items:
+        if target is not None and not isinstance(target, ast.Ref):
+            raise Diagnostic("R058", "the left side is not a list of variables", item.left.span, "(a, b) = f(x)")
     for target, value in zip(item.left.items, results, strict=False):
         if target is not None:
             equations += equate(lower(target, scope), value, item.span, scope, item.text)

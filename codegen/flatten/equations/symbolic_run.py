@@ -61,7 +61,7 @@ class SymbolicRun:
         }
         if not names:
             return self.read(e)
-        return ex.substitute(self.read(e), {ex.var(n, self._type(n)): self.unassigned(n) for n in names})
+        return ex.substitute(self.read(e), {ex.var(n, self.type_of(n)): self.unassigned(n) for n in names})
 
     def _while(self, s: flat.While, guard: Expr) -> None:
         for _ in range(MAX_ROUNDS):
@@ -78,13 +78,13 @@ class SymbolicRun:
                 raise Diagnostic("R059", message, s.span, "put the loop in a function and call it")
         raise Diagnostic("F034", f"no end after {MAX_ROUNDS} rounds", s.span, "does the loop reach its end?")
 
-    def _type(self, name: str) -> str:
+    def type_of(self, name: str) -> str:
         if name not in self.types:
             self.types[name] = self.scope.context.scalars[name][0].primitive
         return self.types[name]
 
     def _assign(self, target: str, value: Expr, span: Span) -> None:
-        self._type(target)
+        self.type_of(target)
         self.values[target] = value
         self.where[target] = span
 
@@ -92,7 +92,7 @@ class SymbolicRun:
         """What a variable holds before it is assigned: a discrete one what it held before the event, a continuous one
         its start value (Modelica 3.6, 11.1.2)."""
         leaf, position = self.scope.context.scalars[name]
-        variable = ex.var(name, self._type(name))
+        variable = ex.var(name, self.type_of(name))
         if variability(variable, self.scope.context) == "discrete":
             return ex.pre(variable)
         start = leaf.element(leaf.attribute("start"), position)

@@ -16,6 +16,7 @@ from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.values import Record, items_of
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
+from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.syntax import ast
 
 _STATE_SELECT = ("never", "avoid", "default", "prefer", "always")
@@ -38,6 +39,7 @@ def flatten_variables(leaf: Leaf, model: flat.FlatModel) -> None:
         value = leaf.element(binding, position)
         if leaf.is_structural:
             variable.binding = _parameter_value(leaf, variable, value, context)
+            _refuse_circle(leaf, variable.binding)
         elif value is not None:
             span = leaf.modifier.span
             checked = _typed(value, leaf, name, span)
@@ -45,6 +47,13 @@ def flatten_variables(leaf: Leaf, model: flat.FlatModel) -> None:
             text = f"{name} = {ex.to_text(checked)}"
             model.equations.append(flat.Equation(v, checked, leaf.span, leaf.instance.name, text))
         model.variables[name] = variable
+
+
+def _refuse_circle(leaf: Leaf, binding: Expr | None) -> None:
+    """A parameter's value does not depend on itself, be it on another element of it (4.4.3)."""
+    own = () if binding is None or len(leaf.names) == 1 else leaves(binding)
+    if any(n.op == "var" and n.value in leaf.names for n in own):
+        raise Diagnostic("F022", f"the value of {leaf.name} depends on itself", leaf.span, "break the circle")
 
 
 def _check_text(leaf: Leaf) -> None:

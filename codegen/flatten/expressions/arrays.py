@@ -215,8 +215,16 @@ def map_call(e: ast.Call, scope: Scope, count: int) -> Value:
     return elementwise(lambda *xs: ex.call(name, *xs), arguments, e.span, f"arguments of {name}")
 
 
+def _elements(e: ast.Call, scope: Scope) -> Value:
+    """array(a, b, c) is {a, b, c}, array(e for i in r) is {e for i in r} (10.4)."""
+    if e.named or not e.args:
+        raise Diagnostic("R050", "array takes its elements", e.span, "array(a, b, c)")
+    return lower(e.args[0] if isinstance(e.args[0], ast.Comprehension) else ast.ArrayLiteral(e.span, e.args), scope)
+
+
 FUNCTIONS: dict[str, Handler] = {
-    "size": size_of_array, "ndims": _ndims, "fill": _fill, "zeros": _constant_array(0), "ones": _constant_array(1),
+    "array": _elements, "size": size_of_array, "ndims": _ndims, "fill": _fill,
+    "zeros": _constant_array(0), "ones": _constant_array(1),
     "identity": _identity, "diagonal": _diagonal, "linspace": _linspace, "transpose": _transpose, "cross": _cross,
     "vector": _vector, "scalar": _scalar, "matrix": _matrix, "cat": _cat,
     "outerProduct": _outer_product, "symmetric": _symmetric, "skew": _skew,

@@ -253,7 +253,7 @@ def _matrix(e: ast.MatrixLiteral, scope: Scope) -> Value:
 def _end(e: ast.End, scope: Scope) -> Value:
     if scope.end is None:
         raise Diagnostic("R048", "'end' as a value", e.span, "it stands for the last index, inside subscripts only")
-    return ex.const(scope.end)
+    return scope.end
 
 
 def _tuple(e: ast.Tuple, scope: Scope) -> Value:

@@ -11,6 +11,7 @@ from lacuna.codegen.flatten.expressions.derivative import time_derivative
 from lacuna.codegen.flatten.expressions.enumerations import as_integer
 from lacuna.codegen.flatten.expressions.lower import Handler, lower, lower_scalar
 from lacuna.codegen.flatten.expressions.texts import text_of
+from lacuna.codegen.flatten.expressions.transport import OPERATOR
 from lacuna.codegen.flatten.names.scope import Scope, enumeration
 from lacuna.codegen.flatten.names.values import Value, elementwise, scalars, shape_of
 from lacuna.codegen.symbolic import expr as ex
@@ -28,9 +29,11 @@ def _take(e: ast.Call, count: int) -> list[ast.Expression]:
 def _der(e: ast.Call, scope: Scope) -> Value:
     (written,) = _take(e, 1)
     value = lower(written, scope)
-    if any(n.op == "delay" for item in scalars(value) if isinstance(item, Expr) for n in ex.walk(item)):
+    kept = ("delay", OPERATOR)
+    found = next((n.op for x in scalars(value) if isinstance(x, Expr) for n in ex.walk(x) if n.op in kept), "")
+    if found:
         hint = "delay the derivative: delay(der(x), T)"
-        raise Diagnostic("R054", "the derivative of a delay", e.span, hint)
+        raise Diagnostic("R054", f"the derivative of a {found}", e.span, hint)
     return elementwise(lambda x: time_derivative(x, scope, e.span), [value], e.span, "der")
 
 

@@ -10,11 +10,12 @@ from lacuna.codegen.flatten.classes.types import is_external
 from lacuna.codegen.flatten.expressions.constants import is_known, known
 from lacuna.codegen.flatten.expressions.enumerations import literal
 from lacuna.codegen.flatten.expressions.lower import lower, lower_scalar
+from lacuna.codegen.flatten.expressions.transport import OPERATOR, spatial_distribution
 from lacuna.codegen.flatten.functions.code import is_done
 from lacuna.codegen.flatten.functions.declared import bind_arguments, call_function, written_arguments
 from lacuna.codegen.flatten.functions.locals import signature_of
 from lacuna.codegen.flatten.names.component import Component
-from lacuna.codegen.flatten.names.scope import Scope, find_class, find_first, meant_class, own_or_inherited
+from lacuna.codegen.flatten.names.scope import Scope, base_class, find_class, find_first, meant_class, own_or_inherited
 from lacuna.codegen.flatten.names.unknown import visible_classes
 from lacuna.codegen.flatten.names.values import FunctionValue, Value, elementwise
 from lacuna.codegen.flatten.references.references import refuse_conditional
@@ -25,7 +26,6 @@ from lacuna.codegen.syntax import ast
 from lacuna.suggest import did_you_mean
 
 _OUTSIDE = {
-    "spatialDistribution": "divide the length into elements",
     "Clock": "use when sample(start, interval) then",
     "previous": "use pre(x) inside when sample(...)",
     "hold": "a discrete variable holds its value",
@@ -64,6 +64,8 @@ def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
     """All results of a function or record constructor declared in a model."""
     name = str(e.function)
     local = scope.locals.get(name)
+    if name == OPERATOR and local is None and not _is_hidden(e.function, scope):
+        return spatial_distribution(e, scope)
     if isinstance(local, FunctionValue):
         return call_function(local.cls, e, scope, local.bound)
     cls, holder = find_class(scope.context.library, scope.cls, e.function), scope.instance
@@ -118,8 +120,24 @@ def _defaults_of(cls: ast.Class, e: ast.Call, holder: Component | None, scope: S
         return {}
     where = cls.written if isinstance(cls.written, Scope) else Scope(scope.context, cls.parent or cls, holder)
     open_ = {i.name for i in signature_of(cls, scope.context).inputs[len(e.args) :]} - set(e.named)
-    arguments = [a for a in cls.alias.modification.arguments if a.modification.value is not None and a.name in open_]
-    return {a.name: lower(a.modification.value, where) for a in arguments}
+    found: dict[str, Value] = {}
+
+    def take(tree: ast.Modification, where: Scope) -> None:
+        for a in tree.arguments:
+            if a.modification.value is not None and a.name in open_ - found.keys():
+                found[a.name] = lower(a.modification.value, where)
+
+    current: ast.Class | None = cls
+    while current is not None and current.alias is not None and where.instance is not None:
+        take(current.alias.modification, where)
+        current = base_class(scope.context.library, current, current.alias.base, current.alias.modification)
+        around = current.parent if current is not None else None
+        same = around is not None and (around.origin or around) is (where.cls.origin or where.cls)
+        where = replace(where, instance=where.instance if same else None)
+    if cls.constrained is not None:
+        tree, around = cls.constrained
+        take(tree, Scope(scope.context, around, holder))
+    return found
 
 
 def _of_component(ref: ast.Ref, scope: Scope) -> tuple[ast.Class | None, Component | None]:

@@ -100,12 +100,13 @@ def _call(signature: Signature, written: Written, e: ast.Call, scope: Scope) -> 
         return call_external(signature, arguments, e, scope)
     items = [a for v in arguments.values() for a in scalars(v)]
     known = all(isinstance(a, str) or a.op == "const" for a in items)
-    if known or (context.call_depth < MAX_INLINE_DEPTH and not _has_events(items)):
+    makes_events = _makes_events(cls)
+    if known or (context.call_depth < MAX_INLINE_DEPTH and (makes_events or not _has_events(items))):
         context.call_depth += 1
         try:
             results = interpret(signature, arguments, context, e.span)
-            if known or _is_small(results, arguments):
-                results = [_without_events(r) for r in results]
+            if known or makes_events or _is_small(results, arguments):
+                results = results if makes_events else [_without_events(r) for r in results]
                 for local, value in zip(signature.outputs, results, strict=True):
                     note_units(local, value, e.span, f"output {local.name} of {cls.name}", scope)
                 return results
@@ -259,6 +260,13 @@ def _without_events(value: Value) -> Value:
     return quiet(value)
 
 
+def _makes_events(cls: ast.Class) -> bool:
+    """annotation(GenerateEvents = true): relations of the function are as those of the model (12.8.3, 18.3)."""
+    arguments = cls.annotation.arguments if cls.annotation else ()
+    values = [a.modification.value for a in arguments if a.name == "GenerateEvents"]
+    return any(isinstance(v, ast.Literal) and v.value is True for v in values)
+
+
 def _is_small(results: list[Value], arguments: dict[str, Value]) -> bool:
     given = {a for v in arguments.values() for a in scalars(v)}
     seen: set[Expr] = set()
@@ -271,15 +279,3 @@ def _is_small(results: list[Value], arguments: dict[str, Value]) -> bool:
         if len(seen) > MAX_INLINE_NODES:
             return False
     return True
-
-
-def construct_record(cls: ast.Class, e: ast.Call, scope: Scope) -> Record:
-    """Record(a, field = b): fields by position and name, the rest by their defaults."""
-    declared = signature_of(cls, scope.context).locals
-    fields = [
-        replace(f, scope=replace(f.scope, in_function=scope.in_function))
-        for f in declared
-        if f.declaration.variability != "constant" or f.declaration.modification.value is None
-    ]
-    bound = bind_arguments(cls, fields, written_arguments(cls, fields, e, scope, {}), e, scope)
-    return Record(cls.path, bound, cls)

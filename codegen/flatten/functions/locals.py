@@ -9,7 +9,7 @@ from functools import cached_property
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.inheritance import inheriting, refuse_redeclaration
 from lacuna.codegen.flatten.classes.instance import Instance
-from lacuna.codegen.flatten.classes.types import EXTERNAL, Type, resolve_type
+from lacuna.codegen.flatten.classes.types import EXTERNAL, Type, causality_of, resolve_type
 from lacuna.codegen.flatten.expressions.enumerations import enumeration_of
 from lacuna.codegen.flatten.expressions.evaluate import evaluate_dimensions
 from lacuna.codegen.flatten.names.context import Context
@@ -142,9 +142,13 @@ def signature_of(cls: ast.Class, context: Context) -> Signature:
                 changed = replace(declaration.modification, value=outer.value)
                 declaration = replace(declaration, modification=changed)
                 modified_in = outer.scope.cls if outer.scope is not None else None
-            declared.append(Local(name, declaration, resolve_type(declaration.type, scope), scope, modified_in))
+            found_type = resolve_type(declaration.type, scope)
+            if cls.kind == "function" and not declaration.causality:
+                causality = found_type.causality or causality_of(found_type.cls, context)
+                declaration = replace(declaration, causality=causality)
+            declared.append(Local(name, declaration, found_type, scope, modified_in))
         if cls.kind == "function":
-            _check_function(cls, instance)
+            _check_function(cls, instance, declared)
             _check_components(cls, declared)
         body = tuple(item for section, _ in instance.sections for item in section.items)
         _check_iterators(body)
@@ -153,7 +157,7 @@ def signature_of(cls: ast.Class, context: Context) -> Signature:
     return found
 
 
-def _check_function(cls: ast.Class, instance: Instance) -> None:
+def _check_function(cls: ast.Class, instance: Instance, declared: list[Local]) -> None:
     """What a function must not hold (Modelica 3.6, 12.2)."""
     sections = [section for section, _ in instance.sections]
     wrong = next((s for s in sections if s.initial or not s.algorithm), None) or next(iter(sections[1:]), None)
@@ -161,8 +165,7 @@ def _check_function(cls: ast.Class, instance: Instance) -> None:
         what = "an initial section" if wrong.initial else "a second algorithm" if wrong.algorithm else "equations"
         hint = "a function has one algorithm section, or is external"
         raise Diagnostic("R066", f"the function {cls.name} has {what}", wrong.span, hint)
-    for name, element in instance.elements.items():
-        d = element.declaration
+    for name, d in ((local.name, local.declaration) for local in declared):
         if not (d.causality or d.protected or d.variability):
             hint = "declare it input or output, or under 'protected'"
             raise Diagnostic("R066", f"{name} of the function {cls.name} is public", d.span, hint)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.classes.restrictions import check_class
 from lacuna.codegen.flatten.expressions.lower import lower
-from lacuna.codegen.flatten.functions.declared import call_function, construct_record
+from lacuna.codegen.flatten.functions.declared import bind_arguments, call_function, written_arguments
 from lacuna.codegen.flatten.functions.locals import Local, signature_of
 from lacuna.codegen.flatten.names.scope import Scope, base_classes, own_or_inherited
 from lacuna.codegen.flatten.names.values import Array, Record, Value, items_of, shape_of, stack
@@ -75,7 +77,7 @@ def _converted(name: str, operands: Sequence[Value], span: Span, scope: Scope) -
 def construct(cls: ast.Class, e: ast.Call, scope: Scope) -> Value:
     """A call of a record: by a constructor that it declares and that fits, else by its fields (14.3)."""
     if not (cls.origin or cls).operator or own_or_inherited(scope.context.library, cls, CONSTRUCTOR) is None:
-        return construct_record(cls, e, scope)
+        return _from_fields(cls, e, scope)
     values = [lower(a, scope) for a in e.args]
     named = {name: lower(value, scope) for name, value in e.named.items()}
     arrays = [v for v in (*values, *named.values()) if shape_of(v)]
@@ -85,7 +87,35 @@ def construct(cls: ast.Class, e: ast.Call, scope: Scope) -> Value:
         each = [_call_one(CONSTRUCTOR, [cls], row, e.span, scope) for row in zip(*rows, strict=True)]
         if all(made is not None for made in each):
             return Array(arrays[0].shape, tuple(each))
-    return construct_record(cls, e, scope) if found is None else found
+    return _from_fields(cls, e, scope) if found is None else found
+
+
+def _from_fields(cls: ast.Class, e: ast.Call, scope: Scope) -> Value:
+    """Record(a, field = b): fields by position and name, the rest by their defaults, final ones always (12.6); or
+    Record(component): the elements of those names (12.6.1)."""
+    declared = signature_of(cls, scope.context).locals
+    kept = [f for f in declared if f.declaration.variability != "constant" or f.declaration.modification.value is None]
+    fields = [replace(f, scope=replace(f.scope, in_function=scope.in_function)) for f in kept]
+    free = [f for f in fields if not (f.declaration.final and f.declaration.modification.value is not None)]
+    written = written_arguments(cls, free, e, scope, {})
+    whole = written[free[0].name][0] if len(e.args) == 1 and not e.named and free[0].type.primitive else None
+    if whole is not None and items_of(whole) and all(isinstance(item, Record) for item in items_of(whole)):
+        made = [_cast(cls, item, e.span, scope) for item in items_of(whole)]
+        return stack(made, e.span) if isinstance(whole, Array) else made[0]
+    return Record(cls.path, bind_arguments(cls, fields, written, e, scope), cls)
+
+
+def _cast(cls: ast.Class, whole: Record, span: Span, scope: Scope) -> Record:
+    """The fields of a record taken from what has elements of their names."""
+    fields: dict[str, Value] = {}
+    for local in signature_of(cls, scope.context).locals:
+        if local.name not in whole.fields:
+            hint = "give the fields by their names"
+            raise Diagnostic("R050", f"{whole.name} has no element {local.name} of {cls.name}", span, hint)
+        value = whole.fields[local.name]
+        nested = local.type.cls if local.type.primitive is None else None
+        fields[local.name] = _cast(nested, value, span, scope) if nested and isinstance(value, Record) else value
+    return Record(cls.path, fields, cls)
 
 
 def text_by_operator(value: Record, e: ast.Call, scope: Scope) -> Value | None:
@@ -124,6 +154,7 @@ def _functions(name: str, classes: Sequence[ast.Class], scope: Scope) -> Iterato
         operator = own_or_inherited(library, cls, name)
         if operator is None:
             continue
+        check_class(operator, scope.context)
         if operator.kind == "function":
             yield operator
             continue

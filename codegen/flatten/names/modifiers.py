@@ -8,6 +8,7 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.syntax import ast
+from lacuna.codegen.syntax.alike import alike
 
 
 @dataclass(slots=True)
@@ -23,6 +24,7 @@ class Modifier:
     children: dict[str, Modifier] = field(default_factory=dict)
     redeclare: ast.Component | ast.Class | None = None
     redeclared_in: Scope | None = None  # the scope a redeclaration is written in
+    replaced: tuple[Modifier, ...] = ()  # redeclarations further inside, which this one stands in place of
     tree: ast.Modification | None = None  # as written
     weak: bool = False  # of a part of a component that is bound as a whole from further outside
     index: tuple[tuple[int, int], ...] = ()
@@ -46,9 +48,21 @@ def from_tree(tree: ast.Modification, scope: Scope, each: bool = False, final: b
                 error = Diagnostic("R030", f"{argument.name} is modified twice", argument.span, "keep one of them")
                 error.notes.append((present.span, "the other one"))
                 raise error
+            _refuse_both(child, present)
             child = merge(child, present)
         result.children[argument.name] = child
     return result
+
+
+def _refuse_both(one: Modifier, other: Modifier) -> None:
+    """Raises R030 where two arguments of one modification give the same part a value (7.2.4)."""
+    for name in one.children.keys() & other.children.keys():
+        first, second = one.children[name], other.children[name]
+        if first.value is not None and second.value is not None:
+            error = Diagnostic("R030", f"{name} is modified twice", first.span, "keep one of them")
+            error.notes.append((second.span, "the other one"))
+            raise error
+        _refuse_both(first, second)
 
 
 def merge(outer: Modifier | None, inner: Modifier | None) -> Modifier | None:
@@ -69,6 +83,7 @@ def merge(outer: Modifier | None, inner: Modifier | None) -> Modifier | None:
     result = replace(source, children=_inner_children(outer, inner, again), final=outer.final or inner.final)
     chosen = outer if outer.redeclare is not None else inner
     result.redeclare, result.redeclared_in = chosen.redeclare, chosen.redeclared_in
+    result.replaced = outer.replaced + ((inner,) if again else ()) + inner.replaced
     result.span = outer.span
     for name, child in outer.children.items():
         result.children[name] = merge(child, result.children.get(name))
@@ -101,3 +116,36 @@ def for_each(modifier: Modifier | None) -> Modifier | None:
         return None
     children = {name: for_each(child) for name, child in modifier.children.items()}
     return replace(modifier, children=children, each=True)
+
+
+def without_removed(modifier: Modifier) -> Modifier:
+    """A modifier in which `break` has taken away what was declared further inside (7.2.7)."""
+    parts = {n: c for n, c in modifier.children.items() if not isinstance(c.value, ast.NoValue) or c.children}
+    gone = isinstance(modifier.value, ast.NoValue)
+    if not gone and len(parts) == len(modifier.children):
+        return modifier
+    return replace(modifier, value=None if gone else modifier.value, children=parts)
+
+
+def same_modifier(one: Modifier | None, other: Modifier | None) -> bool:
+    """Whether two modifications say the same, written in the same class."""
+    if one is other:
+        return True
+    if one is None or other is None:
+        return (one or other).empty
+    values = alike(one.value, other.value) if isinstance(one.value, ast.Expression) else one.value is other.value
+    alone = one.value is None or isinstance(one.value, ast.Literal)
+    places = alone or one.scope is other.scope or one.scope.cls is other.scope.cls
+    names = one.children.keys() | other.children.keys()
+    parts = all(same_modifier(one.children.get(n), other.children.get(n)) for n in names)
+    return values and places and parts and one.redeclare is other.redeclare
+
+
+def refuse_each(*modifiers: Modifier | None) -> None:
+    """Raises R038 for `each` in the modification of what is no array (7.2.5). Elements of arrays are narrowed: they
+    keep the word."""
+    plain = [m for m in modifiers if m is not None and not m.index and not m.each]
+    for name, child in ((n, c) for m in plain for n, c in m.children.items()):
+        if child.each:
+            hint = "remove 'each'"
+            raise Diagnostic("R038", f"each {name}: what is modified is no array", child.span, hint)

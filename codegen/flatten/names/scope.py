@@ -22,7 +22,7 @@ class Scope:
     cls: ast.Class
     instance: Component | None = None
     locals: dict[str, Value] = field(default_factory=dict)
-    end: int | None = None  # the value of `end` inside subscripts
+    end: Value | None = None  # the value of `end` inside subscripts
     in_function: bool = False
     initial: bool = False  # in an initial section
     conditional: bool = False  # under a condition not known yet: what cannot be computed may never be asked for
@@ -84,9 +84,27 @@ def base_class(library: Library, cls: ast.Class, ref: ast.Ref, tree: ast.Modific
         plain = own_or_inherited(library, base, argument.name) if parts else None
         if plain is not None and argument.name not in redeclared:
             redeclared[argument.name] = modified(library, plain, argument.modification, cls.written, cls)
+    redeclared = {n: _in_place_of(library, new, base, n) for n, new in redeclared.items()}
     if not redeclared and not (is_specialised(cls) or (base.kind == "package" and tree.arguments)):
         return base
     return view(library, base, base.parent, redeclared, cls.whole or cls)
+
+
+def _in_place_of(library: Library, new: ast.Class, base: ast.Class, name: str) -> ast.Class:
+    """A class redeclared in a modification: protected where what it stands for is, and bound by its constraining type
+    where it has none of its own (7.3)."""
+    old = own_or_inherited(library, base, name) if not (new.redeclares or new.stands_for) else None
+    if old is None or (old.origin or old) is (new.origin or new) or (new.alias and new.alias.target):
+        return new
+    old = old.stands_for or old.origin or old
+    key = (id(new), id(old), "in place")
+    found = library.views.get(key)
+    if found is None:
+        hidden = new.protected or old.protected
+        found = library.views[key] = replace(new, origin=new.origin or new, protected=hidden, stands_for=old)
+        found.number = library.count_path(found.path)
+        library.kept += [new, old]
+    return found
 
 
 def _named_base(library: Library, cls: ast.Class, ref: ast.Ref) -> ast.Class | None:
@@ -153,7 +171,8 @@ def imported_class(library: Library, item: ast.Import) -> ast.Class | None:
         last = at == len(item.path.names) - 1
         if found.protected:
             raise Diagnostic("R017", f"{name} is protected in {cls.name}", item.span, "make it public to import it")
-        hidden = bool(at) and not found.encapsulated and not is_package_like(library, cls)
+        seen = found.encapsulated and (not last or item.every or found.kind == "package" or found.operator)
+        hidden = bool(at) and not seen and not is_package_like(library, cls)
         if hidden or (last and item.every and not is_package_like(library, found)):
             hint = "import a package, or an element of one"
             raise Diagnostic("R075", f"import: {cls.name if hidden else found.name} is no package", item.span, hint)

@@ -105,13 +105,17 @@ def constrain(library: Library, new: ast.Class, old: ast.Class, by_element: bool
         raise Diagnostic("R037", f"{old.name} and what stands for it differ in visibility", new.span, hint)
     if by_element and new.extends_same is not None:
         return new
-    if old.constraint is None or not old.constraint.modification.arguments:
+    first = old
+    while first.constraint is None and first.stands_for is not None:
+        first = first.stands_for
+    clause = first.constraint or first.alias  # a short definition is its own constraining clause (7.3.2)
+    if clause is None or not clause.modification.arguments or first.parent is None:
         return new
-    key = (id(new), id(old), "constrained")
+    key = (id(new), id(first), "constrained")
     found = library.views.get(key)
     if found is None:
-        found = replace(new, origin=new.origin or new, constrained=(old.constraint.modification, old.parent))
+        found = replace(new, origin=new.origin or new, constrained=(clause.modification, first.parent))
         library.views[key] = found
         found.number = library.count_path(found.path)
-        library.kept += [new, old]
+        library.kept += [new, first]
     return found

@@ -106,18 +106,29 @@ def _declared_constant(cls: ast.Class, name: str, ref: ast.Ref, scope: Scope) ->
 
 def _imported_constant(cls: ast.Class, name: str, scope: Scope) -> Node | None:
     library = scope.context.library
-    for item in sorted(cls.imports, key=lambda i: i.every):
-        if item.every:
-            owner = imported_class(library, item)
-            package = package_of(scope.context, owner) if owner is not None else None
-            if package is not None and name in package.elements and not package.elements[name].declaration.protected:
-                return package.child(name)
-        elif (item.alias or item.path.names[-1]) == name and len(item.path.names) > 1:
+    for item in cls.imports:
+        if not item.every and (item.alias or item.path.names[-1]) == name and len(item.path.names) > 1:
             path = replace(item.path, names=item.path.names[:-1], subscripts=item.path.subscripts[:-1])
             owner = find_class(library, library.root, path)
             if owner is not None and own_or_inherited(library, owner, item.path.names[-1]) is None:
                 return _constant_of(owner, item.path.names[-1], replace(item.path, span=item.span), scope.context)
-    return None
+    return _from_whole_packages(cls, name, scope)
+
+
+def _from_whole_packages(cls: ast.Class, name: str, scope: Scope) -> Node | None:
+    """The constant that an unqualified import brings in. Raises R075 where two bring in different ones (5.3.1)."""
+    found, meant = None, None
+    for item in cls.imports:
+        owner = imported_class(scope.context.library, item) if item.every else None
+        package = package_of(scope.context, owner) if owner is not None else None
+        element = package.elements.get(name) if package is not None else None
+        if element is None or element.declaration.protected:
+            continue
+        if meant is not None and element.declaration is not meant:
+            hint = "name the one that is meant by its full name, or import it by name"
+            raise Diagnostic("R075", f"two imports bring in {name}", item.span, hint)
+        found, meant = package.child(name), element.declaration
+    return found
 
 
 def _literal(cls: ast.Class, name: str, ref: ast.Ref) -> Expr:

@@ -61,6 +61,12 @@ def read_local(ref: ast.Ref, scope: Scope) -> Value:
     return value
 
 
+def read_part(e: ast.Part, scope: Scope) -> Value:
+    """Elements of the value of an expression in parentheses."""
+    value, ref = lower(e.whole, scope), ast.Ref(e.span, ("this expression",), (None,))
+    return _element_of(value, e.name, ref) if e.name else apply_subscripts(value, e.subscripts, scope, ref)
+
+
 def _element_of(value: Value, name: str, ref: ast.Ref) -> Value:
     """One field of a record, or of every record of an array."""
     if isinstance(value, Array) and value.items and holds_records(value):
@@ -172,7 +178,8 @@ def apply_subscripts(
     later = kinds[1:] if kinds is not None else None
     if isinstance(first, ast.Colon):
         return _stacked(value.rows(), value, lambda r: apply_subscripts(r, rest, scope, ref, later), ref)
-    index = _index(first, kinds, replace(scope, end=shape[0]), ref)
+    last = kinds[0][-1] if kinds and kinds[0] else ex.const(shape[0])
+    index = _index(first, kinds, replace(scope, end=last), ref)
     if isinstance(index, Array):
         picked = [_row(value, i, scope, ref, first) for i in index.items]
         return _stacked(picked, value, lambda r: apply_subscripts(r, rest, scope, ref, later), ref)

@@ -112,3 +112,18 @@ def test_parquet_round_trip(tmp_path):
     pq.write_table(table(4), tmp_path / "t.parquet")
     again = histories_of(pq.read_table(tmp_path / "t.parquet"), "t")
     assert [h.actuator for h in again] == [f"<A{k}>" for k in range(4)]
+
+
+def test_what_lies_beyond_the_axis_of_the_overview_is_an_arrow_and_not_at_its_end():
+    def row(name, left):
+        spread = {"low95": 0.6, "low80": 0.8, "median": 1.0, "high80": 1.2, "high95": 1.5, "advised_last_test": 0.5}
+        numbers = {key: left * share for key, share in spread.items()}
+        text = {"actuator": name, "fault": "", "verdict": "forecast", "unit": "cycles", "law": "linear", "warnings": ""}
+        return text | numbers | {"at": 0.0, "severity": 0.1, "risk_next": 0.0}
+
+    def arrows(lives):
+        drawn = overview(pa.Table.from_pylist([row(f"A{k}", life) for k, life in enumerate(lives)]), {"": LIMITS})
+        return len(re.findall(r'<path d="M[^"]*z"', drawn))
+
+    assert arrows([100.0, 2000.0]) == 0
+    assert arrows([100.0] * 11 + [1e4]) == 2  # its median and its last advised test

@@ -1,5 +1,5 @@
-// section: 5.3.2
-// value: x = 14, z = 14, w = 8
+// section: 5.3.2, 7.3.2
+// value: x = 14, z = 14, w = 12
 model ThroughAComponentWithDefaults
   function f
     input Real u;

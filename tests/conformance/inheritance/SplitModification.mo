@@ -3,8 +3,8 @@
 model SplitModification
   model A
     Real x(start=1);
+  equation
+    der(x) = 0;
   end A;
   A a(x(start=2), x.fixed=true);
-equation
-  der(a.x) = 0;
 end SplitModification;

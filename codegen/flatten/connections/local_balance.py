@@ -1,0 +1,133 @@
+"""Components are balanced: each has as many equations as unknowns of its own, and what a component is to be given from
+outside is given there (Modelica 3.6, 4.8).
+
+A potential of a connector that is connected on the inside needs no equation, a flow never does: connections give one
+for each, whatever is connected.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.classes.instance import Instance
+from lacuna.codegen.flatten.classes.leaf import Leaf
+from lacuna.codegen.flatten.classes.types import EXTERNAL
+from lacuna.codegen.flatten.connections.connection_sets import ConnectionSets
+from lacuna.codegen.flatten.equations.equations import Collected
+from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.symbolic.rewrite import assigned
+
+_PARTS = ("record", "connector", "type")  # classes whose variables count as those of the model around
+
+
+def check_components(leaves: Iterable[Leaf], buses: list[Instance], body: Collected, context: Context) -> None:
+    """Raises R078 for the component that is not balanced, and for an input of a component that nothing gives a value.
+
+    Not judged are models with expandable or overdetermined connectors and those that use outer components: what holds
+    there is decided by connections elsewhere.
+    """
+    unknowns = [leaf for leaf in leaves if not leaf.is_structural and leaf.primitive not in ("String", EXTERNAL)]
+    for leaf in unknowns:
+        with context.attempt():
+            _require_bound(leaf)
+    if body.branches:
+        return
+    count = _Count(context.table(ConnectionSets), body)
+    for leaf in unknowns:
+        count.add(leaf)
+    open_ended = {id(_owner(bus)) for bus in buses} | {id(_owner(bus).parent) for bus in buses}
+    for instance in count.instances.values():
+        if instance.parent is None or id(instance) in open_ended or _uses_outer(instance):
+            continue
+        with context.attempt():
+            _require_equal(instance, count)
+
+
+def _owner(instance: Instance) -> Instance:
+    """The model or block whose variable an element of a record or connector is."""
+    while instance.parent is not None and (instance.cls.kind in _PARTS or instance.in_connector):
+        instance = instance.parent
+    return instance
+
+
+def _uses_outer(instance: Instance) -> bool:
+    return any(e.declaration.outer for e in instance.elements.values())
+
+
+def _given_from_outside(leaf: Leaf) -> bool:
+    """Is it a public input?"""
+    if leaf.causality != "input" or leaf.declaration.protected:
+        return False
+    around = leaf.instance
+    while around is not _owner(leaf.instance):
+        if around.declaration is not None and around.declaration.protected:
+            return False
+        around = around.parent
+    return True
+
+
+def _is_connector(leaf: Leaf) -> bool:
+    """Is it a connector by itself, or part of one?"""
+    return leaf.instance.in_connector or (leaf.type.named is not None and leaf.type.named.kind == "connector")
+
+
+def _require_bound(leaf: Leaf) -> None:
+    """An input that is no connector gets its value where the component is declared (4.8)."""
+    model = leaf.instance
+    plain = model.cls.kind in ("model", "block") and leaf.causality == "input" and not _is_connector(leaf)
+    if plain and model.parent is not None and not leaf.declaration.protected and leaf.binding() is None:
+        hint = f"give it a value: {model.name.rpartition('.')[2]}({leaf.declaration.name} = ...)"
+        error = Diagnostic("R078", f"the input {leaf.name} of a component has no value", model.span, hint)
+        error.notes.append((leaf.span, "declared here"))
+        raise error
+
+
+class _Count:
+    """Equations and unknowns of each model and block, by the path of the component."""
+
+    def __init__(self, sets: ConnectionSets, body: Collected) -> None:
+        self.instances: dict[str, Instance] = {}
+        self.equations: Counter[str] = Counter(e.origin for e in body.equations)
+        self.unknowns: Counter[str] = Counter()
+        self.defaults: Counter[str] = Counter()  # what a class gives its own inputs: an equation, or a value by default
+        self._connected = sets.outside
+        for when in body.whens:
+            self.equations[when.origin] += len(set(assigned([when])))
+        for algorithm in body.algorithms:
+            self.equations[algorithm.origin] += len(algorithm.targets)
+        for group in sets.sources.groups():
+            self.equations[group[0][0]] += len(group) - 1
+
+    def add(self, leaf: Leaf) -> None:
+        """Count one declared variable."""
+        owner, size = _owner(leaf.instance), len(leaf.names)
+        self.instances[owner.name] = owner
+        bound = 0 if leaf.binding() is None else size
+        outside = _given_from_outside(leaf)
+        if outside and not _is_connector(leaf):
+            return
+        own = not outside or (leaf.modifier.scope is not None and leaf.modifier.scope.instance is owner)
+        if own:
+            (self.defaults if outside else self.equations)[owner.name] += bound
+        if outside:
+            if owner.parent is not None:
+                self.unknowns[owner.parent.name] += size
+                self.equations[owner.parent.name] += 0 if own else bound
+            return
+        if leaf.flow:
+            return
+        connected = sum((owner.name, name) in self._connected for name in leaf.names)
+        self.unknowns[owner.name] += size - connected
+
+
+def _require_equal(instance: Instance, count: _Count) -> None:
+    equations, unknowns = count.equations[instance.name], count.unknowns[instance.name]
+    if not 0 <= unknowns - equations <= count.defaults[instance.name]:
+        cls = instance.cls
+        message = f"{cls.name} is not balanced: {equations} equations for {unknowns} unknowns of its own"
+        hint = "each class has as many equations as it declares unknowns, one for each pair of a potential and a flow"
+        error = Diagnostic("R078", message, (cls.origin or cls).span, hint)
+        error.notes.append((instance.span, f"as {instance.name} is declared here"))
+        raise error

@@ -1,0 +1,9 @@
+// section: 4.8
+// value: a.y = 2
+model A
+  input Real u;
+  Real y = u;
+end A;
+model InputOfAComponentBound
+  A a(u = 2);
+end InputOfAComponentBound;

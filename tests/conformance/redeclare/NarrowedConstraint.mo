@@ -1,0 +1,22 @@
+// section: 7.3.2
+// refuse: R034 21
+model A
+  Real x = 1.0;
+end A;
+model B
+  Real x = 2.0;
+  Real y = 2.0;
+end B;
+model C
+  Real x = 3.0;
+  Real y = 5.0;
+end C;
+model D
+  replaceable B b constrainedby A;
+end D;
+model E
+  extends D(replaceable C b constrainedby C);
+end E;
+model NarrowedConstraint
+  E e(redeclare A b);
+end NarrowedConstraint;
