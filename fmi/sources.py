@@ -21,9 +21,10 @@ _OTHERS = {
     "ida.h",
     "vector.c",
     "dense_solver.c",
+    "sparse.c",
     "vector.h",
     "sundials_compat.h",
-}  # of the runtime: what needs SUNDIALS
+}  # of the runtime: what needs SUNDIALS or KLU
 OPTIONS = (
     "-std=c11", "-O2", "-fPIC", "-ffp-contract=off", "-fvisibility=hidden", "-D_POSIX_C_SOURCE=200809L",
     "-DRT_OWN_METHODS",

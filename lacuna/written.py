@@ -40,7 +40,7 @@ def whole_file(path: Path) -> Iterator[Path]:
 @contextmanager
 def whole_files(folder: Path) -> Iterator[Path]:
     """A folder whose files then replace those of the same name in `folder`, all of them if the block ends well, or
-    none."""
+    none; folders in it must be new."""
     with _scratch(folder) as scratch:
         yield scratch
         made = sorted(scratch.iterdir())
@@ -71,8 +71,8 @@ def _replace_all(made: list[Path], folder: Path, before: Path) -> None:
             with suppress(OSError):  # the disk refuses this, too: what is said is the first refusal
                 if (before / target.name).exists():
                     (before / target.name).replace(target)
-                else:
-                    target.unlink()
+                else:  # a file or a folder: it goes with the scratch folder
+                    target.replace(before / target.name)
         raise
 
 

@@ -86,7 +86,7 @@ def _ranked(locator: Locator, base: Fit) -> list[Site]:
     """Places by their evidence; beside errors of sensors with a memory, where nobody gave the level of their noise and
     what the best effort leaves is not white."""
     sites = locator.ranked()
-    if not sites or locator.white(sites[0]) or all(n.given for n in base.noise.values()):
+    if not locator.places or locator.white(sites[0]) or all(n.given for n in base.noise.values()):
         return sites
     locator.colour = colour_of(locator)
     return locator.ranked()

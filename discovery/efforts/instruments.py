@@ -33,11 +33,11 @@ Rows = tuple[np.ndarray, np.ndarray]  # (sizes (h,), times (h,)) that one chain 
 def only_instruments(case: Case, amendment: Amendment, fit: Fit) -> bool:
     """Whether what `fit`, that of `amendment`, leaves may be noise of an unknown level with a colour of its own.
 
-    False where levels are given and exceeded, where it comes in bursts, and where the equations cannot be opened.
+    False where levels are given and exceeded, where it comes in bursts, and where no place of the equations is open.
     """
     if fit.only_instruments is None:
         locator = _locator(case, amendment, fit) if may_be_coloured(fit) else None
-        fit.only_instruments = locator is not None and weighed(locator) < NATS
+        fit.only_instruments = locator is not None and bool(locator.places) and weighed(locator) < NATS
     return fit.only_instruments
 
 

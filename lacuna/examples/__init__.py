@@ -8,6 +8,8 @@ from __future__ import annotations
 from pathlib import Path
 import shutil
 
+from lacuna.written import whole_files
+
 HERE = Path(__file__).parent
 NAMES = ("first-model", "missing-physics", "preflight")
 LIBRARY = "Lacuna"  # the package of all models, to be edited: `-L FOLDER/Lacuna` uses the copy
@@ -20,8 +22,8 @@ class ExamplesError(Exception):
 
 
 def copy_examples(folder: str | Path) -> list[Path]:
-    """Copy the examples and the package Lacuna into `folder`, which is made, and return the folder of each.
-    Nothing is overwritten.
+    """Copy the examples and the package Lacuna into `folder`, which is made, and return the folder of each: all of them
+    or none. Nothing is overwritten.
 
     Raises ExamplesError where one of them is there already.
     """
@@ -33,4 +35,10 @@ def copy_examples(folder: str | Path) -> list[Path]:
     if there:
         raise ExamplesError(f"{there[0]} is there already; choose another folder")
     only_models = shutil.ignore_patterns("README.md")  # which is of our tree
-    return [Path(shutil.copytree(source, target, ignore=only_models)) for target, source in sources.items()]
+    with whole_files(folder) as scratch:
+        for target, source in sources.items():
+            try:
+                shutil.copytree(source, scratch / target.name, ignore=only_models)
+            except shutil.Error as error:  # it goes on after the first, and lists them
+                raise OSError(error.args[0][0][2]) from None
+    return list(sources)

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 13
+#define MDL_ABI_VERSION 14
 
 typedef enum {
   MDL_FAILURE_NONE = 0,

@@ -20,39 +20,9 @@ static int check_jacobian(rt_session *s, const double *values) {
   return 0;
 }
 
-/* The value of `held` in row `row` of column j, 0 where it is none. */
-static double held_at(const rt_session *s, int row, int j) {
-  double value = 0;
-  for (int k = 0; k < s->n_held; k++)
-    if (s->held[k].column == j && s->held[k].row == row) value = s->held[k].value;
-  return value;
-}
-
-/* Columns with what is held: in its place, or behind the others. */
-static sunindextype fill_columns(const rt_session *s, const double *values, SUNMatrix matrix) {
-  const mdl_descriptor *d = s->d;
-  sunindextype *first = SUNSparseMatrix_IndexPointers(matrix), *rows = SUNSparseMatrix_IndexValues(matrix), next = 0;
-  double *data = SUNSparseMatrix_Data(matrix);
-  for (int j = 0; j < d->n_x + d->n_z; j++) {
-    first[j] = next;
-    for (int k = d->jac_colptr[j]; k < d->jac_colptr[j + 1]; k++) {
-      rows[next] = d->jac_rowidx[k];
-      data[next++] = values[k] + (s->n_held ? held_at(s, d->jac_rowidx[k], j) : 0);
-    }
-    for (int k = 0; k < s->n_held; k++) {
-      bool found = s->held[k].column != j;
-      for (sunindextype l = first[j]; l < next; l++)
-        found |= rows[l] == s->held[k].row;
-      if (found) continue;
-      rows[next] = s->held[k].row;
-      data[next++] = s->held[k].value;
-    }
-  }
-  return first[d->n_x + d->n_z] = next;
-}
-
 static int fill_sparse(const rt_session *s, rt_ida *m, SUNMatrix matrix) {
-  sunindextype entries = fill_columns(s, m->values, matrix);
+  sunindextype entries = rt_fill_columns(s, m->values, SUNSparseMatrix_IndexPointers(matrix),
+                                         SUNSparseMatrix_IndexValues(matrix), SUNSparseMatrix_Data(matrix));
   long fails = 0;
   IDAGetNumNonlinSolvConvFails(m->ida, &fails);
   bool choose_pivots = fails != m->pivots_chosen_at || s->n_held != m->held;

@@ -9,9 +9,10 @@
 #include <string.h>
 
 #include "onestep.h"
+#include "sparse.h"
 #include "undetermined.h"
 
-enum { STAGES = 6 };
+enum { STAGES = 6, DENSE_LIMIT = 40 }; /* unknowns up to which, of a ladder, a dense matrix is faster than KLU */
 
 static const double gamma_ = 0.25;
 static const double alpha[STAGES] = {0, 0.386, 0.21, 0.63, 1, 1};
@@ -38,18 +39,25 @@ static const double d3[STAGES - 1] = {-0.6762803392806898e+00, 0.608771465168001
 
 typedef struct {
   double *fy, *fyp; /* [jac_nnz] dF/dy and dF/dy' at the start of the step */
-  double *matrix;   /* [n * n] of the stages, factored; n = n_x + n_z */
-  double *right;    /* [n] */
-  double *dfdt;     /* [n_x] */
-  double *row;      /* [n] powers of two that give the rows of the matrix size 1, in units of the unknowns' sizes */
-  int *pivot;       /* [n] */
-  double t;         /* where fy, fyp and dfdt were computed */
-  bool known;       /* whether they were, in this run */
+  double *values;   /* [jac_nnz] of the matrix of the stages */
+  double *matrix;   /* [n * n] factored, n = n_x + n_z; of few unknowns, else */
+  rt_sparse *sparse;
+  double *right; /* [n] */
+  double *dfdt;  /* [n_x] */
+  double *row;   /* [n] powers of two that give the rows of the matrix size 1, in units of the unknowns' sizes */
+  int *pivot;    /* [n] */
+  double t;      /* where fy, fyp and dfdt were computed */
+  bool known;    /* whether they were, in this run */
 } work;
+
+static bool is_sparse(const mdl_descriptor *m) {
+  return rt_has_sparse && m->n_x + m->n_z > DENSE_LIMIT;
+}
 
 static size_t work_size(const mdl_descriptor *m) {
   size_t n_x = (size_t)m->n_x, n = n_x + (size_t)m->n_z;
-  return sizeof(work) + (2 * (size_t)m->jac_nnz + n * n + 2 * n + n_x) * sizeof(double) + n * sizeof(int);
+  size_t numbers = 3 * (size_t)m->jac_nnz + (is_sparse(m) ? 0 : n * n) + 2 * n + n_x;
+  return sizeof(work) + numbers * sizeof(double) + n * sizeof(int);
 }
 
 static work *layout(const rt_session *s, void *memory) {
@@ -57,11 +65,12 @@ static work *layout(const rt_session *s, void *memory) {
   work *w = memory;
   w->fy = (double *)(w + 1);
   w->fyp = w->fy + nnz;
-  w->matrix = w->fyp + nnz;
-  w->right = w->matrix + n * n;
+  w->values = w->fyp + nnz;
+  w->right = w->values + nnz;
   w->dfdt = w->right + n;
   w->row = w->dfdt + n_x;
-  w->pivot = (int *)(w->row + n);
+  w->matrix = w->row + n;
+  w->pivot = (int *)(w->matrix + (is_sparse(s->d) ? 0 : n * n));
   return w;
 }
 
@@ -93,33 +102,45 @@ static int differentiate_time(rt_session *s, rt_onestep *o, work *w, double h) {
   return status;
 }
 
-/* Rows of size 1, by powers of two, so that the choice of pivots has no units. */
+/* Powers of two that give the rows size 1, so that the choice of pivots has no units. */
 static void equilibrate(const rt_session *s, work *w) {
-  int n = s->d->n_x + s->d->n_z;
+  const mdl_descriptor *m = s->d;
+  int n = m->n_x + m->n_z;
+  memset(w->row, 0, (size_t)n * sizeof *w->row);
+  for (int j = 0; j < n; j++)
+    for (int k = m->jac_colptr[j]; k < m->jac_colptr[j + 1]; k++) {
+      double *size = &w->row[m->jac_rowidx[k]];
+      *size = rt_max(*size, fabs(w->values[k]) * s->nominal[j]);
+    }
+  for (int k = 0; k < s->n_held; k++) {
+    double *size = &w->row[s->held[k].row];
+    *size = rt_max(*size, fabs(s->held[k].value) * s->nominal[s->held[k].column]);
+  }
   for (int i = 0; i < n; i++) {
-    double largest = 0;
     int exponent = 0;
-    for (int j = 0; j < n; j++)
-      largest = rt_max(largest, fabs(w->matrix[j * n + i]) * s->nominal[j]);
-    if (largest > 0 && isfinite(largest)) frexp(largest, &exponent);
+    if (w->row[i] > 0 && isfinite(w->row[i])) frexp(w->row[i], &exponent);
     w->row[i] = ldexp(1, -exponent);
-    for (int j = 0; j < n; j++)
-      w->matrix[j * n + i] *= w->row[i];
   }
 }
 
-static int factor(rt_session *s, work *w, double h) {
+static int factor_dense(const rt_session *s, work *w) {
   const mdl_descriptor *m = s->d;
   int n = m->n_x + m->n_z;
-  double cj = 1 / (h * gamma_);
   memset(w->matrix, 0, (size_t)(n * n) * sizeof *w->matrix);
   for (int j = 0; j < n; j++)
     for (int k = m->jac_colptr[j]; k < m->jac_colptr[j + 1]; k++)
-      w->matrix[j * n + m->jac_rowidx[k]] = w->fy[k] + cj * w->fyp[k];
+      w->matrix[j * n + m->jac_rowidx[k]] = w->row[m->jac_rowidx[k]] * w->values[k];
   for (int k = 0; k < s->n_held; k++)
-    w->matrix[s->held[k].column * n + s->held[k].row] += s->held[k].value;
+    w->matrix[s->held[k].column * n + s->held[k].row] += w->row[s->held[k].row] * s->held[k].value;
+  return rt_lu_factor(n, w->matrix, w->pivot);
+}
+
+static int factor(rt_session *s, work *w, double h) {
+  double cj = 1 / (h * gamma_);
+  for (int k = 0; k < s->d->jac_nnz; k++)
+    w->values[k] = w->fy[k] + cj * w->fyp[k];
   equilibrate(s, w);
-  int singular = rt_lu_factor(n, w->matrix, w->pivot);
+  int singular = w->sparse ? rt_sparse_factor(s, w->sparse, w->values, w->row) : factor_dense(s, w);
   if (!singular) return 0;
   s->data.failure = (mdl_failure){MDL_FAILURE_SINGULAR, -1, rt_unknown_variable(s, singular - 1), 0, 0};
   return 1;
@@ -146,7 +167,10 @@ static void solve(const rt_session *s, work *w, double *k) {
       w->right[m->jac_rowidx[l]] += w->fyp[l] * k[j];
   for (int i = 0; i < n; i++)
     w->right[i] *= w->row[i];
-  rt_lu_solve(n, w->matrix, w->pivot, w->right);
+  if (w->sparse)
+    rt_sparse_solve(w->sparse, w->right);
+  else
+    rt_lu_solve(n, w->matrix, w->pivot, w->right);
   memcpy(k, w->right, (size_t)n_x * sizeof *k);
 }
 
@@ -201,8 +225,17 @@ static const rt_scheme scheme = {.stages = STAGES,
                                  .attempt = attempt,
                                  .dense = dense};
 
+static void destroy(void *memory) {
+  rt_sparse_free(((work *)((rt_onestep *)memory)->work)->sparse);
+  rt_onestep_destroy(memory);
+}
+
 static void *create(rt_session *s) {
-  return rt_onestep_create(s, &scheme);
+  rt_onestep *o = rt_onestep_create(s, &scheme);
+  if (!o || !is_sparse(s->d)) return o;
+  if ((((work *)o->work)->sparse = rt_sparse_new(s))) return o;
+  destroy(o);
+  return NULL;
 }
 
 static rt_status begin(rt_session *s, void *memory) {
@@ -214,7 +247,7 @@ static rt_status begin(rt_session *s, void *memory) {
 const rt_method rt_method_rodas4 = {
     .name = "rodas4",
     .create = create,
-    .destroy = rt_onestep_destroy,
+    .destroy = destroy,
     .begin = begin,
     .restart = rt_onestep_restart,
     .step = rt_onestep_step,

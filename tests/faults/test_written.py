@@ -81,3 +81,19 @@ def test_what_a_killed_process_left_goes_and_what_a_living_one_writes_stays(tmp_
         write_whole(tmp_path / "c", "new")
         assert not abandoned.exists()
     assert content(tmp_path) == {"b": "new", "c": "new"}
+
+
+def test_folders_are_taken_back_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    rename = Path.replace
+
+    def refuse(path: Path, target: Path) -> Path:
+        if path.name == "b":
+            raise OSError("refused")
+        return rename(path, target)
+
+    monkeypatch.setattr(Path, "replace", refuse)
+    with pytest.raises(OSError, match="refused"), whole_files(tmp_path) as scratch:
+        for name in "ab":
+            (scratch / name).mkdir()
+            (scratch / name / "file").write_text("new")
+    assert list(tmp_path.iterdir()) == []

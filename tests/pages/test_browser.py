@@ -109,6 +109,8 @@ def test_on_paper_no_table_is_cut(pages: dict[str, Path], browser: Any, name: st
     page = context.new_page()
     page.goto(pages[name].as_uri())
     page.emulate_media(media="print")
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")  # as the browser says before it prints
+    assert page.evaluate("[...document.querySelectorAll('details')].every(e => e.open)")
     wide = "e => e.getBoundingClientRect().right > innerWidth + 1"
     cut = f"[...document.querySelectorAll('table, figure, pre')].filter({wide})"
     assert page.evaluate(f"{cut}.map(e => e.outerHTML.slice(0, 200))") == []

@@ -26,7 +26,8 @@ def flatten_algorithm(section: ast.Section, scope: Scope, out: Collected) -> Non
     """Add what an algorithm section computes, as an Algorithm or as equations."""
     _refuse_inner_whens(section.items)
     statements = _statements(section.items, scope, in_when=False)
-    targets = _with_whole_arrays(assigned(statements), scope.context)
+    names = assigned(statements)
+    targets = tuple(names) if section.initial else _with_whole_arrays(names, scope.context)
     if any(isinstance(s, flat.When) for s in _nested(statements)):
         out.algorithms.append(flat.Algorithm(statements, targets, section.span, origin_of(scope)))
         return

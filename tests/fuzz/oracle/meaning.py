@@ -111,13 +111,6 @@ def sign(x: Value) -> int:
     return int(x > 0) - int(x < 0)
 
 
-def extreme(choose: Callable) -> Callable:
-    def of(*values: Value) -> Value:
-        return choose(values)
-
-    return of
-
-
 def real_function(f: Callable[[float], float], low: float = -math.inf, high: float = math.inf) -> Callable:
     """Element by element, where every argument lies between `low` and `high`."""
 
@@ -127,10 +120,6 @@ def real_function(f: Callable[[float], float], low: float = -math.inf, high: flo
         return np.vectorize(f, otypes=[float])(x) if isinstance(x, np.ndarray) else f(float(x))
 
     return of
-
-
-def element(array: np.ndarray, *subscripts: int) -> Value:
-    return array[tuple(k - 1 for k in subscripts)].item()
 
 
 def as_kind(value: Value, kind: str) -> Value:

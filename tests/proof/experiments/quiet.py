@@ -11,9 +11,10 @@ from pathlib import Path
 
 import numpy as np
 
-from tests.proof.machines.generate import Drawn, _columns, _ends, _refit, draw
+from tests.proof.machines.generate import Drawn, _ends, _refit, draw
 from tests.proof.machines.machine import simulate
 from tests.proof.machines.plan import MACHINES, Plan
+from tests.proof.machines.truth import columns
 from tests.proof.machines.write import write_case, write_truth
 from tests.proof.write import _table
 
@@ -48,10 +49,10 @@ def quiet(wanted: Plan, seed: int) -> Quiet:
         part, reach = rng.uniform(*PART), of.high - of.low
         middle = rng.uniform(of.low + part / 2 * reach, of.high - part / 2 * reach)
         drawn.drive[name] = middle + part * (drawn.drive[name] - (of.low + of.high) / 2)
-    recordings = next(iter(drawn.drive.values())).shape[1]
-    clean = simulate(drawn.machine, _columns(drawn.true, recordings), drawn.drive, drawn.hidden)
+    machine = replace(drawn.machine, substeps=drawn.substeps)  # as fine as the truth needs over the whole range
+    clean = simulate(machine, columns(drawn.true, drawn.recordings), drawn.drive, drawn.hidden)
     measured = {n: clean[n] + drawn.error[n] for n in drawn.outputs}
-    return Quiet(drawn, measured, _ends(drawn, measured, clean, _refit(drawn, measured)))
+    return Quiet(drawn, measured, _ends(drawn, measured, clean, _refit(drawn, measured, drawn.believed)))
 
 
 def generate(item: tuple[str, Plan, int], out: Path) -> None:
@@ -83,8 +84,8 @@ def answers(item: tuple[str, Plan, int], played: list[np.ndarray]) -> tuple[floa
     period = float(played[0]["time"][1] - played[0]["time"][0])
     both = []
     for one in played:
-        machine = replace(drawn.machine, samples=len(one), period=period)
-        clean = simulate(machine, _columns(drawn.true, 1), {n: one[n][:, None] for n in inputs}, drawn.hidden)
+        machine = replace(drawn.machine, samples=len(one), period=period, substeps=drawn.substeps)
+        clean = simulate(machine, columns(drawn.true, 1), {n: one[n][:, None] for n in inputs}, drawn.hidden)
         seen = [clean[n][:, 0] + drawn.noise[n] * rng.standard_normal(len(one)) for n in outputs]
         both.append(np.column_stack([*(one[n] for n in inputs), *seen]))
     return period, both, [*inputs, *outputs]
