@@ -85,11 +85,14 @@ class _Followed:
         self._values: dict[str, Expr] = {}
         sides = [(a, b) for eq in model.equations for a, b in ((eq.lhs, eq.rhs), (eq.rhs, eq.lhs))]
         states = {n.args[0].value for a, _ in sides for n in leaves(a) if n.op == "der" and n.args[0].op == "var"}
-        self._states = states  # which no event moves but by reinit
+        follow = {
+            v.name for v in model.variables.values()
+            if v.variability == flat.CONTINUOUS and v.causality != "input" and v.name not in states
+        }  # fmt: skip
         for a, b in sides:
-            v = model.variables.get(str(a.value)) if a.op == "var" and a.value not in states else None
-            if v is not None and v.variability == flat.CONTINUOUS and v.causality != "input" and a not in leaves(b):
-                self._values.setdefault(v.name, b)
+            if a.op == "var" and a.value in follow and a not in leaves(b):
+                self._values.setdefault(str(a.value), b)
+        self._follow = follow - at_events
         whole = [leaves(eq.lhs) | leaves(eq.rhs) for eq in model.equations if eq.lhs.op != "var" != eq.rhs.op]
         self._implicit = [e for e in whole if all(n.op != "der" for n in e)]  # with a derivative: that follows from it
         self._sources: dict[str, frozenset[str]] = {}
@@ -127,8 +130,9 @@ class _Followed:
         return replace(w, branches=branches)
 
     def _refuse_circle(self, s: flat.Assign) -> None:
-        read = {n for n in leaves(s.value) if n.op == "var" and n.value not in self._states}
-        through = [n for n in read if any(n in e and var(s.target, n.type) in e for e in self._implicit)]
+        read = {n for n in leaves(s.value) if n.op == "var"}
+        loose = [n for n in read if n.value in self._follow]
+        through = any(n in e and var(s.target, n.type) in e for n in loose for e in self._implicit)
         if any(n.value == s.target for n in read) or through:
             hint = "solve it for the variable, or break the loop with pre(...)"
             raise Diagnostic("S013", f"the value that the when-clause gives {s.target} follows itself", s.span, hint)

@@ -36,10 +36,11 @@ def _arguments() -> argparse.Namespace:
 
 
 def _explain(case: Path, out: Path) -> dict:
-    """The diagnosis of a case; its verdict says so where there is none."""
+    """The diagnosis of a case. Exits where there is none: a case that was not explained is neither open nor decided."""
     run = subprocess.run([*EXPLAIN, str(case), "--out", str(out)], capture_output=True, text=True, timeout=LIMIT)
-    file = out / "diagnosis.json"
-    return json.loads(file.read_text()) if run.returncode == 0 else {"verdict": f"exit {run.returncode}"}
+    if run.returncode:
+        raise SystemExit(f"explain {case} ended with {run.returncode}: {run.stderr[-600:]}")
+    return json.loads((out / "diagnosis.json").read_text())
 
 
 def is_open(diagnosis: dict) -> bool:
