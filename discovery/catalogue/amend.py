@@ -90,14 +90,18 @@ class _Writer:
     def write(self, name: str, comment: str) -> str:
         for attachment in self.amendment.attachments:
             getattr(self, f"_{attachment.effect.attaches}")(attachment)
-        for variable, terms in self.sums_at.items():
-            site = next(s for s, v in self.edits.items() if v == variable)
-            self.equations.append(f"{site.instance + '.' if site.instance else ''}{variable} = {' + '.join(terms)};")
+        given = []
+        for site, variable in self.edits.items():
+            terms = " + ".join(self.sums_at[variable])
+            if site.instance:  # an input of the component
+                given.append(f"{site.instance}({variable}={terms})")
+            else:
+                self.equations.append(f"{variable} = {terms};")
         self._trackers()
         self._probes()
         modification = [f"{n}={v:.10g}" for n, v in self.amendment.parameters.items()]
         modification += [f"{variable}={' + '.join(terms)}" for variable, terms in self.sums.items()]
-        modification += [f"break {item}" for item in self.left_out]
+        modification += [*given, *(f"break {item}" for item in self.left_out)]
         self.declarations[:0] = [f"input Real {i};" for i in self.amendment.inputs]
         base, nested = self.amendment.structure.path, []
         if self.edits:
@@ -195,11 +199,14 @@ class _Writer:
         self.sums.setdefault(device.variable, [f"{device.part}.f"]).append(f"{name}.f")
 
     def _site(self, attachment: Attachment) -> None:
-        """At any place: a port at a node, two in an edge, or a variable that is added to an equation."""
+        """At any place: a port at a node, two in an edge or past a component, or a variable that is added to an
+        equation."""
         site, name = attachment.site, attachment.component
         self._declare(attachment, ", ".join(f"{local}={variable}" for local, variable in attachment.signals))
         if site.kind == "node":
-            self.equations.append(f"connect({name}.port, {site.ends[0]});")
+            self.equations.append(f"connect({site.ends[0]}, {name}.port);")
+        elif site.kind == "branch":
+            self.equations += [f"connect({end}, {name}.{port});" for end, port in zip(site.ends, "ab", strict=True)]
         elif site.kind == "edge":
             left, right = site.ends
             chain = next((e for e in self.equations if e.endswith(f", {right});")), None)

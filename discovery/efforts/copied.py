@@ -27,7 +27,8 @@ def copied(cls: ast.Class, edits: Mapping[Site, str]) -> tuple[str, list[str]]:
         changes.append((side, end, f" ({text[side:end].strip()}) + {variable}"))
         owner = text.rfind("\nequation", 0, begin)
         owner = _section(text, begin) if owner < 0 else owner
-        changes.append((owner, owner, f'\n  Real {variable} "Missing in a balance";'))
+        kind = "input Real" if site.instance else "Real"  # a component is given from outside what it does not say
+        changes.append((owner, owner, f'\n  {kind} {variable} "Missing in a balance";'))
     for begin, end, new in sorted(changes, reverse=True):
         text = text[:begin] + new + text[end:]
     begin = starts[cls.span.line - 1]

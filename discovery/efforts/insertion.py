@@ -24,12 +24,13 @@ def component(
     site: Site, name: str, title: str, signals: Sequence[Signal], parameters: Sequence[EffectParameter], text: str,
     unit: str = "", lags: Sequence[Lag] = (),
 ) -> str:  # fmt: skip
-    """Source of a class that gives the effort `text`: into a node, lost across an edge, or added to an equation."""
+    """Source of a class that gives the effort `text`: into a node, lost across an edge, from the first port of a
+    component to its second beside it, or added to an equation."""
     lines = [f'model {name} "{title}"']
     port = site.port
     if site.kind == "node":
         lines.append(f"  {port.path} port;")
-    elif site.kind == "edge":
+    elif site.kind in ("edge", "branch"):
         lines.append(f"  {port.path} a, b;")
     else:
         lines.append(f"  Real effort{_unit(unit)};")
@@ -44,6 +45,8 @@ def component(
         lines.append(f"  port.{port.flow} = -({text});")
     elif site.kind == "edge":
         lines += [f"  a.{port.flow} + b.{port.flow} = 0;", f"  a.{port.potential} - b.{port.potential} = {text};"]
+    elif site.kind == "branch":
+        lines += [f"  a.{port.flow} + b.{port.flow} = 0;", f"  b.{port.flow} = -({text});"]
     else:
         lines.append(f"  effort = {text};")
     return "\n".join([*lines, f"end {name};"])

@@ -27,7 +27,7 @@ from lacuna.units import Unit
 
 ALIKE = 1e-5  # of a direction, by which two places may differ: rounding of the linearisation
 SILENT = 1e-9  # share of the strongest place's effect, below which a place has none
-_ORDER = {"node": 0, "equation": 1, "edge": 2}
+_ORDER = {"node": 0, "equation": 1, "branch": 2, "edge": 3}
 
 
 @dataclass(frozen=True)
@@ -81,12 +81,16 @@ class Opened:
         location = name.rpartition(".")[0] or name
         order = sorted(group, key=lambda k: (not _touches(self.sites[k], location), _ORDER[self.sites[k].kind]))
         chosen = order[0]
+        if all(self.sites[k].kind == "branch" for k in group):  # between two balances: it is the component's
+            location = self.sites[chosen].label
         return Place(location, tuple(self.sites[k] for k in order), chosen, self._unit(chosen))
 
     def _unit(self, number: int) -> str:
         site, variables = self.sites[number], self.machine.model.variables
         if site.kind == "node":
             return variables[f"probe{number}.port.{site.port.flow}"].unit
+        if site.kind == "branch":
+            return variables[f"probe{number}.b.{site.port.flow}"].unit
         if site.kind == "edge":
             return variables[f"probe{number}.a.{site.port.potential}"].unit
         declared = self.linear.prepared.declared

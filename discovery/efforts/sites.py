@@ -1,7 +1,8 @@
 """Places of any model where an effort may be missing, read from the class itself.
 
 A *node* is a set of connected ports: something may flow in. An *edge* is a connection: something may be lost across it.
-An *equation* written in the class is a balance: a term may be missing. Ports are any connectors of one flow and one
+A *branch* goes past a component of two ports: something may flow beside it. An *equation* written in the class is a
+balance: a term may be missing. Ports are any connectors of one flow and one
 potential; which is which the declaration says. Nothing is known here of domains, classes or names.
 """
 
@@ -34,10 +35,10 @@ class Port:
 
 @dataclass(frozen=True)
 class Site:
-    """A place. `ends` are those of its connection, or all of a node's, of which one suffices; `span` is where its
-    equation stands, in the class or in one that it declares and has one `instance` of."""
+    """A place. `ends` are those of its connection, both of its component, or all of a node's, of which one suffices;
+    `span` is where its equation stands, in the class or in one that it declares and has one `instance` of."""
 
-    kind: str  # node | edge | equation
+    kind: str  # node | edge | branch | equation
     label: str
     ends: tuple[str, ...] = ()
     port: Port | None = None
@@ -82,7 +83,19 @@ def read(library: Library, name: str) -> Sites:
         Site("node", root, (root, *(e for e in ends if e != root)), ports[root])
         for root, ends in joined.items() if root in ports
     ]  # fmt: skip
-    return Sites(cls, (*nodes, *found), tuple(closed))
+    return Sites(cls, (*nodes, *_branches(group, ports), *found), tuple(closed))
+
+
+def _branches(group: dict[str, str], ports: dict[str, Port]) -> list[Site]:
+    """Past every component that joins two nodes: what goes on between them may have been left out. Its ports are of one
+    kind where the language lets them be connected: their variables have the same names (specification 9.3)."""
+    of: dict[tuple[str, str, str], list[str]] = {}
+    for end, port in ports.items():
+        of.setdefault((end.rpartition(".")[0], port.flow, port.potential), []).append(end)
+    return [
+        Site("branch", name, (ends[0], ends[1]), ports[ends[0]]) for (name, *_), ends in of.items()
+        if len(ends) == 2 and _root(group, ends[0]) != _root(group, ends[1])
+    ]  # fmt: skip
 
 
 def _inside(top: Instance) -> list[Site]:

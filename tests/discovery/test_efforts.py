@@ -231,7 +231,7 @@ def test_places_of_a_model_without_connectors(tmp_path: Path) -> None:
 def test_places_of_a_bench_and_what_is_closed() -> None:
     found = read(Library(), "Benches.DcServo")
     kinds = {s.kind for s in found.places}
-    assert kinds == {"node", "edge", "equation"}
+    assert kinds == {"node", "edge", "branch", "equation"}
     assert any("shaft.flange_b" in s.ends for s in found.places if s.kind == "node")
 
 
