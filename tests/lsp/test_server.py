@@ -63,7 +63,7 @@ EDITS = [
     ("fast = true", "fats = true", "R002"),
     ("when w > 10", "when w", "R020"),
     ("w > 10", "w >= u", "U002"),
-    ("import Lacuna.Types;", "import Lacuna.Typse;", ""),
+    ("import Lacuna.Types;", "import Lacuna.Typse;", "R002"),
     ("import Lacuna.Types;", "import Lacuna.Types", "P006"),
     ("equation\n", 'equation\n  assert(w < 5, "too fast");\n', ""),
     ("equation\n", 'equation\n  assert(w, "too fast");\n', "R020"),

@@ -23,15 +23,13 @@ _PARTS = ("record", "connector", "type")  # classes whose variables count as tho
 
 
 def check_components(leaves: Iterable[Leaf], buses: list[Instance], body: Collected, context: Context) -> None:
-    """Raises R078 for the component that is not balanced, and for an input of a component that nothing gives a value.
+    """Raises R078 for the component that is not balanced. An input of a component may be given by an equation of the
+    model around it, as people write it, though 4.8 wants a binding: it is an unknown of that model.
 
     Not judged are models with expandable or overdetermined connectors and those that use outer components: what holds
     there is decided by connections elsewhere.
     """
     unknowns = [leaf for leaf in leaves if not leaf.is_structural and leaf.primitive not in ("String", EXTERNAL)]
-    for leaf in unknowns:
-        with context.attempt():
-            _require_bound(leaf)
     if body.branches:
         return
     count = _Count(context.table(ConnectionSets), body)
@@ -73,17 +71,6 @@ def _is_connector(leaf: Leaf) -> bool:
     return leaf.instance.in_connector or (leaf.type.named is not None and leaf.type.named.kind == "connector")
 
 
-def _require_bound(leaf: Leaf) -> None:
-    """An input that is no connector gets its value where the component is declared (4.8)."""
-    model = leaf.instance
-    plain = model.cls.kind in ("model", "block") and leaf.causality == "input" and not _is_connector(leaf)
-    if plain and model.parent is not None and not leaf.declaration.protected and leaf.binding() is None:
-        hint = f"give it a value: {model.name.rpartition('.')[2]}({leaf.declaration.name} = ...)"
-        error = Diagnostic("R078", f"the input {leaf.name} of a component has no value", model.span, hint)
-        error.notes.append((leaf.span, "declared here"))
-        raise error
-
-
 class _Count:
     """Equations and unknowns of each model and block, by the path of the component."""
 
@@ -106,7 +93,7 @@ class _Count:
         self.instances[owner.name] = owner
         bound = 0 if leaf.binding() is None else size
         outside = _given_from_outside(leaf)
-        if outside and not _is_connector(leaf):
+        if outside and not _is_connector(leaf) and leaf.binding() is not None:
             return
         own = not outside or (leaf.modifier.scope is not None and leaf.modifier.scope.instance is owner)
         if own:

@@ -81,6 +81,8 @@ def merge(outer: Modifier | None, inner: Modifier | None) -> Modifier | None:
         error.notes.append((inner.span, "redeclared here"))
         raise error
     result = replace(source, children=_inner_children(outer, inner, again), final=outer.final or inner.final)
+    if source.value is None:  # it is of the element that either is narrowed to
+        result.index = outer.index or inner.index
     chosen = outer if outer.redeclare is not None else inner
     result.redeclare, result.redeclared_in = chosen.redeclare, chosen.redeclared_in
     result.replaced = outer.replaced + ((inner,) if again else ()) + inner.replaced
