@@ -12,9 +12,18 @@ static double lowest(double a, double b, double c, double *where) {
   return a + *where * (slope + 0.5 * c * *where);
 }
 
+/* How much the curvature of a guard, as h^2 times its second derivative, was another one a step earlier. Steps of which
+ * this is large do not resolve the guard: what swings once in a step has ends that look as if it were at rest. */
+static double bent(const rt_session *s, int r, double sign, double h, double c) {
+  if (isnan(s->t_oldest)) return 0;
+  double late = s->t_previous - s->t_before, early = s->t_before - s->t_oldest, middle = sign * s->g_before[r];
+  double slope = (sign * s->g_previous[r] - middle) / late - (middle - sign * s->g_oldest[r]) / early;
+  return fabs(c - 2 * h * h * slope / (late + early));
+}
+
 /* Could a guard have crossed twice in the step up to `end`, besides those that cross there? Judged by the parabola
- * through the last three points with four times its curvature; there is no third point after a restart, so then it
- * could. */
+ * through the last three points with four times its curvature, or what that has changed by since the step before; there
+ * is no third point after a restart, so then it could. */
 bool rt_may_dip(const rt_session *s, double end) {
   if (isnan(s->t_before)) return true;
   double h = end - s->t_previous, before = s->t_previous - s->t_before, where;
@@ -23,6 +32,7 @@ bool rt_may_dip(const rt_session *s, double end) {
     double sign = s->data.rel[r] ? 1 : -1, a = sign * s->g_previous[r], b = sign * s->g[r];
     double c = weight * (b - a) - back * (a - sign * s->g_before[r]);
     double least = a < b ? a : b;
+    c = rt_max(c, bent(s, r, sign, h, c));
     if (c > 1.5 * least && c > 0 && rt_is_state_relation(s, r) && !s->flip[r] &&
         lowest(a, b, 4 * c, &where) < 0.25 * least)
       return true;

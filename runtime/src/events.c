@@ -226,6 +226,6 @@ rt_status rt_event(rt_session *s) {
   if (s->data.terminated) rt_result_log(s->result, s->t, RT_EVENT_TERMINATE, s->data.terminated - 1, 1, 1);
   if (is_inconsequential(s)) return RT_OK;
   s->result->counters.restarts++;
-  s->t_before = NAN;
+  s->t_before = s->t_oldest = NAN;
   return s->method->restart(s, s->memory);
 }

@@ -39,7 +39,7 @@ static void clear(rt_session *s) {
   memset(s->g_span, 0, (size_t)d->n_rel * sizeof *s->g_span);
   memset(s->g_travel, 0, (size_t)d->n_rel * sizeof *s->g_travel);
   s->t = s->t_previous = s->t_end = s->last_event = s->start;
-  s->t_before = NAN;
+  s->t_before = s->t_oldest = NAN;
   s->resume = s->in_pieces = false;
   s->dense.valid = false;
   s->steps_taken = 0;

@@ -63,18 +63,20 @@ static void load(const rt_session *s, rt_onestep *o) {
 
 /* First step size, after Hairer, Norsett & Wanner I, II.4, from the sizes of x, x' and x'' in tolerances; free of the
  * unit of time: higher derivatives are taken to grow by the same factor, the rate |x''| / |x'|, of which no less is
- * believed than one change over the whole run. */
+ * believed than one change over the whole run. Zero where no step is short enough: x' in tolerances is no number. */
 static double first_step(rt_session *s, rt_onestep *o) {
   double span = s->stop - s->start;
   memcpy(o->x1, o->x0, (size_t)s->d->n_x * sizeof *o->x1);
   double d0 = sqrt(mean_square(s, o, o->x0)), d1 = sqrt(mean_square(s, o, o->f0));
   double h0 = rt_min(d0 < 1e-5 || d1 * span < 1e-5 ? 1e-6 * span : 0.01 * d0 / d1, span);
+  if (!(h0 > 0)) return 0;
   for (int i = 0; i < s->d->n_x; i++)
     o->x1[i] = o->x0[i] + h0 * o->f0[i];
   if (rt_rhs(s, s->t + h0, o->x1, o->f1, s->v_trial)) return h0;
   for (int i = 0; i < s->d->n_x; i++)
     o->error[i] = (o->f1[i] - o->f0[i]) / h0;
   double d2 = sqrt(mean_square(s, o, o->error)), speed = rt_max(d1, d2 * h0);
+  if (!isfinite(speed)) return h0;
   if (!(speed * span > 1e-15)) return rt_max(1e-6 * span, 1e-3 * h0);
   double rate = rt_max(d2 / speed, 1 / span);
   return rt_min(100 * h0, pow(0.01 * rate / speed, 1.0 / o->scheme->order) / rate);
@@ -146,6 +148,7 @@ rt_status rt_onestep_step(rt_session *s, void *memory, double limit) {
   rt_onestep *o = memory;
   bool adaptive = !(s->options.step > 0), rejected = false;
   double remaining = limit - s->t, h = choose(s, o, remaining);
+  if (!(h > 0)) return rt_fail_collapse(s, h, "the states change too fast for any step");
   load(s, o);
   memcpy(s->v_before, s->data.v, (size_t)s->d->n_v * sizeof *s->v_before);
   for (;;) {

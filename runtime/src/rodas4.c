@@ -12,7 +12,11 @@
 #include "sparse.h"
 #include "undetermined.h"
 
-enum { STAGES = 6, DENSE_LIMIT = 40 }; /* unknowns up to which, of a ladder, a dense matrix is faster than KLU */
+enum {
+  STAGES = 6,
+  DENSE_LIMIT = 40, /* unknowns up to which, of a ladder, a dense matrix is faster than KLU */
+  STIFF = 100       /* 2^STIFF: rates in a step beside which dF/dy' keeps its digits */
+};
 
 static const double gamma_ = 0.25;
 static const double alpha[STAGES] = {0, 0.386, 0.21, 0.63, 1, 1};
@@ -74,12 +78,13 @@ static work *layout(const rt_session *s, void *memory) {
   return w;
 }
 
-/* dF/dy and dF/dy' at the start of the step: the generated Jacobian is linear in c_j. A c_j of the size that the step
- * has (1/s) loses no digits of either, and a power of two rounds nothing. */
+/* dF/dy and dF/dy' at the start of the step: the generated Jacobian is linear in c_j. A c_j far above what the step has
+ * (1/s) loses no digits of dF/dy' beside a dF/dy that is stiff, and a power of two rounds nothing. */
 static int differentiate(rt_session *s, work *w, double h) {
   const mdl_descriptor *m = s->d;
   int status, exponent;
   frexp(1 / (h * gamma_), &exponent);
+  exponent += exponent < 500 ? STIFF : 0;
   double cj = ldexp(1, exponent), per_cj = ldexp(1, -exponent);
   rt_residual_point(s);
   rt_inputs_at(s, s->t);

@@ -139,7 +139,8 @@ rt_status rt_find_state_event(rt_session *s) {
   const mdl_descriptor *d = s->d;
   if (!d->n_rel) return RT_OK;
   mdl_data *m = &s->data;
-  double *oldest = s->g_before;
+  double *oldest = s->g_oldest;
+  s->g_oldest = s->g_before;
   s->g_before = s->g_previous;
   s->g_previous = s->g;
   s->g = oldest;
@@ -152,6 +153,7 @@ rt_status rt_find_state_event(rt_session *s) {
       s->flip[r] = s->flip[r] && rt_margin(s, r, s->g[r]) < 0;
     if (crossing < s->t && move_back(s, crossing)) return s->failure.status;
   }
+  s->t_oldest = s->t_before;
   s->t_before = s->t_previous;
   return follow(s);
 }

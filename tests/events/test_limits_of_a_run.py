@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from pathlib import Path
 import signal
@@ -46,6 +47,20 @@ def test_a_clock_faster_than_the_resolution_of_time_is_refused(tmp_path: Path) -
 @pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
 def test_what_explodes_ends(tmp_path: Path, solver: str) -> None:
     assert simulated(tmp_path, FAST, solver=solver).failure is not None
+
+
+@pytest.mark.parametrize("rate", [1e3, 1e14, 1e17, 1e20, 1e24])
+def test_rodas4_follows_what_is_stiff_beyond_all_digits(tmp_path: Path, rate: float) -> None:
+    """Its dF/dy' was lost beside a dF/dy of 1e16: the state stood still, and the run was complete."""
+    text = f"""model Stiff
+  Real x(start=0, fixed=true);
+equation
+  der(x) = {rate!r}*(sin(time) + 1 - x);
+end Stiff;
+"""
+    result = simulated(tmp_path, text, solver="rodas4", stop=1.0)
+    assert result.complete, result.failure
+    assert result["x"][-1] == pytest.approx(1 + math.sin(1), abs=1.1 / rate + 1e-6)
 
 
 def test_steps_and_intervals_that_get_nowhere_are_refused(tmp_path: Path) -> None:

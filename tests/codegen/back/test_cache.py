@@ -68,7 +68,7 @@ def _checkout(folder: Path, gain: int) -> Path:
     shutil.copytree(ROOT / "codegen", package / "codegen", ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copytree(ROOT / "runtime" / "include", package / "runtime" / "include")
     (package / "__init__.py").touch()
-    for needed in ("units.py", "texts.py", "children.py", "suggest.py", "written.py", "rows.py"):
+    for needed in ("units.py", "texts.py", "children.py", "suggest.py", "written.py", "rows.py", "given.py"):
         shutil.copy(ROOT / "lacuna" / needed, package)
     (package / "model").mkdir()
     (package / "model" / "package.mo").write_text("package Lacuna\nend Lacuna;\n")
