@@ -24,7 +24,7 @@ static void pass(stream *w, void *place, size_t size) {
 
 #define PASS(field) pass(w, &(field), sizeof(field))
 
-/* Guards of three instants change places as time goes on: their place in the block. */
+/* Guards of four instants change places as time goes on: their place in the block. */
 static void pass_guards(stream *w, double **guards, double *block) {
   ptrdiff_t offset = *guards - block;
   PASS(offset);
@@ -34,8 +34,8 @@ static void pass_guards(stream *w, double **guards, double *block) {
 static void pass_session(stream *w, rt_session *s) {
   PASS(s->start), PASS(s->stop), PASS(s->t_previous), PASS(s->t), PASS(s->t_uncrossed), PASS(s->t_end);
   PASS(s->steps_taken), PASS(s->tiny_steps), PASS(s->futile_events), PASS(s->pending), PASS(s->last_event);
-  PASS(s->t_before), PASS(s->resume), PASS(s->reinitialised), PASS(s->n_initial), PASS(s->recorder.next),
-      PASS(s->look_curved);
+  PASS(s->t_before), PASS(s->t_oldest), PASS(s->resume), PASS(s->reinitialised), PASS(s->n_initial),
+      PASS(s->recorder.next), PASS(s->look_curved);
   PASS(s->clock.next_relation), PASS(s->clock.tolerance), PASS(s->clock.step);
   PASS(s->data.initial), PASS(s->data.terminal), PASS(s->data.reinitialised), PASS(s->data.terminated);
   PASS(s->data.start_time), PASS(s->options.rtol), PASS(s->options.atol);
@@ -46,6 +46,7 @@ static void pass_session(stream *w, rt_session *s) {
   pass_guards(w, &s->g, s->numbers);
   pass_guards(w, &s->g_previous, s->numbers);
   pass_guards(w, &s->g_before, s->numbers);
+  pass_guards(w, &s->g_oldest, s->numbers);
 }
 
 /* How many pieces each delay has come first, so that a state can be judged before anything is taken from it. */

@@ -127,13 +127,12 @@ struct rt_session {
   double *phase, *phase_start;      /* [n_phases] rad */
   rt_clock clock;
   rt_dense dense;
-  double *g, *g_previous;     /* [n_rel] guards at t and t_previous */
-  double *g_low, *g_trial;    /* [n_rel] while locating a crossing */
-  double *g_before, t_before; /* [n_rel] guards one step earlier, at t_before; NAN after a restart */
-  double *g_oldest, t_oldest; /* and another step earlier */
-  double *g_span, *g_travel;  /* [n_rel] largest |g| of the run, and since the relation last switched */
-  double *changed_at[2];      /* [n_rel] when the relation last became false, true (s) */
-  double *due_back;           /* [n_rel] until when it must switch back, having been thrown back; else -INFINITY */
+  double *g, *g_previous;                          /* [n_rel] guards at t and t_previous */
+  double *g_low, *g_trial;                         /* [n_rel] while locating a crossing */
+  double *g_before, *g_oldest, t_before, t_oldest; /* [n_rel] guards one and two steps earlier; NAN after a restart */
+  double *g_span, *g_travel; /* [n_rel] largest |g| of the run, and since the relation last switched */
+  double *changed_at[2];     /* [n_rel] when the relation last became false, true (s) */
+  double *due_back;          /* [n_rel] until when it must switch back, having been thrown back; else -INFINITY */
   double *x_trial, *xdot_trial, *v_trial;
   double *x_before, *xdot_before, *v_before;
   double *d_before, *d_after;             /* discrete variables before an event; and aside while it is differentiated */
