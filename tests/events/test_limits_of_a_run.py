@@ -75,10 +75,14 @@ def test_steps_and_intervals_that_get_nowhere_are_refused(tmp_path: Path) -> Non
 def test_ctrl_c_ends_a_run(tmp_path: Path) -> None:
     text = "model Long\n  Real x(start=1, fixed=true);\nequation\n  der(x) = -x;\nend Long;\n"
     model = compiled(tmp_path, text)
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # servers in this process may have taken it
     threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
     began = time.monotonic()
-    with pytest.raises(KeyboardInterrupt):
-        runtime.simulate(model, solver="rk4", step=1e-6, stop=1e3, interval=1.0)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            runtime.simulate(model, solver="rk4", step=1e-6, stop=1e3, interval=1.0)
+    finally:
+        signal.signal(signal.SIGINT, before)
     assert time.monotonic() - began < 5
 
 
