@@ -13,6 +13,7 @@ import numpy as np
 
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case
+from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.instruments import colour_of
 from lacuna.discovery.efforts.laws.screening import proposals
@@ -57,7 +58,7 @@ def find(
     """Locate what `base`, the fit of `amendment`, lacks, and fit laws there: at places whose location is `admitted`."""
     progress("opening every place of the equations")
     try:
-        door = opened(case, amendment, library, [f.name for f in base.estimate.free if _is_common(f.name)])
+        door = opened(case, amendment, library, [f.name for f in base.estimate.free if is_parameter(f.name)])
         locator = Locator(case, door, base)
         progress(f"locating among {len(locator.places)} places")
         found = Found(_ranked(locator, base), door.closed)
@@ -90,10 +91,6 @@ def _ranked(locator: Locator, base: Fit) -> list[Site]:
         return sites
     locator.colour = colour_of(locator)
     return locator.ranked()
-
-
-def _is_common(name: str) -> bool:
-    return not name.startswith("start:") and "@" not in name
 
 
 def _law_at(

@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from lacuna.discovery.case.cases import Case
+from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.located import SIZES, TIMES, Locator, thinned_all
 from lacuna.discovery.efforts.numeric import NotNumeric
@@ -53,7 +54,7 @@ def gained(case: Case, before: tuple[Amendment, Fit], after: tuple[Amendment, Fi
 
 def _locator(case: Case, amendment: Amendment, fit: Fit) -> Locator | None:
     try:
-        common = [f.name for f in fit.estimate.free if not f.name.startswith("start:") and "@" not in f.name]
+        common = [f.name for f in fit.estimate.free if is_parameter(f.name)]
         return Locator(case, opened(case, amendment, case.library(), common), fit)
     except (NotNumeric, SimulationError, np.linalg.LinAlgError):
         return None

@@ -2,8 +2,8 @@
 
 A *node* is a set of connected ports: something may flow in. An *edge* is a connection: something may be lost across it.
 A *branch* goes past a component of two ports: something may flow beside it. An *equation* written in the class is a
-balance: a term may be missing. Ports are any connectors of one flow and one
-potential; which is which the declaration says. Nothing is known here of domains, classes or names.
+balance: a term may be missing. Ports are any connectors of one flow and one potential; which is which the declaration
+says. Nothing is known here of domains, classes or names.
 """
 
 from __future__ import annotations

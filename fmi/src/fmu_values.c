@@ -130,7 +130,7 @@ size_t fmu_count(size_t n, const unsigned *references) {
 
 bool fmu_get(fmu *f, size_t n, const unsigned *references, fmu_type type, void *values) {
   for (size_t i = 0, at = 0; i < n; i++) {
-    for (unsigned k = 0; k < count(references[i]); k++, at++) {
+    for (unsigned k = 0, last = count(references[i]); k < last; k++, at++) {
       double value = 0;
       if (!get(f, references[i] + k, &value)) return false;
       if (type == FMU_DOUBLE)
@@ -189,7 +189,7 @@ static bool set(fmu *f, unsigned reference, double value) {
 
 bool fmu_set(fmu *f, size_t n, const unsigned *references, fmu_type type, const void *values) {
   for (size_t i = 0, at = 0; i < n; i++) {
-    for (unsigned k = 0; k < count(references[i]); k++, at++) {
+    for (unsigned k = 0, last = count(references[i]); k < last; k++, at++) {
       double value = type == FMU_DOUBLE ? ((const double *)values)[at]
                      : type == FMU_INT  ? ((const int *)values)[at]
                                         : ((const bool *)values)[at];
@@ -233,12 +233,12 @@ bool fmu_directional(fmu *f, size_t n_unknowns, const unsigned *unknowns, size_t
   if (!fmu_refresh(f)) return false;
   memset(f->tangent_rows, 0, rows * MDL_LANES * sizeof(double));
   for (size_t i = 0; i < n_knowns; i++)
-    for (unsigned k = 0; k < count(knowns[i]); k++)
+    for (unsigned k = 0, last = count(knowns[i]); k < last; k++)
       if (!seed(f, knowns[i] + k, *seed_values++)) return false;
   if (d->tangents->parameters(m, &f->tangent) || d->tangents->rhs(m, s->t, m->x, m->xdot, m->v, &f->tangent))
     return fmu_done(f, rt_fail_model(s, s->t, "differentiating the model"));
   for (size_t i = 0; i < n_unknowns; i++)
-    for (unsigned k = 0; k < count(unknowns[i]); k++)
+    for (unsigned k = 0, last = count(unknowns[i]); k < last; k++)
       if (!read_row(f, unknowns[i] + k, result++)) return false;
   return true;
 }

@@ -34,9 +34,4 @@ rt_status rt_ida_tangent_step(rt_session *s, rt_ida *m);
 void rt_ida_dense_tangent(rt_session *s, void *memory, rt_dense *out);
 void rt_ida_tangent_free(rt_ida *m);
 
-/* sparse.c: columns of the Jacobian's values with what is held, in its place or behind the others. first[n + 1], row
- * and data[jac_nnz + n_z], n = n_x + n_z; how many there are. */
-sunindextype rt_fill_columns(const rt_session *s, const double *values, sunindextype *first, sunindextype *row,
-                             double *data);
-
 #endif

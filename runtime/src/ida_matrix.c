@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "ida.h"
+#include "sparse.h"
 #include "undetermined.h"
 #include "vector.h"
 

@@ -4,7 +4,6 @@
 #include <klu.h>
 #include <stdlib.h>
 
-#include "ida.h"
 #include "undetermined.h"
 
 _Static_assert(sizeof(sunindextype) == sizeof(SuiteSparse_long), "KLU's long indices are those of SUNDIALS");

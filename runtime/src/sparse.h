@@ -3,6 +3,9 @@
 #define RT_SPARSE_H
 
 #include "session.h"
+#ifndef RT_OWN_METHODS
+#include "sundials_compat.h"
+#endif
 
 typedef struct rt_sparse rt_sparse;
 
@@ -24,6 +27,10 @@ static inline void rt_sparse_solve(rt_sparse *m, double *b) {
 }
 #else
 static const bool rt_has_sparse = true;
+/* Columns of the Jacobian's values with what is held, in its place or behind the others. first[n + 1], row
+ * and data[jac_nnz + n_z], n = n_x + n_z; how many there are. */
+sunindextype rt_fill_columns(const rt_session *s, const double *values, sunindextype *first, sunindextype *row,
+                             double *data);
 rt_sparse *rt_sparse_new(const rt_session *s);
 void rt_sparse_free(rt_sparse *m);
 /* Factor; 0, or 1 + a column that has no pivot. `weight[n]`: the rows are multiplied by it, and so are right sides. */

@@ -60,8 +60,10 @@ void rt_transports_free(rt_session *s) {
   free(t);
 }
 
-static int values_at(rt_session *s, double t, const double *x, const double *xdot, const double *v, double *value) {
-  return s->d->transports(&s->data, t, x, xdot, v, value);
+/* What goes in at the present point, and where. */
+static int look_in(rt_session *s) {
+  mdl_data *m = &s->data;
+  return s->d->transports(m, s->t, m->x, m->xdot, m->v, s->transports->now);
 }
 
 static bool is_distribution(int points, const double *point) {
@@ -101,7 +103,7 @@ static void look_around(rt_session *s, int k, double x, bool event) {
 static int pass(rt_session *s, bool event) {
   struct rt_transports *t = s->transports;
   if (!t || !t->pipe[0].n) return 0;
-  int status = values_at(s, s->t, s->data.x, s->data.xdot, s->data.v, t->now);
+  int status = look_in(s);
   for (int k = 0; !status && k < t->n; k++)
     look_around(s, k, t->now[VALUES * k + AT], event);
   return status;
@@ -138,7 +140,7 @@ rt_status rt_transports_begin(rt_session *s) {
 int rt_transports_start(rt_session *s) {
   struct rt_transports *t = s->transports;
   if (!t) return 0;
-  int status = values_at(s, s->t, s->data.x, s->data.xdot, s->data.v, t->now);
+  int status = look_in(s);
   for (int k = 0; !status && k < t->n; k++)
     status = rt_pipe_fill(s, &t->pipe[k], s->d->transport_points[k], points_of(s, k), t->now[VALUES * k + AT]);
   return status ? status : pass(s, true);

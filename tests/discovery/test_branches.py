@@ -15,7 +15,9 @@ from lacuna.discovery.catalogue.places import read as read_structure
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.efforts.sites import read
 from lacuna.discovery.explain import explain
-from lacuna.runtime import Model, RecordedInput, simulate
+from lacuna.runtime import Model
+
+from .recorded import record
 
 WAGONS = """package Wagons
   connector Hook
@@ -107,13 +109,8 @@ def train(tmp_path_factory: pytest.TempPathFactory) -> Path:
     random, time = np.random.default_rng(8), np.arange(600) * 0.02
     for n in (1, 2, 3):
         u = 1500 * np.repeat(random.uniform(-1, 1, 20), 30)
-        run = simulate(
-            machine, solver="dopri5", rtol=1e-9, inputs={"u": RecordedInput(time, u)}, start=0.0,
-            stop=float(time[-1]), output_times=time, outputs=["first.v", "last.v"], events=False,
-        )  # fmt: skip
-        speeds = [run[v] + 0.003 * random.normal(size=600) for v in ("first.v", "last.v")]
-        np.savetxt(case / f"r{n}.csv", np.column_stack([time, u, *speeds]), "%.7g", ",", header="time,u,first,last",
-                   comments="")  # fmt: skip
+        errors = {v: 0.003 * random.normal(size=600) for v in ("first", "last")}
+        record(case / f"r{n}.csv", machine, time, {"u": u}, {v: f"{v}.v" for v in errors}, errors)
     return case
 
 

@@ -28,6 +28,8 @@ from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.steps import fit_believed
 from lacuna.runtime import Model, RecordedInput, simulate
 
+from .recorded import record
+
 DATA = np.random.default_rng(5)
 
 
@@ -191,11 +193,8 @@ def cascade(folder: Path, truth: str) -> Path:
     random, time = np.random.default_rng(3), np.arange(300) * 2.0
     for n in (1, 2, 3):
         q = np.repeat(random.uniform(2e-5, 1.8e-4, 10), 30)
-        run = simulate(machine, solver="dopri5", rtol=1e-9, inputs={"q": RecordedInput(time, q)}, start=0.0,
-                       stop=float(time[-1]), output_times=time, outputs=["upper", "lower"], events=False)  # fmt: skip
-        levels = [run[v] + 0.001 * random.normal(size=300) for v in ("upper", "lower")]
-        np.savetxt(case / f"r{n}.csv", np.column_stack([time, q, *levels]), "%.7g", ",", header="time,q,upper,lower",
-                   comments="")  # fmt: skip
+        errors = {v: 0.001 * random.normal(size=300) for v in ("upper", "lower")}
+        record(case / f"r{n}.csv", machine, time, {"q": q}, {v: v for v in errors}, errors)
     return case
 
 

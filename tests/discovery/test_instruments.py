@@ -15,8 +15,9 @@ from lacuna.discovery.efforts.instruments import only_instruments
 from lacuna.discovery.explain import explain
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.steps import fitted
-from lacuna.runtime import Model, RecordedInput, simulate
+from lacuna.runtime import Model
 
+from .recorded import record
 from .test_efforts import BELIEVED, CASCADE, CASE
 
 LEAKING = CASCADE.format(upper="k*upper", lower="(k*lower + c*lower^2)").replace(
@@ -41,12 +42,8 @@ def written(folder: Path, truth: str) -> Path:
     time, random = STEP * np.arange(SAMPLES), np.random.default_rng(3)
     for name in ("r1.csv", "r2.csv", "r3.csv"):
         q = 1e-4 * (1 + np.cumsum(random.normal(size=SAMPLES // 50))).clip(0.2, 3).repeat(50)
-        run = simulate(
-            machine, solver="dopri5", rtol=1e-8, inputs={"q": RecordedInput(time, q)}, start=0.0, stop=float(time[-1]),
-            output_times=time, outputs=["lower", "upper"], events=False,
-        )  # fmt: skip
-        columns = [time, q, *(np.array(run[n]) + noise(random) for n in ("lower", "upper"))]
-        np.savetxt(folder / name, np.column_stack(columns), "%.8g", ",", header="time,q,lower,upper", comments="")
+        errors = {v: noise(random) for v in ("lower", "upper")}
+        record(folder / name, machine, time, {"q": q}, {v: v for v in errors}, errors)
     (folder / "Cascade.mo").write_text(BELIEVED, encoding="utf-8")
     (folder / "case.toml").write_text(CASE.replace("noise_std = 0.001\n", ""), encoding="utf-8")
     return folder

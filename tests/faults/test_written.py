@@ -18,6 +18,17 @@ def content(folder: Path) -> dict[str, str]:
     return {p.name: p.read_text() for p in folder.iterdir()}
 
 
+def refuse_to_rename(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    rename = Path.replace
+
+    def refuse(path: Path, target: Path) -> Path:
+        if path.name == name:
+            raise OSError("refused")
+        return rename(path, target)
+
+    monkeypatch.setattr(Path, "replace", refuse)
+
+
 def test_an_exception_leaves_what_was_there(tmp_path: Path) -> None:
     write_whole(tmp_path / "a", "old")
     with pytest.raises(KeyboardInterrupt), whole_file(tmp_path / "a") as partial:
@@ -43,14 +54,7 @@ def test_where_one_cannot_be_renamed_none_is(tmp_path: Path) -> None:
 
 def test_a_rename_that_fails_half_way_takes_the_others_back(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write_whole(tmp_path / "a", "old")
-    rename = Path.replace
-
-    def refuse(path: Path, target: Path) -> Path:
-        if path.name == "c":
-            raise OSError("refused")
-        return rename(path, target)
-
-    monkeypatch.setattr(Path, "replace", refuse)
+    refuse_to_rename("c", monkeypatch)
     with pytest.raises(OSError, match="refused"), whole_files(tmp_path) as scratch:
         for name in "abc":
             (scratch / name).write_text("new")
@@ -84,14 +88,7 @@ def test_what_a_killed_process_left_goes_and_what_a_living_one_writes_stays(tmp_
 
 
 def test_folders_are_taken_back_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    rename = Path.replace
-
-    def refuse(path: Path, target: Path) -> Path:
-        if path.name == "b":
-            raise OSError("refused")
-        return rename(path, target)
-
-    monkeypatch.setattr(Path, "replace", refuse)
+    refuse_to_rename("b", monkeypatch)
     with pytest.raises(OSError, match="refused"), whole_files(tmp_path) as scratch:
         for name in "ab":
             (scratch / name).mkdir()

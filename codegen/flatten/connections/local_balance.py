@@ -1,5 +1,4 @@
-"""Components are balanced: each has as many equations as unknowns of its own, and what a component is to be given from
-outside is given there (Modelica 3.6, 4.8).
+"""Components are balanced: each has as many equations as unknowns of its own (Modelica 3.6, 4.8).
 
 A potential of a connector that is connected on the inside needs no equation, a flow never does: connections give one
 for each, whatever is connected.
@@ -29,12 +28,12 @@ def check_components(leaves: Iterable[Leaf], buses: list[Instance], body: Collec
     Not judged are models with expandable or overdetermined connectors and those that use outer components: what holds
     there is decided by connections elsewhere.
     """
-    unknowns = [leaf for leaf in leaves if not leaf.is_structural and leaf.primitive not in ("String", EXTERNAL)]
     if body.branches:
         return
     count = _Count(context.table(ConnectionSets), body)
-    for leaf in unknowns:
-        count.add(leaf)
+    for leaf in leaves:
+        if not leaf.is_structural and leaf.primitive not in ("String", EXTERNAL):
+            count.add(leaf)
     open_ended = {id(_owner(bus)) for bus in buses} | {id(_owner(bus).parent) for bus in buses}
     for instance in count.instances.values():
         if instance.parent is None or id(instance) in open_ended or _uses_outer(instance):

@@ -57,7 +57,8 @@ def _with_whole_arrays(names: Iterable[str], context: Context) -> tuple[str, ...
     """An algorithm that assigns elements of an array gives the whole of it: the others keep what they start with
     (11.1.2)."""
     given = list(names)
-    return tuple(dict.fromkeys([*given, *(n for name in given for n in context.scalars[name][0].names)]))
+    leaves = {id(leaf): leaf for leaf, _ in (context.scalars[name] for name in given)}.values()
+    return tuple(dict.fromkeys([*given, *(n for leaf in leaves for n in leaf.names)]))
 
 
 def _nested(statements: list[flat.Statement]) -> list[flat.Statement]:
