@@ -20,14 +20,14 @@ typedef struct {
   void *ida;
 } solver;
 
-static int residual(realtype t, N_Vector y, N_Vector yp, N_Vector r, void *user) {
+static int residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user) {
   (void)t;
   const solver *s = user;
   s->p->residual(&s->mode, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), N_VGetArrayPointer(r));
   return 0;
 }
 
-static int jacobian(realtype t, realtype cj, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix matrix, void *user,
+static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix matrix, void *user,
                     N_Vector tmp1, N_Vector tmp2, N_Vector tmp3) {
   (void)t, (void)yp, (void)r, (void)tmp1, (void)tmp2, (void)tmp3;
   const solver *s = user;
@@ -35,7 +35,7 @@ static int jacobian(realtype t, realtype cj, N_Vector y, N_Vector yp, N_Vector r
   return 0;
 }
 
-static int guards(realtype t, N_Vector y, N_Vector yp, realtype *g, void *user) {
+static int guards(sunrealtype t, N_Vector y, N_Vector yp, sunrealtype *g, void *user) {
   (void)t, (void)yp;
   const solver *s = user;
   s->p->guards(&s->mode, N_VGetArrayPointer(y), g);
@@ -46,7 +46,7 @@ static int guards(realtype t, N_Vector y, N_Vector yp, realtype *g, void *user) 
 static int set_up(solver *s, double rtol, double atol) {
   const int n = s->p->n_y;
   const int directions[MAX_GUARDS] = {-1, -1};
-  SUNContext_Create(NULL, &s->context);
+  SUNContext_Create(0, &s->context);
   s->y = N_VNew_Serial(n, s->context);
   s->yp = N_VNew_Serial(n, s->context);
   s->id = N_VNew_Serial(n, s->context);

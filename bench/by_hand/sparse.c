@@ -13,7 +13,7 @@ static const double V = 1.0, R = 100.0, C = 1e-6;          /* V, Ohm, F */
 static const double M = 0.1, K = 1e4, D = 1.0, PULL = 1.0; /* kg, N/m, N.s/m, N */
 
 /* v[k] of the capacitors: C v' = (v[k-1] - v[k])/R - (v[k] - v[k+1])/R, the first behind the source. */
-static int ladder_residual(realtype t, N_Vector y, N_Vector yp, N_Vector r, void *user) {
+static int ladder_residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user) {
   (void)t;
   const int n = *(const int *)user;
   const double *v = N_VGetArrayPointer(y), *dv = N_VGetArrayPointer(yp);
@@ -26,7 +26,7 @@ static int ladder_residual(realtype t, N_Vector y, N_Vector yp, N_Vector r, void
   return 0;
 }
 
-static int ladder_jacobian(realtype t, realtype cj, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix a, void *user,
+static int ladder_jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix a, void *user,
                            N_Vector tmp1, N_Vector tmp2, N_Vector tmp3) {
   (void)t, (void)y, (void)yp, (void)r, (void)tmp1, (void)tmp2, (void)tmp3;
   const int n = *(const int *)user;
@@ -43,7 +43,7 @@ static int ladder_jacobian(realtype t, realtype cj, N_Vector y, N_Vector yp, N_V
 }
 
 /* s[0], v[0], s[1], v[1] ...: s' = v, M v' = f[k+1] - f[k] with f[k] of the link before body k, PULL at the end. */
-static int chain_residual(realtype t, N_Vector y, N_Vector yp, N_Vector r, void *user) {
+static int chain_residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user) {
   (void)t;
   const int bodies = *(const int *)user / 2;
   const double *s = N_VGetArrayPointer(y), *ds = N_VGetArrayPointer(yp);
@@ -58,7 +58,7 @@ static int chain_residual(realtype t, N_Vector y, N_Vector yp, N_Vector r, void 
   return 0;
 }
 
-static int chain_jacobian(realtype t, realtype cj, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix a, void *user,
+static int chain_jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix a, void *user,
                           N_Vector tmp1, N_Vector tmp2, N_Vector tmp3) {
   (void)t, (void)y, (void)yp, (void)r, (void)tmp1, (void)tmp2, (void)tmp3;
   const int bodies = *(const int *)user / 2;
@@ -88,7 +88,7 @@ typedef struct {
 } solver;
 
 static int set_up(solver *s, int chain, int *n, double rtol, double atol) {
-  SUNContext_Create(NULL, &s->context);
+  SUNContext_Create(0, &s->context);
   s->y = N_VNew_Serial(*n, s->context);
   s->yp = N_VNew_Serial(*n, s->context);
   s->matrix = SUNSparseMatrix(*n, *n, 4 * *n, CSC_MAT, s->context);
