@@ -14,6 +14,7 @@ GOAL = 0.150  # s
 KEYSTROKES = 40
 ADDITIONS = 1_000_000  # of the loop that says how fast Python is on this machine, at this hour
 TYPED = '  assert(time < 1e9, "late");'
+VALUE = "N(final min=1) = 160"  # a parameter of the actuator
 
 
 def from_keystroke_to_findings(rounds: int) -> list[dict[str, object]]:
@@ -55,11 +56,16 @@ def _loop() -> float:
 
 
 def _typed(text: str, rounds: int) -> Iterator[str]:
-    """A comment grows at the end of the first line, then an equation that is not whole yet, letter by letter."""
+    """A comment grows at the end of the first line; an equation is written letter by letter, and then its number, and
+    a parameter's, changes: that is all checked anew."""
     head, rest = text.split("\n", 1)
     before, equation, after = text.partition("equation\n")
     for _ in range(rounds):
-        for k in range(KEYSTROKES // 2):
+        for k in range(KEYSTROKES // 4):
             yield f"{head} // {'a' * k}\n{rest}"
-        for k in range(KEYSTROKES // 2):
-            yield f"{before}{equation}{TYPED[: k + 3]}\n{after}"
+        for k in range(KEYSTROKES // 4):
+            yield f"{before}{equation}{TYPED[: 2 * k + 3]}\n{after}"
+        for k in range(KEYSTROKES // 4):
+            yield f"{before}{equation}{TYPED.replace('9', str(k))}\n{after}"
+        for k in range(KEYSTROKES // 4):
+            yield text.replace(VALUE, f"{VALUE}.{k}")

@@ -195,7 +195,7 @@ class Cache:
 
     def __init__(self, directory: str | None = None):
         default = os.environ.get("LACUNA_CACHE") or Path.home() / ".cache" / "lacuna"
-        self.directory = Path(directory or default)
+        self.directory = Path(directory or default).absolute()  # compilers work in folders of their own
 
     def _index(self, request: str) -> Path:
         return self.directory / "index" / f"{request[:32]}.json"

@@ -113,7 +113,7 @@ def _pack(request: FmuRequest, compiled: CompiledModel, prepared: Prepared, path
     settings = configuration(
         token, request.solver, tolerance, model.start_time, model.stop_time, values, extents(variables.all)
     )
-    with tempfile.TemporaryDirectory() as scratch:
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as scratch:
         root = Path(scratch) / "fmu"
         files = collect(root / "sources", source, settings, request.version)
         compile_sources(

@@ -75,7 +75,7 @@ def verify(folder: str | Path, progress: Progress | None = None) -> Verification
         if not Path(word).exists() or _digest(Path(word), folder) != digest:
             raise UserError(f"{word} is not what the results in {folder} were made from: it is gone or has changed")
     spoken(progress)(f"making again: lacuna {' '.join(made['command'])}")
-    with tempfile.TemporaryDirectory() as scratch:
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as scratch:
         again = Path(scratch) / folder.resolve().name
         done = run([sys.executable, "-m", "lacuna.cli.main", *made["command"], "--out", again])
         if not again.is_dir():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 import re
 
@@ -25,7 +25,7 @@ _MEANT = re.compile(r"did you mean (.+)\?")
 class View:
     """One state of all texts: made anew at every change, with what it found out kept."""
 
-    library: Library
+    library: BufferedLibrary
     document: Document | None  # None where the text has no tokens
     findings: list[Diagnostic]
     flat: FlatModel | None = None
@@ -38,6 +38,9 @@ class Workspace:
         self.search_path = list(search_path)
         self.texts: dict[Path, str] = {}
         self._views: dict[Path, View] = {}
+        self._library: BufferedLibrary | None = None
+        self._edited: set[Path] = set()  # since the library read them
+        self._last: tuple[Path, View] | None = None  # of that library
 
     def change(self, path: Path, text: str | None) -> None:
         """A new text, or None for the file on disk again."""
@@ -46,6 +49,7 @@ class Workspace:
         else:
             self.texts[path] = text
         self._views.clear()
+        self._edited.add(path)
 
     def view(self, path: Path) -> View:
         if path not in self._views:
@@ -56,7 +60,29 @@ class Workspace:
         return self.texts[path] if path in self.texts else path.read_text(encoding="utf-8")
 
     def _look(self, path: Path) -> View:
-        library = BufferedLibrary(self.search_path, self.texts)
+        view = self._said_again(path)
+        if view is None:
+            view = self._checked(path, self._renewed())
+        self._last = (path, view)
+        return view
+
+    def _said_again(self, path: Path) -> View | None:
+        """The last view with the text as it is now, where that has the same tokens in the same places."""
+        at, last = self._last or (None, None)
+        if last is None or at != path or last.document is None or self._edited != {path} or not last.library.current:
+            return None
+        document = parsed(path, self.text(path), last.document.classes)
+        return replace(last, document=document) if document and document.reads_as(last.document) else None
+
+    def _renewed(self) -> BufferedLibrary:
+        """The library with all edits: what they do not touch is kept."""
+        kept = self._library
+        if kept is None or not kept.current or not all(kept.forget(path) for path in self._edited):
+            kept = BufferedLibrary(self.search_path, self.texts)
+        self._library, self._edited, self._last = kept, set(), None
+        return kept
+
+    def _checked(self, path: Path, library: BufferedLibrary) -> View:
         try:
             classes = library.parse_file(path)
         except Diagnostic as finding:

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import partial
 import os
 from pathlib import Path
 
-from distributed import Client, Future, LocalCluster
+from distributed import Client, Future
 
+from lacuna.analysis.campaign.clients import client_of
 from lacuna.analysis.campaign.parts import Parts
 from lacuna.analysis.campaign.points import Points, chunks
 from lacuna.analysis.campaign.tasks import finished
 from lacuna.analysis.campaign.work import Work, run_chunk
-from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.map.sweep import Progress
 
 
@@ -40,7 +38,8 @@ def run_campaign(
     if progress:
         progress(done, len(pieces))
     if todo:
-        with _client(scheduler) as client:
+        threads = {"n_workers": 1, "threads_per_worker": os.cpu_count(), "processes": False}
+        with client_of(scheduler, **threads) as client:
             submit = partial(_submitted, client, work, pieces)
             for k, table in finished(client, submit, todo):
                 parts.write(k, table)
@@ -50,23 +49,6 @@ def run_campaign(
     results = folder / "results.parquet"
     parts.combine(results)
     return results
-
-
-@contextmanager
-def _client(scheduler: str | None) -> Iterator[Client]:
-    if scheduler is None:
-        cluster = LocalCluster(
-            n_workers=1, threads_per_worker=os.cpu_count(), processes=False, dashboard_address=None, silence_logs=40
-        )
-        with cluster, Client(cluster) as client:
-            yield client
-        return
-    try:
-        client = Client(scheduler, timeout=10)
-    except (OSError, ValueError) as error:
-        raise AnalysisError(f"no Dask scheduler answers at {scheduler}: {error}") from None
-    with client:
-        yield client
 
 
 def _submitted(client: Client, work: Work, pieces: list[Points], k: int) -> Future:

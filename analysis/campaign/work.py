@@ -47,7 +47,7 @@ class _Tools:
     """Plant, chain and settings of `work`, in a folder that nobody else can write to: code is loaded from it."""
 
     def __init__(self, work: Work):
-        self._folder = tempfile.TemporaryDirectory(prefix="lacuna-")
+        self._folder = tempfile.TemporaryDirectory(prefix="lacuna-", ignore_cleanup_errors=True)
         library, text = Path(self._folder.name) / "model.so", Path(self._folder.name) / "settings.toml"
         library.write_bytes(work.library)
         text.write_text(work.settings, encoding="utf-8")

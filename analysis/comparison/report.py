@@ -62,6 +62,21 @@ def findings(studies: Sequence[Study]) -> list[str]:
         if known:
             span = " to ".join(dict.fromkeys(f"{order:.2f}" for order in (min(known), max(known))))
             said.append(f"{family}: order {span}, {len(known)} of {_scenarios(len(studies))}")
+    variable = [lane for study in studies for lane in study.lanes if _counts(lane)]
+    if variable:
+        worst = max(signal.relative for lane in variable for signal in lane.signals)
+        said.append(f"variable step at 1e-6 or tighter: signals within {worst:.1e} of the reference, relative")
+    return said + _on_events([s for s in studies if _has_events(s)])
+
+
+def _has_events(study: Study) -> bool:
+    return any(r.events.matched or r.events.unmatched for r in (study.reference, *study.lanes))
+
+
+def _on_events(studies: Sequence[Study]) -> list[str]:
+    if not studies:
+        return ["no events happen"]
+    said = []
     finest = [min((r for r in s.lanes if r.lane.family == "rk4"), key=lambda r: r.lane.step) for s in studies]
     if finest:
         worst = max(r.events.maximum for r in finest)
@@ -127,12 +142,13 @@ def _lanes(study: Study) -> str:
 
 def _lane_row(result: LaneResult) -> list[str]:
     if result.failure is not None:
-        return [result.lane.label, f"{result.seconds:.3f}", "failed", "", "", "", "", "", ""]
+        return [result.lane.label, f"{result.seconds:.2g}", "failed", "", "", "", "", "", ""]
     worst = max(result.signals, key=lambda s: s.relative)
     return [
-        result.lane.label, f"{result.seconds:.3f}", worst.name, f"{worst.maximum:.2e}", f"{worst.relative:.2e}",
-        f"{result.events.maximum:.1e}", f"{result.events.at_time:.5g}", str(result.events.unmatched),
-        f"{result.counters['steps']:,}",
+        result.lane.label, f"{result.seconds:.2g}", worst.name, f"{worst.maximum:.2e}", f"{worst.relative:.2e}",
+        *(["-", "-"] if np.isnan(result.events.at_time) else
+          [f"{result.events.maximum:.1e}", f"{result.events.at_time:.5g}"]),
+        str(result.events.unmatched), f"{result.counters['steps']:,}",
     ]  # fmt: skip
 
 

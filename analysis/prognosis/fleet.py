@@ -168,19 +168,13 @@ def _results(work: FleetWork, pieces, todo: list[int], scheduler: str | None) ->
     if len(todo) < 2 and not scheduler:
         yield from ((k, rows_of(pieces[k], work)) for k in todo)
         return
-    from distributed import Client, LocalCluster
+    from lacuna.analysis.campaign.clients import client_of
 
     with ExitStack() as opened:
-        if scheduler:
-            try:
-                client = opened.enter_context(Client(scheduler, timeout=10))
-            except (OSError, ValueError) as error:
-                raise AnalysisError(f"no Dask scheduler answers at {scheduler}: {error}") from None
-        else:
+        if not scheduler:
             opened.enter_context(callers_script_left_out())
-            count = min(os.cpu_count() or 1, len(todo))
-            cluster = LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None, silence_logs=40)
-            client = opened.enter_context(Client(opened.enter_context(cluster)))
+        processes = {"n_workers": min(os.cpu_count() or 1, len(todo)), "threads_per_worker": 1}
+        client = opened.enter_context(client_of(scheduler, **processes))
         shared = client.scatter(work, broadcast=True)
         yield from finished(client, lambda k: client.submit(rows_of, pieces[k], shared, pure=False, retries=2), todo)
 

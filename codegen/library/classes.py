@@ -28,7 +28,6 @@ from lacuna.suggest import did_you_mean
 HOME_PACKAGE = "Lacuna"
 MODEL_KINDS = ("model", "block", "class")  # what can be simulated
 
-
 _PREDEFINED = """
 type StateSelect = enumeration(never, avoid, default, prefer, always);
 type AssertionLevel = enumeration(warning, error);
@@ -62,9 +61,10 @@ class Library:
         self._packages: dict[str, str] = {}  # see foreign_package
         self.views: dict[tuple[object, ...], ast.Class] = {}  # see flatten/names/views.py
         self.bases: dict[int, list[ast.Class]] = {}  # of classes that were asked for, by identity
+        self.meanings: dict[tuple[int, str, bool, bool], ast.Class] = {}  # see find_first in flatten/names/scope.py
         self._paths: dict[str, int] = {}
         self.resolving: set[int] = set()  # classes whose bases are being looked up, by identity
-        self.kept: list[object] = []  # whose identities are keys of the two above
+        self.kept: list[object] = []  # whose identities are keys of those above
 
     def _package(self, folder: Path) -> ast.Class:
         classes = self.parse_file(folder / PACKAGE_FILE)
@@ -253,10 +253,11 @@ class Library:
         if place not in self._places:
             self._places.insert(0 if first else len(self._places), place)
         self._members.clear()
+        self.meanings.clear()
 
     def forget_views(self) -> None:
         """Start a translation anew: equal input gives equal names."""
-        for memo in (self.views, self.bases, self.kept, self._paths):
+        for memo in (self.views, self.bases, self.meanings, self.kept, self._paths):
             memo.clear()
 
     def count_path(self, path: str) -> int:

@@ -58,6 +58,15 @@ class Source:
     offsets: list[int]
     line_starts: list[int]
 
+    def places(self) -> list[tuple[int, int]]:
+        """Line, from zero, and offset in it of every token but the end."""
+        starts, line, found = [*self.line_starts, len(self.text) + 1], 0, []
+        for offset in self.offsets[:-1]:
+            while starts[line + 1] <= offset:
+                line += 1
+            found.append((line, offset - starts[line]))
+        return found
+
     def span(self, offset: int, length: int = 1) -> Span:
         line = bisect_right(self.line_starts, offset)
         return Span(self.file, line, offset - self.line_starts[line - 1] + 1, length)

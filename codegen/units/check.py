@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.symbolic.expr import REAL, Expr, to_text, var
+from lacuna.codegen.symbolic.expr import REAL, Expr, to_text, var, walk
 from lacuna.codegen.units.inference import (
     SECOND,
     UNKNOWN,
@@ -56,6 +56,7 @@ class _Check:
         self.model, self.function_units, self.places = model, function_units, places
         self.findings: list[Diagnostic] = []
         self.units: dict[str, Finding] = {}
+        self._names: dict[Expr, set[str]] = {}  # of the variables in sides of equations
         for v in model.variables.values():
             try:
                 self.units[v.name] = of_variable(v.unit, v.type, v.variability)
@@ -85,11 +86,11 @@ class _Check:
             lambda e: self.units.get(str(e.value), UNKNOWN), lambda name: self.function_units.get(name, "")
         )
 
-    def _guarded(self, span: Span, action: object, text: str = "") -> None:
+    def _guarded(self, span: Span, action: Callable[[], object], text: Callable[[], str] | None = None) -> None:
         try:
             action()
         except UnitError as reason:
-            message = reason.message + (f"\n    in the equation {text}" if text else "")
+            message = reason.message + (f"\n    in the equation {text()}" if text is not None else "")
             finding = Diagnostic(reason.code, message, span, reason.hint)
             self._note(finding)
         except ValueError as reason:
@@ -104,8 +105,10 @@ class _Check:
             self.findings.append(finding)
 
     def _equation(self, inference: UnitInference, e: flat.Equation) -> None:
-        text = f"{to_text(e.lhs)} = {to_text(e.rhs)}"
-        text = text if len(text) <= 160 else e.text
+        def text() -> str:
+            whole = f"{to_text(e.lhs)} = {to_text(e.rhs)}"
+            return whole if len(whole) <= 160 else e.text
+
         self._guarded(e.span, lambda: self._sides(inference, e.lhs, e.rhs), text)
 
     @staticmethod
@@ -133,8 +136,10 @@ class _Check:
             match s:
                 case flat.Assign() | flat.Reinit():
                     target = var(s.target)
-                    text = f"{s.target} = {to_text(s.value)}"
-                    self._guarded(s.span, lambda t=target, v=s.value: self._sides(inference, t, v), text)
+                    self._guarded(
+                        s.span, lambda t=target, v=s.value: self._sides(inference, t, v),
+                        lambda s=s: f"{s.target} = {to_text(s.value)}",
+                    )  # fmt: skip
                 case flat.Assert():
                     self._guarded(s.span, lambda c=s.condition: inference.of(c))
                 case flat.If() | flat.When():
@@ -151,6 +156,8 @@ class _Check:
 
     def _infer_unknown(self) -> None:
         """Units of variables that declare none, from equations that leave one choice; to a fixed point."""
+        if UNKNOWN not in self.units.values():
+            return
         pending = [e for e in self.model.equations if self._has_unknown(e.lhs) or self._has_unknown(e.rhs)]
         bindings = [(v.name, v.binding) for v in self.model.variables.values() if v.binding is not None]
         pairs = [(e.lhs, e.rhs) for e in pending]
@@ -172,15 +179,10 @@ class _Check:
             pairs = rest
 
     def _has_unknown(self, e: Expr) -> bool:
-        stack, seen = [e], set()
-        while stack:
-            n = stack.pop()
-            if n.op == "var" and self.units.get(str(n.value)) == UNKNOWN:
-                return True
-            if n not in seen:
-                seen.add(n)
-                stack.extend(n.args)
-        return False
+        names = self._names.get(e)
+        if names is None:
+            names = self._names[e] = {str(n.value) for n in walk(e) if n.op == "var"}
+        return any(self.units.get(name) == UNKNOWN for name in names)
 
     def _solve(self, e: Expr, unit: Finding, inference: UnitInference) -> bool:
         """Give the unknown inside `e` the unit that makes `e` have `unit`, where there is exactly one way."""

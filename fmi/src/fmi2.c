@@ -123,7 +123,7 @@ fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *state) {
 
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size) {
   (void)c;
-  *size = ((fmu_snapshot *)state)->size;
+  *size = fmu_packed_size(state);
   return fmi2OK;
 }
 

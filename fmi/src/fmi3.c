@@ -120,7 +120,7 @@ fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *state) {
 
 fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState state, size_t *size) {
   (void)instance;
-  *size = ((fmu_snapshot *)state)->size;
+  *size = fmu_packed_size(state);
   return fmi3OK;
 }
 

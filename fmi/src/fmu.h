@@ -107,6 +107,7 @@ typedef struct {
 } fmu_snapshot;
 bool fmu_save(fmu *f, void **snapshot); /* into *snapshot, or a new one where it is NULL */
 bool fmu_load(fmu *f, const void *snapshot);
+size_t fmu_packed_size(const void *snapshot);
 bool fmu_pack(fmu *f, const void *snapshot, void *bytes, size_t size);
 bool fmu_unpack(fmu *f, const void *bytes, size_t size, void **snapshot);
 

@@ -30,6 +30,7 @@ class Scenario:
     before: tuple[tuple[str, ...], ...] = ()  # commands whose results it reads
     cold: bool = False  # nothing is compiled yet
     slow: bool = False
+    timed: str = ""  # files whose names hold this tell how long things took: other content each time
 
 
 _SIMULATE = ("simulate", "Decay.mo", "--out", "out")
@@ -61,7 +62,7 @@ SCENARIOS = {
         ("sweep", "--points", "8", "--chunk", "4", "--out", "out", "--settings", "settings.toml"), together=False,
         slow=True,
     ),
-    "compare": Scenario(("compare", "Decay.mo", "--step", "0.01", "--out", "out"), slow=True),
+    "compare": Scenario(("compare", "Decay.mo", "--step", "0.01", "--out", "out"), slow=True, timed="precision"),
     "fit": Scenario(("fit", _CASE, "--out", "out"), together=False, slow=True),
     "explain": Scenario(("explain", _CASE, "--out", "out"), together=False, slow=True),
 }  # fmt: skip

@@ -101,13 +101,17 @@ class Trial:
         """What stands in `out` for a user to read; how it was made is compared by `lacuna verify`."""
         out = self.place / self.scenario.out
         found = [p for p in (_results_in(out) if out.exists() else []) if p.name != MADE_BY]
-        return {p.relative_to(out).as_posix(): b"" if p.suffix == ".html" else _content(p) for p in found}
+        return {p.relative_to(out).as_posix(): b"" if self._varies(p.name) else _content(p) for p in found}
+
+    def _varies(self, name: str) -> bool:
+        timed = self.scenario.timed
+        return name.endswith(".html") or bool(timed and timed in name)
 
     def _spoil(self, name: str) -> object:
         path = self.place / self.scenario.out / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(b"of another run")
-        return b"" if path.suffix in (".html", ".json") else b"of another run"
+        return b"" if path.suffix == ".json" or self._varies(name) else b"of another run"
 
     def _keep(self) -> None:
         shutil.copytree(self.place, self.place.with_name(f"{self.name}-kept"))

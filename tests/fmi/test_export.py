@@ -109,3 +109,12 @@ def test_an_fmu_with_arrays_is_compared_element_by_element(fmus: Fmus) -> None:
     assert {"x[1]", "x[3]", "y[1]", "seen[2,1]", "two[2]"} <= {row[0] for row in found.rows} and found.beyond == []
     wrong = lacuna.compare_with_file(own, fmus.path("Mesh", parameters={"A[2,2]": 1.0}), **given)
     assert set(wrong.beyond) == {"y[2]"}
+
+
+def test_a_cache_that_is_named_from_here_serves_a_compiler_that_works_elsewhere(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("LACUNA_CACHE", "cache")
+    assert lacuna.export_fmu(OWN["Dahlquist"], "one.fmu").path.is_file()
+    assert (tmp_path / "cache").is_dir()

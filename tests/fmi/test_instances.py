@@ -70,6 +70,18 @@ def test_a_state_travels_to_another_instance_as_bytes(fmus: Fmus) -> None:
         assert real(one, "phi", "w", "seen") == real(other, "phi", "w", "seen")
 
 
+def test_bytes_of_a_state_that_were_damaged_are_refused(fmus: Fmus) -> None:
+    with fmus.instance("Clockwork", "cs") as fmu:
+        begin(fmu)
+        whole = fmu.serializeFMUState(fmu.getFMUState())
+        for at in range(0, len(whole), 7):
+            spoilt = bytearray(whole)
+            spoilt[at] ^= 4
+            with pytest.raises(Exception, match=r"Status|status"):
+                fmu.deserializeFMUState(bytes(spoilt))
+        fmu.setFMUState(fmu.deserializeFMUState(whole))
+
+
 def test_directional_derivatives_are_those_of_differences(fmus: Fmus) -> None:
     with fmus.instance("Clockwork", "me") as fmu:
         begin(fmu)
@@ -191,16 +203,28 @@ def test_what_cannot_be_exported_is_refused(tmp_path: Path) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["BouncingBall", "Clockwork", "FlightControlEma", "Pendulum", "Mesh", "Late"])
 def test_a_thousand_lives_under_the_address_sanitizer(fmus: Fmus, tmp_path: Path, name: str) -> None:
-    alone = ["cs"] if name == "Late" else []
-    path = fmus.path(str(MODELS / "Late.mo"), type="cs") if alone else fmus.path(name)
-    zipfile.ZipFile(path).extractall(tmp_path)
-    sources = sorted(p.name for p in (tmp_path / "sources").glob("*.c"))
-    driver = Path(__file__).parent / "lives.c"
-    options = ["-std=c11", "-O1", "-D_POSIX_C_SOURCE=200809L", "-DRT_OWN_METHODS", "-ffp-contract=off", *SANITIZED]
-    command = ["cc", *options, "-I.", "-o", "../lives", *sources, str(driver), "-lm"]
-    built = subprocess.run(command, cwd=tmp_path / "sources", capture_output=True, text=True, check=False)
-    assert built.returncode == 0, built.stderr
-    token = zipfile.ZipFile(path).read("modelDescription.xml").decode().split('instantiationToken="')[1].split('"')[0]
-    done = subprocess.run([tmp_path / "lives", token, "1000", *alone], capture_output=True, text=True, check=False)
+    done = _driven(fmus, tmp_path, name, "lives.c", "1000", *(["cs"] if name == "Late" else []))
     assert done.returncode == 0, done.stdout + done.stderr
     assert done.stdout == "1000 lives\n"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["Clockwork", "Mesh", "Late"])
+def test_bytes_that_were_changed_lead_nowhere_out_of_memory(fmus: Fmus, tmp_path: Path, name: str) -> None:
+    done = _driven(fmus, tmp_path, name, "states.c", "1000", "7")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert done.stdout.endswith("of 1000 taken\n") and not done.stdout.startswith("0 ")
+
+
+def _driven(fmus: Fmus, folder: Path, name: str, driver: str, *words: str) -> subprocess.CompletedProcess[str]:
+    """An FMU's sources under a driver in C, with the sanitizers."""
+    path = fmus.path(str(MODELS / "Late.mo"), type="cs") if name == "Late" else fmus.path(name)
+    zipfile.ZipFile(path).extractall(folder)
+    sources = sorted(p.name for p in (folder / "sources").glob("*.c"))
+    options = ["-std=c11", "-O1", "-D_DEFAULT_SOURCE", "-D_POSIX_C_SOURCE=200809L", "-DRT_OWN_METHODS",
+               "-ffp-contract=off", *SANITIZED]  # fmt: skip
+    command = ["cc", *options, "-I.", "-o", "../driven", *sources, str(Path(__file__).parent / driver), "-lm"]
+    built = subprocess.run(command, cwd=folder / "sources", capture_output=True, text=True, check=False)
+    assert built.returncode == 0, built.stderr
+    token = zipfile.ZipFile(path).read("modelDescription.xml").decode().split('instantiationToken="')[1].split('"')[0]
+    return subprocess.run([folder / "driven", token, *words], capture_output=True, text=True, check=False)

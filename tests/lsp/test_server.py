@@ -7,6 +7,8 @@ from pathlib import Path
 from lsprotocol import types as lsp
 
 from bench.editor import Editor, drive
+from lacuna.codegen.library.search_path import MODEL_FOLDER
+from lacuna.lsp.features import Workspace
 
 MODEL = """\
 model Winch "A motor that lifts a load"
@@ -189,3 +191,52 @@ def test_a_file_that_is_open_counts_before_the_one_on_disk(tmp_path: Path) -> No
         assert edits[0].new_text == "model Stand\n  Real y=time;\n\nend Stand;\n"
 
     drive(tmp_path / "Stand.mo", script)
+
+
+def test_what_an_edit_leaves_alone_is_kept_and_what_it_touches_is_not(tmp_path: Path) -> None:
+    """Edits one after another, in the buffer, in another open file and on disk, are found as by a server that sees
+    each for the first time."""
+    pack = tmp_path / "P"
+    pack.mkdir()
+    texts = {
+        "package": "package P end P;\n",
+        "Base": "within P;\npartial model Base\n  Real x(start=1, fixed=true);\nend Base;\n",
+        "Part": "within P;\nmodel Part\n  parameter Real k = 2;\n  Real y;\nequation\n  y = k*time;\nend Part;\n",
+        "Top": "within P;\nmodel Top\n  extends Base;\n  Part part(k = 3);\n  Real s;\nequation\n"
+               "  der(x) = -x;\n  s = part.y;\nend Top;\n",
+    }  # fmt: skip
+    for name, text in texts.items():
+        (pack / f"{name}.mo").write_text(text, encoding="utf-8")
+    top, part, base = (pack / f"{name}.mo" for name in ("Top", "Part", "Base"))
+    space = Workspace([str(MODEL_FOLDER)])
+
+    def codes(*edits: tuple[Path, str | None]) -> list[str]:
+        for path, text in edits:
+            space.change(path, text)
+        fresh = Workspace([str(MODEL_FOLDER)])
+        fresh.texts = dict(space.texts)
+        found = space.view(top).findings
+        assert [str(f) for f in found] == [str(f) for f in fresh.view(top).findings]
+        return [f.code for f in found]
+
+    text = texts["Top"]
+    assert codes((top, text)) == []
+    assert codes((top, text.replace("model Top", "model Top // a comment"))) == []
+    assert codes((top, text.replace("part.y", "part.z"))) == ["R003"]
+    assert codes((top, text.replace("part.y;", "part.z; // again"))) == ["R003"]
+    assert codes((top, text.replace("Top\n", "Top\n\n", 1).replace("part.y", "part.z"))) == ["R003"]
+    assert codes((top, text)) == []
+    assert codes((part, texts["Part"].replace("Real y", "Real z"))) == ["R002", "R003"]  # unsaved
+    assert codes((part, None)) == []
+    assert codes((top, text.replace("Part part", "Prat part"))) == ["R001"]
+    assert codes((top, text)) == []
+    base.write_text(texts["Base"].replace("Real x", "Real w"), encoding="utf-8")  # by another program
+    assert codes((top, text + "\n")) == ["R002"]
+    base.write_text(texts["Base"], encoding="utf-8")
+    assert codes((top, text)) == []
+    base.unlink()
+    assert codes((top, text + "\n")) == ["R001"]
+    base.write_text(texts["Base"], encoding="utf-8")
+    assert codes((pack / "package.mo", 'package P "changed"\nend P;\n'), (top, text)) == []
+    assert codes((top, text.replace("model Top", "model Tip").replace("end Top", "end Tip"))) != []
+    assert codes((top, text)) == []

@@ -8,6 +8,7 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.instance import ArrayNode, Instance, Node
 from lacuna.codegen.flatten.classes.leaf import Leaf
 from lacuna.codegen.flatten.names.scope import own_or_inherited
+from lacuna.codegen.syntax import ast
 
 CONSTRAINT = "equalityConstraint"
 
@@ -52,5 +53,13 @@ def _leaves(node: Node | None) -> Iterator[Leaf | None]:
             yield from _leaves(child)
 
 
-def _is_overdetermined(instance: Instance, cls: object) -> bool:
-    return own_or_inherited(instance.context.library, cls, CONSTRAINT) is not None
+class _Overdetermined(dict[int, bool]):
+    """Classes looked at, by identity."""
+
+
+def _is_overdetermined(instance: Instance, cls: ast.Class) -> bool:
+    known = instance.context.table(_Overdetermined)
+    if id(cls) not in known:
+        known[id(cls)] = own_or_inherited(instance.context.library, cls, CONSTRAINT) is not None
+        instance.context.library.kept.append(cls)
+    return known[id(cls)]

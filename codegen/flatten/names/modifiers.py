@@ -80,16 +80,16 @@ def merge(outer: Modifier | None, inner: Modifier | None) -> Modifier | None:
         error = Diagnostic("R033", "this was redeclared and is not replaceable any more", outer.span, hint)
         error.notes.append((inner.span, "redeclared here"))
         raise error
-    result = replace(source, children=_inner_children(outer, inner, again), final=outer.final or inner.final)
-    if source.value is None:  # it is of the element that either is narrowed to
-        result.index = outer.index or inner.index
-    chosen = outer if outer.redeclare is not None else inner
-    result.redeclare, result.redeclared_in = chosen.redeclare, chosen.redeclared_in
-    result.replaced = outer.replaced + ((inner,) if again else ()) + inner.replaced
-    result.span = outer.span
+    children = _inner_children(outer, inner, again)
     for name, child in outer.children.items():
-        result.children[name] = merge(child, result.children.get(name))
-    return result
+        children[name] = merge(child, children.get(name))
+    chosen = outer if outer.redeclare is not None else inner
+    return Modifier(
+        outer.span, source.value, source.scope, source.each, outer.final or inner.final, children,
+        chosen.redeclare, chosen.redeclared_in, outer.replaced + ((inner,) if again else ()) + inner.replaced,
+        source.tree, source.weak,
+        source.index if source.value is not None else outer.index or inner.index,  # that either is narrowed to
+    )  # fmt: skip
 
 
 def _inner_children(outer: Modifier, inner: Modifier, again: bool) -> dict[str, Modifier]:
@@ -99,8 +99,15 @@ def _inner_children(outer: Modifier, inner: Modifier, again: bool) -> dict[str, 
         clause = inner.redeclare.constraint
         return from_tree(clause.modification, inner.redeclared_in).children if clause is not None else {}
     if outer.value is not None:
-        return {name: replace(child, weak=True) for name, child in inner.children.items()}
+        return {name: child if child.weak else _weakened(child) for name, child in inner.children.items()}
     return dict(inner.children)
+
+
+def _weakened(m: Modifier) -> Modifier:
+    return Modifier(
+        m.span, m.value, m.scope, m.each, m.final, m.children, m.redeclare, m.redeclared_in, m.replaced, m.tree, True,
+        m.index,
+    )  # fmt: skip
 
 
 def narrow(modifier: Modifier | None, index: tuple[tuple[int, int], ...]) -> Modifier | None:

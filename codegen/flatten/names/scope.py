@@ -184,6 +184,17 @@ def find_first(
     library: Library, cls: ast.Class, name: str, of_base: bool = False, outermost: bool = True
 ) -> ast.Class | None:
     """The class that the single name `name` means inside `cls`, looking outwards, up to the `outermost` packages."""
+    key = (id(cls), name, of_base, outermost)
+    found = library.meanings.get(key)
+    if found is None:
+        found = _look_outwards(library, cls, name, of_base, outermost)
+        if found is not None:
+            library.meanings[key] = found
+            library.kept.append(cls)
+    return found
+
+
+def _look_outwards(library: Library, cls: ast.Class, name: str, of_base: bool, outermost: bool) -> ast.Class | None:
     current: ast.Class | None = cls
     while current is not None:
         if current is cls and of_base:
