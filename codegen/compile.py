@@ -87,7 +87,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     split = report.run("initial system", homotopy.split, aliases.model)
     split, delayed = report.run("hybrid", delays.split, split)
     split, carried = report.run("hybrid", transports.split, split)
-    frozen = report.run("hybrid", hybrid.analyse, report.run("hybrid", events.settled, split))
+    frozen = report.run("hybrid", hybrid.analyse, split)
     model = report.run("initial system", discrete_starts, frozen.model)
     continuous, discrete = report.run("hybrid", events.split, model)
     system = report.run("index reduction", reduce_index, model, continuous, len(frozen.relations))
@@ -98,6 +98,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     steps = report.run("hybrid", events.order, system.model, discrete, system.renamed)
     tearing = Tearing(DeclaredValues(system.model))
     explicit = report.run("matching, BLT, tearing", causalise, system.rows, system.unknowns, tearing)
+    repeated = report.run("hybrid", events.follow, steps, explicit)
     residual = report.run("residual form", residual_form, system, explicit, tearing)
     matrix = report.run("jacobian", jacobian, residual, system)
     initial = report.run("initial system", initial_system, system, system.model.initial_equations, tearing)
@@ -108,7 +109,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     report.warnings += [*declared.warnings, *initial.warnings]
     return Prepared(
         declared, aliases.representative, system, Storage(system), relations, frozen.samples, steps, explicit,
-        residual, matrix, initial, sizes, quotients, shapes, delayed, carried,
+        residual, matrix, initial, sizes, quotients, shapes, delayed, carried, repeated,
     )  # fmt: skip
 
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.structure.causal import Assignment, Step, expressions_of, following
 from lacuna.codegen.structure.sorting.blocks import strong_components
-from lacuna.codegen.symbolic.expr import REAL, Expr, var
+from lacuna.codegen.symbolic.expr import REAL, Expr
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import Rewriter, assigned, expressions
 
@@ -60,80 +61,42 @@ def _directed(eq: flat.Equation, model: flat.FlatModel, taken: set[str]) -> Disc
     )  # fmt: skip
 
 
-def settled(model: flat.FlatModel) -> flat.FlatModel:
-    """The model with when-clauses that read, in place of a continuous variable, the expression that an equation gives
-    it, where that follows what events set: it changes with them, in the same instant (8.3.5, 8.5).
+def follow(steps: Sequence[EventStep], explicit: Sequence[Step]) -> bool:
+    """Whether a step of an event reads what follows, through equations, from what events set: equations hold at every
+    instant (8.5), so the runtime repeats such steps until they agree with the equations.
 
-    Raises S013 where a value would follow itself that way.
+    Raises S013 where a when-clause gives a variable a value that follows it through equations `v = e`.
     """
-    at_events = {n for w in model.whens for n in assigned([w])}.union(*(a.targets for a in model.algorithms))
-    if not at_events:
-        return model
-    followed = _Followed(model, at_events)
-    whens = [followed.in_clause(w) for w in model.whens]
-    algorithms = [
-        replace(a, statements=followed.rewriter(a.targets).statements(a.statements)) for a in model.algorithms
-    ]
-    return replace(model, whens=whens, algorithms=algorithms)
+    set_there = {n for step in steps for n in targets(step)}
+    begun = {n for step in explicit for e in expressions_of(step) for n in leaves(e) if _is(n, set_there)}
+    if not begun:
+        return False
+    _refuse_circles([s for step in steps if isinstance(step, flat.When) for s in _assignments(step)], explicit)
+    found = following(explicit, begun)
+    return any(not found.isdisjoint(leaves(e)) for step in steps for e in _expressions(step))
 
 
-class _Followed:
-    """What continuous variables follow at events, through equations `v = e`."""
+def _is(n: Expr, names: Collection[str]) -> bool:
+    return n.op == "var" and str(n.value) in names
 
-    def __init__(self, model: flat.FlatModel, at_events: set[str]) -> None:
-        self._at_events = at_events
-        self._values: dict[str, Expr] = {}
-        sides = [(a, b) for eq in model.equations for a, b in ((eq.lhs, eq.rhs), (eq.rhs, eq.lhs))]
-        states = {n.args[0].value for a, _ in sides for n in leaves(a) if n.op == "der" and n.args[0].op == "var"}
-        follow = {
-            v.name for v in model.variables.values()
-            if v.variability == flat.CONTINUOUS and v.causality != "input" and v.name not in states
-        }  # fmt: skip
-        for a, b in sides:
-            if a.op == "var" and a.value in follow and a not in leaves(b):
-                self._values.setdefault(str(a.value), b)
-        self._follow = follow - at_events
-        whole = [leaves(eq.lhs) | leaves(eq.rhs) for eq in model.equations if eq.lhs.op != "var" != eq.rhs.op]
-        self._implicit = [e for e in whole if all(n.op != "der" for n in e)]  # with a derivative: that follows from it
-        self._sources: dict[str, frozenset[str]] = {}
 
-    def sources(self, name: str) -> frozenset[str]:
-        """The variables set at events that `name` follows."""
-        if name in self._at_events:
-            return frozenset((name,))
-        if name not in self._sources:
-            self._sources[name] = frozenset()  # ends a circle
-            value = self._values.get(name)
-            names = [str(n.value) for n in leaves(value) if n.op == "var"] if value is not None else []
-            self._sources[name] = frozenset().union(*map(self.sources, names))
-        return self._sources[name]
+def _assignments(w: flat.When) -> list[flat.Assign]:
+    return [s for _, body in w.branches for s in body if isinstance(s, flat.Assign)]
 
-    def rewriter(self, own: Collection[str] = ()) -> Rewriter:
-        """For what reads these variables; those that follow one of `own` stay, as the statements before set it."""
 
-        def rule(n: Expr) -> Expr | None:
-            if n.op in ("der", "pre"):
-                return n
-            name = str(n.value) if n.op == "var" else ""
-            found = self.sources(name) if name in self._values else frozenset()
-            return within.expression(self._values[name]) if found and found.isdisjoint(own) else None
-
-        within = Rewriter(rule)
-        return within
-
-    def in_clause(self, w: flat.When) -> flat.When:
-        rewriter = self.rewriter()
-        branches = [(c, rewriter.statements(body)) for c, body in w.branches]
-        for _, body in branches:
-            for s in (s for s in body if isinstance(s, flat.Assign)):
-                self._refuse_circle(s)
-        return replace(w, branches=branches)
-
-    def _refuse_circle(self, s: flat.Assign) -> None:
-        read = {n for n in leaves(s.value) if n.op == "var"}
-        loose = [n for n in read if n.value in self._follow]
-        through = any(n in e and var(s.target, n.type) in e for n in loose for e in self._implicit)
-        if any(n.value == s.target for n in read) or through:
+def _refuse_circles(assignments: list[flat.Assign], explicit: Sequence[Step]) -> None:
+    """Raises S013 for an assignment that stands in a circle with equations."""
+    values = [(str(s.unknown.value), s.value) for s in explicit if isinstance(s, Assignment) and s.unknown.op == "var"]
+    solved = len(values)
+    values += [(s.target, s.value) for s in assignments]
+    writer: dict[str, list[int]] = {}
+    for k, (name, _) in enumerate(values):
+        writer.setdefault(name, []).append(k)
+    needs = [sorted({w for n in leaves(e) if n.op == "var" for w in writer.get(str(n.value), ())}) for _, e in values]
+    for component in strong_components(needs):
+        first = max(component)
+        if min(component) < solved <= first:
+            s = assignments[first - solved]
             hint = "solve it for the variable, or break the loop with pre(...)"
             raise Diagnostic("S013", f"the value that the when-clause gives {s.target} follows itself", s.span, hint)
 
@@ -167,12 +130,14 @@ def targets(step: EventStep) -> tuple[str, ...]:
     return tuple(assigned([step])) if isinstance(step, flat.When) else step.targets
 
 
-def _reads(step: EventStep) -> set[str]:
+def _expressions(step: EventStep) -> list[Expr]:
     if isinstance(step, DiscreteEquation):
-        used = [step.value]
-    else:
-        used = list(expressions([step] if isinstance(step, flat.When) else step.statements))
-    return {str(n.value) for e in used for n in leaves(e) if n.op == "var"}
+        return [step.value]
+    return list(expressions([step] if isinstance(step, flat.When) else step.statements))
+
+
+def _reads(step: EventStep) -> set[str]:
+    return {str(n.value) for e in _expressions(step) for n in leaves(e) if n.op == "var"}
 
 
 def _reads_itself(step: EventStep) -> bool:

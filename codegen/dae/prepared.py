@@ -38,6 +38,7 @@ class Prepared:
     guards: GuardShapes
     delays: list[Delay] = field(default_factory=list)
     transports: list[Transport] = field(default_factory=list)
+    events_follow: bool = False  # through equations, what they set themselves
     hash: str = ""
 
     @property

@@ -179,6 +179,7 @@ def _descriptor(prepared: Prepared, counts: dict[str, int], tangents: bool) -> s
         "division_equation": _pointer("mdl_division_equation", counts["n_divisions"]),
         **{name: f"mdl_{name}" for name in _CALLBACKS},
         **_guards(prepared),
+        **({"events_follow": "1"} if prepared.events_follow else {}),
         **(_DELAYS if prepared.delays else {}),
         **(_TRANSPORTS if prepared.transports else {}),
         **({"tangents": "&mdl_model_tangents"} if tangents else {}),

@@ -5,7 +5,7 @@ The same procedure serves the explicit form (states known) and the initial syste
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 
 from lacuna.codegen.structure.reach import Reach, users_of
@@ -161,10 +161,18 @@ def expressions_of(step: Step) -> list[Expr]:
 
 def of_nonlinear(steps: Sequence[Step]) -> set[Expr]:
     """Unknowns that nonlinear equations give, or that follow from those: they may have several values at one point."""
-    found: set[Expr] = set()
+    return following(steps, starts=lambda step: isinstance(step, NonlinearBlock))
+
+
+def following(
+    steps: Sequence[Step], begun: Collection[Expr] = (), starts: Callable[[Step], bool] = lambda step: False
+) -> set[Expr]:
+    """Unknowns that follow from `begun`, or from steps that `starts` names."""
+    reached, found = set(begun), set()
     for step in steps:
-        if isinstance(step, NonlinearBlock) or any(not found.isdisjoint(leaves(e)) for e in expressions_of(step)):
+        if starts(step) or any(not reached.isdisjoint(leaves(e)) for e in expressions_of(step)):
             found.update(unknowns_of(step))
+            reached.update(unknowns_of(step))
     return found
 
 

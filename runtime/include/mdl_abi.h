@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 14
+#define MDL_ABI_VERSION 15
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
@@ -228,6 +228,9 @@ typedef struct mdl_descriptor {
 
   /* [n_z] 0: unknown z follows from linear equations, so it has one value at a point; NULL: none does. */
   const unsigned char *z_branches;
+
+  /* Whether event() reads v or xdot that follow, through equations, d that it sets. */
+  int events_follow;
 } mdl_descriptor;
 
 typedef const mdl_descriptor *(*mdl_descriptor_fn)(void);

@@ -10,10 +10,12 @@ enum {
   MAX_PASSES = 100,
   MAX_SINGLE_PASSES = 200,
   MAX_SWEEPS = 40,
+  MAX_ROUNDS = 1000, /* of what shrinks by 4 % a round: rounding is reached */
   PATIENCE = 4,
   SWEEPS_OF_A_CYCLE = 8,
   WATCHED_PASSES = 12,
-  MAX_FUTILE_EVENTS = 100
+  MAX_FUTILE_EVENTS = 100,
+  CIRCLE = -2
 };
 
 /* A relation keeps its value while its guard is within the hysteresis: what is there may be noise, and a relation that
@@ -57,6 +59,28 @@ static int sweep(rt_session *s) {
   return s->d->event(m, s->t, s->x_swept, m->xdot, m->v);
 }
 
+/* Whether two sweeps set the same: rounding aside, by which a solution of nonlinear equations may differ from the one
+ * before. */
+static bool alike(const double *a, const double *b, int n) {
+  for (int i = 0; i < n; i++)
+    if (!(fabs(a[i] - b[i]) <= 4 * DBL_EPSILON * fabs(a[i]))) return false;
+  return true;
+}
+
+/* What events read may follow, through equations, what they set: sweeps with relations as they are, until the equations
+ * hold with what is set. 0 they do, -1 failed, CIRCLE they do not come to agree. */
+static int agree(rt_session *s) {
+  mdl_data *m = &s->data;
+  for (int k = 0; k < MAX_ROUNDS; k++) {
+    if (rt_evaluate(s)) return -1;
+    memcpy(s->rel_swept, m->rel, (size_t)s->d->n_rel);
+    memcpy(s->d_swept, m->d, (size_t)s->d->n_d * sizeof *m->d);
+    if (sweep(s) || rt_jump_sweep(s, false)) return -1;
+    if (alike(m->d, s->d_swept, s->d->n_d)) return 0;
+  }
+  return CIRCLE;
+}
+
 /* A mode that is tried because a relation held in the mode before may contradict itself, and its opposite too (friction
  * that comes to rest, judged by the path variable of sliding). Then the relations that disagree start again from false.
  */
@@ -67,8 +91,8 @@ static void start_again(rt_session *s) {
 
 /* One pass: point, relations, discrete equations, by up to so many sweeps with the values before the event (pre) as
  * they are, until they agree. One sweep is enough where modes depend on pre-values; more are made where events get
- * nowhere, and what does not settle one way is iterated the other way. 1 something changed, 0 nothing did, -1 failed.
- */
+ * nowhere, and what does not settle one way is iterated the other way. 1 something changed, 0 nothing did, -1 failed,
+ * CIRCLE what is set follows itself. */
 static int pass(rt_session *s, int sweeps, bool singly) {
   mdl_data *m = &s->data;
   bool changed = false, settled = false;
@@ -84,6 +108,8 @@ static int pass(rt_session *s, int sweeps, bool singly) {
     if (sweep(s) || rt_jump_sweep(s, k == 0)) return -1;
     settled = !switched && same(m->d, s->d_swept, s->d->n_d);
     changed |= switched;
+    int status = settled || !s->d->events_follow ? 0 : agree(s);
+    if (status) return status;
   }
   memcpy(m->x, s->x_swept, (size_t)s->d->n_x * sizeof *m->x);
   rt_jump_accept(s);
@@ -107,6 +133,13 @@ rt_status rt_iterate_event(rt_session *s) {
   for (int i = 0; i < most; i++) {
     bool nowhere = s->futile_events > PATIENCE, other_way = i > MAX_PASSES / 2, singly = i >= MAX_PASSES;
     int changed = pass(s, nowhere != other_way && !singly ? MAX_SWEEPS : 1, singly);
+    if (changed == CIRCLE) {
+      rt_append_changed(s, names, sizeof names);
+      return rt_fail(s, RT_EVENT_CYCLE, s->t, -1, NULL,
+                     "what the event at time %.9g s sets follows itself through equations and does not settle in %d "
+                     "rounds: %s; where the value from before the event is meant, write pre(...)",
+                     s->t, MAX_ROUNDS, names);
+    }
     if (changed < 0) return rt_fail_model(s, s->t, "iterating an event");
     if (!changed && !clear_ticks(s)) return RT_OK;
     if (i >= most - WATCHED_PASSES) rt_append_changed(s, names, sizeof names);

@@ -161,7 +161,8 @@ template <class M> struct Generated {
                                      nullptr,
                                      nullptr,
                                      nullptr,
-                                     nullptr};
+                                     nullptr,
+                                     0};
     return &d;
   }
 };

@@ -24,7 +24,7 @@ from lacuna.codegen.structure.aliases import STATE_SELECT
 from lacuna.codegen.structure.index.pivots import base_of, text_of
 from lacuna.codegen.structure.system import Row, Switch
 from lacuna.codegen.symbolic.differentiate import partial
-from lacuna.codegen.symbolic.expr import BOOLEAN, ONE, ZERO, Expr, add, const, der, div, mul, node, relation, var
+from lacuna.codegen.symbolic.expr import BOOLEAN, ONE, ZERO, Expr, add, const, der, div, mul, node, pre, relation, var
 
 BOUND = 4.0  # mean square of the entries of dq/ds at which states are chosen anew
 EXCHANGE = 2.0  # square of the smallest entry that is exchanged: well above 1, so that no exchange is taken back
@@ -83,16 +83,17 @@ class Selection:
     # -- equations --------------------------------------------------------------------------------------------
 
     def rows(self) -> list[Row]:
-        """States, their derivatives, and the tangent."""
+        """States, their derivatives, and the tangent; by the choice before an event, until the states are set for the
+        new one."""
         found = []
-        for i, name in enumerate(self.states):
-            chosen = self._matrix[i]
+        matrix = [[pre(p) for p in line] for line in self._matrix]
+        for i, (name, chosen) in enumerate(zip(self.states, matrix, strict=True)):
             shares = [div(q, size) for q, size in zip(self._candidates, self._sizes, strict=True)]
             found.append(self._row(var(name), _product(chosen, shares)))
             rates = [div(d, size) for d, size in zip(self.group.free, self._sizes, strict=True)]
             found.append(self._row(der(var(name)), _product(chosen, rates)))
             slopes = self._tangents[i]
-            for k, line in enumerate(self._matrix):
+            for k, line in enumerate(matrix):
                 along = _product(line, [slopes[d] for d in self.group.free])
                 found.append(self._row(along, const(float(k == i))))
             for row in self.group.rows:
