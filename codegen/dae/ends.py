@@ -9,6 +9,7 @@ a branch. So
 * abs, min and max in an argument are taken as they are, without events, and so is sign(x) beside sqrt(abs(x)): the
   flow through an orifice is one law, and where it comes to rest there is no corner to stop at. The same law solved
   for the pressure, q abs(q) = dp, has no corner either: were abs(q) a branch there, it would have no solution beyond.
+  It makes no difference whether the argument has a name of its own: b = abs(h); y = b^n.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from dataclasses import replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.symbolic.expr import ZERO, Expr, maximum, minimum, neg, node, rebuild, sub, transform, walk
+from lacuna.codegen.symbolic.leaves import leaves
 
 _FUNCTIONS = ("sqrt", "log", "log10", "asin", "acos")
 _STRICT = (">", "<", ">=", "<=")
@@ -32,6 +34,12 @@ def ends(n: Expr) -> bool:
 
 def is_call(n: Expr, name: str) -> bool:
     return n.op == "call" and n.value == name
+
+
+def arguments(equations: list[flat.Equation]) -> set[Expr]:
+    """The variables that stand in the arguments of functions that end."""
+    found = {n for e in equations for side in (e.lhs, e.rhs) for n in walk(side) if ends(n)}
+    return {v for n in found for v in leaves(n.args[0]) if v.op == "var"}
 
 
 def without_corner(product: Expr, is_algebraic: Callable[[Expr], bool]) -> Expr | None:

@@ -17,7 +17,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from lacuna.codegen import flat
-from lacuna.codegen.dae.ends import ends, is_call, keep_promises, without_corner
+from lacuna.codegen.dae.ends import arguments, ends, is_call, keep_promises, without_corner
 from lacuna.codegen.dae.relations import Relation, canonical, complement, within
 from lacuna.codegen.symbolic.affine import affine
 from lacuna.codegen.symbolic.expr import (  # fmt: skip
@@ -95,6 +95,7 @@ class _Freezer:
         self.variables = dict(model.variables)
         used = (n for e in model.equations for n in leaves(e.lhs) | leaves(e.rhs))
         self._differentiated = {str(n.args[0].value) for n in used if n.op == "der" and n.args[0].op == "var"}
+        self._arguments = {v for v in arguments(model.equations) if self._is_algebraic(v)}
         self.relations: list[Relation] = []
         self.samples: list[tuple[Expr, Expr]] = []
         self.new_equations: list[flat.Equation] = []
@@ -112,7 +113,11 @@ class _Freezer:
     def equation(self, e: flat.Equation) -> flat.Equation:
         self._source = e
         start = (self.freeze(e.start[0]), self.freeze(e.start[1])) if e.start else None
-        return replace(e, lhs=self.freeze(e.lhs), rhs=self.freeze(e.rhs), start=start)
+        if e.lhs in self._arguments or e.rhs in self._arguments:  # a name for what stands under a root
+            lhs, rhs = (transform(side, self._under_root, {}) for side in (e.lhs, e.rhs))
+        else:
+            lhs, rhs = self.freeze(e.lhs), self.freeze(e.rhs)
+        return replace(e, lhs=lhs, rhs=rhs, start=start)
 
     def _condition(self, e: Expr, span: flat.Span, origin: str) -> Expr:
         self._source = flat.Equation(ZERO, ZERO, span, origin, f"when {e}")

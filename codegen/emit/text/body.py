@@ -52,7 +52,7 @@ class Body:
         while stack:
             n = stack.pop()
             self._uses[n] = self._uses.get(n, 0) + 1
-            if n not in seen:
+            if n not in seen or n.op == "array":  # an array is written out wherever it stands: so are its elements
                 seen.add(n)
                 if n.op not in LEAF_OPS:
                     stack.extend(n.args)

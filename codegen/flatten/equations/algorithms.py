@@ -34,8 +34,7 @@ def flatten_algorithm(section: ast.Section, scope: Scope, out: Collected) -> Non
     run = SymbolicRun(scope, targets)
     if run.block(statements, TRUE) is not FALSE:
         raise Diagnostic("R059", "'break' outside of a loop", section.span, "it ends the loop around it")
-    given = set(_with_whole_arrays(run.values, scope.context))  # not what is in loops of no rounds only
-    for target in (t for t in targets if t in given):
+    for target in targets:
         value = run.result(target) if target in run.values else run.unassigned(target)
         variable, span = ex.var(target, run.type_of(target)), run.where.get(target, section.span)
         out.equations.append(flat.Equation(variable, value, span, origin_of(scope), f"{target} := ..."))

@@ -77,6 +77,20 @@ def test_parentheses_of_nested_negation(tmp_path: Path) -> None:
         assert function((ctypes.c_double * 3)(2, 3, 5)) == expected
 
 
+def test_what_shared_arrays_hold_is_computed_once() -> None:
+    """Two functions of one array, 20 times over each other: without temporaries a million calls."""
+    pair = VARIABLES[:2]
+    for _ in range(20):
+        shared = ex.node("array", tuple(pair))
+        pair = tuple(ex.node("call", (shared,), name) for name in ("first", "second"))
+    total = ex.add(*pair)
+    body = Body(Names(NAMES), lambda n: f"p[{NAMES.index(str(n.value))}]")
+    body.plan([total])
+    value = body.value(total)
+    text = body.text() + value
+    assert text.count("fn_first") == text.count("fn_second") == 20
+
+
 @given(st.floats(allow_nan=False))
 def test_numbers_read_back_exactly(value: float) -> None:
     text = number(value)
