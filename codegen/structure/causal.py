@@ -168,12 +168,11 @@ def following(
     steps: Sequence[Step], begun: Collection[Expr] = (), starts: Callable[[Step], bool] = lambda step: False
 ) -> set[Expr]:
     """Unknowns that follow from `begun`, or from steps that `starts` names."""
-    reached, found = set(begun), set()
+    found = set(begun)
     for step in steps:
-        if starts(step) or any(not reached.isdisjoint(leaves(e)) for e in expressions_of(step)):
+        if starts(step) or any(not found.isdisjoint(leaves(e)) for e in expressions_of(step)):
             found.update(unknowns_of(step))
-            reached.update(unknowns_of(step))
-    return found
+    return found.difference(begun)
 
 
 def rewritten(step: Step, rule: Callable[[Expr], Expr]) -> Step:

@@ -33,6 +33,13 @@ class Modifier:
     def empty(self) -> bool:
         return self.value is None and not self.children and self.redeclare is None
 
+    def copy(self) -> Modifier:
+        """One of its own, with the same children; many are made, and `dataclasses.replace` takes ten times as long."""
+        return Modifier(
+            self.span, self.value, self.scope, self.each, self.final, self.children, self.redeclare,
+            self.redeclared_in, self.replaced, self.tree, self.weak, self.index,
+        )  # fmt: skip
+
 
 def from_tree(tree: ast.Modification, scope: Scope, each: bool = False, final: bool = False) -> Modifier:
     """The modifier a syntax tree stands for. Raises R030 where a name is modified twice."""
@@ -80,16 +87,18 @@ def merge(outer: Modifier | None, inner: Modifier | None) -> Modifier | None:
         error = Diagnostic("R033", "this was redeclared and is not replaceable any more", outer.span, hint)
         error.notes.append((inner.span, "redeclared here"))
         raise error
-    children = _inner_children(outer, inner, again)
-    for name, child in outer.children.items():
-        children[name] = merge(child, children.get(name))
+    result = source.copy()
+    result.final = outer.final or inner.final
+    result.children = _inner_children(outer, inner, again)
+    if source.value is None:  # it is of the element that either is narrowed to
+        result.index = outer.index or inner.index
     chosen = outer if outer.redeclare is not None else inner
-    return Modifier(
-        outer.span, source.value, source.scope, source.each, outer.final or inner.final, children,
-        chosen.redeclare, chosen.redeclared_in, outer.replaced + ((inner,) if again else ()) + inner.replaced,
-        source.tree, source.weak,
-        source.index if source.value is not None else outer.index or inner.index,  # that either is narrowed to
-    )  # fmt: skip
+    result.redeclare, result.redeclared_in = chosen.redeclare, chosen.redeclared_in
+    result.replaced = outer.replaced + ((inner,) if again else ()) + inner.replaced
+    result.span = outer.span
+    for name, child in outer.children.items():
+        result.children[name] = merge(child, result.children.get(name))
+    return result
 
 
 def _inner_children(outer: Modifier, inner: Modifier, again: bool) -> dict[str, Modifier]:
@@ -104,10 +113,9 @@ def _inner_children(outer: Modifier, inner: Modifier, again: bool) -> dict[str, 
 
 
 def _weakened(m: Modifier) -> Modifier:
-    return Modifier(
-        m.span, m.value, m.scope, m.each, m.final, m.children, m.redeclare, m.redeclared_in, m.replaced, m.tree, True,
-        m.index,
-    )  # fmt: skip
+    weak = m.copy()
+    weak.weak = True
+    return weak
 
 
 def narrow(modifier: Modifier | None, index: tuple[tuple[int, int], ...]) -> Modifier | None:
