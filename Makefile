@@ -9,8 +9,8 @@ OUT ?= out
 PYTHON := .venv/bin/python
 LACUNA := .venv/bin/lacuna
 PYTEST := LACUNA_CACHE=$(abspath $(BUILD))/cache $(PYTHON) -m pytest -q -n 2 --dist loadgroup
-# Silent but for ctest's closing lines; where a test fails, everything it printed.
-run_ctest = ctest --test-dir $(1) --output-on-failure -j 2 > $(1)/ctest.log && tail -n 3 $(1)/ctest.log \
+# Silent but for ctest's closing lines; where a test fails, everything it printed. $(2): options besides.
+run_ctest = ctest --test-dir $(1) $(2) --output-on-failure -j 2 > $(1)/ctest.log && tail -n 3 $(1)/ctest.log \
   || { cat $(1)/ctest.log; exit 1; }
 FUZZ_SECONDS ?= 180
 COVERED ?= tests
@@ -170,7 +170,7 @@ sundials7: setup ## The C, C++ and runtime tests over SUNDIALS 7, built from Deb
 	@./bootstrap.sh sundials7 $(abspath $(BUILD))/sundials7
 	@cmake -S . -B $(BUILD)/sundials7/lacuna -G Ninja -DCMAKE_PREFIX_PATH=$(abspath $(BUILD))/sundials7/installed > $(BUILD)/sundials7.log
 	@ninja -C $(BUILD)/sundials7/lacuna --quiet | sed '/no work to do/d'
-	@ctest --test-dir $(BUILD)/sundials7/lacuna --output-on-failure -j 2 --exclude-regex 'Allocations.*ida' | tail -n 3
+	@$(call run_ctest,$(BUILD)/sundials7/lacuna,--exclude-regex 'Allocations.*ida')
 	@LACUNA_BUILD=$(abspath $(BUILD))/sundials7/lacuna LACUNA_CACHE=$(abspath $(BUILD))/sundials7/cache \
 	  $(PYTHON) -m pytest -q -n 2 --dist loadgroup -m "not slow" tests/runtime tests/events \
 	  --deselect 'tests/runtime/test_system_calls.py::test_no_library_reaches_for_files_processes_or_the_network[lacuna_runtime]'
