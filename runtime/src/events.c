@@ -60,7 +60,7 @@ static int sweep(rt_session *s) {
 }
 
 /* Whether two sweeps set the same: rounding aside, by which a solution of nonlinear equations may differ from the one
- * before. */
+ * before. A value is its only scale (what it was before may be far greater): a circle that tends to zero is refused. */
 static bool alike(const double *a, const double *b, int n) {
   for (int i = 0; i < n; i++)
     if (!(fabs(a[i] - b[i]) <= 4 * DBL_EPSILON * fabs(a[i]))) return false;
