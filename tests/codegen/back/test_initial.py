@@ -9,6 +9,7 @@ import pytest
 
 from lacuna import runtime
 from lacuna.codegen.compile import compile_model
+from lacuna.codegen.emit.callbacks import large
 
 STEADY = """model Steady "A DC motor that starts in steady state and is loaded after half a second"
   parameter Real R=1, L=0.01, k=0.1, J=0.001, d=1e-4, V=12;
@@ -148,9 +149,14 @@ end Sticks;
 """
 
 
-def test_what_a_mode_leaves_open_starts_at_its_start_value(tmp_path: Path) -> None:
+@pytest.mark.parametrize("limit", [500, 0])
+def test_what_a_mode_leaves_open_starts_at_its_start_value(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, limit: int
+) -> None:
     """A friction that sticks has no acceleration, whatever it bears: what it bears is open where rest is asked for, and
     its start value is a guess (8.6). What follows from that is told."""
+    monkeypatch.setattr(large, "LARGE", limit)
+    monkeypatch.setenv("LACUNA_CACHE", str(tmp_path / "cache"))
     result = simulated(tmp_path, STICKS.format("0"), stop=1.0)
     assert result["i"][0] == pytest.approx(3.0)
     assert result["i"][-1] == pytest.approx(10 - 7 * math.exp(-1), rel=1e-5)
