@@ -74,11 +74,11 @@ def _is_of_mode(e: Expr, model: flat.FlatModel) -> bool:
 def _warnings_of_modes(system: System, steps: list[Step]) -> list[Diagnostic]:
     states, found = {*map(var, system.states)}, []
     for step in steps:
-        if isinstance(step, Division) and step.guess:
-            reached = [str(u) for u in following(steps, [step.unknown]) if u in states]
-            text = f"where {step.denominator} is zero, the initial equations leave {step.unknown} open: it starts at its start value"
-            hint = f"what follows from it are {', '.join(sorted(reached))}: give one of them in place of an initial equation"
-            found += [Diagnostic("S021", text, step.row.source.span, hint, severity="warning")] if reached else []
+        follow = following(steps, [step.unknown]) & states if isinstance(step, Division) and step.guess else ()
+        if isinstance(step, Division) and follow:
+            text = f"where {step.denominator} is zero, {step.unknown} is open at the start: its start value is taken"
+            hint = f"what follows are {', '.join(sorted(map(str, follow)))}: give one in place of an initial equation"
+            found.append(Diagnostic("S021", text, step.row.source.span, hint, severity="warning"))
     return found
 
 

@@ -162,8 +162,8 @@ def test_what_a_mode_leaves_open_starts_at_its_start_value(
     assert result["i"][-1] == pytest.approx(10 - 7 * math.exp(-1), rel=1e-5)
     (warning,) = compile_model(str(tmp_path / "Sticks.mo")).report.warnings
     assert warning.code == "S021"
-    assert "leave sa open" in str(warning)
-    assert "what follows from it are i" in str(warning)
+    assert "sa is open at the start" in str(warning)
+    assert "what follows are i" in str(warning)
 
 
 def test_what_a_mode_contradicts_is_refused(tmp_path: Path) -> None:
