@@ -1,8 +1,8 @@
 """Whose trajectory of SMPM_Braking is right? The machine and its bridge written by hand, over SciPy's Radau.
 
-`python -m bench.braking` prints how far this program, Lacuna and the published reference are from each other: the largest
-difference of each signal, in its range. The equations are those of a permanent magnet machine in the rotor's coordinates on
-six diodes of two slopes and a resistor that follows the speed; no code is shared with what is judged.
+`python -m bench.braking` prints how far this program, Lacuna and the published reference are from each other: the
+largest difference of each signal, in its range. The equations are those of a permanent magnet machine in the rotor's
+coordinates on six diodes of two slopes and a resistor that follows the speed; no code is shared with what is judged.
 """
 
 from __future__ import annotations
@@ -90,7 +90,11 @@ def main() -> None:
     for k, name in enumerate(SIGNALS):
         published, ours = reference.signals[name][last], run[name][row]
         span = float(np.ptp(reference.signals[name]))
-        pairs = {"hand - ours": hand[k] - ours, "hand - reference": hand[k] - published, "ours - reference": ours - published}
+        pairs = {
+            "hand - ours": hand[k] - ours,
+            "hand - reference": hand[k] - published,
+            "ours - reference": ours - published,
+        }
         print(name, *(f"{pair}: {np.max(np.abs(d)) / span:.1e}" for pair, d in pairs.items()), sep="  ")
 
 
