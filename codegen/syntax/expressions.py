@@ -174,8 +174,6 @@ class ExpressionParser(ArgumentParser):
         if self.kind == "if":
             hint = "put the if-expression in parentheses: 2*(if c then a else b)"
             return Diagnostic("P007", "an if-expression cannot be an operand as it stands", self.span(), hint)
-        if self.kind == "." or (self.kind == "op" and self.word == "."):
-            return Diagnostic("P011", "a number starts with a digit", self.span(), "write 0.5, not .5")
         found = self.word if self.kind == "eof" else f"'{self.word}'"
         hint = "'=' compares nothing: use ==" if self.kind == "=" else f"say what comes after {self.words[self.at - 1]}"
         return Diagnostic("P007", f"an expression is missing before {found}", self.span(), hint)
@@ -184,8 +182,6 @@ class ExpressionParser(ArgumentParser):
         """A component reference: names with subscripts."""
         start = self.at
         absolute = self.accept(".")
-        if absolute and self.kind == "num":
-            raise Diagnostic("P011", "a number starts with a digit", self.span(start), "write 0.5, not .5")
         names = [self.identifier()]
         subscripts = [self._subscripts()]
         while self.kind == ".":

@@ -193,7 +193,7 @@ class Instance:
             attributes = for_each(found.modifier) if sizes else found.modifier
             complete = merge(modifier, attributes) or modifier
             return Leaf(self.context, self, declaration, name, found, tuple(sizes), complete, index_types)
-        check_component(declaration, found, self.context)
+        check_component(self.cls, declaration, found, self.context)
         if not sizes:
             return Instance(self.context, found.cls, name, self, merge(modifier, found.modifier), declaration)
         items = []

@@ -80,9 +80,13 @@ def check_block(cls: ast.Class, declaration: ast.Component, found: Type, element
         raise Diagnostic("R070", message, declaration.span, hint)
 
 
-def check_component(declaration: ast.Component, found: Type, context: Context) -> None:
-    """Raises R014 or R015 for a class that no component is of: packages, functions, what is partial."""
+def check_component(holder: ast.Class, declaration: ast.Component, found: Type, context: Context) -> None:
+    """Raises R014 or R015 for a class that no component is of: packages, functions, what is partial; R070 for models and
+    connectors in a record (4.7)."""
     cls = found.cls
+    if holder.kind == "record" and cls.kind in ("model", "block", "connector"):
+        hint = "an element of a record is of a record or a type: write a model"
+        raise Diagnostic("R070", f"{declaration.name} is a {cls.kind} in a record", declaration.span, hint)
     if cls.kind in ("package", "function"):
         hint = "components are of a model, block, connector, record or type"
         raise Diagnostic("R014", f"{cls.name} is a {cls.kind}, not a component class", declaration.span, hint)

@@ -121,7 +121,14 @@ def _unary(e: ast.Unary, scope: Scope) -> Value:
 
 
 def _binary(e: ast.Binary, scope: Scope) -> Value:
-    left, right = lower(e.left, scope), lower(e.right, scope)
+    left = lower(e.left, scope)
+    decided = e.op in ("and", "or") and isinstance(left, Expr) and ex.is_const(left) and left.value == (e.op == "or")
+    try:
+        right = lower(e.right, scope)
+    except Diagnostic as error:
+        if not decided or error.code not in (*NOT_THERE, "R051"):  # R051: the largest element of none
+            raise
+        return left
     if holds_records(left) or holds_records(right):
         return scope.context.lowering.overloaded(e.op, [left, right], e.span, scope)
     if e.op in ("and", "or"):
