@@ -81,8 +81,8 @@ def check_block(cls: ast.Class, declaration: ast.Component, found: Type, element
 
 
 def check_component(holder: ast.Class, declaration: ast.Component, found: Type, context: Context) -> None:
-    """Raises R014 or R015 for a class that no component is of: packages, functions, what is partial; R070 for models and
-    connectors in a record (4.7)."""
+    """Raises R014 or R015 for a class that no component is of: packages, functions, what is partial; R070 for models
+    and connectors in a record (4.7)."""
     cls = found.cls
     if holder.kind == "record" and cls.kind in ("model", "block", "connector"):
         hint = "an element of a record is of a record or a type: write a model"
