@@ -13,6 +13,7 @@ from bench import (
     keystrokes,
     library,
     maps,
+    onboard,
     race,
     report,
     scenarios,
@@ -47,6 +48,7 @@ SECTIONS: dict[str, tuple[str, Section]] = {
     "races": ("T1 and T2 beside a program written by hand over IDA (time ratio 1)", races),
     "maps": ("The paper's map, 51 severities", maps.split),
     "scenarios": ("The whole actuator against the clock", scenarios.against_the_clock),
+    "onboard": ("The on-board assessment chain against the clock", onboard.against_the_clock),
     "sensitivities": ("Runs with sensitivities, as multiples of the same run without", sensitivities.cost),
     "campaign": ("192 tests of the map's kind under nuisances, here and on Dask workers", campaign.scale),
     "growth": (

@@ -45,7 +45,7 @@ def divisions(steps: Iterable[Step], model: flat.FlatModel) -> list[Quotient]:
     found: dict[tuple[Expr, Expr], Quotient] = {}
     for expression, source in _expressions(steps):
         for numerator, divisor, condition in _quotients(expression, TRUE, set()):
-            if _changes(divisor, model) and not _is_positive(divisor):
+            if changes(divisor, model) and not _is_positive(divisor):
                 parts = (if_else(condition, numerator, NAN), if_else(condition, divisor, NAN))
                 found.setdefault(parts, Quotient(*parts, source))
     return list(found.values())
@@ -89,7 +89,7 @@ def _quotients(e: Expr, condition: Expr, seen: set[tuple[Expr, Expr]]) -> Iterat
         yield from _quotients(a, condition, seen)
 
 
-def _changes(e: Expr, model: flat.FlatModel) -> bool:
+def changes(e: Expr, model: flat.FlatModel) -> bool:
     """Whether `e` changes between events."""
     for n in leaves(e):
         if n.op in ("der", "time"):

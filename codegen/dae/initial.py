@@ -1,20 +1,24 @@
 """The initial system: all equations, the initial equations and fixed start values, states unknown too.
 
-Where that leaves unknowns open, start values of further states are used (with a warning that lists them).
+Where that leaves unknowns open, start values of further states are used (with a warning that lists them). Where a mode
+makes nothing of an equation (the acceleration of a friction that sticks is zero, whatever its torque), what it would
+have given has its start value in that mode: a guess, as 8.6 calls it. A warning names the states that follow.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from lacuna.codegen import flat
+from lacuna.codegen.dae.divisions import changes
 from lacuna.codegen.dae.operators.homotopy import rows_at_start
 from lacuna.codegen.errors import Diagnostic
-from lacuna.codegen.structure.causal import Assignment, Step, causalise, unknowns_of
+from lacuna.codegen.structure.causal import Assignment, Division, Step, causalise, following, unknowns_of
 from lacuna.codegen.structure.sorting.matching import Matching
 from lacuna.codegen.structure.sorting.tearing import Tearing
 from lacuna.codegen.structure.system import Row, System
 from lacuna.codegen.symbolic.expr import Expr, const, neg, sub, var
+from lacuna.codegen.symbolic.leaves import leaves
 
 
 @dataclass
@@ -41,13 +45,41 @@ def initial_system(system: System, equations: list[flat.Equation], tearing: Tear
             _refuse_start(system, rows, unknowns, matching, row, column)
         rows.append(row)
     assumed = _assume_starts(system, rows, unknowns, matching, column)
-    steps = causalise(rows, unknowns, tearing)
+    steps = [_guessed(s, system.model) for s in causalise(rows, unknowns, tearing)]
     own = {*map(var, system.states)}
     trivial = not any(row.source.start for row in rows) and all(
         isinstance(s, Assignment) and s.row.source.text.startswith("start of") for s in steps
         if own & set(unknowns_of(s))
     )  # fmt: skip
-    return InitialSystem(steps, trivial, _warnings(system, assumed))
+    return InitialSystem(steps, trivial, [*_warnings(system, assumed), *_warnings_of_modes(system, steps)])
+
+
+def _guessed(step: Step, model: flat.FlatModel) -> Step:
+    """A division by what a mode makes nothing keeps the start value there, where nothing is asked of it."""
+    if not isinstance(step, Division):
+        return step
+    return replace(step, guess=const(0.0) in _branches(step.denominator) and _is_of_mode(step.denominator, model))
+
+
+def _branches(e: Expr) -> list[Expr]:
+    return [b for a in e.args[1:] for b in _branches(a)] if e.op == "if" else [e]
+
+
+def _is_of_mode(e: Expr, model: flat.FlatModel) -> bool:
+    """Whether `e` changes at events, and at events only."""
+    own = [n for n in leaves(e) if n.op != "var" or model.variables[str(n.value)].variability != flat.PARAMETER]
+    return bool(own) and not changes(e, model)
+
+
+def _warnings_of_modes(system: System, steps: list[Step]) -> list[Diagnostic]:
+    states, found = {*map(var, system.states)}, []
+    for step in steps:
+        follow = following(steps, [step.unknown]) & states if isinstance(step, Division) and step.guess else ()
+        if isinstance(step, Division) and follow:
+            text = f"where {step.denominator} is zero, {step.unknown} is open at the start: its start value is taken"
+            hint = f"what follows are {', '.join(sorted(map(str, follow)))}: give one in place of an initial equation"
+            found.append(Diagnostic("S021", text, step.row.source.span, hint, severity="warning"))
+    return found
 
 
 def _distinct(equations: list[flat.Equation]) -> list[Row]:

@@ -21,12 +21,14 @@ from lacuna.codegen.symbolic.leaves import leaves, with_leaves
 
 @dataclass(eq=False)
 class Division:
-    """unknown = numerator / denominator, where the denominator may vanish: checked when computed."""
+    """unknown = numerator / denominator, where the denominator may vanish: checked when computed. `guess`: where
+    that makes 0 = 0 the unknown keeps the value it had."""
 
     unknown: Expr
     numerator: Expr
     denominator: Expr
     row: Row
+    guess: bool = False
 
 
 @dataclass(eq=False)

@@ -8,8 +8,8 @@ In this order, for each continuous variable:
    Parameters have the size of their values, sin and cos 1, and first of all what stands in them has. Of several
    balances the smallest counts. What is found serves in the next round. Where a round finds nothing, sums inside
    products are looked at, then numbers that stand as terms (a threshold of 1e-6 says less than a parameter, but more
-   than nothing). A relation makes a size smaller than the equations alone do, never larger. A limit (in min and max, or
-   a branch that its condition compares with) counts only beside other limits;
+   than nothing). A relation with a limit makes a size smaller than the equations alone do, never larger. A limit in min
+   and max, or in a branch that its condition compares with, counts only beside other limits;
 3. then the length of the experiment links a variable and its derivative;
 4. an angle (unit rad) without a declared nominal has size 1, at which it acts, however many turns it makes and however
    small a play is that it is compared with;
@@ -38,7 +38,8 @@ def infer(system: System, relations: Sequence[tuple[Expr, Expr, str]]) -> dict[E
     """Sizes by variable and derivative. `relations`: (left, right, where), each compares two quantities of one size.
 
     A limit may lie far beyond what a quantity ever reaches (one that is switched off, 1e60): what the equations alone
-    make of a size, or 1 where they make nothing, relations make smaller, never larger."""
+    make of a size, or 1 where they make nothing, limits make smaller, never larger. What is compared with another
+    variable is no limit: the potential of an open leg with that of a rail."""
     sizes = _balanced(system, relations, False)
     for e, size in _balanced(system, relations, True).items() if relations else ():
         if size.smaller(sizes[e]) if e in sizes else size.value < 1:
@@ -47,15 +48,19 @@ def infer(system: System, relations: Sequence[tuple[Expr, Expr, str]]) -> dict[E
 
 
 def _balanced(system: System, relations: Sequence[tuple[Expr, Expr, str]], count: bool) -> dict[Expr, Size]:
-    """`count`: relations are balances, too."""
+    """`count`: limits are balances, too."""
     balances = [(row.lhs, row.rhs, f"line {row.source.span.line}") for row in system.rows]
-    balances += relations if count else ()
+    balances += [r for r in relations if count or all(_varies(side, system.model) for side in r[:2])]
     inference = _Inference(system.model, [b for b in balances if BOOLEAN not in (b[0].type, b[1].type)], relations)
     inference.seed(system)
     span = abs(system.model.experiment.stop_time - system.model.experiment.start_time) or 1.0
     while inference.balance() or inference.link(system.states, span):
         pass
     return inference.sizes
+
+
+def _varies(e: Expr, model: flat.FlatModel) -> bool:
+    return any(n.op == "var" and model.variables[str(n.value)].variability == flat.CONTINUOUS for n in leaves(e))
 
 
 def difference(left: Expr, right: Expr, sizes: dict[Expr, Size], model: flat.FlatModel) -> Size | None:

@@ -48,7 +48,8 @@ static int find_return(rt_session *s, double *inside) {
   for (int r = 0; r < s->d->n_rel; r++) {
     if (s->due_back[r] < s->t_previous || s->flip[r] || rt_is_shaped(s, r)) continue;
     double sign = s->data.rel[r] ? 1 : -1;
-    for (double part = 0.5 * h; part > least; part *= 0.5) {
+    double part = h;
+    while ((part *= 0.5) > least) {
       int status = rt_guards_at(s, s->t_previous + part, s->g_trial);
       if (status) return status;
       if (sign * s->g_trial[r] >= -rt_hysteresis(s, r)) continue;

@@ -33,7 +33,7 @@ static double carried(const mdl_data *m, int k, double end, double x, int order)
 
 bool rt_transports_create(rt_session *s) {
   int n = s->d->n_transport;
-  if (!n) return true;
+  if (n <= 0) return true;
   struct rt_transports *t = s->transports = calloc(1, sizeof *t);
   if (!t) return false;
   t->n = n;

@@ -1,10 +1,9 @@
-// The on-board chain against the desktop's, its memory, and its speed.
+// The on-board chain against the desktop's, and its memory.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <complex>
 #include <cstdlib>
-#include <ctime>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -173,22 +172,16 @@ TEST(MallocTrap, IsSet) {
   EXPECT_EQ(allocations() - before, 2);
 }
 
-TEST(Monitor, ALongStreamWithoutAllocationAndFasterThanRealTime) {
+TEST(Monitor, ALongStreamWithoutAllocation) {
   const lacuna::Chain chain = paper_chain();
   Monitor monitor(configuration_of(chain));
   const auto rows = simulated(0.2, 100000);
   const long before = allocations();
-  const std::clock_t begin = std::clock(); // of this process: other work on the machine does not count
   int records = 0;
   for (int second = 0; second < STREAM_SECONDS; ++second)
     for (const auto &row : rows)
       records += monitor.push({row.data(), 3}, row[4]) ? 1 : 0;
-  const double elapsed = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   EXPECT_EQ(allocations() - before, 0);
   EXPECT_EQ(records, STREAM_SECONDS);
   EXPECT_EQ(monitor.features().channels[0].peak_bin, 44);
-  const double speed = STREAM_SECONDS / elapsed;
-  RecordProperty("times_real_time", std::to_string(speed));
-  std::printf("%.0f times faster than real time\n", speed);
-  EXPECT_GT(speed, MINIMUM_SPEED);
 }

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from lacuna import runtime
-from lacuna.codegen.compile import compile_model
+from lacuna.codegen.compile import compile_model, translate
+from lacuna.codegen.symbolic.expr import var
 from tests.events.belts import MODEL, Belt, draw
 from tests.events.models import compiled
 
@@ -193,3 +194,11 @@ def test_a_model_in_other_units_of_time_takes_the_same_steps(tmp_path: Path, sol
             assert (other["n"][-1], other["ticks"][-1]) == (one["n"][-1], one["ticks"][-1])
             assert abs(other.counters["steps"] - one.counters["steps"]) <= 0.05 * one.counters["steps"]
             assert other["x"][-1] == pytest.approx(one["x"][-1], abs=100 * rtol if solver == "ida" else 1e-9)
+
+
+def test_the_potential_of_a_rail_is_no_limit() -> None:
+    """An open leg conducts where its potential leaves the rails. What is compared with a variable has its size; without
+    that the current of a winding had the size of the leakage that PartialLeg writes beside it, picoamperes."""
+    prepared, _ = translate("Lacuna.Actuators.EccentricBldc")
+    size = prepared.nominals[var("bridge.leg_a.i")]
+    assert size.value == pytest.approx(28 / (1 * 2.13), rel=0.05)

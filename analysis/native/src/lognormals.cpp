@@ -22,13 +22,14 @@ public:
   double operator()(double z) const {
     if (!(z > -beyond)) return 0;
     if (z >= beyond) return 1;
-    const auto k = static_cast<std::size_t>(z * per_unit + half + 0.5);
+    const auto k = static_cast<std::size_t>(z * per_unit + nearest);
     const double at = (static_cast<double>(k) - half) / per_unit, d = z - at;
     return table_[k].below + table_[k].density * d * (1 - 0.5 * at * d);
   }
 
 private:
   static constexpr double per_unit = 64, beyond = 8, half = beyond * per_unit;
+  static constexpr double nearest = half + 0.5; // rounds to the nearest point where it is cut off
   static constexpr std::size_t size = static_cast<std::size_t>(2 * half) + 1;
   struct Point {
     double below, density;

@@ -39,6 +39,10 @@ from lacuna.codegen.symbolic.leaves import leaves
 LARGE = 500  # statements: up to here a function of named locals compiles in a fraction of a second, and reads better
 
 _DIVIDE = "{{ const double divisor = {{1}}; if (divisor == 0.0) {failure}; {place}[#0] = ({{0}}) / divisor; }}"
+_GUESS = (
+    "{{ const double divisor = {{1}}, above = {{0}}; if (divisor == 0.0 && above != 0.0) {failure}; "
+    "if (divisor != 0.0) {place}[#0] = above / divisor; }}"
+)
 _SINGULAR = "return mdl_fail(m, MDL_FAILURE_SINGULAR, #1, 0.0)"
 _BOUND = "if (!({0})) { m->failure = (mdl_failure){MDL_FAILURE_BOUND, -1, #0, {1}, {2}}; return -1; }"
 _ASSERT = "if (!({0})) { (void)mdl_fail(m, MDL_FAILURE_ASSERT, #0, 0.0); return -1; }"
@@ -94,7 +98,7 @@ class Large:
 
     def _division(self, step: Division, target: str) -> Statement:
         array, _, index = target[:-1].rpartition("[")
-        form = _DIVIDE.format(failure=_SINGULAR, place=array)
+        form = (_GUESS if step.guess else _DIVIDE).format(failure=_SINGULAR, place=array)
         indices = (int(index), self._equations.index(step.row.source))
         note = comment(step.row.source, step.row.text)
         return Statement(form, (step.numerator, step.denominator), indices, step.unknown, target, note)

@@ -93,10 +93,15 @@ class StepWriter:
         self.note(step.row)
         divisor = f"{body.names.leaf(step.unknown)}_divisor"
         body.line(f"const double {divisor} = {body.value(step.denominator)};")
-        body.line(f"if ({divisor} == 0.0) {self._fail('SINGULAR', step.row)}")
-        numerator = body.value(step.numerator, 7)
         name = body.names.leaf(step.unknown)
-        body.line(f"const double {name} = {numerator} / {divisor};")
+        if step.guess:
+            body.line(f"double {name} = {body.value(step.numerator)};")
+            body.line(f"if ({divisor} == 0.0 && {name} != 0.0) {self._fail('SINGULAR', step.row)}")
+            body.line(f"{name} = {divisor} == 0.0 ? {self._start(step.unknown)} : {name} / {divisor};")
+        else:
+            body.line(f"if ({divisor} == 0.0) {self._fail('SINGULAR', step.row)}")
+            numerator = body.value(step.numerator, 7)
+            body.line(f"const double {name} = {numerator} / {divisor};")
         body.define(step.unknown)
 
     def _linear(self, step: LinearBlock) -> None:

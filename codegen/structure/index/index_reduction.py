@@ -12,6 +12,7 @@ from dataclasses import replace
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.index.dummy_derivatives import choose_states
+from lacuna.codegen.structure.index.hidden import expose
 from lacuna.codegen.structure.sorting.singular import require_regular
 from lacuna.codegen.structure.system import Row, System
 from lacuna.codegen.symbolic.differentiate import Differentiator
@@ -29,6 +30,7 @@ def reduce_index(model: flat.FlatModel, equations: list[flat.Equation], relation
     ]
     rows = [Row(e.lhs, e.rhs, e) for e in equations]
     require_regular(rows, names, model)
+    rows = expose(rows, names)
     model, started = _derivatives_at_start(model, rows, set(names))
     names += [str(row.lhs.value) for row in started]
     rows += started

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
 
 from lacuna import runtime
 from lacuna.codegen.compile import compile_model
+from lacuna.codegen.emit.callbacks import large
 
 STEADY = """model Steady "A DC motor that starts in steady state and is loaded after half a second"
   parameter Real R=1, L=0.01, k=0.1, J=0.001, d=1e-4, V=12;
@@ -131,3 +133,39 @@ end Conserved;
     assert result.complete, result.failure
     assert result["x"] == pytest.approx(1.0)
     assert result["y"] == pytest.approx(1.0)
+
+
+STICKS = """model Sticks
+  Real w(start=0, fixed=true), i, sa(start=3);
+  Boolean stuck(start=true, fixed=true);
+initial equation
+  der(w) = {};
+equation
+  stuck = pre(stuck) and abs(w) < 0.1;
+  der(w) = if stuck then 0 else sa - 1;
+  0.5*der(w) = i - (if stuck then sa else 1);
+  der(i) = 10 - i;
+end Sticks;
+"""
+
+
+@pytest.mark.parametrize("limit", [500, 0])
+def test_what_a_mode_leaves_open_starts_at_its_start_value(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, limit: int
+) -> None:
+    """A friction that sticks has no acceleration, whatever it bears: what it bears is open where rest is asked for, and
+    its start value is a guess (8.6). What follows from that is told."""
+    monkeypatch.setattr(large, "LARGE", limit)
+    monkeypatch.setenv("LACUNA_CACHE", str(tmp_path / "cache"))
+    result = simulated(tmp_path, STICKS.format("0"), stop=1.0)
+    assert result["i"][0] == pytest.approx(3.0)
+    assert result["i"][-1] == pytest.approx(10 - 7 * math.exp(-1), rel=1e-5)
+    (warning,) = compile_model(str(tmp_path / "Sticks.mo")).report.warnings
+    assert warning.code == "S021"
+    assert "sa is open at the start" in str(warning)
+    assert "what follows are i" in str(warning)
+
+
+def test_what_a_mode_contradicts_is_refused(tmp_path: Path) -> None:
+    result = simulated(tmp_path, STICKS.format("1"), stop=1.0)
+    assert "linear equations have no solution, or no unique one" in str(result.failure)
