@@ -87,7 +87,7 @@ static double spread(int n, const double *p) {
 
 /* Between *low and *high are the values of p on [0, 1]: its coefficients in the basis of Bernstein. */
 static void enclose(int n, const double *p, double *low, double *high) {
-  double b[MOST], choose = 1;
+  double b[MOST] = {p[0]}, choose = 1;
   for (int k = 0; k <= n; k++) {
     b[k] = p[k] / choose;
     choose *= (double)(n - k) / (k + 1);
