@@ -175,11 +175,12 @@ sundials7: setup ## The C, C++ and runtime tests over SUNDIALS 7, built from Deb
 	  $(PYTHON) -m pytest -q -n 2 --dist loadgroup -m "not slow" tests/runtime tests/events \
 	  --deselect 'tests/runtime/test_system_calls.py::test_no_library_reaches_for_files_processes_or_the_network[lacuna_runtime]'
 
-fuzz: setup ## [FUZZ_SECONDS=180] each of: models through the parser, systems by three solvers, the oracle, files, libFuzzer
+fuzz: setup ## [FUZZ_SECONDS=180] each of: models through the parser, systems by solvers, the oracle, files, editor, libFuzzer
 	@$(PYTHON) -m tests.codegen.fuzz --seconds $(FUZZ_SECONDS)
 	@$(PYTHON) -m tests.fuzz --seconds $(FUZZ_SECONDS)
 	@$(PYTHON) -m tests.fuzz.oracle --seconds $(FUZZ_SECONDS)
 	@$(PYTHON) -m tests.fuzz.files --seconds $(FUZZ_SECONDS)
+	@$(PYTHON) -m tests.fuzz.editor --seconds $(FUZZ_SECONDS)
 	@cmake -S . -B $(BUILD)/fuzz -G Ninja -C tests/fuzz/clang.cmake > $(BUILD)/fuzz.log 2>&1 || { cat $(BUILD)/fuzz.log; exit 1; }
 	@ninja -C $(BUILD)/fuzz --quiet $(FUZZ_TARGETS:%=fuzz_%)
 	@for target in $(FUZZ_TARGETS); do mkdir -p $(OUT)/fuzz/$$target; (cd $(OUT)/fuzz/$$target && mkdir -p found && \

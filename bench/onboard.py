@@ -7,7 +7,7 @@ import subprocess
 
 import numpy as np
 
-PROGRAM = Path(__file__).parents[1] / "build" / "bin" / "bench_onboard"
+PROGRAM = Path(__file__).parents[1] / "build" / "bin" / "onboard_speed"
 STREAM = 10  # s of a stream in each round: ten records
 
 

@@ -220,7 +220,8 @@ def _same(a: Span, b: Span) -> bool:
 def completions(workspace: Workspace, path: Path, line: int, character: int) -> dict[str, str]:
     """What may stand at the cursor, with a word on each: components and classes, units inside a unit's quotes."""
     text = workspace.text(path)
-    before = "\n".join([*text.split("\n")[:line], text.split("\n")[line][:character]])
+    lines = text.split("\n")
+    before = "\n".join([*lines[:line], *(row[:character] for row in lines[line : line + 1])])
     if re.search(r'unit\s*=\s*"[^"]*$', before):
         return dict.fromkeys(symbols(), "unit")
     view = _last_that_parsed(workspace, path, before)

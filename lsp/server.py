@@ -6,9 +6,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 import gc
 from pathlib import Path
+import re
 from urllib.parse import unquote, urlparse
 
 from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcInvalidParams
 from pygls.lsp.server import LanguageServer
 
 import lacuna
@@ -17,6 +19,7 @@ from lacuna.lsp import features
 from lacuna.lsp.features import Workspace
 from lacuna.lsp.format import format_text
 
+_IDENTIFIER = re.compile(r"[A-Za-z_]\w*|'(?:[^'\\\n]|\\.)+'", re.ASCII)
 _SEVERITY = {"error": lsp.DiagnosticSeverity.Error, "warning": lsp.DiagnosticSeverity.Warning}
 
 
@@ -134,6 +137,8 @@ def _symbol(entry: dict) -> lsp.DocumentSymbol:
 def _edits(server: LanguageServer, workspace: Workspace) -> None:
     @server.feature(lsp.TEXT_DOCUMENT_RENAME)
     def rename(params: lsp.RenameParams) -> lsp.WorkspaceEdit:
+        if not _IDENTIFIER.fullmatch(params.new_name):
+            raise JsonRpcInvalidParams(f"{params.new_name!r} is not a name: letters, digits and _, or in 'quotes'")
         at = params.position
         changes: dict[str, list[lsp.TextEdit]] = {}
         for path, span in features.occurrences(workspace, path_of(params.text_document.uri), at.line, at.character):
@@ -154,17 +159,19 @@ def _edits(server: LanguageServer, workspace: Workspace) -> None:
     @server.feature(lsp.TEXT_DOCUMENT_CODE_ACTION)
     def actions(params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
         uri = params.text_document.uri
+        lines = workspace.text(path_of(uri)).split("\n")
         return [
-            _replace(uri, workspace.text(path_of(uri)), diagnostic, name)
+            _replace(uri, lines[diagnostic.range.start.line], diagnostic, name)
             for diagnostic in params.context.diagnostics
+            if diagnostic.range.start.line < len(lines)  # else of an older text
             for name in (diagnostic.data or {}).get("fixes", [])
         ]
 
 
-def _replace(uri: str, text: str, diagnostic: lsp.Diagnostic, name: str) -> lsp.CodeAction:
+def _replace(uri: str, line: str, diagnostic: lsp.Diagnostic, name: str) -> lsp.CodeAction:
     """The name that was not found, replaced by a known one: the last part of what is marked."""
     at = diagnostic.range
-    marked = text.split("\n")[at.start.line][at.start.character : at.end.character]
+    marked = line[at.start.character : at.end.character]
     start = at.start.character + (marked.rfind(".") + 1 if "." in marked and "." not in name else 0)
     place = lsp.Range(lsp.Position(at.start.line, start), at.end)
     return lsp.CodeAction(

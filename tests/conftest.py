@@ -23,9 +23,7 @@ def shared() -> Path:
 @pytest.fixture(scope="session")
 def map_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A map of the hand-written simulation, prepared for assessment: once for all workers of a run."""
-    from lacuna.analysis.map.maps import build_map
-    from lacuna.analysis.severity.preparation import prepare_assessment
-    from tests.analysis.plants import ReferencePlant, paper_settings
+    from tests.analysis.plants import prepare_small_map
 
     base = tmp_path_factory.getbasetemp()
     folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "prepared"
@@ -33,7 +31,5 @@ def map_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     with (folder / "lock").open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not (folder / "map" / "severity.table").exists():
-            fewer = [("conditions = 7", "conditions = 3"), ("every = 10", "every = 13")]
-            settings, plant = paper_settings(folder, *fewer), ReferencePlant()
-            prepare_assessment(plant, settings, build_map(plant, settings, folder / "map", figures=False))
+            prepare_small_map(folder)
     return folder / "map"

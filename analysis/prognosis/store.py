@@ -1,18 +1,19 @@
 """Assessments in a database: SQLite in a file, or any other that SQLAlchemy reaches.
 
 A row is never changed and never stored twice: it is known by the recording's hash, the map's hash, the actuator and
-the fault. Where a
-newer map reads a recording otherwise, its row is added and the older one kept; what counts is the latest.
+the fault, and holds a checksum of its own. Where a newer map reads a recording otherwise, its row is added and the
+older one kept; what counts is the latest.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, fields
 import hashlib
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import sqlalchemy as sa
@@ -45,12 +46,30 @@ _assessments = sa.Table(
     sa.Column("path", sa.Text, nullable=False),  # where the file was
     sa.Column("map", sa.String(64), nullable=False),  # SHA-256 of what decides an estimate
     sa.Column("version", sa.String(50), nullable=False),  # of Lacuna
+    sa.Column("checksum", sa.String(64), nullable=False),  # SHA-256 of all these
     sa.UniqueConstraint("recording", "map", "actuator", "fault"),
 )
 
+NUMBERS = ("severity", "low", "high", "cycles", "hours")
+
 Migration = Callable[[sa.Connection], None]
+
+
+def _add_checksums(connection: sa.Connection) -> None:
+    """Version 1 had none; what its rows hold is taken as it is."""
+    if "checksum" in {column["name"] for column in sa.inspect(connection).get_columns(_assessments.name)}:
+        return
+    connection.execute(sa.text(f"ALTER TABLE {_assessments.name} ADD COLUMN checksum VARCHAR(64) DEFAULT '' NOT NULL"))
+    for row in connection.execute(sa.select(_assessments)).mappings().all():
+        own = _assessments.update().where(_assessments.c.id == row["id"])
+        connection.execute(own.values(checksum=_checksum(row)))
+
+
 # How a store of version k becomes one of version k + 1.
-MIGRATIONS: list[Migration] = [lambda connection: _tables.create_all(connection, checkfirst=True)]
+MIGRATIONS: list[Migration] = [
+    lambda connection: _tables.create_all(connection, checkfirst=True),
+    _add_checksums,
+]
 
 
 @dataclass(frozen=True)
@@ -135,7 +154,7 @@ class Store:
             values[name] = json.dumps(values[name], sort_keys=True)
         try:
             with self._connection() as connection:
-                connection.execute(_assessments.insert().values(**values))
+                connection.execute(_assessments.insert().values(**values, checksum=_checksum(values)))
         except IntegrityError:
             return False
         return True
@@ -146,6 +165,10 @@ class Store:
         query = sa.select(_assessments).order_by(c.actuator, c.fault, c.cycles, c.hours, c.id)
         with self._connection() as connection:
             rows = [dict(row._mapping) for row in connection.execute(query)]
+        for row in rows:
+            if _checksum(row) != row["checksum"]:
+                place = f"row {row['id']} of {_assessments.name}"
+                raise AnalysisError(f"{_hidden(self.url)}: damaged, or changed by something else: {place}")
         latest: dict[tuple, dict] = {}
         for number, row in enumerate(rows):
             key = number if all_maps else (row["actuator"], row["fault"], row["recording"])
@@ -195,6 +218,18 @@ class Store:
         else:
             raise AnalysisError(f"{path}: a history is exported as .csv or .parquet")
         partial.replace(path)
+
+
+def _checksum(row: Mapping[str, Any]) -> str:
+    """SHA-256 of what an entry holds; empty where a number is none."""
+    held = {f.name: row[f.name] for f in fields(Entry)}
+    for name in NUMBERS:
+        if held[name] is None:
+            continue
+        if not isinstance(held[name], int | float):
+            return ""
+        held[name] = float(held[name])
+    return hashlib.sha256(json.dumps(held, sort_keys=True).encode()).hexdigest()
 
 
 def _history(key: tuple[str, str], rows: list[Entry], unit: str | None, where: str) -> History:

@@ -16,12 +16,14 @@ from lacuna.codegen.library.access import NONE, Access
 from lacuna.codegen.library.search_path import (
     MODEL_FOLDER,
     PACKAGE_FILE,
+    is_file,
+    is_folder,
     names_in,
     outermost,
     package_in,
     search_path,
     split_name,
-)
+)  # fmt: skip
 from lacuna.codegen.syntax import ast, parse
 from lacuna.suggest import did_you_mean
 
@@ -133,9 +135,8 @@ class Library:
         `cls`: it takes the place of the package's own, as where a tool loads that file after the package."""
         for place in self._places:
             file = place if place.is_file() else place / f"{name}.mo"
-            if not file.is_file() or (place / PACKAGE_FILE).is_file():
-                continue
-            for found in self.parse_file(file):
+            taken = is_file(file) and not is_file(place / PACKAGE_FILE)
+            for found in self.parse_file(file) if taken else ():
                 if (found.within, found.name) == (cls.path, name):
                     found.parent = cls
                     return found
@@ -143,23 +144,22 @@ class Library:
 
     def _from_folder(self, cls: ast.Class, folder: Path, name: str) -> ast.Class | None:
         file = folder / f"{name}.mo"
-        if file.is_file():
+        if is_file(file):
             classes = self.parse_file(file)
-        elif (folder / name / "package.mo").is_file():
+        elif is_file(folder / name / PACKAGE_FILE):
             classes = [self._package(folder / name)]
-        elif (folder / name).is_dir():
-            hint = f"a folder is a package when it holds package.mo: add {folder / name / 'package.mo'}"
+        elif is_folder(folder / name):
+            hint = f"a folder is a package when it holds one: add {folder / name / PACKAGE_FILE}"
             raise Diagnostic("F002", f"the folder {folder / name} holds no package.mo", cls.span, hint)
         else:
             return None
         found = classes[0]
         if found.name != name:
-            hint = f"rename the class to {name}, or the file to {found.name}.mo"
-            raise Diagnostic("F003", f"{file.name} declares {found.name}", found.span, hint)
+            put_right = f"rename the class to {name}, or the file to {found.name}.mo"
+            raise Diagnostic("F003", f"{file.name} declares {found.name}", found.span, put_right)
         if found.within != cls.path:
-            hint = f"start the file with: within {cls.path};"
             message = f"{name} lies in package {cls.path}, but its file says 'within {found.within}'"
-            raise Diagnostic("F004", message, found.span, hint)
+            raise Diagnostic("F004", message, found.span, f"start the file with: within {cls.path};")
         found.parent = cls
         return found
 

@@ -38,7 +38,7 @@ def split_name(name: str) -> tuple[Path | None, str]:
     place, colon, inner = name.rpartition(":")
     if colon and (place.endswith(".mo") or os.sep in place or Path(place).is_dir()):
         return Path(place), inner
-    if name.endswith(".mo") or os.sep in name or (Path(name) / PACKAGE_FILE).is_file():
+    if name.endswith(".mo") or os.sep in name or is_file(Path(name) / PACKAGE_FILE):
         return Path(name), ""
     return None, name
 
@@ -51,13 +51,29 @@ def outermost(folder: Path) -> Path | None:
     return found
 
 
+def is_file(path: Path) -> bool:
+    """Whether a file lies there; none does at a name that is too long for one."""
+    try:
+        return path.is_file()
+    except OSError:
+        return False
+
+
+def is_folder(path: Path) -> bool:
+    """As `is_file`."""
+    try:
+        return path.is_dir()
+    except OSError:
+        return False
+
+
 def package_in(folder: Path, name: str) -> Path | None:
     """The folder or file of the top-level package `name` among those of `folder`; of several versions the newest."""
-    if (folder / name / PACKAGE_FILE).is_file():
+    if is_file(folder / name / PACKAGE_FILE):
         return folder / name
-    if (folder / f"{name}.mo").is_file():
+    if is_file(folder / f"{name}.mo"):
         return folder / f"{name}.mo"
-    if not name.isidentifier():
+    if not name.isidentifier() or not folder.is_dir():
         return None
     versions = [p for p in folder.glob(f"{name} *") if (p / PACKAGE_FILE).is_file() and name == _plain(p.name)]
     return max(versions, key=lambda p: [int(n) for n in re.findall(r"\d+", p.name[len(name) :])], default=None)

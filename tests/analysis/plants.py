@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+from lacuna.analysis.map.maps import build_map
 from lacuna.analysis.map.plant import Record, SourceEquation
 from lacuna.analysis.settings import PAPER, Settings, load_settings
+from lacuna.analysis.severity.preparation import prepare_assessment
 from tests.analysis.reference import declared, simulate
 
 
@@ -44,3 +48,10 @@ def paper_settings(folder, *replacements: tuple[str, str]) -> Settings:
     path = folder / "settings.toml"
     path.write_text(text, encoding="utf-8")
     return load_settings(path)
+
+
+def prepare_small_map(folder: Path) -> None:
+    """A map of the hand-written simulation in `folder`/map, prepared for assessment at fewer conditions."""
+    settings = paper_settings(folder, ("conditions = 7", "conditions = 3"), ("every = 10", "every = 13"))
+    plant = ReferencePlant()
+    prepare_assessment(plant, settings, build_map(plant, settings, folder / "map", figures=False))

@@ -98,6 +98,19 @@ def test_no_name_leads_out_of_the_folder(tmp_path: Path) -> None:
     assert {p.name for p in tmp_path.iterdir()} == {"model.mo", "out"}
 
 
+@pytest.mark.parametrize("where", ["part", "library", "command"])
+def test_a_name_that_no_file_can_have_is_not_found(tmp_path: Path, where: str) -> None:
+    """Names are looked up as files of a package; a file's name has 255 bytes at most."""
+    name = "T" * 300
+    if where == "command":
+        result = CliRunner().invoke(app, ["simulate", f"Lacuna.{name}", "--out", str(tmp_path / "out")])
+        assert (result.exit_code, "R001" in result.output) == (1, True)
+        return
+    text = f"model M {name} x; end M;" if where == "part" else f"model M extends Lacuna.Types.{name}; end M;"
+    status, said = simulated(tmp_path, text)
+    assert (status, "error[R001]" in said) == (1, True), said
+
+
 def test_names_are_no_formulas_in_a_figure(tmp_path: Path) -> None:
     status, said = simulated(tmp_path, "model M Real '$x_{$' = time; end M;", "--plot")
     assert status == 0, said

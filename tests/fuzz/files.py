@@ -26,9 +26,11 @@ from typer.testing import CliRunner
 
 import lacuna
 from lacuna.analysis.comparison.scenarios import DEFAULT_FILE
+from lacuna.analysis.prognosis.store import Entry, Store
 from lacuna.analysis.settings import PAPER, load_settings
 from lacuna.cli.main import app
 from lacuna.errors import is_user_error
+from tests.analysis.plants import prepare_small_map
 from tests.faults.scenarios import DECAY, EXAMPLES, HISTORY
 
 PATIENCE = 30  # s, of one call; the slowest takes two where nothing else runs
@@ -93,6 +95,7 @@ def _open(place: Path) -> object:
     return lacuna.open_case(place / "missing-physics")
 
 
+ASSESS = ("assess", "test.csv", "--map", "map", "--out", "out")
 TARGETS = {
     "input": Target("u.csv", ("simulate", "Driven.mo", "-u", "u=u.csv:x", "--out", "out")),
     "convert-csv": Target("rec.csv", ("convert", "rec.csv", "out/a.csv")),
@@ -114,14 +117,21 @@ TARGETS = {
     "scenarios": Target("scenarios.toml", ("compare", "--scenarios", "scenarios.toml", "--only", "x", "--out", "out")),
     "laws": Target("Decay.mo", ("forecast", "history.csv", "--laws", "Decay.mo", "--out", "out")),
     "library": Target("Column.mo", ("check", "Driven.mo", "-L", "Column.mo")),
+    "store": Target("tests.db", ("forecast", "tests.db", "--out", "out")),
+    "store-fleet": Target("tests.db", ("fleet", "tests.db", "--out", "out")),
+    "map-table": Target("map/severity.table", ASSESS),
+    "map-expected": Target("map/expected.npz", ASSESS),
+    "map-settings": Target("map/settings.toml", ASSESS),
+    "map-bands": Target("map/settings.toml", ("forecast", "history.csv", "--map", "map", "--out", "out")),
+    "assessed": Target("test.csv", ASSESS),
     "verify": Target("result/made-by.json", ("verify", "result")),
     "verify-meta": Target("result/Decay.meta.json", ("verify", "result")),
     "model": Target("Driven.mo", ("simulate", "Driven.mo", "-u", "u=1", "--out", "out")),
 }  # fmt: skip
 
 
-def lay_out(place: Path) -> None:
-    """What the commands read, as it should be."""
+def lay_out(place: Path, prepared: Path) -> None:
+    """What the commands read, as it should be; `prepared`: the folder of a prepared map."""
     for name, text in {
         "Decay.mo": DECAY, "Driven.mo": _DRIVEN, "Column.mo": _COLUMN, "rec.csv": _RECORDING, "u.csv": _RECORDING,
         "column.csv": _RECORDING, "history.csv": HISTORY, "settings.toml": PAPER.read_text(encoding="utf-8"),
@@ -129,6 +139,12 @@ def lay_out(place: Path) -> None:
     }.items():  # fmt: skip
         (place / name).write_text(text, encoding="utf-8")
     shutil.copytree(EXAMPLES / "missing-physics", place / "missing-physics")
+    shutil.copy(EXAMPLES / "preflight" / "test.csv", place)
+    shutil.copytree(prepared, place / "map")
+    Store(place / "tests.db").append([
+        Entry("left", 0.05 + 1e-4 * n, 0.04 + 1e-4 * n, 0.06 + 1e-4 * n, f"recording {n}", "map", "1", cycles=n)
+        for n in range(0, 1500, 100)
+    ])  # fmt: skip
     os.chdir(place)
     for words in (
         *(("convert", "rec.csv", f"rec.{suffix}") for suffix in ("mat", "parquet", "xlsx", "mf4", "tdms")),
@@ -189,7 +205,9 @@ def main() -> int:
     outcomes, seed, end = Counter[str](), options.seed, time.monotonic() + options.seconds
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder).resolve()
-        lay_out(place)
+        (place / "tests").mkdir()
+        prepare_small_map(place / "tests")
+        lay_out(place, place / "tests" / "map")
         names = [n for n in options.names or TARGETS if (place / TARGETS[n].file).exists()]
         while time.monotonic() < end:
             name = names[seed % len(names)]

@@ -16,10 +16,10 @@ DEEP = {".json": "[" * 100_000, ".toml": "a = " + "[" * 100_000}
 
 
 @pytest.fixture(scope="module")
-def place(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+def place(tmp_path_factory: pytest.TempPathFactory, map_folder: Path) -> Iterator[Path]:
     here, folder = Path.cwd(), tmp_path_factory.mktemp("files")
     before = signal.signal(signal.SIGALRM, out_of_time)
-    lay_out(folder)
+    lay_out(folder, map_folder)
     yield folder
     os.chdir(here)
     signal.signal(signal.SIGALRM, before)

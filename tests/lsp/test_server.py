@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcException
+import pytest
 
 from bench.editor import Editor, drive
 from lacuna.codegen.library.search_path import MODEL_FOLDER
@@ -145,6 +147,35 @@ def test_hover_definition_references_and_rename(tmp_path: Path) -> None:
             lines[at.line] = lines[at.line][: at.character] + edit.new_text + lines[at.line][edit.range.end.character :]
         assert await editor.type("\n".join(lines)) == []
         assert "der(omega)" in editor.text and "Real omega(" in editor.text
+
+    drive(tmp_path / "Winch.mo", script)
+
+
+def test_a_new_name_that_is_none_is_refused(tmp_path: Path) -> None:
+    async def script(editor: Editor) -> None:
+        await editor.open(MODEL)
+        for name in ("a b", "", "w = 1; end Winch", "1st", "'open"):
+            with pytest.raises(JsonRpcException, match="is not a name"):
+                await editor.client.text_document_rename_async(
+                    lsp.RenameParams(new_name=name, **editor.place("J*der(|w)"))
+                )
+
+    drive(tmp_path / "Winch.mo", script)
+
+
+def test_questions_beyond_the_text_are_answered(tmp_path: Path) -> None:
+    """As a client may ask that is an edit ahead of what the server has seen."""
+
+    async def script(editor: Editor) -> None:
+        await editor.open(MODEL)
+        for place in (lsp.Position(10_000, 0), lsp.Position(0, 10_000)):
+            at = {"text_document": lsp.TextDocumentIdentifier(editor.uri), "position": place}
+            assert await editor.client.text_document_completion_async(lsp.CompletionParams(**at))
+            assert await editor.client.text_document_hover_async(lsp.HoverParams(**at)) is None
+        marked = lsp.Range(lsp.Position(10_000, 0), lsp.Position(10_000, 1))
+        finding = lsp.Diagnostic(marked, "gone", data={"fixes": ["R"]})
+        asked = lsp.CodeActionParams(lsp.TextDocumentIdentifier(editor.uri), marked, lsp.CodeActionContext([finding]))
+        assert not await editor.client.text_document_code_action_async(asked)
 
     drive(tmp_path / "Winch.mo", script)
 

@@ -13,7 +13,7 @@ import sqlite3
 import subprocess
 
 import pytest
-from sqlalchemy import create_engine
+from sqlalchemy import create_engine, text
 
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis import store as module
@@ -111,6 +111,27 @@ def test_migrations_by_version(url, monkeypatch):
     monkeypatch.undo()
     with pytest.raises(AnalysisError, match="newer Lacuna"):
         Store(url)
+
+
+def test_a_store_without_checksums_gets_them(url, monkeypatch):
+    """As version 1 made it."""
+    Store(url).append([entry(1), entry(2)])
+    with create_engine(url if "://" in url else f"sqlite:///{url}").begin() as connection:
+        connection.execute(text("ALTER TABLE lacuna_assessment DROP COLUMN checksum"))
+        connection.execute(text("DELETE FROM lacuna_history WHERE version > 1"))
+    assert Store(url).entries() == [entry(1), entry(2)]
+    assert Store(url).append([entry(2), entry(3)]) == 1
+
+
+@pytest.mark.parametrize(
+    "change", ["severity = 0.03", "actuator = 'B'", "cycles = 11", "severity = 'much'", "low = 'x'"]
+)
+def test_a_row_that_was_changed_is_never_used(tmp_path, change):
+    Store(tmp_path / "history.db").append([entry(1), entry(2)])
+    with sqlite3.connect(tmp_path / "history.db") as connection:
+        connection.execute(f"UPDATE lacuna_assessment SET {change} WHERE id = 2")
+    with pytest.raises(AnalysisError, match="row 2 of lacuna_assessment"):
+        Store(tmp_path / "history.db").histories()
 
 
 def test_a_migration_that_fails_changes_nothing(url, monkeypatch):

@@ -1,4 +1,4 @@
-// bench_onboard SECONDS: processor seconds that the on-board chain takes for a stream of that many seconds.
+// onboard_speed SECONDS: processor seconds that the on-board chain takes for a stream of that many seconds.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -34,7 +34,7 @@ lacuna::Configuration of_paper() {
 int main(int count, char **arguments) {
   const int seconds = count == 2 ? std::atoi(arguments[1]) : 0;
   if (seconds < 1) {
-    std::fprintf(stderr, "usage: bench_onboard SECONDS\n");
+    std::fprintf(stderr, "usage: onboard_speed SECONDS\n");
     return 2;
   }
   const auto rows = one_second();
