@@ -7,10 +7,15 @@
 #include <string.h>
 
 #include "ida.h"
+#include "swings.h"
 #include "vector.h"
 
-static const double alike = 1.5e-8; /* root of rounding */
-enum { MAX_ERROR_FAILS = 25 };      /* in one step: each divides it by four, and a first step may be far too long */
+static const double alike = 1.5e-8;           /* root of rounding */
+static const double finest = 8 * DBL_EPSILON; /* relative tolerance that steps can still be tested by */
+static const double relief =
+    1.02;                      /* of the tolerances in a step: a guard that swings comes back before they are slack */
+enum { RESOLVING = 3 };        /* order from which on polynomials bend as guards do; below, IDA is starting */
+enum { MAX_ERROR_FAILS = 25 }; /* in one step: each divides it by four, and a first step may be far too long */
 
 static int residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user) {
   rt_session *s = user;
@@ -53,10 +58,11 @@ static bool create_vectors(rt_session *s, rt_ida *m) {
 /* Weights of the error test, by tolerances that follow the sizes of the states. */
 static int weights(N_Vector y, N_Vector weight, void *user) {
   const rt_session *s = user;
+  const rt_ida *m = s->memory;
   const double *value = N_VGetArrayPointer(y);
   double *w = N_VGetArrayPointer(weight);
   for (int i = 0; i < s->d->n_x + s->d->n_z; i++)
-    w[i] = 1 / (s->options.rtol * fabs(value[i]) + s->atol[i]);
+    w[i] = 1 / (m->share * (s->options.rtol * fabs(value[i]) + s->atol[i]));
   return 0;
 }
 
@@ -108,7 +114,7 @@ static double weighted_norm(const rt_session *s, const double *e) {
     double weighted = e[i] / (s->atol[i] + s->options.rtol * fabs(s->data.x[i]));
     sum += weighted * weighted;
   }
-  return sqrt(sum / s->d->n_x);
+  return sqrt(sum / s->d->n_x) / ((const rt_ida *)s->memory)->share;
 }
 
 /* The fastest state crosses its nominal value in 1 / this (s). */
@@ -143,7 +149,7 @@ static rt_status restart(rt_session *s, void *p) {
   size_t n = (size_t)(s->d->n_x + s->d->n_z);
   count(s, m);
   rt_residual_point(s);
-  double h = first_step(s, s->yp + s->d->n_x);
+  double h = rt_min(first_step(s, s->yp + s->d->n_x), m->longest);
   memcpy(N_VGetArrayPointer(m->y), s->y, n * sizeof *s->y);
   memcpy(N_VGetArrayPointer(m->yp), s->yp, n * sizeof *s->yp);
   if (IDAReInit(m->ida, s->t, m->y, m->yp) != IDA_SUCCESS || IDASetInitStep(m->ida, h) != IDA_SUCCESS)
@@ -154,8 +160,11 @@ static rt_status restart(rt_session *s, void *p) {
 }
 
 static rt_status begin(rt_session *s, void *p) {
+  rt_ida *m = p;
+  m->share = 1;
+  m->longest = INFINITY;
   rt_status status = rt_check_forms(s);
-  return status ? status : restart(s, p);
+  return status ? status : restart(s, m);
 }
 
 static void errors(rt_session *s, void *p, double *error) {
@@ -185,11 +194,46 @@ static bool has_jumped(const rt_session *s, const double *z) {
   return false;
 }
 
+/* How much too large the step to `end` is for the guards (swings.c): up to 1 it is not. The tolerances of the next
+ * steps follow it. */
+static double test_guards(rt_session *s, rt_ida *m, double end) {
+  if (!s->d->guard_rates) return 0;
+  int order = 1;
+  double *error = s->xdot_trial;
+  memset(error, 0, (size_t)s->d->n_x * sizeof *error);
+  errors(s, m, error);
+  s->dense.valid = false;
+  IDAGetLastOrder(m->ida, &order);
+  double excess = order < RESOLVING ? rt_swing_roughness(s, end, error) : rt_swing_error(s, end, error);
+  if (excess > 1)
+    m->share *= rt_min(0.5, rt_max(0.1, 0.3 / excess));
+  else if (order >= RESOLVING)
+    m->share = rt_min(1, m->share * rt_min(relief, 0.5 / rt_max(excess, 0.25)));
+  return excess;
+}
+
+/* One step, again from its start with smaller tolerances while guards ask for it. */
+static int attempt(rt_session *s, rt_ida *m, double limit, sunrealtype *t, rt_status *status) {
+  IDASetStopTime(m->ida, limit);
+  for (;;) {
+    int flag = IDASolve(m->ida, limit, t, m->y, m->yp, IDA_ONE_STEP);
+    double end = flag == IDA_TSTOP_RETURN ? limit : *t;
+    if (flag < 0 || !(test_guards(s, m, end) > 1)) return flag;
+    s->result->counters.error_test_fails++;
+    if (m->share * s->options.rtol < finest) *status = rt_swing_fail(s, end);
+    m->longest = 0.25 * (end - s->t);
+    if (*status || (*status = restart(s, m))) return flag;
+    m->longest = INFINITY;
+    IDASetStopTime(m->ida, limit);
+  }
+}
+
 static rt_status step(rt_session *s, void *p, double limit) {
   rt_ida *m = p;
   sunrealtype t = s->t;
-  IDASetStopTime(m->ida, limit);
-  int flag = IDASolve(m->ida, limit, &t, m->y, m->yp, IDA_ONE_STEP);
+  rt_status status = RT_OK;
+  int flag = attempt(s, m, limit, &t, &status);
+  if (status) return status;
   if (flag < 0) return fail(s, m, flag);
   const double *y = N_VGetArrayPointer(m->y), *z = y + s->d->n_x;
   memcpy(s->data.x, y, (size_t)s->d->n_x * sizeof *y);

@@ -14,6 +14,8 @@ typedef struct {
   double *values;        /* [jac_nnz] */
   bool started;          /* IDA holds counters of this run that are not in the result yet */
   long pivots_chosen_at; /* failures of Newton's method when KLU last chose its pivots; -1: before the restart */
+  double longest;        /* first step that guards allow (s) */
+  double share;          /* of the tolerances, that guards far smaller than the states leave of them */
   int held;              /* terms of undetermined.c in the matrix that KLU has ordered */
   int columns;           /* sensitivities that IDA is set up for */
   N_Vector *tangent_y, *tangent_yp, *tangent_atol; /* [columns] */

@@ -124,7 +124,7 @@ struct rt_session {
   int tiny_steps;                   /* consecutive steps that hardly differ from none */
   bool in_pieces, resume;           /* the last step is longer; go on in it, for no state or slope has changed at t */
   double look, look_curved;         /* longest piece of the last step to be looked at at once, of any step (s) */
-  double *phase, *phase_start, *shape; /* [n_phases] rad; [(RT_DENSE_DEGREE + 1) * n_rel] of swings.c */
+  double *phase, *phase_start, *shape, *rates; /* [n_phases] rad; [(RT_DENSE_DEGREE + 1) * n_rel] of swings.c */
   rt_clock clock;
   rt_dense dense;
   double *g, *g_previous;                          /* [n_rel] guards at t and t_previous */

@@ -9,14 +9,21 @@
 #include <math.h>
 #include <string.h>
 
+#include "polynomial.h"
 #include "swings.h"
 
-enum { MOST = RT_DENSE_DEGREE + 1 };
+enum { MOST = RT_MOST_COEFFICIENTS };
+_Static_assert(MOST == RT_DENSE_DEGREE + 1, "polynomials of guards have the degree of those of states");
 static const double share = 0.01; /* error of a step in a guard, of its swing there: its extremes are known to 1 % */
+static const double tenth = 0.1;  /* of that, where errors of many short steps add up */
 static const double clear = 0.1;  /* or of its distance from zero: the polynomial errs by a few times the estimate */
-static const double between[] = {0.36,
-                                 0.68}; /* of the step: no nodes of a method, and no two that a period could join */
-static const double of_slope = 0.25;    /* an error of x' there, times the step, makes about this error of x */
+static const double between[] = {0.36, 0.68}; /* of the step: nodes of no method */
+static const double of_slope = 0.25;          /* an error of x' there, times the step, makes about this error of x */
+
+enum { PLACES = 5 };
+static const double along[PLACES] = {0, 0.23, 0.48, 0.77, 1}; /* of a step: no period joins them */
+static const double parabola = 0.05; /* most of |(u - a) (u - b) (u - c)| in [0, 1], of three places among those */
+static const double smooth = 0.04;   /* error of the parabola, of the rates: a step is up to a quarter of a swing */
 
 /* The guards' polynomials, from the dense output of the last step; `error` of that step, NULL: not known. Where they
  * cannot be computed, guards are looked at as those that are not affine. */
@@ -62,90 +69,26 @@ static int polynomial(const rt_session *s, int r, double g, double to, double *p
   return n;
 }
 
-static double horner(int n, const double *p, double x) {
-  double sum = p[n];
-  for (int k = n - 1; k >= 0; k--)
-    sum = sum * x + p[k];
-  return sum;
-}
-
-/* No value of p on [0, 1] is less than this. */
-static double floor_of(int n, const double *p) {
-  double sum = p[0];
-  for (int k = 1; k <= n; k++)
-    sum += rt_min(p[k], 0);
-  return sum;
-}
-
-/* No two values of p on [0, 1] are further apart. */
-static double spread(int n, const double *p) {
-  double sum = 0;
-  for (int k = 1; k <= n; k++)
-    sum += fabs(p[k]);
-  return sum;
-}
-
-/* Between *low and *high are the values of p on [0, 1]: its coefficients in the basis of Bernstein. */
-static void enclose(int n, const double *p, double *low, double *high) {
-  double b[MOST] = {p[0]}, choose = 1;
-  for (int k = 0; k <= n; k++) {
-    b[k] = p[k] / choose;
-    choose *= (double)(n - k) / (k + 1);
+/* From least to most of what guard r has been in the last three steps and this one, whose bounds those are. */
+static double recent(const rt_session *s, int r, double low, double high) {
+  const double *earlier[] = {s->g_previous, s->g_before, s->g_oldest};
+  double sign = s->data.rel[r] ? 1 : -1;
+  int known = isnan(s->t_before) ? 0 : isnan(s->t_oldest) ? 1 : 3;
+  for (int i = 0; i < known; i++) {
+    low = rt_min(low, sign * earlier[i][r]);
+    high = rt_max(high, sign * earlier[i][r]);
   }
-  for (int i = 1; i <= n; i++)
-    for (int k = n; k >= i; k--)
-      b[k] += b[k - 1];
-  *low = *high = b[0];
-  for (int k = 1; k <= n; k++) {
-    *low = rt_min(*low, b[k]);
-    *high = rt_max(*high, b[k]);
-  }
-}
-
-/* The root of p between a and b in [0, 1], where its sign is another one: halved until it is as long as rounding, which
- * are 52 rounds. */
-static double root_between(int n, const double *p, double a, double b) {
-  bool negative = horner(n, p, a) < 0;
-  while (b - a > DBL_EPSILON) {
-    double middle = 0.5 * (a + b);
-    *((horner(n, p, middle) < 0) == negative ? &a : &b) = middle;
-  }
-  return b;
-}
-
-/* Where p changes its sign in (0, 1), in rising order: between two places where its derivative does, it is monotone. */
-static int roots_of(int n, const double *p, double *root) {
-  double slope[MOST], turn[MOST], a = 0;
-  int turns = 0, found = 0;
-  for (int k = 1; k <= n; k++)
-    slope[k - 1] = k * p[k];
-  if (n > 1) turns = roots_of(n - 1, slope, turn);
-  bool negative = p[0] < 0;
-  for (int i = 0; i <= turns; i++) {
-    double b = i < turns ? turn[i] : 1;
-    if ((horner(n, p, b) < 0) != negative) {
-      root[found++] = root_between(n, p, a, b);
-      negative = !negative;
-    }
-    a = b;
-  }
-  return found;
-}
-
-static int extremes(int n, const double *p, double *place) {
-  double slope[MOST];
-  for (int k = 1; k <= n; k++)
-    slope[k - 1] = k * p[k];
-  return n > 1 ? roots_of(n - 1, slope, place) : 0;
+  return high - low;
 }
 
 /* What an error of guard r in the step may be, of which p is the polynomial: a share of its swing, or of its distance
  * from zero, or the hysteresis, as what is below it is noise. *near: the guard may be about to cross. */
 static double allowed(const rt_session *s, int r, int n, const double *p, bool *near) {
   double low, high;
-  enclose(n, p, &low, &high);
-  *near = low < high - low;
-  return rt_max(rt_max(share * (high - low), clear * low), rt_max(rt_hysteresis(s, r), DBL_MIN));
+  rt_enclose(n, p, &low, &high);
+  *near = low < high - low + fabs(s->shape[r]) / clear;
+  double swing = s->method->multistep ? tenth * recent(s, r, low, high) : high - low;
+  return rt_max(rt_max(share * swing, clear * low), rt_max(rt_hysteresis(s, r), DBL_MIN));
 }
 
 /* The error estimate of the step to `to`, over what it may be, of the guard for which that is most; *near: one is. */
@@ -155,9 +98,9 @@ static double estimated(const rt_session *s, double to, bool *near) {
   for (int r = 0; r < s->d->n_rel; r++) {
     if (!s->d->affine_guards[r]) continue;
     int n = polynomial(s, r, s->g[r], to, p);
-    double error = fabs(s->shape[r]), distance = floor_of(n, p), bound = clear * distance;
+    double error = fabs(s->shape[r]), distance = rt_floor_of(n, p), bound = clear * distance;
     bool here = false;
-    if (!(distance > spread(n, p) && error <= 0.1 * bound)) bound = allowed(s, r, n, p, &here);
+    if (!(distance > rt_spread(n, p) && error <= 0.1 * bound)) bound = allowed(s, r, n, p, &here);
     largest = rt_max(largest, error / bound);
     *near |= here;
   }
@@ -189,6 +132,33 @@ static double compared(rt_session *s, double to) {
   return largest;
 }
 
+/* Largest of the divided differences of order k of f, of which those of order k - 1 are given. */
+static double difference(int k, double *f) {
+  double most = 0;
+  for (int i = 0; i + k < PLACES; i++) {
+    f[i] = (f[i + 1] - f[i]) / (along[i + k] - along[i]);
+    most = rt_max(most, fabs(f[i]));
+  }
+  return most;
+}
+
+/* Of guard r in a first step, from its rates along it: they must be a parabola nearly, so that the step is none of its
+ * whole swings; and the error must be small beside the swing that such a bend of the rates is the beginning of. */
+static double rough(const rt_session *s, int r, double to) {
+  double p[MOST], f[PLACES], most = 0, h = to - s->t_previous;
+  bool near;
+  double bound = allowed(s, r, polynomial(s, r, s->g[r], to, p), p, &near);
+  if (!near) return 0;
+  for (int i = 0; i < PLACES; i++) {
+    f[i] = s->rates[i * s->d->n_rel + r];
+    most = rt_max(most, fabs(f[i]));
+  }
+  difference(1, f);
+  double bend = difference(2, f), off = parabola * difference(3, f);
+  double swing = bend > 0 ? h * most * sqrt(most / (2 * bend)) : INFINITY; /* of rates most cos(t / T) */
+  return rt_max(off * h / rt_max(bound, smooth * most * h), fabs(s->shape[r]) / rt_max(bound, share * swing));
+}
+
 /* How much too large the step from t_previous to `to` is for the guards, where its error in the states is known: up to
  * 1 it is not. s->g belongs to its start. */
 double rt_swing_error(rt_session *s, double to, const double *error) {
@@ -199,17 +169,57 @@ double rt_swing_error(rt_session *s, double to, const double *error) {
   return near && largest <= 1 ? rt_max(largest, compared(s, to)) : largest;
 }
 
+/* The same of the first steps of a method of rising order, whose polynomials are straight lines as yet, and err by as
+ * much as what they begin with: the rates of the guards that are near must be smooth, so that the step is none of their
+ * whole swings. */
+double rt_swing_roughness(rt_session *s, double to, const double *error) {
+  const mdl_descriptor *d = s->d;
+  bool near;
+  rt_swing_shape(s, error);
+  if (!s->shaped || !(estimated(s, to, &near) >= 0 && near)) return 0;
+  memcpy(s->v_trial, s->data.v, (size_t)d->n_v * sizeof *s->v_trial);
+  for (int i = 0; i < PLACES; i++) {
+    double t = s->t_previous + along[i] * (to - s->t_previous);
+    rt_dense_eval(&s->dense, d->n_x, t, s->x_trial);
+    if (rt_rhs(s, t, s->x_trial, s->xdot_trial, s->v_trial) ||
+        d->guard_rates(&s->data, 1, s->xdot_trial, s->rates + i * d->n_rel))
+      return INFINITY;
+  }
+  double largest = 0;
+  for (int r = 0; r < d->n_rel; r++)
+    if (d->affine_guards[r]) largest = rt_max(largest, rough(s, r, to));
+  return largest;
+}
+
+/* No tolerance is small enough for a guard: the one that the step to `to` errs in by most. */
+rt_status rt_swing_fail(rt_session *s, double to) {
+  int worst = 0;
+  double most = 0, p[MOST];
+  for (int r = 0; r < s->d->n_rel; r++) {
+    if (!rt_is_shaped(s, r)) continue;
+    bool near;
+    double bound = allowed(s, r, polynomial(s, r, s->g[r], to, p), p, &near),
+           error = near ? fabs(s->shape[r]) / bound : 0;
+    if (error >= most) worst = r, most = error;
+  }
+  return rt_fail(
+      s, RT_STEP_COLLAPSE, s->t, -1, &s->d->relations[worst].source,
+      "solver %s cannot resolve what this relation compares at time %.9g s: it swings by less than rounding leaves "
+      "of the states",
+      s->method->name, s->t);
+}
+
 /* Where guard r is first at an extreme that lies past zero by more than the hysteresis, up to `to`, or there; `to`
  * where it is not. */
 static double first_bottom(rt_session *s, int r, double to) {
   double p[MOST], place[MOST], low, high, eps = rt_hysteresis(s, r);
   int n = polynomial(s, r, s->g_previous[r], to, p);
-  if (floor_of(n, p) >= -eps) return to;
-  enclose(n, p, &low, &high);
+  if (rt_floor_of(n, p) >= -eps) return to;
+  rt_enclose(n, p, &low, &high);
   if (low >= -eps) return to;
-  int count = extremes(n, p, place);
+  int count = rt_extremes(n, p, place);
   for (int i = 0; i < count; i++) {
-    double value = horner(n, p, place[i]);
+    double value = rt_horner(n, p, place[i]);
     if (value < -eps) return s->t_previous + place[i] * (to - s->t_previous);
     rt_extend_guard(s, r, value);
   }
@@ -219,11 +229,11 @@ static double first_bottom(rt_session *s, int r, double to) {
 /* The first crossing of guard r, which is past zero at `to`; how far it went before counts as its travel. */
 double rt_swing_crossing(rt_session *s, int r, double to) {
   double p[MOST], root[MOST], place[MOST];
-  int n = polynomial(s, r, s->g_previous[r], to, p), count = extremes(n, p, place);
+  int n = polynomial(s, r, s->g_previous[r], to, p), count = rt_extremes(n, p, place);
   p[0] = rt_margin(s, r, s->g_previous[r]);
-  double first = roots_of(n, p, root) ? root[0] : 1;
+  double first = rt_roots_of(n, p, root) ? root[0] : 1;
   for (int i = 0; i < count && place[i] < first; i++)
-    rt_extend_guard(s, r, horner(n, p, place[i]));
+    rt_extend_guard(s, r, rt_horner(n, p, place[i]));
   return s->t_previous + first * (to - s->t_previous);
 }
 

@@ -9,9 +9,10 @@ be found all the same. Kinds:
     creep   x drifts slowly through its threshold while it swings, and crosses it several times
     solved  as apart, the difference being an unknown of two linear equations
 
-Error budget. A method keeps the error of a step in a guard below SHARE of the guard's swing in it, so that after n
-steps it is at most n SHARE A; the guard moves with `slope` where it crosses. Thresholds stand off the extremes by
-`depth`; where that is within twice the budget nothing is asked of the number of events.
+Error budget. A method keeps the error of a step in a guard below SHARE of the guard's swing in it. The errors of steps
+at all phases of a swing have both signs: after n steps they are sqrt(n) SHARE A, or n times the tolerance where that is
+less. The guard moves with `slope` where it crosses. Thresholds stand off the extremes by `depth`; where that is within
+twice the budget nothing is asked of the number of events.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from scipy.optimize import brentq
 
 from lacuna import runtime
 
-SOLVERS = ("dopri5", "rodas4")
+SOLVERS = ("ida", "dopri5", "rodas4")
 TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10)
 KINDS = ("alone", "apart", "creep", "solved")
 PERIODS = 12
@@ -115,7 +116,8 @@ def wrong(model: runtime.Model, swing: Swing, solver: str, rtol: float) -> str:
     if not result.complete:
         return f"error: {result.failure}"
     rounding = 1e-15 * swing.size / swing.amplitude
-    error = result.counters["steps"] * (min(SHARE, 2 * rtol * swing.size / swing.amplitude) + rounding)
+    steps = result.counters["steps"]
+    error = math.sqrt(steps) * min(SHARE, 2 * rtol * swing.size / swing.amplitude * math.sqrt(steps)) + steps * rounding
     if swing.depth < 2 * error:
         return ""
     found = sorted(
@@ -128,5 +130,5 @@ def wrong(model: runtime.Model, swing: Swing, solver: str, rtol: float) -> str:
     if [up for _, up in found] != [up for _, up in swing.events]:
         return f"{len(found)} events of {len(swing.events)}"
     off = max((abs(p - q) for (p, _), (q, _) in zip(found, swing.events, strict=True)), default=0.0)
-    budget = 2 * error / swing.slope + 1e-9 * swing.stop
+    budget = 2 * (error + SHARE) / swing.slope + 1e-9 * swing.stop  # the polynomial that it lies on errs, too
     return f"an event {off:.3g} s off, budget {budget:.3g} s" if off > budget else ""
