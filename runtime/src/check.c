@@ -83,7 +83,7 @@ static rt_status look_for_pole(rt_session *s, int k) {
   double at = NAN, numerator = 0;
   for (int i = 0; i < HALVINGS; i++) {
     double middle = 0.5 * (a + b);
-    if (divisions_at(s, middle)) break;
+    if (divisions_at(s, middle)) return rt_fail_model(s, middle, "looking for a division by zero");
     nearest = fabs(value[0] / value[1]);
     if (isnan(nearest)) break; /* 0/0, or a branch that does not hold there */
     *(sign(value[0] * value[1]) == before ? &a : &b) = middle;

@@ -15,6 +15,22 @@ double rt_along(const double *value, double theta) {
   return value[0] + above / below;
 }
 
+/* The derivative of that polynomial, by Newton's form of it. */
+double rt_slope_along(const double *value, double theta) {
+  double c[NODES];
+  for (int i = 0; i < NODES; i++)
+    c[i] = value[i];
+  for (int k = 1; k < NODES; k++)
+    for (int i = NODES - 1; i >= k; i--)
+      c[i] = (c[i] - c[i - 1]) / (node[i] - node[i - k]);
+  double sum = c[NODES - 1], slope = 0;
+  for (int k = NODES - 2; k >= 0; k--) {
+    slope = slope * (theta - node[k]) + sum;
+    sum = sum * (theta - node[k]) + c[k];
+  }
+  return slope;
+}
+
 static double inside(const rt_piece *p, double t) {
   return rt_along(p->value, rt_min(1, rt_max(0, (t - p->begin) / p->length)));
 }

@@ -33,6 +33,7 @@ typedef int (*rt_point_values)(mdl_data *m, double t, const double *x, const dou
                                double *value);
 int rt_at_nodes(rt_session *s, rt_point_values values, int count, double *at_node);
 double rt_along(const double *value, double theta);
+double rt_slope_along(const double *value, double theta);
 bool rt_history_reserve(rt_history *h, int n); /* room for n pieces */
 int rt_reached(const rt_history *h, double t);
 

@@ -1,33 +1,34 @@
 /* What is in a pipe that carries a quantity: segments by rising label, read at both ends. transport.c fills it. */
 #include "pipe.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { LOOKS = 60 };
 
 rt_segment *rt_pipe_at(const rt_pipe *c, int k) {
   return &c->all[c->first + k];
 }
 
-/* The fraction at which a segment has a label: regula falsi (Illinois). */
+/* The fraction at which a segment has a label: regula falsi (Illinois). Where two looks have not halved the interval
+ * the third is at its middle, so that it is as short as rounding after 3 * 52 of them at most. */
 static double fraction(const rt_segment *g, double label) {
-  double a = 0, b = 1, fa = g->label[0] - label, fb = g->label[NODES - 1] - label;
+  double a = 0, b = 1, fa = g->label[0] - label, fb = g->label[NODES - 1] - label, length = 1;
   if (!(fa < 0)) return 0;
   if (!(fb > 0)) return 1;
-  for (int i = 0, side = 0; i < LOOKS && b - a > 1e-15; i++) {
-    double t = a + (b - a) * fa / (fa - fb), f = rt_along(g->label, t) - label;
-    if (fabs(f) <= 1e-16 * (1 + fabs(label))) return t;
-    if (f < 0) {
-      a = t, fa = f;
-      if (side < 0) fb *= 0.5;
-      side = -1;
-    } else {
-      b = t, fb = f;
-      if (side > 0) fa *= 0.5;
-      side = 1;
-    }
+  for (int i = 1, side = 0; b - a > DBL_EPSILON; i++) {
+    bool creeps = i % 3 == 0 && b - a > 0.5 * length;
+    double t = creeps ? 0.5 * (a + b) : a + (b - a) * fa / (fa - fb);
+    t = rt_min(rt_max(t, a + 0.25 * DBL_EPSILON), b - 0.25 * DBL_EPSILON); /* both ends move in */
+    double f = rt_along(g->label, t) - label;
+    if (f == 0) return t;
+    double *end = f < 0 ? &a : &b, *value = f < 0 ? &fa : &fb, *other = f < 0 ? &fb : &fa;
+    int moved = f < 0 ? -1 : 1;
+    *end = t;
+    *value = f;
+    if (side == moved) *other *= 0.5;
+    side = moved;
+    if (i % 3 == 0) length = b - a;
   }
   return 0.5 * (a + b);
 }
@@ -57,9 +58,8 @@ double rt_pipe_read(const rt_pipe *c, double end, double x, int order) {
   const rt_segment *g = segment_at(c, right, label, between);
   double theta = fraction(g, label);
   if (!order) return rt_along(g->value, theta);
-  double a = rt_max(0, theta - 1e-4), b = rt_min(1, theta + 1e-4);
-  double run = rt_along(g->label, b) - rt_along(g->label, a);
-  return run > 0 ? -(rt_along(g->value, b) - rt_along(g->value, a)) / run : 0;
+  double run = rt_slope_along(g->label, theta);
+  return run > 0 ? -rt_slope_along(g->value, theta) / run : 0; /* none where it turns round: nothing moves there */
 }
 
 /* Room for one more at either end. */

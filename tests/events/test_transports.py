@@ -92,3 +92,23 @@ def test_initial_points_by_parameters_are_checked_at_the_start(tmp_path: Path) -
     result = simulated(tmp_path, text)
     assert not result.complete
     assert "initialPoints" in str(result.failure)
+
+
+SLOPE = """model Slope
+  Real x(start=0, fixed=true), b, y;
+equation
+  der(x) = 4 + 3*sin(5*time);
+  (, b) = spatialDistribution(sin(3*x), 0, x, true, {0, 1}, {0, sin(-3)});
+  y = der(b);
+end Slope;
+"""
+
+
+def test_the_slope_of_what_comes_out_is_that_of_its_polynomial(tmp_path: Path) -> None:
+    """b = sin(3 (x - 1)) to 1e-9; differences over a ten-thousandth of a segment erred by 1e-4 at its ends."""
+    result = simulated(tmp_path, SLOPE, solver="rodas4", rtol=1e-10, stop=2.0, interval=0.003)
+    arrived = result["x"] > 1 + 1e-6
+    x, time = result["x"][arrived], result.time[arrived]
+    assert result["b"][arrived] == pytest.approx(np.sin(3 * (x - 1)), abs=1e-8)
+    slope = 3 * np.cos(3 * (x - 1)) * (4 + 3 * np.sin(5 * time))
+    assert result["y"][arrived] == pytest.approx(slope, abs=1e-5)
