@@ -18,7 +18,7 @@ FUZZ_TARGETS := stream table inputs
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*' ':!:fmi/standard/*')
 
 .PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined prognosis tolerance-study \
-        prove-machines prove-experiments figures docs wheel vsix examples belts hybrid automata units msl unchanged compliance format style lint sanitize sanitize-models threads coverage sundials7 ctest pytest lock clean
+        prove-machines prove-experiments figures docs wheel vsix examples belts hybrid automata swings units msl unchanged compliance format style lint sanitize sanitize-models threads coverage sundials7 ctest pytest lock clean
 
 help: ## Print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -201,6 +201,9 @@ hybrid: setup ## 20 000 runs of random hybrid systems against closed-form switch
 
 automata: setup ## 6000 runs of random automata against a program that plays them on closed forms (a quarter of an hour)
 	@$(PYTHON) -m tests.events automata
+
+swings: setup ## 3600 runs of small swings beside large states against closed forms (some minutes)
+	@$(PYTHON) -m tests.events swings
 
 format: setup ## Format all sources
 	@$(PYTHON) -m ruff format .

@@ -105,7 +105,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     explicit, system = report.run("matching, BLT, tearing", precompute_inverses, explicit, system)
     sizes = report.run("nominal values", infer, system, [(r.left, r.right, _line(r)) for r in relations])
     quotients = report.run("divisions", divisions, explicit, system.model)
-    shapes = report.run("guards", guard_shapes, explicit, relations, system.model)
+    shapes = report.run("guards", guard_shapes, explicit, relations, system.model, system.states)
     report.warnings += [*declared.warnings, *initial.warnings]
     return Prepared(
         declared, aliases.representative, system, Storage(system), relations, frozen.samples, steps, explicit,

@@ -130,8 +130,7 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
     try:
         search.run(progress, most=1)
         if search.lost():
-            unbegun = _held(result, unbegun, shafts)
-            search = _anew(result, search, unbegun, progress) or search
+            search, unbegun = _anew(result, search, unbegun, shafts, progress)
         explain_beyond(search, unbegun, progress)
         result.opened = explain_open(search, unbegun, library, progress)
     except TimeUp as stopped:
@@ -179,22 +178,30 @@ def _held(result: Explanation, unbegun: Search, shafts: list[places.Shaft]) -> S
     return replace(unbegun, lead=lead, amendment=machine.amendment, fit=base)
 
 
-def _anew(result: Explanation, direct: Search, unbegun: Search, progress: Progress) -> Search | None:
-    """The search begun anew with recorded shafts held; None where it ends no better.
+def _anew(
+    result: Explanation, direct: Search, unbegun: Search, shafts: list[places.Shaft], progress: Progress
+) -> tuple[Search, Search]:  # fmt: skip
+    """(the search begun anew with recorded shafts held, or the direct one where that ends no worse; what it was begun
+    from).
 
     Where the first finding leaves far more than noise, every hypothesis may have ended in a dip of rough ground:
     an output error grows with the recording, and what is missing near its beginning decides all that follows.
     """
     progress("looking again, the recorded shaft held near its motion")
-    search = _begun(unbegun)
+    held = _held(result, unbegun, shafts)
+    search = _begun(held)
     search.run(progress, most=1)
+    if direct.left is not None and (not search.findings or astray(search.fit)):
+        direct.resume(progress)
+        if not direct.lost():
+            return direct, unbegun
     correlation = search.fit.correlation()
     if not search.findings or search.fit.deviance(correlation) > direct.fit.deviance(correlation) - MIN_GAIN:
-        return None
+        return direct, held
     if not astray(search.fit):
-        return _let_go(search, direct)
-    result.base, result.lead = unbegun.fit, unbegun.lead
-    return search
+        return _let_go(search, direct), held
+    result.base, result.lead = held.fit, held.lead
+    return search, held
 
 
 def _let_go(search: Search, direct: Search) -> Search:
@@ -205,7 +212,8 @@ def _let_go(search: Search, direct: Search) -> Search:
     after = try_judge(machine, found.point) if found is not None else None
     if after is None:
         return search
-    free = replace(direct, amendment=amendment, findings=search.findings, namings=search.namings, exhausted=False)
+    free = replace(direct, amendment=amendment, findings=search.findings, namings=search.namings,
+                   exhausted=False, left=None)  # fmt: skip
     free.take(amendment.attachments, found, after)
     return free
 

@@ -1,15 +1,16 @@
 """How closely the guards of state events have to be looked at inside a step.
 
-A guard that is affine in states, time and inputs does what the step's polynomial does. One that follows sin or cos of
-something crosses again and again while the states themselves hardly bend (a Hall sensor on a coasting rotor, a source
-of 50 Hz): the arguments of sin and cos are its phases, and the looks are taken by them. Any other guard is curved:
-nothing tells how fast it may come and go.
+A guard that is affine in states and time is a polynomial in time as they are, and `moving` says which: from the
+polynomials of the states, by the same steps without what is constant between events. One that reads inputs is as smooth
+as they are. One that follows sin or cos of something crosses again and again while the states themselves hardly bend
+(a Hall sensor on a coasting rotor, a source of 50 Hz): the arguments of sin and cos are its phases, and the looks are
+taken by them. Any other guard is curved: nothing tells how fast it may come and go.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.dae.relations import Relation
@@ -22,50 +23,61 @@ from lacuna.codegen.structure.causal import (  # fmt: skip
     expressions_of,
     unknowns_of,
 )
+from lacuna.codegen.symbolic.differentiate import Differentiator
 from lacuna.codegen.symbolic.expr import ZERO, Expr, add, is_const, node, sub, walk
 from lacuna.codegen.symbolic.leaves import leaves
 
-FIXED, SMOOTH, CURVED = range(3)  # between events: constant, as smooth as the states, or anything
+FIXED, AFFINE, SMOOTH, CURVED = range(4)  # between events: constant, affine, as smooth as the states, or anything
 PERIODIC = ("sin", "cos", "tan")
 
 
 @dataclass(frozen=True)
 class GuardShapes:
-    """`phases`: expressions at a complete point, each once, up to what is constant in it (rad)."""
+    """`phases`: expressions at a complete point, each once, up to what is constant in it (rad). `moving`: by number of
+    their relation, affine guards as far as they move, computed by `steps` from states and time that stand for rates."""
 
     phases: list[Expr]
     curved: bool
+    moving: dict[int, Expr] = field(default_factory=dict)
+    steps: list[Step] = field(default_factory=list)
 
 
-def guard_shapes(steps: Sequence[Step], relations: Iterable[Relation], model: flat.FlatModel) -> GuardShapes:
+def guard_shapes(
+    steps: Sequence[Step], relations: Iterable[Relation], model: flat.FlatModel, states: Iterable[str]
+) -> GuardShapes:
     """Of the guards that are switched by roots."""
-    guards = [sub(r.left, r.right) for r in relations if r.slope is None]
-    shapes = _Shapes(model)
+    by_number = {k: sub(r.left, r.right) for k, r in enumerate(relations) if r.slope is None}
+    guards = list(by_number.values())
+    shapes = _Shapes(model, states)
     for step in steps:
         shapes.add(step)
     phases: dict[Expr, None] = {}
-    for e in (*guards, *_upstream(steps, guards)):
+    for e in (*guards, *(e for step in _upstream(steps, guards) for e in expressions_of(step))):
         for n in walk(e):
             if n.op == "call" and n.value in PERIODIC and shapes.of(n.args[0]) != FIXED:
                 phases[shapes.varying_part(n.args[0])] = None
-    return GuardShapes(list(phases), any(shapes.of(g) == CURVED for g in guards))
+    moving = {k: shapes.moving(g) for k, g in by_number.items() if shapes.of(g) == AFFINE}
+    return GuardShapes(
+        list(phases), any(shapes.of(g) == CURVED for g in guards), moving, shapes.moving_steps(steps, moving.values())
+    )
 
 
-def _upstream(steps: Sequence[Step], guards: Iterable[Expr]) -> Iterator[Expr]:
-    """Everything computed on the way from the states to the guards."""
+def _upstream(steps: Sequence[Step], guards: Iterable[Expr]) -> Iterator[Step]:
+    """What is computed on the way from the states to the guards, from behind."""
     wanted = {n for g in guards for n in leaves(g)}
     for step in reversed(steps):
         if wanted.isdisjoint(unknowns_of(step)):
             continue
         for e in expressions_of(step):
             wanted |= leaves(e)
-            yield e
+        yield step
 
 
 class _Shapes:
-    def __init__(self, model: flat.FlatModel):
-        self._variables = model.variables
+    def __init__(self, model: flat.FlatModel, states: Iterable[str]):
+        self._variables, self._states = model.variables, set(states)
         self._memo: dict[Expr, int] = {}
+        self.moving = Differentiator(lambda n: n if self.of(n) != FIXED else ZERO)
 
     def add(self, step: Step) -> None:
         """The unknowns of the next step of the explicit form."""
@@ -98,8 +110,12 @@ class _Shapes:
         match e.op:
             case "var":
                 v = self._variables[str(e.value)]
+                if v.name in self._states:
+                    return AFFINE
                 return SMOOTH if v.type == "Real" and v.variability == flat.CONTINUOUS else FIXED
-            case "time" | "der":
+            case "time":
+                return AFFINE
+            case "der":
                 return SMOOTH
             case "noEvent" | "smooth":
                 return self.of(e.args[-1])
@@ -111,7 +127,32 @@ class _Shapes:
             "if": shapes[0] != FIXED,
             "call": e.value not in PERIODIC or CURVED in shapes,
         }.get(e.op, e.op not in ("+", "-", "neg"))
-        return CURVED if bends and max(shapes) != FIXED else max(shapes)
+        if max(shapes) == FIXED:
+            return FIXED
+        return CURVED if bends else max(SMOOTH, *shapes) if e.op == "call" else max(shapes)
+
+    def moving_steps(self, steps: Sequence[Step], guards: Iterable[Expr]) -> list[Step]:
+        """What the moving parts of these guards need of the steps, with everything that does not move left out."""
+        wanted, found = {n for g in guards for n in leaves(g)}, []
+        for step in reversed(steps):
+            if wanted.isdisjoint(u for u in unknowns_of(step) if self.of(u) != FIXED):
+                continue
+            found.append(self._moving_step(step, wanted))
+            wanted |= {n for e in expressions_of(found[-1]) for n in leaves(e)}
+        return found[::-1]
+
+    def _moving_step(self, step: Step, wanted: set[Expr]) -> Step:
+        match step:
+            case Assignment():
+                return replace(step, value=self.moving(step.value))
+            case Division():
+                return replace(step, numerator=self.moving(step.numerator))
+        chain: list[Assignment] = []
+        for a in reversed(step.assignments):
+            if a.unknown in wanted and self.of(a.unknown) != FIXED:
+                chain.append(self._moving_step(a, wanted))
+                wanted |= leaves(chain[-1].value)
+        return replace(step, right=[self.moving(b) for b in step.right], assignments=chain[::-1])
 
     def varying_part(self, e: Expr) -> Expr:
         """`e` without the terms that are constant between events: phases a constant apart are one."""

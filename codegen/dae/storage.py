@@ -62,6 +62,11 @@ class Storage:
         slot = self._slots.get(str(n.value)) if n.op == "var" else None
         return f"{slot.array}[{slot.index}]" if slot and slot.array in "xv" else self.frozen(n)
 
+    def moving(self, n: Expr) -> str | None:
+        """C text of a leaf where states stand for their rates: what else is known is what the point keeps."""
+        text = self.point(n)
+        return f"m->{text}" if text and text.startswith(("v", "xdot")) else text
+
     def explicit(self, n: Expr) -> str | None:
         """C text of a leaf where only the states are known."""
         slot = self._slots.get(str(n.value)) if n.op == "var" else None

@@ -54,7 +54,8 @@ def generate(prepared: Prepared, sensitivities: bool = False) -> str:
         large.residual() or continuous.residual(), large.jacobian() or continuous.jacobian(),
         large.roots() or continuous.roots(), discrete.time_relations(), discrete.next_time_event(), discrete.event(),
         large.check() or continuous.check(), checks.nominals(), checks.divisions(),
-        *filter(None, [checks.phases()]), *checks.delays(), *checks.transports(),
+        *filter(None, [checks.phases(), large.guard_rates() or continuous.guard_rates()]),
+        *checks.delays(), *checks.transports(),
     ]  # fmt: skip
     everything = expressions_of_model(prepared)
     tangents = Tangents(prepared, names, equations, tables.rows()) if sensitivities else None
@@ -96,7 +97,9 @@ def expressions_of_model(prepared: Prepared) -> list[Expr]:
         roots += [step.value] if isinstance(step, DiscreteEquation) else expressions(
             [step] if isinstance(step, flat.When) else step.statements)  # fmt: skip
     roots += [d.seconds for d in prepared.delays] + [e for t in prepared.transports for e in (*t.points, *t.values)]
-    roots += [*prepared.guards.phases, *(a.condition for a in model.asserts)]
+    roots += [*prepared.guards.phases, *prepared.guards.moving.values()]
+    roots += [e for step in prepared.guards.steps for e in expressions_of(step)]
+    roots += [*(a.condition for a in model.asserts)]
     roots += [e for v in model.variables.values() for e in (v.binding, v.start, v.min, v.max) if e is not None]
     return roots
 
@@ -139,6 +142,7 @@ def _arrays(tables: Tables, checks: Checks, messages: list[str]) -> tuple[list[s
         "first": ("int mdl_equation_first", first),
         "equation_variables": ("int mdl_equation_variables", variables),
         "divisions": ("int mdl_division_equation", divided),
+        "affine": ("unsigned char mdl_affine_guards", tables.affine_guards()),
         "delay": ("int mdl_delay_input", checks.delay_inputs()),
         "transport": ("int mdl_transport_points", checks.transport_points()),
         "marks": ("int mdl_transport_input", checks.transport_inputs()),
@@ -196,7 +200,8 @@ def _guards(prepared: Prepared) -> dict[str, str]:
     """How closely the guards are to be looked at, where the states alone do not tell."""
     shapes = prepared.guards
     phases = {"n_phases": str(len(shapes.phases)), "phases": "mdl_phases"} if shapes.phases else {}
-    return phases | ({"curved_guards": "1"} if shapes.curved else {})
+    affine = {"affine_guards": "mdl_affine_guards", "guard_rates": "mdl_guard_rates"} if shapes.moving else {}
+    return phases | ({"curved_guards": "1"} if shapes.curved else {}) | affine
 
 
 def _pointer(name: str, count: int) -> str:

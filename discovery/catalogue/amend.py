@@ -58,9 +58,13 @@ class Amendment:
     trackers: list[Shaft] = field(default_factory=list)
     probes: tuple[Shaft | Line, ...] = ()  # places where an input acts as effort
     inputs: tuple[str, ...] = ()  # declared beside those of the believed model
+    beside: tuple[Attachment, ...] = ()  # errors of sensors, none of which another one reads
+    seen: Attachment | None = None  # of these, the one that is in the outputs
 
     def output(self, variable: str) -> str:
         """The variable that a sensor's reading is compared with: the last sensor effect after it."""
+        if self.seen is not None and self.seen.variable == variable:
+            return f"{self.seen.component}.y"
         for attachment in reversed(self.attachments):
             if attachment.variable == variable:
                 return f"{attachment.component}.y"
@@ -90,6 +94,8 @@ class _Writer:
     def write(self, name: str, comment: str) -> str:
         for attachment in self.amendment.attachments:
             getattr(self, f"_{attachment.effect.attaches}")(attachment)
+        for attachment in self.amendment.beside:
+            self._reads(attachment, replace(self.amendment, seen=None))
         given = []
         for site, variable in self.edits.items():
             terms = " + ".join(self.sums_at[variable])
@@ -221,10 +227,11 @@ class _Writer:
             self.sums_at.setdefault(variable, []).append(f"{name}.effort")
 
     def _sensor(self, attachment: Attachment) -> None:
+        earlier = self.amendment.attachments[: self.amendment.attachments.index(attachment)]
+        self._reads(attachment, replace(self.amendment, attachments=earlier))
+
+    def _reads(self, attachment: Attachment, earlier: Amendment) -> None:
         self._declare(attachment)
-        earlier = replace(
-            self.amendment, attachments=self.amendment.attachments[: self.amendment.attachments.index(attachment)]
-        )
         self.equations.append(f"{attachment.component}.u = {earlier.output(attachment.variable)};")
 
     def _probes(self) -> None:

@@ -22,10 +22,10 @@ def probe(site: Site, number: int) -> tuple[Attachment, str]:
 
 def component(
     site: Site, name: str, title: str, signals: Sequence[Signal], parameters: Sequence[EffectParameter], text: str,
-    unit: str = "", lags: Sequence[Lag] = (),
+    unit: str = "", lags: Sequence[Lag] = (), sticking: Sequence[str] = (),
 ) -> str:  # fmt: skip
     """Source of a class that gives the effort `text`: into a node, lost across an edge, from the first port of a
-    component to its second beside it, or added to an equation."""
+    component to its second beside it, or added to an equation. Speeds of `sticking` have a `sense_`."""
     lines = [f'model {name} "{title}"']
     port = site.port
     if site.kind == "node":
@@ -34,13 +34,15 @@ def component(
         lines.append(f"  {port.path} a, b;")
     else:
         lines.append(f"  Real effort{_unit(unit)};")
-    for local, _, unit in signals:
-        lines.append(f"  input Real {local}{_unit(unit)};")
+    for local, _, its in signals:
+        lines.append(f"  input Real {local}{_unit(its)};")
     lines += [f'  parameter Real {p.name}{_unit(p.unit)} = {p.default:.10g} "{p.description}";' for p in parameters]
     lines += [f'  Real {state} "{followed}, late";' for state, followed, _ in lags]
+    lines += [line for speed in sticking for line in _modes(speed)]
     lines += ["initial equation", *(f"  {state} = {followed};" for state, followed, _ in lags)] if lags else []
     lines.append("equation")
     lines += [f"  {time}*der({state}) = {followed} - {state};" for state, followed, time in lags]
+    lines += [line for speed in sticking for line in _sticks(speed)]
     if site.kind == "node":
         lines.append(f"  port.{port.flow} = -({text});")
     elif site.kind == "edge":
@@ -50,6 +52,37 @@ def component(
     else:
         lines.append(f"  effort = {text};")
     return "\n".join([*lines, f"end {name};"])
+
+
+def _modes(speed: str) -> list[str]:
+    return [
+        f'  Integer mode_{speed}(start=0, fixed=true) "1 slides forward, -1 backward, 0 stuck";',
+        f'  Real sense_{speed} "Sense in which it slides; while stuck, share of the level that holds it";',
+        f'  Real own_{speed} "{speed}";',
+        f'  Real hold_{speed} "Share of the level that holds it; zero while it slides";',
+        f'  Real stuck_{speed} "Speed while stuck: zero unless something else sets it";',
+        f'  Real along_{speed} "Speed in the sense in which it slides; positive while stuck";',
+        f'  constant Real second_{speed}(unit="s") = 1;',
+    ]
+
+
+def _sticks(speed: str) -> list[str]:
+    """Dry friction that truly sticks (see Lacuna.Interfaces.PartialFriction), its level one."""
+    mode, own, small = f"mode_{speed}", f"own_{speed}", f"1e-10*{speed}_ref"
+    return [
+        f"  {own} = {speed};",
+        f"  0 = if {mode} == 0 then second_{speed}*der({own})/{speed}_ref else sense_{speed} - {mode};",
+        f"  hold_{speed} = if {mode} == 0 then sense_{speed} else 0;",
+        f"  stuck_{speed} = if {mode} == 0 then {own} else 0;",
+        f"  along_{speed} = if {mode} == 0 then 1 else {mode}*{own}/{speed}_ref;",
+        f"  {mode} = if pre({mode}) == 0 then",
+        f"      (if stuck_{speed} > {small} then 1 elseif stuck_{speed} < -{small} then -1",
+        f"       elseif hold_{speed} > 1 then 1 elseif hold_{speed} < -1 then -1 else 0)",
+        f"    elseif along_{speed} < 0 then 0 else pre({mode});",
+        f"  when {mode} == 0 then",
+        f"    reinit({own}, 0);",
+        "  end when;",
+    ]
 
 
 def _unit(unit: str) -> str:

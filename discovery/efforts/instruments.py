@@ -3,7 +3,7 @@
 Two answers are weighed by their evidence, over all recordings together: sensors have errors of their own, chains with
 sizes and time constants that the data chooses; or, beside these, an effort is missing at one place of the equations. An
 effort reaches the outputs through the machine, all of them at once, and errors of sensors do not: so the colour of the
-noise is estimated beside the physics and cannot eat it.
+noise is estimated beside the physics and cannot eat it. What no instrument is off by is no error of one.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from lacuna.runtime import SimulationError
 
 SAMPLES = 600  # of all recordings together: what is weighed are tens of nats, and noise is slow where it matters
 STEPS = (1.0, 0.5)  # half decades of size and time constant, in which a chain is sought: as near as tells a nat
+WORST = 0.05  # of its span, that an error of an instrument may have: the worst class of IEC 60051 (class 5)
 NATS = MIN_GAIN / 2  # of log evidence, below which nothing is believed to be there
 
 Rows = tuple[np.ndarray, np.ndarray]  # (sizes (h,), times (h,)) that one chain is tried with
@@ -48,7 +49,7 @@ def gained(case: Case, before: tuple[Amendment, Fit], after: tuple[Amendment, Fi
     locators = [_locator(case, *model) for model in (before, after)]
     if None in locators:
         return -np.inf
-    without, with_it = (_fitted(thinned_all(x.pieces, SAMPLES), _NOTHING)[1] for x in locators)
+    without, with_it = (_fitted(thinned_all(x.pieces, SAMPLES), _NOTHING, _worst(x))[1] for x in locators)
     return with_it - without
 
 
@@ -62,16 +63,22 @@ def _locator(case: Case, amendment: Amendment, fit: Fit) -> Locator | None:
 
 def weighed(locator: Locator) -> float:
     """What an effort at any place explains beside the instruments' own errors, in nats over these alone."""
-    pieces = thinned_all(locator.pieces, SAMPLES)
-    alone, log = _fitted(pieces, _NOTHING)
-    _, more = _fitted(pieces, _with_effort(locator, pieces, alone.colour))
+    pieces, worst = thinned_all(locator.pieces, SAMPLES), _worst(locator)
+    alone, log = _fitted(pieces, _NOTHING, worst)
+    _, more = _fitted(pieces, _with_effort(locator, pieces, alone.colour), worst)
     return more - log
 
 
 def colour_of(locator: Locator) -> Colour:
     """Errors of instruments with a memory, as they are beside an effort at the best place."""
     pieces = thinned_all(locator.pieces, SAMPLES)
-    return _fitted(pieces, _with_effort(locator, pieces, _NOTHING.colour))[0].colour
+    return _fitted(pieces, _with_effort(locator, pieces, _NOTHING.colour), _worst(locator))[0].colour
+
+
+def _worst(locator: Locator) -> np.ndarray:
+    """(outputs,) the largest errors that instruments of these spans have, in SI units."""
+    courses = [[r.columns[s.column] for r in locator.case.fit] for s in locator.case.outputs]
+    return WORST * np.array([np.nanmax(np.concatenate(c)) - np.nanmin(np.concatenate(c)) for c in courses])
 
 
 _NOTHING = Latent(
@@ -90,15 +97,16 @@ def _with_effort(locator: Locator, pieces: list[Piece], colour: Colour) -> Laten
     return Latent(*chosen, colour)
 
 
-def _fitted(pieces: list[Piece], latent: Latent) -> tuple[Latent, float]:
-    """The hypothesis with as many chains of sensors as the data asks for, and its log evidence."""
-    latent, log = _refined(pieces, latent)
+def _fitted(pieces: list[Piece], latent: Latent, worst: np.ndarray) -> tuple[Latent, float]:
+    """The hypothesis with as many chains of sensors as the data asks for, none above the `worst` errors that there are;
+    and its log evidence."""
+    latent, log = _refined(pieces, latent, worst)
     while True:
-        trials = [_best(pieces, *_with_chain(pieces, latent, sensor)) for sensor in range(len(pieces[0].noise))]
+        trials = [_best(pieces, *_with_chain(pieces, latent, sensor), worst) for sensor in range(len(worst))]
         trial = max(trials, key=lambda t: t[1])
         if trial[1] < log + NATS:
             return latent, log
-        latent, log = _refined(pieces, trial[0])
+        latent, log = _refined(pieces, trial[0], worst)
 
 
 def _with_chain(pieces: list[Piece], latent: Latent, sensor: int) -> tuple[Latent, int, Rows]:
@@ -110,7 +118,7 @@ def _with_chain(pieces: list[Piece], latent: Latent, sensor: int) -> tuple[Laten
     return replace(latent, colour=own), len(colour.sensor), rows
 
 
-def _refined(pieces: list[Piece], latent: Latent) -> tuple[Latent, float]:
+def _refined(pieces: list[Piece], latent: Latent, worst: np.ndarray) -> tuple[Latent, float]:
     """Its chains moved one after the other while that is better, in ever finer steps."""
     log = float(evidence(pieces, latent).log[0])
     for step in STEPS:
@@ -119,7 +127,7 @@ def _refined(pieces: list[Piece], latent: Latent) -> tuple[Latent, float]:
             before = log
             for k in range(len(latent.colour.sensor)):
                 size, time = latent.colour.size[0, k], latent.colour.time[0, k]
-                latent, log = _best(pieces, latent, k, _grid(size * around, time * around))
+                latent, log = _best(pieces, latent, k, _grid(size * around, time * around), worst)
     return latent, log
 
 
@@ -128,11 +136,11 @@ def _grid(sizes: np.ndarray, times: np.ndarray) -> Rows:
     return size.ravel(), time.ravel()
 
 
-def _best(pieces: list[Piece], latent: Latent, k: int, rows: Rows) -> tuple[Latent, float]:
+def _best(pieces: list[Piece], latent: Latent, k: int, rows: Rows, worst: np.ndarray) -> tuple[Latent, float]:
     """The hypothesis with chain k at the best of these rows, and its log evidence."""
     count = len(rows[0])
     colour = latent.colour.repeated(count)
-    colour.size[:, k], colour.time[:, k] = rows
+    colour.size[:, k], colour.time[:, k] = np.minimum(rows[0], worst[colour.sensor[k]]), rows[1]
     fields = (np.repeat(v, count) for v in (latent.column, latent.sensor, latent.size, latent.time))
     log = evidence(pieces, Latent(*fields, colour)).log
     best = int(np.nanargmax(log))

@@ -12,7 +12,7 @@ import numpy as np
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.naming.comparison import TEMPER
-from lacuna.discovery.naming.search import Finding
+from lacuna.discovery.naming.name import Finding
 
 CERTAIN = 0.999  # the most that is ever claimed
 NONE = "none of these"

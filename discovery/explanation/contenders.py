@@ -5,7 +5,7 @@ from __future__ import annotations
 from lacuna.discovery.experiment.separation import Rival, released
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.naming.comparison import Ranked, price
-from lacuna.discovery.naming.search import Finding
+from lacuna.discovery.naming.name import Finding
 
 BELIEVED = "the believed model"
 MOST = 3  # rivals of the first explanation

@@ -15,7 +15,7 @@ from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import whiteness
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.free import Free
-from lacuna.discovery.naming.search import Finding
+from lacuna.discovery.naming.name import Finding
 from lacuna.written import write_whole
 
 PARTIAL = 0.9  # share of the misfit, below which an explanation is called partial

@@ -17,8 +17,7 @@ from lacuna.discovery.fit.intervals import standard_errors
 from lacuna.discovery.fit.lead import Lead
 from lacuna.discovery.law.locate import Located, PlaceEffort
 from lacuna.discovery.naming.judge import Judgement
-from lacuna.discovery.naming.name import Naming
-from lacuna.discovery.naming.search import Finding
+from lacuna.discovery.naming.name import Finding, Naming
 
 
 @dataclass

@@ -13,7 +13,7 @@ from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.catalogue.places import Line, Shaft
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.law.locate import Located
-from lacuna.discovery.naming.search import Finding
+from lacuna.discovery.naming.name import Finding
 
 POINTS = 1500  # of a curve
 SAMPLES = 3000  # of a cloud

@@ -171,6 +171,9 @@ def _rivals(result: Explanation) -> list[str]:
         rest = ", ".join(f"{label} ({share:.0%})" for label, share in others)
         if rest:
             parts.append(f"<p>Not fitted, for they could explain little (share of the misfit): {escape(rest)}.</p>")
+        if naming.unneeded:
+            rest = escape(", ".join(naming.unneeded))
+            parts.append(f"<p>Not looked at, since the best leaves nothing but noise: {rest}.</p>")
         parts += _failures(naming)
     return parts
 

@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 
 from lacuna.discovery.explanation.explanation import Explanation
-from lacuna.discovery.naming.search import Finding
+from lacuna.discovery.naming.name import Finding
 
 HALF_WIDTH = 1.96  # standard deviations: half of a 95 % interval
 

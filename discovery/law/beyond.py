@@ -15,9 +15,9 @@ from lacuna.discovery.law.empirical_law import GROUPS, find
 from lacuna.discovery.naming.comparison import MIN_GAIN, Ranked, price, score
 from lacuna.discovery.naming.judge import try_judge
 from lacuna.discovery.naming.left_out import left_out
-from lacuna.discovery.naming.name import Naming
+from lacuna.discovery.naming.name import Finding, Naming
 from lacuna.discovery.naming.screen import Candidate
-from lacuna.discovery.naming.search import Finding, Search
+from lacuna.discovery.naming.search import Search
 
 SHORT = 3  # parameters of a law that needs no margin over several effects
 MARGIN = 40.0  # of the deviance, by which a law has to beat effects of the catalogue that leave as little

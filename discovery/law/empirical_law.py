@@ -20,7 +20,7 @@ from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.law.law import Law, attach, component_of
 from lacuna.discovery.law.law_screen import Effort, Proposal, screened, sites
-from lacuna.discovery.law.law_terms import Group
+from lacuna.discovery.law.law_terms import Group, Variable
 from lacuna.discovery.naming.comparison import score
 from lacuna.discovery.naming.screen import Candidate
 
@@ -112,6 +112,8 @@ def _simpler(proposal: Proposal) -> list[Proposal]:
     for name, shape in law.shapes().items():
         near = [s for s in shape.simple if abs(s - values[name]) < SIGNIFICANT * errors[prefix + name] + 0.02 * s]
         found += [_with_fixed(law, values, name, s) for s in near]
+    found += [_sticking(law, values, n, v) for n, g in enumerate(law.groups) for v in law.site.variables
+              if v.sticks and g.texts == (f"tanh({{q}}*{v.scaled})",)]  # fmt: skip
     numbered = law.numbered()
     for k, (c, _, _) in enumerate(numbered):
         if len(numbered) > 1 and abs(values[c]) < SIGNIFICANT * errors[prefix + c]:
@@ -128,6 +130,12 @@ def _with_fixed(law: Law, values: dict[str, float], name: str, value: float) -> 
     texts = tuple(text.replace("(1*", "(") for text in texts)
     groups[k] = Group(texts, tuple(s for s in groups[k].shapes if s.name != shape))
     return Proposal(Law(law.site, tuple(groups)), {n: v for n, v in values.items() if n != name})
+
+
+def _sticking(law: Law, values: dict[str, float], n: int, speed: Variable) -> Proposal:
+    """The law with dry friction that sticks in the place of group n, which is as good as that where it is steep."""
+    groups = [*law.groups[:n], Group((speed.dry,)), *law.groups[n + 1 :]]
+    return Proposal(Law(law.site, tuple(groups)), {name: v for name, v in values.items() if name != f"q_{n + 1}"})
 
 
 def _without(law: Law, values: dict[str, float], k: int) -> Proposal:

@@ -26,6 +26,7 @@ HEAT, WARMTH, FLOW, LEVEL = ("W",), ("K",), ("m3/s", "kg/s"), ("Pa", "m")
 CURRENT, VOLTAGE = ("A",), ("V",)
 POWER = r"^(?:sign\(\w+\)\*)?abs\(X\)\^({p}|[\d.]+)$"
 ANY = ("",)
+DRY = r"^(?:tanh\(\S+\*X\)|dryX)"
 BEYOND = r"^(?:\(abs\(-?X - \S+\) [+-] X - \S+\)|\(X - 0.5\*abs\(X \+ \S+\) \+ 0.5\*abs\(X - \S+\)\))$"
 
 
@@ -50,9 +51,9 @@ FORMS = (
     Form("heat.loss", r"^X$", HEAT, WARMTH),
     Form("friction.viscous", r"^X$", FORCE, SPEED),
     Form("stiffness", r"^X$", FORCE, PLACE),
-    Form("friction.coulomb", r"^tanh\(\S+\*X\)$", FORCE, SPEED),
-    Form("friction.stribeck", r"^tanh\(\S+\*X\)\*exp", FORCE, SPEED),
-    Form("drive.dead_time", r"^tanh\(\S+\*X\)$", VOLTAGE, CURRENT),
+    Form("friction.coulomb", DRY + "$", FORCE, SPEED),
+    Form("friction.stribeck", DRY + r"\*exp", FORCE, SPEED),
+    Form("drive.dead_time", DRY + "$", VOLTAGE, CURRENT),
     Form("diode", r"^exp\(\S+\*X\)$", CURRENT, VOLTAGE),
     Form("torque.cogging", r"^(sin|cos)\(\S+\*X\)$", FORCE, PLACE),
     Form("relaxation", r"^\(X - lag\(X, ", ANY, ANY),

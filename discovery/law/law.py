@@ -63,7 +63,7 @@ class Law:
         for c, text, shapes in self.numbered():
             text = text.format(**{s: f"{values[full]:.4g}" for s, full in shapes.items()})
             terms.append(f"{values[c]:.4g}*{text}")
-        whole = " + ".join(terms).replace("+ -", "- ")
+        whole = re.sub(r"\bdry\((\w+)/\w+_ref\)", r"sign(\1)", " + ".join(terms)).replace("+ -", "- ")
         for v in self.site.variables:
             whole = whole.replace(f"{v.local}_ref", f"{v.size:g}")
             whole = _renamed(whole, v.local, v.reading)
@@ -148,7 +148,9 @@ def _source_at(law: Law, place: sites.Site) -> str:
     parameters += [EffectParameter(f"{v.local}_ref", v.unit, "Largest value", 0, 0, v.size) for v in used]
     signals = [(v.local, v.name, v.unit) for v in used]
     text, lags = _with_states(law.text())
-    return component(place, class_name(law), "Law", signals, parameters, f"noEvent({text})", unit, lags)
+    sticking = [v.local for v in used if f"dry{v.scaled}" in text]
+    text = re.sub(r"\bdry\((\w+)/\w+_ref\)", r"sense_\1", text)
+    return component(place, class_name(law), "Law", signals, parameters, f"noEvent({text})", unit, lags, sticking)
 
 
 def _with_states(text: str) -> tuple[str, list[Lag]]:

@@ -12,12 +12,11 @@ from lacuna.discovery.catalogue.places import Device, Line, Shaft
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.law.law import Law, Site, component_of
 from lacuna.discovery.law.law_terms import Group, Variable, groups
-from lacuna.discovery.law.response import respond
+from lacuna.discovery.law.response import linear, respond
 from lacuna.discovery.naming.screen import Candidate, Screen
 
 SHORTLIST = 24  # groups that are tried on what they were not fitted to
-HATS = (128, 512)  # of effort in each recording, from which the answer to every term is put together: between these
-STEPS = 1e7  # as many as can be simulated in so many steps, since a term that is too fast for its hats is not seen
+HATS = (128, 512)  # of effort in each recording, simulated and of linear equations: faster terms are not seen
 
 Progress = Callable[[str], None]
 
@@ -112,7 +111,8 @@ class Effort:
             self.paths.append({v.local: path[v.name] for v in site.variables} | {"time": recording.time})
         if not isinstance(site.place, Device):
             amendment = replace(base.machine.amendment, probes=(site.place,))
-            self.response = respond(base.machine.amended(amendment, case), base, 0, _hats(base))
+            probed = base.machine.amended(amendment, case)
+            self.response = linear(probed, base, 0, HATS[1]) or respond(probed, base, 0, HATS[0])
 
     def columns(self, group: Group, weights: list[np.ndarray]) -> list[np.ndarray]:
         """One column for each term: what a loss of one unit of it changes in the weighted residual."""
@@ -137,12 +137,6 @@ class Effort:
                 np.concatenate([-e * samples[c] / noise[c].std if c in own else np.zeros(len(e)) for c in noise])
             )
         return parts
-
-
-def _hats(base: Fit) -> int:
-    """How many hats of effort a recording is cut into, by what the fit's simulations cost."""
-    steps = sum(base.machine.steps[name] for name in base.residuals)
-    return int(np.clip(STEPS / steps, *HATS))
 
 
 def _parts(screen: Screen) -> list[np.ndarray]:

@@ -2,7 +2,7 @@
 
 A term's text is Modelica and is evaluated along a trajectory from that same text, so what is screened is what will be
 simulated. `{p}`, `{k}`, `{tau}` and `{omega}` stand for shape parameters, which a fit may move. `lag(x, tau)` is x
-behind a first-order lag that begins at rest: a state of the law's own.
+behind a first-order lag that begins at rest: a state of the law's own. `dry(x)` truly sticks: it has modes and events.
 """
 
 from __future__ import annotations
@@ -13,7 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 _FUNCTIONS = {"sin": np.sin, "cos": np.cos, "exp": np.exp, "tanh": np.tanh, "abs": np.abs, "sign": np.sign,
-              "sqrt": np.sqrt}  # fmt: skip
+              "sqrt": np.sqrt, "dry": np.sign}  # fmt: skip
+STICKS = "dry{x}"  # its sign while it moves; at rest whatever holds it there, up to one in size
 DRY = "tanh(50*{x})"  # the sign of a variable, smooth over two per cent of its range: no second sticking element
 ORDERS = (0.5, 1, 1.5, 2, 3, 4, 5, 6, 8, 10, 12)  # per turn
 TIMES = (0.1, 0.3, 1.0)  # of the longest recording: time constants of what fades or drifts
@@ -35,6 +36,12 @@ class Variable:
     size: float
     switch: bool = False  # a Boolean of the model: 1 while it is true
     minus: str = ""
+    sticks: bool = False  # an effort at the place acts on its rate at once: dry friction there holds it at rest
+
+    @property
+    def dry(self) -> str:
+        """Dry friction of this speed."""
+        return (STICKS if self.sticks else DRY).format(x=self.scaled)
 
     @property
     def reading(self) -> str:

@@ -24,9 +24,9 @@ from lacuna.discovery.naming.comparison import (
     told_by_data,
 )
 from lacuna.discovery.naming.judge import try_judge
-from lacuna.discovery.naming.name import Naming
+from lacuna.discovery.naming.name import Finding, Naming
 from lacuna.discovery.naming.screen import Candidate
-from lacuna.discovery.naming.search import Finding, Search
+from lacuna.discovery.naming.search import Search
 
 Progress = Callable[[str], None]
 

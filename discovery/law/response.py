@@ -1,7 +1,8 @@
 """What a small effort at a place changes in the recorded signals, a hat of effort at a time.
 
-The answer to any other effort is the sum of the answers to its hats (to first order), so that a place is simulated
-once and every course of effort is judged without another simulation.
+The answer to any other effort is the sum of the answers to its hats (to first order), so that every course of effort is
+judged without another simulation. Answers to many hats come from the equations linearised along the trajectory, where
+these say of one of them what a simulation says; events that a small effort moves are not in them.
 """
 
 from __future__ import annotations
@@ -12,12 +13,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from lacuna.discovery.catalogue.amend import probe_name
+from lacuna.discovery.efforts.linear import Linear
+from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.fit.fit import Fit, Objective
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.solver.least_squares import _pool
-from lacuna.runtime import RecordedInput
+from lacuna.runtime import RecordedInput, SimulationError
 
-LINEAR = (1e-3, 0.3)  # of the residual: sizes of an answer that is above rounding and still proportional
+LINEAR = (1e-3, 0.3)  # sizes of an answer that is above rounding and still proportional, in shares of the residual
 FOLLOWED = 0.5  # of an effort's power, that hats may miss: what is faster would pass for a slow effort
 
 
@@ -78,6 +81,43 @@ def respond(machine: Machine, base: Fit, probe: int, hats: int) -> Response:
 
     list(_pool.map(fill, [(i, j) for i in range(len(recordings)) for j in range(hats)]))
     return Response(nodes, blocks)
+
+
+def linear(machine: Machine, base: Fit, probe: int, hats: int) -> Response | None:
+    """The response to `hats` hats of effort, from the linear equations; None where these do not say what a simulation
+    says, or cannot be had."""
+    name, recordings = probe_name(probe), machine.case.fit
+    try:
+        equations = Linear(machine, [name], [])
+        along = [equations.along(base.point, r) for r in recordings]
+    except (NotNumeric, SimulationError, np.linalg.LinAlgError):
+        return None
+    objective = Objective(machine, recordings, base.noise)
+    order = [list(machine.columns).index(c) for c in objective.columns]
+    nodes, blocks = [], []
+    for recording, piece, samples in zip(recordings, along, objective.samples, strict=True):
+        peaks = np.linspace(recording.time[0], recording.time[-1], min(hats, len(recording.time)))
+        tents = np.array([np.interp(recording.time, peaks, row) for row in np.eye(len(peaks))]).T
+        answer = piece.response(np.zeros(len(peaks), int), tents)[:, order, :]
+        weights = np.stack([samples[c] / base.noise[c].std for c in objective.columns], axis=1)
+        nodes.append(peaks)
+        blocks.append(np.concatenate(list(np.moveaxis(-answer * weights[:, :, None], 1, 0))))
+    found = Response(nodes, blocks)
+    return found if _agrees(found, objective, base, name) else None
+
+
+def _agrees(found: Response, objective: Objective, base: Fit, name: str) -> bool:
+    """Whether a simulation with a wide hat of effort, small enough, answers as the linear response does."""
+    nodes, block = found.nodes[0], found.blocks[0]
+    course = np.interp(np.arange(len(nodes)), [0, len(nodes) / 4, len(nodes) / 2], [0.0, 1.0, 0.0])
+    said, still = block @ course, _residual(objective, base, 0, {})
+    size = float(np.linalg.norm(said))
+    if still is None or not 0 < size < np.inf:
+        return False
+    amount = np.sqrt(LINEAR[0] * LINEAR[1]) * float(np.linalg.norm(still)) / size
+    moved = _residual(objective, base, 0, {name: RecordedInput(nodes, amount * course)})
+    missed = np.inf if moved is None else float(np.linalg.norm((moved - still) / amount - said))
+    return missed < LINEAR[1] ** 2 * size  # what is no longer proportional of an answer that is just small enough
 
 
 def _residual(objective: Objective, base: Fit, piece: int, efforts: dict[str, RecordedInput]) -> np.ndarray | None:

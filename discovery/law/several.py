@@ -19,9 +19,9 @@ from lacuna.discovery.law.beyond import MARGIN
 from lacuna.discovery.naming.comparison import MIN_GAIN, Ranked, price, score, told_by_data
 from lacuna.discovery.naming.judge import Judgement, try_judge
 from lacuna.discovery.naming.left_out import left_out
-from lacuna.discovery.naming.name import Naming
+from lacuna.discovery.naming.name import Finding, Naming
 from lacuna.discovery.naming.screen import Candidate
-from lacuna.discovery.naming.search import MAX_FINDINGS, Finding, Search
+from lacuna.discovery.naming.search import MAX_FINDINGS, Search
 
 Progress = Callable[[str], None]
 

@@ -1,9 +1,18 @@
-"""The fit of a hypothesis: the base's parameters and the effect's together, from a screened start."""
+"""The models of hypotheses, and their fits: the base's parameters and the effect's together, from a screened start.
+
+Hypotheses share a model while they are screened, for to compile one costs more than the few runs of a first look. An
+error of a sensor acts on its own reading alone, and an effect of which there is nothing yet, its parameters neutral, on
+nothing at all: so each is seen by itself in a model that holds them all.
+"""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from lacuna.discovery.case.cases import Case
+from lacuna.discovery.catalogue.amend import Amendment, Attachment
 from lacuna.discovery.fit.fit import Fit, fit
+from lacuna.discovery.fit.machine import Machine, try_machine
 from lacuna.discovery.fit.objective import Objective
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.naming.comparison import Progress
@@ -48,3 +57,33 @@ def _small_step(base: Fit, candidate: Candidate, full: dict[str, float]) -> dict
     neutral = {attachment.full_name(n): v for n, v in attachment.effect.neutral.items()}
     without = full | {n: v for n, v in neutral.items() if n in full} | base.point
     return {n: without[n] + SMALL_STEP * (v - without[n]) for n, v in full.items()}
+
+
+def own_machine(
+    case: Case, amendment: Amendment, attachment: Attachment, base: Fit
+) -> tuple[Machine | None, str]:  # fmt: skip
+    """The machine with this hypothesis alone; None with the reason where there is no such model."""
+    return try_machine(case, replace(amendment, attachments=[*amendment.attachments, attachment]), base.machine)
+
+
+def shared(case: Case, amendment: Amendment, attachments: list[Attachment], base: Fit) -> dict[str, Machine]:
+    """By label, the machine in which a hypothesis can be seen beside others; those that need their own are missing."""
+    sensors = tuple(a for a in attachments if a.variable and a.effect.neutral)  # a lag may be stiff where all is slow
+    silent = list({a.component: a for a in attachments if _is_silent(a)}.values())
+    for added in (silent, []):
+        whole = replace(amendment, attachments=[*amendment.attachments, *added], beside=sensors)
+        if len(added) + len(sensors) < 2:
+            return {}
+        machine, _ = try_machine(case, whole, base.machine)
+        if machine is not None:
+            read = {a.label: try_machine(case, replace(whole, seen=a), base.machine)[0] for a in sensors}
+            return dict.fromkeys((a.label for a in added), machine) | read
+    return {}
+
+
+def _is_silent(attachment: Attachment) -> bool:
+    """Whether the effect only adds a torque, and none as it is declared: voltages that are added close loops, and a run
+    with those is as dear as a model of its own."""
+    effect = attachment.effect
+    neutral = bool(effect.neutral) and all(effect.parameter(n).default == v for n, v in effect.neutral.items())
+    return effect.attaches == "flange" and neutral and not effect.friction

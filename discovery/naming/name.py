@@ -13,12 +13,11 @@ from functools import partial
 
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment, Attachment
-from lacuna.discovery.fit.evidence import nearly_noise
+from lacuna.discovery.fit.evidence import is_noise, nearly_noise
 from lacuna.discovery.fit.fit import Fit
-from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.solver.least_squares import WORKERS
 from lacuna.discovery.fit.time_limit import TimeUp, check
-from lacuna.discovery.naming.candidate_fit import fit_candidate
+from lacuna.discovery.naming.candidate_fit import fit_candidate, own_machine, shared
 from lacuna.discovery.naming.comparison import (
     TIE,
     Progress,
@@ -28,11 +27,24 @@ from lacuna.discovery.naming.comparison import (
     cross_validated,
     score,
 )
-from lacuna.discovery.naming.race import HALF, ROUNDS, best_starts, first_round, leading, relatives, still_in
+from lacuna.discovery.naming.judge import Judgement
+from lacuna.discovery.naming.race import (
+    HALF,
+    ROUNDS,
+    akin,
+    at_first,
+    best_starts,
+    first_round,
+    leading,
+    relatives,
+    stands_out,
+    still_in,
+)
 from lacuna.discovery.naming.restarts import begin_again
 from lacuna.discovery.naming.screen import Candidate, Screen, prepare, telling_recordings
 from lacuna.runtime import SimulationError
 
+AS_LIKELY = 0.5  # of a finding's confidence, that rivals at other places have together where the data cannot tell
 SEVERAL_STARTS = 1  # rounds after which only the best start of each hypothesis goes on
 
 
@@ -45,6 +57,7 @@ class Naming:
     screened: list[tuple[str, float]]
     failures: list[tuple[str, str]] = field(default_factory=list)
     correlation: dict[str, float] = field(default_factory=dict)
+    unneeded: list[str] = field(default_factory=list)  # what was not looked at, since the best leaves noise
 
     @property
     def best(self) -> Ranked | None:
@@ -68,17 +81,40 @@ class Naming:
         return [r for r in self.ranked if r.identity != ranked.identity and r.score - ranked.score < TIE]
 
 
+@dataclass
+class Finding:
+    """An accepted effect: the round of naming that chose it, and the judgements without and with it."""
+
+    ranked: Ranked
+    naming: Naming
+    before: Judgement
+    after: Judgement
+
+    @property
+    def elsewhere(self) -> list[Ranked]:
+        """Rivals at other places: a tie at one place leaves no doubt that physics is missing there."""
+        ranked = self.ranked
+        return [r for r in self.naming.rivals(ranked) if r.identity[1] != ranked.identity[1]]
+
+    @property
+    def tied(self) -> bool:
+        """Whether the data cannot tell at which place it is."""
+        return sum(r.confidence for r in self.elsewhere) > AS_LIKELY * self.ranked.confidence
+
+
 def screen_all(
     case: Case, amendment: Amendment, attachments: list[Attachment], base: Fit, progress: Progress
 ) -> tuple[list[Candidate], list[tuple[str, str]]]:
     """Candidates (one for each start), most promising first; and the hypotheses that do not fit this model."""
     screen = Screen(base, telling_recordings(base))
     failures: list[tuple[str, str]] = []
+    together = shared(case, amendment, attachments, base)
 
     def one(attachment: Attachment) -> list[Candidate]:
         check()
-        amended = replace(amendment, attachments=[*amendment.attachments, attachment])
-        machine, why = try_machine(case, amended, base.machine)
+        machine, why = together.get(attachment.label), ""
+        if machine is None:
+            machine, why = own_machine(case, amendment, attachment, base)
         if machine is None:
             failures.append((attachment.label, why))
             return []
@@ -88,7 +124,7 @@ def screen_all(
             failures.append((attachment.label, str(error)))
             return []
         progress(f"screened {attachment.label}: " + (f"{found[0].predicted:.1%}" if found else "no use"))
-        return found
+        return [replace(c, machine=None) for c in found] if attachment.label in together else found
 
     with ThreadPoolExecutor(WORKERS) as pool:
         candidates = [c for found in pool.map(one, attachments) for c in found]
@@ -99,36 +135,103 @@ def rank(
     case: Case, amendment: Amendment, attachments: list[Attachment], base: Fit, *,
     final: bool = True, progress: Progress = lambda text: None,
 ) -> Naming:  # fmt: skip
-    """Screen, fit and rank hypotheses on top of `base`, the fit of the amendment so far; `final`: see `compete`."""
-    candidates, failures = screen_all(case, amendment, attachments, base, progress)
-    naming = compete(case, candidates, base, final=final, progress=progress)
-    return replace(naming, failures=[*failures, *naming.failures])
+    """Screen, fit and rank hypotheses on top of `base`, the fit of the amendment so far; `final`: see `Contest`."""
+    return Contest(case, base, amendment, attachments, progress).naming(final)
 
 
 def compete(
     case: Case, candidates: list[Candidate], base: Fit, *, final: bool = True, progress: Progress = lambda text: None,
 ) -> Naming:  # fmt: skip
-    """Fit and rank candidates (most promising first) on top of `base`.
+    """Fit and rank candidates (most promising first) on top of `base`; `final`: see `Contest`."""
+    contest = Contest(case, base, base.machine.amendment, [], progress)
+    contest.candidates = candidates
+    return contest.naming(final)
 
-    A `final` ranking is cross-validated; not one of fits that are held, which is decided when they are released. Where
-    the time is up, those that have been fitted are ranked if the best leaves noise; else TimeUp is raised.
+
+class Contest:
+    """Hypotheses that compete on top of `base`, the fit of `amendment`.
+
+    The most promising go first: where one of them leaves noise, others can but tie with it, and those that promise much
+    less do not. Nor are errors of sensors and richer forms of dry friction then looked at, but for those of its kin.
     """
-    screened = [(c.attachment.label, c.predicted) for c in best_starts(candidates)]
-    fitted: dict[str, Candidate] = {}
-    failures: list[tuple[str, str]] = []
-    try:
-        failures = _race(case, candidates, base, fitted, progress)
-        if not fitted:
-            return Naming([], screened, failures)
-        ranked, correlation = _ranked(fitted, base)
-        if final:
-            ranked = cross_validated(base, ranked, correlation, progress)
-    except TimeUp:
-        if not any(nearly_noise(c.fit) for c in fitted.values()):
-            raise
-        ranked, correlation = _ranked(fitted, base)
-    confidences(ranked)
-    return Naming(ranked, screened, failures, correlation)
+
+    def __init__(
+        self, case: Case, base: Fit, amendment: Amendment, attachments: list[Attachment], progress: Progress
+    ) -> None:  # fmt: skip
+        self.case, self.base, self.amendment, self.progress = case, base, amendment, progress
+        self.screening, self.waiting = at_first(attachments)
+        self.candidates: list[Candidate] = []
+        self.failures: list[tuple[str, str]] = []
+        self.fitted: dict[str, Candidate] = {}
+        self._tried: set[str] = set()
+
+    def best(self) -> Candidate | None:
+        return _ranked(self.fitted, self.base)[0][0].candidate if self.fitted else None
+
+    def lead(self) -> None:
+        """Screen, and fit the most promising few."""
+        won = False
+        while True:
+            if self.screening:
+                found, failures = screen_all(self.case, self.amendment, self.screening, self.base, self.progress)
+                self.candidates = sorted([*self.candidates, *found], key=lambda c: -c.predicted)
+                self.failures += failures
+            if self.waiting and not won and not stands_out(self.candidates):
+                self.screening, self.waiting = self.waiting, []
+                continue
+            self._fit(self._untried(leading(first_round(self.candidates))[0]))
+            best = self.best()
+            won = best is not None and is_noise(best.fit)
+            self.screening = [a for a in self.waiting if not won or akin(a, best.attachment)]
+            self.waiting = [a for a in self.waiting if won and not akin(a, best.attachment)]
+            if not self.screening:
+                return
+
+    def naming(self, final: bool = True) -> Naming:
+        """What all of them say.
+
+        A `final` ranking is cross-validated; not one of fits that are held, which is decided when they are released.
+        Where the time is up, those that have been fitted are ranked if the best leaves noise; else TimeUp is raised.
+        """
+        try:
+            self.lead()
+            self._follow()
+            ranked, correlation = _ranked(self.fitted, self.base) if self.fitted else ([], {})
+            if final and ranked:
+                ranked = cross_validated(self.base, ranked, correlation, self.progress)
+        except TimeUp:
+            if not any(nearly_noise(c.fit) for c in self.fitted.values()):
+                raise
+            ranked, correlation = _ranked(self.fitted, self.base)
+        if ranked:
+            confidences(ranked)
+        screened = [(c.attachment.label, c.predicted) for c in best_starts(self.candidates)]
+        return Naming(ranked, screened, self.failures, correlation, [a.label for a in self.waiting])
+
+    def _untried(self, pool: list[Candidate]) -> list[Candidate]:
+        return [c for c in pool if c.attachment.label not in self._tried]
+
+    def _fit(self, pool: list[Candidate]) -> None:
+        """Fit a pool, each hypothesis in a model of its own."""
+        self._tried |= {c.attachment.label for c in pool}
+        machines = {c.attachment.label: c.machine for c in pool}
+        for candidate in best_starts([c for c in pool if c.machine is None]):
+            own, _ = own_machine(self.case, self.amendment, candidate.attachment, self.base)
+            machines[candidate.attachment.label] = own
+        pool = [replace(c, machine=machines[c.attachment.label]) for c in pool]
+        _halve(self.case, self.base, [c for c in pool if c.machine is not None], self.fitted, self.progress)
+        failed = [label for label in machines if label not in self.fitted]
+        self.failures += [(label, "no simulation succeeded from its start values") for label in failed]
+
+    def _follow(self) -> None:
+        """Fit what may do as well as the leaders, and what is related to the best."""
+        first = first_round(self.candidates)
+        best = self.best()
+        least = HALF * first[0].predicted if best is not None and nearly_noise(best.fit) else -float("inf")
+        self._fit(self._untried([c for c in first if c.predicted > least]))
+        if self.fitted:
+            self._fit(relatives(self.candidates, self.fitted, self.best()))
+            begin_again(self.case, self.base, list(self.fitted.values()), self.progress)
 
 
 def _ranked(fitted: dict[str, Candidate], base: Fit) -> tuple[list[Ranked], dict[str, float]]:
@@ -136,31 +239,6 @@ def _ranked(fitted: dict[str, Candidate], base: Fit) -> tuple[list[Ranked], dict
     correlation = best_correlation(list(fitted.values()))
     ranked = [Ranked(c, c.fit, score(c, base, correlation)) for c in fitted.values()]
     return sorted(ranked, key=lambda r: r.score), correlation
-
-
-def _race(
-    case: Case, candidates: list[Candidate], base: Fit, fitted: dict[str, Candidate], progress: Progress
-) -> list[tuple[str, str]]:  # fmt: skip
-    """Fit what may win, into `fitted`; what could not be simulated, with the reason.
-
-    The most promising go first: where one of them leaves noise, others can but tie with it, and those that promise much
-    less do not.
-    """
-    first = first_round(candidates)
-    leaders, others = leading(first)
-    _halve(case, base, leaders, fitted, progress)
-    if fitted and nearly_noise(_ranked(fitted, base)[0][0].fit):
-        others = [c for c in others if c.predicted > HALF * first[0].predicted]
-    _halve(case, base, others, fitted, progress)
-    related: list[Candidate] = []
-    if fitted:
-        related = relatives(candidates, fitted, _ranked(fitted, base)[0][0].candidate)
-        _halve(case, base, related, fitted, progress)
-        begin_again(case, base, list(fitted.values()), progress)
-    failed = dict.fromkeys(
-        c.attachment.label for c in [*leaders, *others, *related] if c.attachment.label not in fitted
-    )
-    return [(label, "no simulation succeeded from its start values") for label in failed]
 
 
 def _halve(

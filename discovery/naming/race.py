@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from lacuna.discovery.catalogue.amend import Attachment
 from lacuna.discovery.fit.evidence import nearly_noise
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.naming.screen import Candidate
@@ -50,6 +51,28 @@ def first_round(candidates: list[Candidate]) -> list[Candidate]:
             chosen[candidate.attachment.label] -= 1
             pool.append(candidate)
     return pool
+
+
+def at_first(attachments: list[Attachment]) -> tuple[list[Attachment], list[Attachment]]:
+    """(hypotheses that are looked at first, those that wait): richer forms of dry friction wait for the plain one."""
+    waiting = [any(a.contains(b) and b.effect.friction for b in attachments) for a in attachments]
+    pairs = list(zip(attachments, waiting, strict=True))
+    return [a for a, waits in pairs if not waits], [a for a, waits in pairs if waits]
+
+
+def stands_out(candidates: list[Candidate]) -> bool:
+    """Whether no other physics promises half as much as the best, which may then win before what waits is looked at: to
+    fit what does not win costs as much as to look at a dozen."""
+    if not candidates:
+        return False
+    own = candidates[0].attachment.effect.identifier
+    others = [c.predicted for c in candidates if c.attachment.effect.identifier != own]
+    return max(others, default=0.0) < HALF * candidates[0].predicted
+
+
+def akin(attachment: Attachment, best: Attachment) -> bool:
+    """Whether one of two laws at a place contains the other."""
+    return attachment.contains(best) or best.contains(attachment)
 
 
 def leading(pool: list[Candidate]) -> tuple[list[Candidate], list[Candidate]]:

@@ -30,10 +30,11 @@ ABSURD = 1e30  # misfit in units of its level, from which a simulation has run a
 
 @dataclass
 class Candidate:
-    """A hypothesis ready to be fitted: its machine, the effect's free parameters and one place where they start."""
+    """A hypothesis ready to be fitted: its machine (None: it was screened in one that others share), the effect's free
+    parameters and one place where they start."""
 
     attachment: Attachment
-    machine: Machine
+    machine: Machine | None
     free: list[Free]
     fixed: dict[str, float] = field(default_factory=dict)
     start: dict[str, float] = field(default_factory=dict)

@@ -7,7 +7,6 @@ out, named anew given the others, and exchanged or dropped where that is better.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -22,42 +21,18 @@ from lacuna.discovery.fit.fit import Fit, carried, fit, linearised
 from lacuna.discovery.fit.lead import Lead
 from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.objective import STAGES
-from lacuna.discovery.naming.comparison import CLOSE, MIN_GAIN, TIE, Ranked, confidences, price, score
+from lacuna.discovery.naming.comparison import CLOSE, MIN_GAIN, TIE, Progress, Ranked, confidences, price, score
 from lacuna.discovery.naming.judge import Judgement, try_judge
 from lacuna.discovery.naming.left_out import left_out
-from lacuna.discovery.naming.name import Naming, compete, rank, screen_all
+from lacuna.discovery.naming.name import Contest, Finding, Naming, compete, screen_all
 from lacuna.discovery.naming.screen import Candidate
 
 MAX_FINDINGS = 3  # more are beyond what a few recordings can tell apart
 CARRIED = 3  # times at most, that an accepted fit is begun again from where it stopped
 ALIKE = 0.01  # share of the best gain, within which rivals are released with the best one,
 RELEASED = 3  # at most so many of them
-AS_LIKELY = 0.5  # of a finding's confidence, that rivals at other places have together where the data cannot tell
 TRIED = 1.0  # share of the misfit that what was fitted before is taken to promise: none of it waits for a simpler law
 RECONSIDERED = 4  # rivals of an earlier finding that are tried again
-
-Progress = Callable[[str], None]
-
-
-@dataclass
-class Finding:
-    """An accepted effect: the round of naming that chose it, and the judgements without and with it."""
-
-    ranked: Ranked
-    naming: Naming
-    before: Judgement
-    after: Judgement
-
-    @property
-    def elsewhere(self) -> list[Ranked]:
-        """Rivals at other places: a tie at one place leaves no doubt that physics is missing there."""
-        ranked = self.ranked
-        return [r for r in self.naming.rivals(ranked) if r.identity[1] != ranked.identity[1]]
-
-    @property
-    def tied(self) -> bool:
-        """Whether the data cannot tell at which place it is."""
-        return sum(r.confidence for r in self.elsewhere) > AS_LIKELY * self.ranked.confidence
 
 
 @dataclass
@@ -76,6 +51,7 @@ class Search:
     reason: str = ""
     exhausted: bool = False
     restarts: bool = False  # whether a search that has lost its way is begun anew
+    left: Contest | None = None  # where its most promising hypotheses had lost their way
 
     def run(self, progress: Progress, most: int = MAX_FINDINGS) -> None:
         """Add findings, `most` of them, until what is left is noise, or nothing more pays."""
@@ -101,12 +77,20 @@ class Search:
 
     def lost(self) -> bool:
         """Whether fits that nothing has led leave so much that the search has to begin anew."""
-        return self.restarts and self.lead.direct and astray(self.fit)
+        return self.restarts and self.lead.direct and (self.left is not None or astray(self.fit))
+
+    def resume(self, progress: Progress) -> None:
+        """Go on with a contest that was left."""
+        self.exhausted = False
+        self.run(progress, most=1)
 
     def add(self, progress: Progress) -> bool:
-        attachments = enumerate_attachments(self.case, self.amendment.structure, self.effects, self.amendment)
-        held = self.lead.hold(self.fit)
-        naming = rank(held.machine.case, self.amendment, attachments, held, final=self.lead.direct, progress=progress)
+        contest = self.left or self._begun(progress)
+        if self.left is None and self._astray(contest):
+            self.left = contest
+            return False
+        self.left = None
+        naming = contest.naming(final=self.lead.direct)
         self.namings.append(naming)
         best = naming.simplest
         if best is None or best.score > -MIN_GAIN:
@@ -116,6 +100,19 @@ class Search:
             return True
         simpler = [r for r in naming.ranked if best.attachment.contains(r.attachment) and r.score < -MIN_GAIN]
         return any(self._accept(r, self.polished(r, self.fit), naming, progress) for r in simpler)
+
+    def _begun(self, progress: Progress) -> Contest:
+        """The contest of all hypotheses, its most promising ones fitted."""
+        attachments = enumerate_attachments(self.case, self.amendment.structure, self.effects, self.amendment)
+        held = self.lead.hold(self.fit)
+        contest = Contest(held.machine.case, held, self.amendment, attachments, progress)
+        contest.lead()
+        return contest
+
+    def _astray(self, contest: Contest) -> bool:
+        """Whether its most promising hypotheses lose their way, and the search may begin anew."""
+        best = contest.best()
+        return self.restarts and self.lead.direct and best is not None and astray(best.fit)
 
     def _accept(self, ranked: Ranked, polished: Fit | None, naming: Naming, progress: Progress) -> bool:
         """Go on with a hypothesis if it pays on recordings left out, alone or with a second one."""

@@ -241,7 +241,7 @@ bool fmu_load(fmu *f, const void *snapshot) {
   stream w = {.from = kept->bytes};
   pass_all(&w, f);
   s->input_time = NAN;
-  s->dense.valid = s->resume = false;
+  s->dense.valid = s->shaped = s->resume = false;
   if (!f->begun) return true;
   if (!clocks_fit(s)) return fmu_refuse(f, "a state whose clocks do not belong to its time");
   rt_onestep *solver = s->memory; /* its derivatives are those of another point */

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 15
+#define MDL_ABI_VERSION 16
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
@@ -231,6 +231,12 @@ typedef struct mdl_descriptor {
 
   /* Whether event() reads v or xdot that follow, through equations, d that it sets. */
   int events_follow;
+
+  /* [n_rel] 1: between events the guard is an affine function of states and time; NULL: none is. guard_rates: g[r] of
+   * those guards in a direction in which time moves by t and the states by x, whatever the point. Frozen is what m
+   * holds, unknowns that are constant between events among it. */
+  const unsigned char *affine_guards;
+  int (*guard_rates)(mdl_data *m, double t, const double *x, double *g);
 } mdl_descriptor;
 
 typedef const mdl_descriptor *(*mdl_descriptor_fn)(void);

@@ -1,9 +1,9 @@
-/* Guards that cross twice inside a step: what the ends of the step do not show. */
+/* Guards that cross twice inside a step, of those that are no polynomials: what the ends of the step do not show. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-#include "session.h"
+#include "swings.h"
 
 /* Smallest value on [0, 1] of the parabola through (0, a), (1, b) with second derivative c, and where it is. */
 static double lowest(double a, double b, double c, double *where) {
@@ -25,6 +25,7 @@ static double bent(const rt_session *s, int r, double sign, double h, double c) 
  * through the last three points with four times its curvature, or what that has changed by since the step before; there
  * is no third point after a restart, so then it could. */
 bool rt_may_dip(const rt_session *s, double end) {
+  if (rt_all_shaped(s)) return false;
   if (isnan(s->t_before)) return true;
   double h = end - s->t_previous, before = s->t_previous - s->t_before, where;
   double weight = 2 * h / (h + before), back = weight * h / before;
@@ -33,7 +34,7 @@ bool rt_may_dip(const rt_session *s, double end) {
     double c = weight * (b - a) - back * (a - sign * s->g_before[r]);
     double least = a < b ? a : b;
     c = rt_max(c, bent(s, r, sign, h, c));
-    if (c > 1.5 * least && c > 0 && rt_is_state_relation(s, r) && !s->flip[r] &&
+    if (c > 1.5 * least && c > 0 && rt_is_state_relation(s, r) && !s->flip[r] && !rt_is_shaped(s, r) &&
         lowest(a, b, 4 * c, &where) < 0.25 * least)
       return true;
   }
@@ -45,7 +46,7 @@ bool rt_may_dip(const rt_session *s, double end) {
 static int find_return(rt_session *s, double *inside) {
   double h = *inside - s->t_previous, least = rt_smallest_step(s);
   for (int r = 0; r < s->d->n_rel; r++) {
-    if (s->due_back[r] < s->t_previous || s->flip[r]) continue;
+    if (s->due_back[r] < s->t_previous || s->flip[r] || rt_is_shaped(s, r)) continue;
     double sign = s->data.rel[r] ? 1 : -1;
     double part = h;
     while ((part *= 0.5) > least) {
@@ -70,7 +71,7 @@ int rt_find_dip(rt_session *s, double *inside) {
   if (status || *inside < end) return status;
   status = rt_guards_at(s, s->t_previous + 0.5 * h, s->g_low);
   for (int r = 0; !status && r < s->d->n_rel; r++) {
-    if (!rt_is_state_relation(s, r) || s->flip[r]) continue;
+    if (!rt_is_state_relation(s, r) || s->flip[r] || rt_is_shaped(s, r)) continue;
     double sign = s->data.rel[r] ? 1 : -1, a = sign * s->g_previous[r], middle = sign * s->g_low[r], b = sign * s->g[r];
     if (middle > 0) rt_extend_guard(s, r, middle);
     double eps = rt_hysteresis(s, r);

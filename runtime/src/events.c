@@ -236,6 +236,7 @@ rt_status rt_event(rt_session *s) {
   if (status) return status;
   double since = s->t - s->last_event;
   s->last_event = s->t;
+  s->shaped = false; /* with other relations, guards are made of the states in another way */
   remember(s);
   if ((status = rt_jump_measure(s))) return status;
   size_t logged = s->result->n_events;

@@ -39,7 +39,8 @@ static bool allocate_numbers(rt_session *s) {
          **discrete[] = {&m->d, &m->pre_d, &s->d_swept, &s->d_before, &s->d_after};
   double **unknowns[] = {&s->range, &s->outgrown, &s->atol, &s->y, &s->yp},
          **samples[] = {&s->clock.first, &s->clock.interval};
-  double **algebraic[] = {&m->v, &s->v_trial, &s->v_before, &s->v_end, &r->v}, **dense[] = {&s->dense.c};
+  double **algebraic[] = {&m->v, &s->v_trial, &s->v_before, &s->v_end, &r->v}, **dense[] = {&s->dense.c},
+         **shapes[] = {&s->shape};
   double **states[] = {&m->x,           &m->xdot,  &s->initial_value, &s->x_trial, &s->xdot_trial, &s->x_before,
                        &s->xdot_before, &s->x_end, &s->xdot_end,      &r->x,       &r->xdot,       &s->x_swept};
   double **sizes[] = {&s->nominal}, **division[] = {&s->division};
@@ -53,6 +54,7 @@ static bool allocate_numbers(rt_session *s) {
                           {samples, COUNT(samples), d->n_sample},
                           {algebraic, COUNT(algebraic), d->n_v},
                           {dense, COUNT(dense), (RT_DENSE_DEGREE + 1) * d->n_x},
+                          {shapes, COUNT(shapes), (RT_DENSE_DEGREE + 1) * d->n_rel},
                           {states, COUNT(states), d->n_x},
                           {sizes, COUNT(sizes), d->n_x + d->n_z + d->n_rel},
                           {division, COUNT(division), 2 * d->n_divisions},

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "swings.h"
+
 static const double least_cut = 0.05;  /* of a rejected step: after an event the old size may be far too large */
 static const double log_floor = -13.3; /* log2 of the smallest error remembered, 1e-4 */
 
@@ -144,6 +146,15 @@ static double choose(const rt_session *s, const rt_onestep *o, double remaining)
   return h > 0.5 * remaining ? 0.5 * remaining : h;
 }
 
+/* The square of the error that decides: that of the states, or of guards made of them. */
+static double test_guards(rt_session *s, rt_onestep *o, double h, double square) {
+  if (!s->d->guard_rates) return square;
+  o->h = h;
+  s->dense.valid = false;
+  double swing = rt_swing_error(s, s->t + h, o->error);
+  return rt_max(square, swing * swing);
+}
+
 rt_status rt_onestep_step(rt_session *s, void *memory, double limit) {
   rt_onestep *o = memory;
   bool adaptive = !(s->options.step > 0), rejected = false;
@@ -156,6 +167,7 @@ rt_status rt_onestep_step(rt_session *s, void *memory, double limit) {
     if (!status) status = rt_check_finite(s, o->f1);
     if (status < 0 || (status > 0 && !adaptive)) return rt_fail_model(s, s->t, "stepping");
     double square = status == 0 && adaptive ? mean_square(s, o, o->error) : 0;
+    if (status == 0 && square <= 1 && adaptive) square = test_guards(s, o, h, square);
     if (status == 0 && square <= 1 && o->tangent) {
       status = rt_onestep_tangent_step(s, o, h, adaptive ? &square : NULL);
       if (status < 0 || (status > 0 && !adaptive)) return rt_fail_model(s, s->t, "stepping with sensitivities");

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "looks.h"
+#include "swings.h"
 
 /* Relations whose guards g are past zero by more than the hysteresis are added to flip; whether there are any. */
 static bool add_changed(rt_session *s, const double *g) {
@@ -63,6 +64,17 @@ static int narrow(rt_session *s, bracket *k, double t) {
   return 0;
 }
 
+/* Where the polynomials of the guards say that the first of them crosses; NAN where one of them has none. */
+static double foreseen(rt_session *s, double end) {
+  double first = end;
+  for (int r = 0; r < s->d->n_rel; r++) {
+    if (!s->flip[r]) continue;
+    if (!rt_is_shaped(s, r)) return NAN;
+    first = rt_min(first, rt_swing_crossing(s, r, end));
+  }
+  return first;
+}
+
 /* Shrink the interval from the start of the step to `end` to the first crossing: Illinois variant of regula falsi on
  * the earliest crossing (Dowell & Jarratt 1971), with steps no closer to an end than half the tolerance, so that both
  * ends move in. A guard at the level of rounding gives secants that say nothing: where two of them have not halved the
@@ -71,12 +83,13 @@ static int narrow(rt_session *s, bracket *k, double t) {
  * *crossing, the end of the interval on entry and the crossing on return. */
 static int locate(rt_session *s, double *crossing) {
   bracket k = {s->t_previous, *crossing, 1, 1, 0};
-  double length = k.b - k.a, tolerance;
+  double length = k.b - k.a, tolerance, sought = foreseen(s, k.b);
   memcpy(s->g_low, s->g_previous, (size_t)s->d->n_rel * sizeof *s->g);
   memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
   for (int i = 1; k.b - k.a > (tolerance = 1e-12 * (k.b - s->t_previous) + 0.25 * rt_smallest_step(s)); i++) {
     bool creeps = i % 3 == 0 && k.b - k.a > 0.5 * length;
     double t = k.a + (k.b - k.a) * (creeps ? 0.5 : first_secant(s, s->g_low, k.wa, s->g, k.wb));
+    if (i <= 2 && !isnan(sought)) t = sought; /* then beside it */
     t = rt_min(rt_max(t, k.a + 0.5 * tolerance), k.b - 0.5 * tolerance);
     int status = narrow(s, &k, t);
     if (status) return status;
@@ -128,7 +141,8 @@ static int search(rt_session *s, double *crossing) {
       if (status) return status;
     }
     double inside = *crossing;
-    int status = s->options.locate_events && rt_may_dip(s, *crossing) ? rt_find_dip(s, &inside) : 0;
+    int status = s->options.locate_events ? rt_find_swing(s, &inside) : 0;
+    if (!status && s->options.locate_events && rt_may_dip(s, inside)) status = rt_find_dip(s, &inside);
     if (status || !(inside < *crossing)) return status;
     *crossing = inside;
   }
@@ -147,6 +161,7 @@ rt_status rt_find_state_event(rt_session *s) {
   s->result->counters.root_evaluations++;
   if (d->roots(m, s->t, m->x, m->xdot, m->v, s->g)) return rt_fail_model(s, s->t, "evaluating relations");
   double crossing = s->t;
+  if (!s->shaped) rt_swing_shape(s, NULL);
   if (search(s, &crossing)) return rt_fail_model(s, s->t, "locating an event");
   if (s->pending) {
     for (int r = 0; r < d->n_rel; r++)

@@ -124,7 +124,7 @@ struct rt_session {
   int tiny_steps;                   /* consecutive steps that hardly differ from none */
   bool in_pieces, resume;           /* the last step is longer; go on in it, for no state or slope has changed at t */
   double look, look_curved;         /* longest piece of the last step to be looked at at once, of any step (s) */
-  double *phase, *phase_start;      /* [n_phases] rad */
+  double *phase, *phase_start, *shape; /* [n_phases] rad; [(RT_DENSE_DEGREE + 1) * n_rel] of swings.c */
   rt_clock clock;
   rt_dense dense;
   double *g, *g_previous;                          /* [n_rel] guards at t and t_previous */
@@ -139,8 +139,8 @@ struct rt_session {
   double *x_swept, *d_swept;              /* states after a sweep of an event, discrete variables before it */
   unsigned char *rel_swept, *when_before; /* relations before a sweep, when conditions before its pass */
   unsigned char *rel_before, *rel_trial;  /* [n_rel] */
-  bool reinitialised;                     /* the last event did */
-  unsigned char *flip;                    /* [n_rel] relations that switch at t */
+  bool reinitialised, shaped; /* the last event did; shape is of the last step, with the present relations */
+  unsigned char *flip;        /* [n_rel] relations that switch at t */
   int pending;
   double last_event;          /* time of the last event (s) */
   int futile_events;          /* consecutive events that got nowhere, see check_chattering */

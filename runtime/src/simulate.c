@@ -98,7 +98,7 @@ static rt_status step(rt_session *s) {
   if (s->steps_taken++ >= s->options.max_steps && s->options.max_steps > 0)
     return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "more than %ld steps up to time %.9g s", s->options.max_steps,
                    s->t);
-  s->dense.valid = false;
+  s->dense.valid = s->shaped = false;
   if (!s->tiny_steps)
     s->data.failure.kind = MDL_FAILURE_NONE; /* while steps vanish, what made them short is their cause */
   if (s->recorder.needs_rhs) memcpy(s->recorder.v, s->data.v, (size_t)s->d->n_v * sizeof *s->data.v);

@@ -11,7 +11,9 @@ from scipy.signal import lfilter
 
 from lacuna.codegen.compile import compile_model
 from lacuna.discovery.case.cases import load
-from lacuna.discovery.efforts.instruments import only_instruments
+from lacuna.discovery.efforts.instruments import colour_of, only_instruments
+from lacuna.discovery.efforts.located import Locator
+from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.explain import explain
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.steps import fitted
@@ -33,8 +35,8 @@ def noise(random: np.random.Generator) -> np.ndarray:
     return 1e-3 * (white + 3 * coloured + np.cumsum(drift) / np.sqrt(SAMPLES))
 
 
-def written(folder: Path, truth: str) -> Path:
-    """A case of the believed cascade whose recordings are of `truth`."""
+def written(folder: Path, truth: str, size: float = 1.0) -> Path:
+    """A case of the believed cascade whose recordings are of `truth`, with noise of so many times the usual `size`."""
     source = folder / "truth" / "Cascade.mo"
     source.parent.mkdir(parents=True)
     source.write_text(truth, encoding="utf-8")
@@ -42,7 +44,7 @@ def written(folder: Path, truth: str) -> Path:
     time, random = STEP * np.arange(SAMPLES), np.random.default_rng(3)
     for name in ("r1.csv", "r2.csv", "r3.csv"):
         q = 1e-4 * (1 + np.cumsum(random.normal(size=SAMPLES // 50))).clip(0.2, 3).repeat(50)
-        errors = {v: noise(random) for v in ("lower", "upper")}
+        errors = {v: size * noise(random) for v in ("lower", "upper")}
         record(folder / name, machine, time, {"q": q}, {v: v for v in errors}, errors)
     (folder / "Cascade.mo").write_text(BELIEVED, encoding="utf-8")
     (folder / "case.toml").write_text(CASE.replace("noise_std = 0.001\n", ""), encoding="utf-8")
@@ -57,6 +59,16 @@ def test_such_noise_is_the_instruments_own(tmp_path: Path) -> None:
     found = explain(case)
     assert found.verdict in ("consistent", "parameters")
     assert not found.findings
+
+
+def test_what_no_instrument_is_off_by_is_not_theirs(tmp_path: Path) -> None:
+    """Errors of half the levels' span, slow and of no given level: the worst class of instruments has a twentieth."""
+    base = fitted(load(written(tmp_path / "case", BELIEVED, 60.0)), lambda text: None)
+    case, free = base.case, [f.name for f in base.base.estimate.free]
+    locator = Locator(case, opened(case, base.amendment, case.library(), free), base.base)
+    colour = colour_of(locator)
+    spans = [np.ptp(np.concatenate([r.columns[s.column] for r in case.fit])) for s in case.outputs]
+    assert len(colour.sensor) and np.all(colour.size[0] <= 0.05 * np.array(spans)[colour.sensor])
 
 
 def test_a_leak_in_such_noise_is_found(tmp_path: Path) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -23,11 +24,11 @@ from lacuna.discovery.naming import search as searching
 from lacuna.discovery.naming.comparison import Ranked
 from lacuna.discovery.naming.judge import judge, noise_floor
 from lacuna.discovery.naming.left_out import left_out
-from lacuna.discovery.naming.name import Naming
+from lacuna.discovery.naming.name import Finding, Naming
 from lacuna.discovery.naming.race import _enriched, best_starts, first_round, in_the_race
 from lacuna.discovery.naming.restarts import _shared
 from lacuna.discovery.naming.screen import Candidate, Screen, prepare
-from lacuna.discovery.naming.search import Finding, Search
+from lacuna.discovery.naming.search import Search
 from lacuna.discovery.steps import fit_believed
 
 from .conftest import BELIEVED, attachment, conceal
@@ -230,7 +231,8 @@ def test_a_law_that_does_not_pay_gives_way_to_the_simpler_one_it_contains(
 ) -> None:
     case = load(friction_case)
     base, ranked = both_laws(case)
-    monkeypatch.setattr(searching, "rank", lambda *args, **options: Naming(ranked, []))
+    contest = SimpleNamespace(naming=lambda final: Naming(ranked, []), best=lambda: ranked[0].candidate)
+    monkeypatch.setattr(Search, "_begun", lambda search, progress: contest)
     before = judge(base.machine, base.point)
     stribeck = ranked[0].fit.machine
     unfound = left_out(case, base)

@@ -1,5 +1,5 @@
 """Campaigns of hybrid systems with closed-form event times, and of models in other units: python -m tests.events
-belts|systems|automata|units [--draws N]."""
+belts|systems|automata|swings|units [--draws N]."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import numpy as np
 
 from lacuna import runtime
 from lacuna.codegen.compile import compile_model
-from tests.events import belts, hybrid, in_units, play
+from tests.events import belts, hybrid, in_units, play, swings
 from tests.events.judge import wrong
 from tests.events.models import compiled
 
@@ -77,6 +77,23 @@ def run_automata(draws: int) -> int:
     return verdicts["wrong"]
 
 
+def run_swings(draws: int) -> int:
+    """Small swings beside large states: right within their budget, or ended by an error; the number of wrong runs."""
+    verdicts: Counter[str] = Counter()
+    with tempfile.TemporaryDirectory() as folder:
+        for number in range(draws):
+            swing = swings.draw(np.random.default_rng([2028, number]), number)
+            model = compiled(Path(folder), swing.text)
+            for solver in swings.SOLVERS:
+                for rtol in swings.TOLERANCES:
+                    said = swings.wrong(model, swing, solver, rtol)
+                    verdicts["right" if not said else "error" if said.startswith("error") else "wrong"] += 1
+                    if said:
+                        print(f"swing {number}, {solver}, rtol {rtol:.1e}: {said}", flush=True)
+    print(", ".join(f"{count} {what}" for what, count in verdicts.items()), f"of {verdicts.total()} runs")
+    return verdicts["wrong"]
+
+
 CIRCUITS = (
     "Electrical.Analog.Examples.Rectifier", "Electrical.Analog.Examples.HeatingRectifier",
     "Electrical.Analog.Examples.ControlledSwitchWithArc", "Electrical.Analog.Examples.NandGate",
@@ -105,13 +122,14 @@ def run_units(count: int) -> int:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("campaign", choices=["belts", "systems", "automata", "units"])
+    parser.add_argument("campaign", choices=["belts", "systems", "automata", "swings", "units"])
     parser.add_argument("--draws", type=int, default=None)
     arguments = parser.parse_args()
     run, draws = {
         "belts": (run_belts, 200),
         "systems": (run_systems, 520),
         "automata": (run_automata, 400),
+        "swings": (run_swings, 300),
         "units": (run_units, 100),
     }[arguments.campaign]
     return 1 if run(arguments.draws or draws) else 0

@@ -162,7 +162,9 @@ template <class M> struct Generated {
                                      nullptr,
                                      nullptr,
                                      nullptr,
-                                     0};
+                                     0,
+                                     nullptr,
+                                     nullptr};
     return &d;
   }
 };

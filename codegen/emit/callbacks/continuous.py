@@ -11,7 +11,7 @@ from lacuna.codegen.emit.callbacks.equations import EquationTable
 from lacuna.codegen.emit.text.body import Body
 from lacuna.codegen.emit.text.names import Names
 from lacuna.codegen.emit.text.steps import StepWriter, comment, place
-from lacuna.codegen.structure.causal import Step, unknowns_of
+from lacuna.codegen.structure.causal import Step, expressions_of, unknowns_of
 from lacuna.codegen.structure.residual_form import CJ, needed
 from lacuna.codegen.structure.sizes import told
 from lacuna.codegen.structure.sorting.tearing import Assignment
@@ -24,6 +24,7 @@ JACOBIAN = (
     "static int mdl_jacobian(mdl_data *m, double t, const double *y, const double *yp, double cj, double *values)"
 )
 ROOTS = "static int mdl_roots(mdl_data *m, double t, const double *x, const double *xdot, const double *v, double *g)"
+GUARD_RATES = "static int mdl_guard_rates(mdl_data *m, double t, const double *x, double *g)"
 INITIAL = "static int mdl_initial_system(mdl_data *m, double t)"
 CHECK = "static int mdl_check(mdl_data *m, double t, const double *x, const double *xdot, const double *v)"
 STARTS = "static int mdl_starts(mdl_data *m)"
@@ -148,6 +149,24 @@ class Continuous:
             value = body.value(sub(r.left, r.right)) if r.slope is None else "0.0"
             body.line(f"g[{k}] = {value};  {comment(r.source, r.text)}")
         return function(ROOTS, body)
+
+    def guard_rates(self) -> str:
+        """Affine guards as far as they move; nothing where there are none."""
+        shapes = self._p.guards
+        if not shapes.moving:
+            return ""
+        body = Body(self._names, self._storage.moving)
+        writer = StepWriter(body, self._equations.index, self._storage.place, self.nominal)
+        body.plan([*writer.plan(shapes.steps), *shapes.moving.values()])
+        writer.write(shapes.steps)
+        used = {n for e in (*shapes.moving.values(), *(e for s in shapes.steps for e in expressions_of(s)))
+                for n in leaves(e)}  # fmt: skip
+        for unknown in (u for step in shapes.steps for u in unknowns_of(step) if u not in used):
+            body.line(f"(void){self._names.leaf(unknown)};")
+        for k, value in shapes.moving.items():
+            r = self._p.relations[k]
+            body.line(f"g[{k}] = {body.value(value)};  {comment(r.source, r.text)}")
+        return function(GUARD_RATES, body)
 
     def check(self) -> str:
         body = Body(self._names, self._storage.point)

@@ -13,6 +13,7 @@ from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.emit.callbacks.asserts import of_parameters, of_the_run
 from lacuna.codegen.emit.callbacks.continuous import (
     CHECK,
+    GUARD_RATES,
     INITIAL,
     JACOBIAN,
     RESIDUAL,
@@ -78,7 +79,13 @@ class Large:
 
     def _steps(self, steps: Sequence[Step], access: Access, place_of: Callable[[Expr], str]) -> Rolled:
         rolled = Rolled(self._names, access)
-        rolled.plan(e for step in steps if isinstance(step, Assignment | Division) for e in expressions_of(step))
+        rolled.plan(_planned(steps))
+        self._write_steps(rolled, steps, access, place_of)
+        return rolled
+
+    def _write_steps(
+        self, rolled: Rolled, steps: Sequence[Step], access: Access, place_of: Callable[[Expr], str]
+    ) -> None:
         for step in steps:
             match step:
                 case Assignment():
@@ -88,7 +95,6 @@ class Large:
                     rolled.add(self._division(step, place_of(step.unknown)))
                 case _:
                     self._block(rolled, step, access, place_of)
-        return rolled
 
     def _division(self, step: Division, target: str) -> Statement:
         array, _, index = target[:-1].rpartition("[")
@@ -158,6 +164,17 @@ class Large:
             rolled.add(assignment(f"g[{k}]", value, comment=comment(r.source, r.text)))
         return self._written(ROOTS, rolled)
 
+    def guard_rates(self) -> str | None:
+        moving, steps = self._p.guards.moving, self._p.guards.steps
+        if len(moving) + _size(steps) <= LARGE:
+            return None
+        rolled = Rolled(self._names, self._storage.moving)
+        rolled.plan([*_planned(steps), *moving.values()])
+        self._write_steps(rolled, steps, self._storage.moving, lambda u: rolled.scratch())
+        for k, value in moving.items():
+            rolled.add(assignment(f"g[{k}]", value))
+        return self._written(GUARD_RATES, rolled)
+
     def check(self) -> str | None:
         asserts = of_the_run(self._p)
         if len(asserts) <= LARGE:
@@ -210,6 +227,10 @@ class Large:
             inside = relation(op, leaf, limit)
             if inside.op != "const":
                 rolled.add(Statement(_BOUND, (inside, leaf, limit), (self._rows[v.name],)))
+
+
+def _planned(steps: Sequence[Step]) -> list[Expr]:
+    return [e for step in steps if isinstance(step, Assignment | Division) for e in expressions_of(step)]
 
 
 def _size(steps: Sequence[Step]) -> int:

@@ -107,6 +107,10 @@ class Tables:
     def relations(self) -> list[str]:
         return [f"{{{self._source(r.source, r.text)}, {int(r.slope is not None)}}}" for r in self._p.relations]
 
+    def affine_guards(self) -> list[str]:
+        moving = self._p.guards.moving
+        return [str(int(k in moving)) for k in range(len(self._p.relations))] if moving else []
+
     def residual_equations(self) -> list[str]:
         return [str(self._equations.index(row.source)) for row in self._p.residual.residuals]
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from lacuna.codegen.units.inference import SECOND
 from lacuna.discovery.efforts.linear import Along
-from lacuna.discovery.law.law_terms import DRY, Group, Shape, Variable
+from lacuna.discovery.law.law_terms import Group, Shape, Variable
 from lacuna.runtime.model import Variable as ModelVariable
 from lacuna.units import parse_unit
 
@@ -70,7 +70,8 @@ def variables(
         unit = units.get(name) or _rate(units.get(name.removeprefix("der(").removesuffix(")"), ""))
         kind = "state" if name in order else "rate" if name in answering else "other"
         switch = name in known and known[name].type == "Boolean"
-        kept.append(Variable(f"x{len(kept) + 1}", name, unit, kind, float(f"{size:.2g}"), switch))
+        sticks = kind == "state" and f"der({name})" in answering
+        kept.append(Variable(f"x{len(kept) + 1}", name, unit, kind, float(f"{size:.2g}"), switch, sticks=sticks))
         courses.append(scaled)
         if len(kept) == MOST:
             break
@@ -192,10 +193,8 @@ def _alone(v: Variable) -> list[Group]:
         Group((f"({x} - 0.5*abs({x} + {{q}}) + 0.5*abs({x} - {{q}}))",), (Shape("q", "1", q, 0.01, 0.99, (), 0.25),))
         for q in (0.25, 0.5, 0.75)
     ]  # both ways
-    stribeck = Group(
-        (DRY.format(x=x), f"{DRY.format(x=x)}*exp(-abs{x}/{{q}})"), (Shape("q", "1", 0.1, 0.01, 1.0, (), 0.08),)
-    )
-    plain = [Group((x,)), Group((f"abs{x}",)), Group((f"{x}^2",)), Group((DRY.format(x=x),))]
+    stribeck = Group((v.dry, f"{v.dry}*exp(-abs{x}/{{q}})"), (Shape("q", "1", 0.1, 0.01, 1.0, (), 0.08),))
+    plain = [Group((x,)), Group((f"abs{x}",)), Group((f"{x}^2",)), Group((v.dry,))]
     return [*plain, *power, *bend, *reach, *ends, stribeck]
 
 
@@ -237,5 +236,5 @@ def _together(a: Variable, b: Variable, signed: bool, once: bool) -> list[Group]
         return [Group((f"{x}*{y}",))] if once else []
     saturating = Group((f"({x}/(1 + {{q}}*{y}^2) - {x})",), (Shape("q", "1", 1.0, 0.01, 100.0, (), 0.9),))
     found = [Group((f"{x}*{y}^2",)), Group((f"{x}*abs{y}",)), saturating]
-    found += [Group((DRY.format(x=x) + f"*abs{y}",))] if signed and a.kind != "rate" else []
+    found += [Group((f"{a.dry}*abs{y}",))] if signed and a.kind != "rate" else []
     return [Group((f"{x}*{y}",)), *found] if once else found

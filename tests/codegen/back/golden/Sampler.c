@@ -64,6 +64,11 @@ static const int mdl_equation_variables[] = {
   4
 };
 
+static const unsigned char mdl_affine_guards[] = {
+  1,
+  1
+};
+
 static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double value) {
   m->failure = (mdl_failure){kind, equation, -1, value, 0.0};
   return 1;
@@ -221,6 +226,15 @@ static int mdl_divisions(mdl_data *m, double t, const double *x, const double *x
   return 0;
 }
 
+static int mdl_guard_rates(mdl_data *m, double t, const double *x, double *g) {
+  (void)m;
+  (void)t;
+  const double x_2 = x[0];
+  g[0] = x_2;  /* Sampler.mo:11  x > 0.7 */
+  g[1] = -x_2;  /* Sampler.mo:16  x < 0.2 */
+  return 0;
+}
+
 static const mdl_descriptor mdl_model = {
   .abi_version = MDL_ABI_VERSION,
   .name = "Sampler",
@@ -274,6 +288,8 @@ static const mdl_descriptor mdl_model = {
   .check = mdl_check,
   .nominals = mdl_nominals,
   .divisions = mdl_divisions,
+  .affine_guards = mdl_affine_guards,
+  .guard_rates = mdl_guard_rates,
 };
 
 const mdl_descriptor *mdl_descriptor_get(void);

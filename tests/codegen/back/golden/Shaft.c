@@ -113,6 +113,10 @@ static const int mdl_equation_variables[] = {
   1
 };
 
+static const unsigned char mdl_affine_guards[] = {
+  1
+};
+
 static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double value) {
   m->failure = (mdl_failure){kind, equation, -1, value, 0.0};
   return 1;
@@ -324,6 +328,14 @@ static int mdl_divisions(mdl_data *m, double t, const double *x, const double *x
   return 0;
 }
 
+static int mdl_guard_rates(mdl_data *m, double t, const double *x, double *g) {
+  (void)t;
+  const double k = m->p[3];
+  const double w1 = x[1];
+  g[0] = -(k * w1);  /* Shaft.mo:18  k * (w_ref - w1) > tau_max in min(k * (w_ref - w1), tau_max) */
+  return 0;
+}
+
 static const mdl_descriptor mdl_model = {
   .abi_version = MDL_ABI_VERSION,
   .name = "Shaft",
@@ -377,6 +389,8 @@ static const mdl_descriptor mdl_model = {
   .check = mdl_check,
   .nominals = mdl_nominals,
   .divisions = mdl_divisions,
+  .affine_guards = mdl_affine_guards,
+  .guard_rates = mdl_guard_rates,
 };
 
 const mdl_descriptor *mdl_descriptor_get(void);

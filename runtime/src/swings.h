@@ -1,0 +1,14 @@
+/* Guards that are affine in the states, on the polynomial of a step. */
+#ifndef RT_SWINGS_H
+#define RT_SWINGS_H
+
+#include "session.h"
+
+void rt_swing_shape(rt_session *s, const double *error);
+bool rt_is_shaped(const rt_session *s, int r);
+bool rt_all_shaped(const rt_session *s);
+double rt_swing_error(rt_session *s, double to, const double *error);
+double rt_swing_crossing(rt_session *s, int r, double to);
+int rt_find_swing(rt_session *s, double *inside);
+
+#endif

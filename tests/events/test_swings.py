@@ -1,0 +1,74 @@
+"""Small swings of guards beside large states: a sample of `make swings`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lacuna import runtime
+from tests.events import swings
+from tests.events.models import compiled
+
+
+@pytest.mark.parametrize("number", range(12))
+def test_none_is_lost(tmp_path: Path, number: int) -> None:
+    swing = swings.draw(np.random.default_rng([2028, number]), number)
+    model = compiled(tmp_path, swing.text)
+    for solver in swings.SOLVERS:
+        for rtol in swings.TOLERANCES:
+            assert swings.wrong(model, swing, solver, rtol) == "", (solver, rtol)
+
+
+MANY = """model Many
+  "a ratchet: a float on waves of 2e-6 m that drifts by 400 m, against a mark that drifts with it"
+  Real x(start=0, fixed=true), y(start=0, fixed=true);
+  Integer n(start=0, fixed=true);
+equation
+  der(x) = 0.8 + 2e-6*12.566370614359172*cos(12.566370614359172*time);
+  der(y) = 0.8;
+  when x - y > 1e-6 then
+    n = pre(n) + 1;
+  end when;
+end Many;
+"""
+
+
+@pytest.mark.parametrize("solver", swings.SOLVERS)
+def test_a_thousand_waves_are_counted(tmp_path: Path, solver: str) -> None:
+    """By tolerances on both sides of the waves: the states are to be known to 1e-6 m at 2.5e-9, the guard is always."""
+    model = compiled(tmp_path, MANY)
+    for rtol in (1e-6, 2.5e-9, 2.5e-10, 2.5e-11):
+        result = runtime.simulate(model, solver=solver, rtol=rtol, stop=500.0, interval=0, outputs=["n"])
+        assert result.complete, result.failure
+        assert result["n"][-1] == 1000, rtol
+
+
+CLOSE = """model Close
+  "a guard of two states that is zero but for its swing, seen through two linear equations, and one that follows time"
+  Real x(start=1e3, fixed=true), v(start=1, fixed=true), f, g;
+  Integer n(start=0, fixed=true), m(start=0, fixed=true);
+equation
+  der(x) = v;
+  der(v) = -1e4*(x - 1e3);
+  2*f + g = 3*x + time;
+  f - g = 2*time;
+  when f > 1e3 + time + 0.005 then
+    n = pre(n) + 1;
+  end when;
+  when g < 1e3 - time + 0.002 then
+    m = pre(m) + 1;
+  end when;
+end Close;
+"""
+
+
+@pytest.mark.parametrize("solver", swings.SOLVERS)
+def test_guards_through_equations_and_time_are_affine_too(tmp_path: Path, solver: str) -> None:
+    """f = x + time and g = x - time, x = 1000 + 0.01 sin(100 t): 16 periods in a second."""
+    model = compiled(tmp_path, CLOSE)
+    for rtol in (1e-3, 1e-5, 1e-7):
+        result = runtime.simulate(model, solver=solver, rtol=rtol, stop=1.0, interval=0, outputs=["n", "m"])
+        assert result.complete, result.failure
+        assert (result["n"][-1], result["m"][-1]) == (16, 16), rtol
