@@ -18,7 +18,7 @@ FUZZ_TARGETS := stream table inputs
 C_SOURCES = $(shell git ls-files '*.c' '*.h' '*.cpp' '*.hpp' ':!:*/golden/*' ':!:fmi/standard/*')
 
 .PHONY: help setup build test maps compare explain assess bench check fuzz prove degrade robustness combined prognosis tolerance-study \
-        prove-machines prove-experiments figures docs wheel vsix examples belts hybrid automata swings units msl compliance format style lint sanitize sanitize-models threads coverage sundials7 ctest pytest lock clean
+        prove-machines prove-experiments figures docs wheel vsix examples belts hybrid automata swings units msl unchanged compliance format style lint sanitize sanitize-models threads coverage sundials7 ctest pytest lock clean
 
 help: ## Print this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -91,6 +91,9 @@ tolerance-study: setup ## Justify the map's tolerance, writes docs/tolerance.md
 
 msl: setup ## Every example of the Modelica Standard Library, translated, simulated, compared (long), writes docs/msl.md
 	@$(PYTHON) -m bench.msl --page
+
+unchanged: setup ## The C of our own models beside that of an earlier commit, writes docs/unchanged.md
+	@$(PYTHON) -m bench.unchanged --page
 
 docs: setup ## The documentation site, into out/docs/ (a warning or an older number is an error)
 	@NO_MKDOCS_2_WARNING=1 LACUNA_CACHE=$(abspath $(BUILD))/cache $(PYTHON) -m mkdocs --quiet build --site-dir $(abspath $(OUT))/docs

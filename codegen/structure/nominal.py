@@ -22,11 +22,12 @@ quantity. It is an expression in the parameters, computed for the values of each
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from functools import reduce
 
 from lacuna.codegen import flat
 from lacuna.codegen.structure.sizes import Size, combined, largest, named, raised, sized
 from lacuna.codegen.structure.system import DeclaredValues, System
-from lacuna.codegen.symbolic.expr import BOOLEAN, ONE, ZERO, Expr, call, const, der, is_const, var, walk
+from lacuna.codegen.symbolic.expr import BOOLEAN, ONE, ZERO, Expr, add, call, const, der, is_const, var, walk
 from lacuna.codegen.symbolic.leaves import leaves
 
 BOUNDED = frozenset(("sin", "cos", "tanh", "sign", "asin", "acos", "atan", "atan2"))
@@ -50,7 +51,9 @@ def infer(system: System, relations: Sequence[tuple[Expr, Expr, str]]) -> dict[E
 def _balanced(system: System, relations: Sequence[tuple[Expr, Expr, str]], count: bool) -> dict[Expr, Size]:
     """`count`: limits are balances, too."""
     balances = [(row.lhs, row.rhs, f"line {row.source.span.line}") for row in system.rows]
-    balances += [r for r in relations if count or all(_varies(side, system.model) for side in r[:2])]
+    for left, right, where in relations:
+        if count or (_varies(left, system.model) and _varies(right, system.model)):
+            balances.append((left, right, where) if count else (_quantities(left), _quantities(right), where))
     inference = _Inference(system.model, [b for b in balances if BOOLEAN not in (b[0].type, b[1].type)], relations)
     inference.seed(system)
     span = abs(system.model.experiment.stop_time - system.model.experiment.start_time) or 1.0
@@ -61,6 +64,11 @@ def _balanced(system: System, relations: Sequence[tuple[Expr, Expr, str]], count
 
 def _varies(e: Expr, model: flat.FlatModel) -> bool:
     return any(n.op == "var" and model.variables[str(n.value)].variability == flat.CONTINUOUS for n in leaves(e))
+
+
+def _quantities(e: Expr) -> Expr:
+    """Without numbers that stand as terms: a threshold of a microvolt beside a rail's potential is no size."""
+    return reduce(add, (t for t in _terms(e) if t.op != "const"))
 
 
 def difference(left: Expr, right: Expr, sizes: dict[Expr, Size], model: flat.FlatModel) -> Size | None:

@@ -202,3 +202,11 @@ def test_the_potential_of_a_rail_is_no_limit() -> None:
     prepared, _ = translate("Lacuna.Actuators.EccentricBldc")
     size = prepared.nominals[var("bridge.leg_a.i")]
     assert size.value == pytest.approx(28 / (1 * 2.13), rel=0.05)
+
+
+def test_a_threshold_beside_the_potential_of_a_rail_is_no_size() -> None:
+    """v > rail + 1e-6, and the rail is an input: what the bench says of currents is the speed that it turns at, not the
+    microvolt."""
+    prepared, _ = translate("Lacuna.Benches.BldcDrive")
+    winding, turn = prepared.nominals[var("bridge.leg_a.i")], prepared.nominals[var("shaft.w")]
+    assert winding.value == pytest.approx(turn.value * 0.12476 / 2.13)
