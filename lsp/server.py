@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 import gc
 from pathlib import Path
-import re
 from urllib.parse import unquote, urlparse
 
 from lsprotocol import types as lsp
@@ -15,11 +14,11 @@ from pygls.lsp.server import LanguageServer
 
 import lacuna
 from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.syntax.lexer import is_name
 from lacuna.lsp import features
 from lacuna.lsp.features import Workspace
 from lacuna.lsp.format import format_text
 
-_IDENTIFIER = re.compile(r"[A-Za-z_]\w*|'(?:[^'\\\n]|\\.)+'", re.ASCII)
 _SEVERITY = {"error": lsp.DiagnosticSeverity.Error, "warning": lsp.DiagnosticSeverity.Warning}
 
 
@@ -137,8 +136,9 @@ def _symbol(entry: dict) -> lsp.DocumentSymbol:
 def _edits(server: LanguageServer, workspace: Workspace) -> None:
     @server.feature(lsp.TEXT_DOCUMENT_RENAME)
     def rename(params: lsp.RenameParams) -> lsp.WorkspaceEdit:
-        if not _IDENTIFIER.fullmatch(params.new_name):
-            raise JsonRpcInvalidParams(f"{params.new_name!r} is not a name: letters, digits and _, or in 'quotes'")
+        if not is_name(params.new_name):
+            wanted = "letters, digits and _, or in 'quotes', and no keyword"
+            raise JsonRpcInvalidParams(f"{params.new_name!r} is not a name: {wanted}")
         at = params.position
         changes: dict[str, list[lsp.TextEdit]] = {}
         for path, span in features.occurrences(workspace, path_of(params.text_document.uri), at.line, at.character):

@@ -166,7 +166,7 @@ class Store:
         with self._connection() as connection:
             rows = [dict(row._mapping) for row in connection.execute(query)]
         for row in rows:
-            if _checksum(row) != row["checksum"]:
+            if not (row["checksum"] and _checksum(row) == row["checksum"]):
                 place = f"row {row['id']} of {_assessments.name}"
                 raise AnalysisError(f"{_hidden(self.url)}: damaged, or changed by something else: {place}")
         latest: dict[tuple, dict] = {}

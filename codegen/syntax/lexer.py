@@ -44,6 +44,12 @@ _ESCAPES = {"n": "\n", "t": "\t", "r": "\r", "f": "\f", "v": "\v", "a": "\a", "b
 _ESCAPED = frozenset((*_ESCAPES, "'", '"', "?", "\\"))  # what may stand after a backslash
 
 
+def is_name(text: str) -> bool:
+    """Whether `text` is an identifier, quoted ones among them, and no keyword (specification, 2.3.1)."""
+    found = _TOKEN.fullmatch(text)
+    return found is not None and found.lastgroup == "id" and text not in KEYWORDS
+
+
 @dataclass
 class Source:
     """One file's text with its tokens: parallel lists of kind, text and offset.

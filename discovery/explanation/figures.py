@@ -18,6 +18,7 @@ from lacuna.discovery.naming.name import Finding
 POINTS = 1500  # of a curve
 SAMPLES = 3000  # of a cloud
 BAND = 2.0  # standard deviations to both sides
+ABOVE = {"fontsize": "x-small", "loc": "lower left", "bbox_to_anchor": (0, 1)}  # off the curves
 
 Curve = tuple[str, str, Mapping[str, np.ndarray]]  # label, colour, measured minus simulated of each column
 
@@ -61,7 +62,7 @@ def missing(result: Explanation) -> Figure | None:
         left.fill_between(time, *(effort + s * BAND * place.error[name] for s in (-1, 1)), color="C7", alpha=0.25, lw=0)
     _law(left, result, finding, name)
     left.set(xlabel="time / s", ylabel=f"missing {place.kind} at {place.location} / {place.unit}")
-    left.legend(fontsize="x-small")
+    left.legend(**ABOVE)
     _regime(right, located)
     right.set_ylabel(f"{located.best.kind} at {located.best.location} / {located.best.unit}")
     return figure
@@ -104,5 +105,5 @@ def _regime(ax: Axes, located: Located) -> None:
     over = found.centres if found.kind == "value" else np.sort(located.values)
     mean = found.means if found.kind == "value" else np.interp(np.sign(over), found.centres, found.means)
     ax.plot(over, mean, "C0-", lw=2, label="mean")
-    ax.legend(fontsize="x-small")
+    ax.legend(**ABOVE)
     ax.set_xlabel(f"{found.variable} / {found.unit}")

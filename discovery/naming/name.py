@@ -169,19 +169,17 @@ class Contest:
         return _ranked(self.fitted, self.base)[0][0].candidate if self.fitted else None
 
     def lead(self) -> None:
-        """Screen, and fit the most promising few."""
-        won = False
+        """Screen, and fit the most promising few; again, where that is done, nothing."""
         while True:
             if self.screening:
                 found, failures = screen_all(self.case, self.amendment, self.screening, self.base, self.progress)
                 self.candidates = sorted([*self.candidates, *found], key=lambda c: -c.predicted)
                 self.failures += failures
-            if self.waiting and not won and not stands_out(self.candidates):
+            if self.waiting and not self._won() and not stands_out(self.candidates):
                 self.screening, self.waiting = self.waiting, []
                 continue
             self._fit(self._untried(leading(first_round(self.candidates))[0]))
-            best = self.best()
-            won = best is not None and is_noise(best.fit)
+            best, won = self.best(), self._won()
             self.screening = [a for a in self.waiting if not won or akin(a, best.attachment)]
             self.waiting = [a for a in self.waiting if won and not akin(a, best.attachment)]
             if not self.screening:
@@ -207,6 +205,11 @@ class Contest:
             confidences(ranked)
         screened = [(c.attachment.label, c.predicted) for c in best_starts(self.candidates)]
         return Naming(ranked, screened, self.failures, correlation, [a.label for a in self.waiting])
+
+    def _won(self) -> bool:
+        """Whether the best leaves noise: what still waits is not needed."""
+        best = self.best()
+        return best is not None and is_noise(best.fit)
 
     def _untried(self, pool: list[Candidate]) -> list[Candidate]:
         return [c for c in pool if c.attachment.label not in self._tried]

@@ -8,14 +8,10 @@
 #include <numbers>
 #include <random>
 
-#include "lacuna/chain.hpp"
 #include "lacuna/onboard/fft.hpp"
-#include "lacuna/onboard/monitor.hpp"
 #include "malloc_trap.h"
-#include "paper.hpp"
-#include "reference_actuator.h"
+#include "paper_stream.hpp"
 
-using lacuna::Configuration;
 using lacuna::onboard::Monitor;
 using lacuna::onboard::RealFft;
 
@@ -25,20 +21,6 @@ constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 lacuna::Chain paper_chain() {
   return lacuna::Chain(paper_settings());
-}
-
-Configuration configuration_of(const lacuna::Chain &chain) {
-  const auto &s = chain.settings();
-  return {s.currents.size(), s.samples(),  chain.sections().length(), chain.sections().hop(), chain.spectrum().padded(),
-          s.sampling_rate,   s.peak_above, s.peak_threshold,          s.speed_after};
-}
-
-std::vector<std::array<double, 5>> simulated(double zeta, int rows) {
-  reference_parameters parameters = reference_defaults();
-  parameters.zeta = zeta;
-  std::vector<std::array<double, 5>> out(static_cast<std::size_t>(rows));
-  EXPECT_GT(reference_simulate(&parameters, 1e-5, rows, reinterpret_cast<double(*)[5]>(out.data())), 0);
-  return out;
 }
 
 void expect_close(double a, double b) {

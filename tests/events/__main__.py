@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import argparse
 from collections import Counter, defaultdict
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 import sys
 import tempfile
@@ -42,56 +44,60 @@ def run_belts(draws: int) -> int:
     return wrong
 
 
-def run_systems(draws: int) -> int:
-    """Random hybrid systems: each right within its budget, or ended by an error; the number of wrong runs."""
-    rng, verdicts = np.random.default_rng(2026), Counter()
+Drawn = tuple[str, str, Callable[..., str]]  # what a model is called, its text, what judges a run of it
+
+
+def _run_all(draws: int, draw: Callable[[int], Drawn], tolerances: Sequence[float]) -> int:
+    """Each drawn model by all adaptive solvers: right, or ended by an error; the number of wrong runs."""
+    verdicts: Counter[str] = Counter()
     with tempfile.TemporaryDirectory() as folder:
         for number in range(draws):
-            system = hybrid.draw(rng, number)
-            model = compiled(Path(folder), system.text)
+            name, text, judge = draw(number)
+            model = compiled(Path(folder), text)
             for solver in belts.SOLVERS:
-                for rtol in TOLERANCES:
-                    said = wrong(model, system, solver, rtol)
+                for rtol in tolerances:
+                    said = judge(model, solver=solver, rtol=rtol)
                     verdicts["right" if not said else "error" if said.startswith("error") else "wrong"] += 1
                     if said:
-                        print(f"{hybrid.KINDS[number % 4]} {number}, {solver}, rtol {rtol:.1e}: {said}")
+                        print(f"{name} {number}, {solver}, rtol {rtol:.1e}: {said}", flush=True)
     print(", ".join(f"{count} {what}" for what, count in verdicts.items()), f"of {verdicts.total()} runs")
     return verdicts["wrong"]
+
+
+def run_systems(draws: int) -> int:
+    """Random hybrid systems: each right within its budget, or ended by an error."""
+    rng = np.random.default_rng(2026)
+
+    def draw(number: int) -> Drawn:
+        system = hybrid.draw(rng, number)
+        return hybrid.KINDS[number % 4], system.text, partial(wrong, system=system)
+
+    return _run_all(draws, draw, TOLERANCES)
 
 
 def run_automata(draws: int) -> int:
-    """Random automata against a program that plays them on their closed forms; the number of wrong runs."""
-    verdicts: Counter[str] = Counter()
-    with tempfile.TemporaryDirectory() as folder:
-        for number in range(draws):
-            automaton, expected = play.fair(np.random.default_rng([2027, number]), number)
-            model = compiled(Path(folder), automaton.text)
-            for solver in belts.SOLVERS:
-                for rtol in TOLERANCES[::3]:
-                    result = runtime.simulate(model, solver=solver, rtol=rtol, stop=automaton.stop, interval=0)
-                    said = play.wrong(automaton, expected, result, rtol)
-                    verdicts["right" if not said else "error" if said.startswith("error") else "wrong"] += 1
-                    if said:
-                        print(f"automaton {number}, {solver}, rtol {rtol:.1e}: {said}", flush=True)
-    print(", ".join(f"{count} {what}" for what, count in verdicts.items()), f"of {verdicts.total()} runs")
-    return verdicts["wrong"]
+    """Random automata against a program that plays them on their closed forms."""
+
+    def draw(number: int) -> Drawn:
+        automaton, expected = play.fair(np.random.default_rng([2027, number]), number)
+
+        def judge(model: runtime.Model, solver: str, rtol: float) -> str:
+            result = runtime.simulate(model, solver=solver, rtol=rtol, stop=automaton.stop, interval=0)
+            return play.wrong(automaton, expected, result, rtol)
+
+        return "automaton", automaton.text, judge
+
+    return _run_all(draws, draw, TOLERANCES[::3])
 
 
 def run_swings(draws: int) -> int:
-    """Small swings beside large states: right within their budget, or ended by an error; the number of wrong runs."""
-    verdicts: Counter[str] = Counter()
-    with tempfile.TemporaryDirectory() as folder:
-        for number in range(draws):
-            swing = swings.draw(np.random.default_rng([2028, number]), number)
-            model = compiled(Path(folder), swing.text)
-            for solver in swings.SOLVERS:
-                for rtol in swings.TOLERANCES:
-                    said = swings.wrong(model, swing, solver, rtol)
-                    verdicts["right" if not said else "error" if said.startswith("error") else "wrong"] += 1
-                    if said:
-                        print(f"swing {number}, {solver}, rtol {rtol:.1e}: {said}", flush=True)
-    print(", ".join(f"{count} {what}" for what, count in verdicts.items()), f"of {verdicts.total()} runs")
-    return verdicts["wrong"]
+    """Small swings beside large states: right within their budget, or ended by an error."""
+
+    def draw(number: int) -> Drawn:
+        swing = swings.draw(np.random.default_rng([2028, number]), number)
+        return "swing", swing.text, partial(swings.wrong, swing=swing)
+
+    return _run_all(draws, draw, swings.TOLERANCES)
 
 
 CIRCUITS = (

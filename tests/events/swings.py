@@ -26,7 +26,6 @@ from scipy.optimize import brentq
 
 from lacuna import runtime
 
-SOLVERS = ("ida", "dopri5", "rodas4")
 TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10)
 KINDS = ("alone", "apart", "creep", "solved")
 PERIODS = 12
@@ -101,7 +100,6 @@ def _text(kind, number, size, w, a, phase, drift, creep, offset, level) -> str:
         return head + f"  der(x) = {float(creep)!r} + {forced};\n" + _EVENTS.format(number=number, guard="x", h=size)
     more = f", y(start={size!r}, fixed=true)" + (", f, g" if kind == "solved" else "")
     head = _HEAD.format(number=number, kind=kind, x0=float(size + here), more=more)
-    guard, h = "x - y", level
     law = f"  der(x) = {drift!r} + {forced};\n  der(y) = {drift!r};\n"
     guard, h = "x - y", level
     if kind == "solved":

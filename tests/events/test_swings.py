@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 
 from lacuna import runtime
 from tests.events import swings
+from tests.events.belts import SOLVERS
 from tests.events.models import compiled
 
 
@@ -16,9 +18,18 @@ from tests.events.models import compiled
 def test_none_is_lost(tmp_path: Path, number: int) -> None:
     swing = swings.draw(np.random.default_rng([2028, number]), number)
     model = compiled(tmp_path, swing.text)
-    for solver in swings.SOLVERS:
+    for solver in SOLVERS:
         for rtol in swings.TOLERANCES:
             assert swings.wrong(model, swing, solver, rtol) == "", (solver, rtol)
+
+
+def counted(folder: Path, text: str, solver: str, stop: float, tolerances: Sequence[float], **expected: int) -> None:
+    """What a model counts until `stop`, by each tolerance."""
+    model = compiled(folder, text)
+    for rtol in tolerances:
+        result = runtime.simulate(model, solver=solver, rtol=rtol, stop=stop, interval=0, outputs=list(expected))
+        assert result.complete, result.failure
+        assert {name: result[name][-1] for name in expected} == expected, rtol
 
 
 MANY = """model Many
@@ -35,14 +46,10 @@ end Many;
 """
 
 
-@pytest.mark.parametrize("solver", swings.SOLVERS)
+@pytest.mark.parametrize("solver", SOLVERS)
 def test_a_thousand_waves_are_counted(tmp_path: Path, solver: str) -> None:
     """By tolerances on both sides of the waves: the states are to be known to 1e-6 m at 2.5e-9, the guard is always."""
-    model = compiled(tmp_path, MANY)
-    for rtol in (1e-6, 2.5e-9, 2.5e-10, 2.5e-11):
-        result = runtime.simulate(model, solver=solver, rtol=rtol, stop=500.0, interval=0, outputs=["n"])
-        assert result.complete, result.failure
-        assert result["n"][-1] == 1000, rtol
+    counted(tmp_path, MANY, solver, 500.0, (1e-6, 2.5e-9, 2.5e-10, 2.5e-11), n=1000)
 
 
 CLOSE = """model Close
@@ -64,11 +71,7 @@ end Close;
 """
 
 
-@pytest.mark.parametrize("solver", swings.SOLVERS)
+@pytest.mark.parametrize("solver", SOLVERS)
 def test_guards_through_equations_and_time_are_affine_too(tmp_path: Path, solver: str) -> None:
     """f = x + time and g = x - time, x = 1000 + 0.01 sin(100 t): 16 periods in a second."""
-    model = compiled(tmp_path, CLOSE)
-    for rtol in (1e-3, 1e-5, 1e-7):
-        result = runtime.simulate(model, solver=solver, rtol=rtol, stop=1.0, interval=0, outputs=["n", "m"])
-        assert result.complete, result.failure
-        assert (result["n"][-1], result["m"][-1]) == (16, 16), rtol
+    counted(tmp_path, CLOSE, solver, 1.0, (1e-3, 1e-5, 1e-7), n=16, m=16)

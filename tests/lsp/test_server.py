@@ -154,7 +154,7 @@ def test_hover_definition_references_and_rename(tmp_path: Path) -> None:
 def test_a_new_name_that_is_none_is_refused(tmp_path: Path) -> None:
     async def script(editor: Editor) -> None:
         await editor.open(MODEL)
-        for name in ("a b", "", "w = 1; end Winch", "1st", "'open"):
+        for name in ("a b", "", "w = 1; end Winch", "1st", "'open", "end"):
             with pytest.raises(JsonRpcException, match="is not a name"):
                 await editor.client.text_document_rename_async(
                     lsp.RenameParams(new_name=name, **editor.place("J*der(|w)"))

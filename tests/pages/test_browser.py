@@ -155,6 +155,19 @@ def test_a_figure_is_enlarged_by_dragging_and_whole_again_by_its_button(pages: d
     page.close()
 
 
+def test_no_word_of_the_wall_lies_on_another(pages: dict[str, Path], browser: Any) -> None:
+    page = browser.new_page(viewport={"width": 1600, "height": 900})
+    page.goto(pages["fleet"].as_uri())
+    words = page.evaluate("""[...document.querySelectorAll('figure svg text')].map(e => {
+        const b = e.getBoundingClientRect(); return [e.textContent, b.left, b.right, b.top, b.bottom]; })""")
+    on_another = [
+        (a[0], b[0]) for k, a in enumerate(words) for b in words[:k]
+        if a[1] < b[2] and b[1] < a[2] and (a[3] + a[4]) / 2 < b[4] and b[3] < (a[3] + a[4]) / 2
+    ]  # fmt: skip
+    assert words and on_another == []
+    page.close()
+
+
 def test_equal_inputs_give_equal_bytes(pages: dict[str, Path], map_folder: Path, tmp_path: Path) -> None:
     root = pages["map"].parents[1]
     build_map(ReferencePlant(), paper_settings(tmp_path, *COARSE), tmp_path / "map", jobs=1)

@@ -92,8 +92,8 @@ def _drawing(rows: list[dict], limits: Mapping[str, Limits]) -> str:
     for k in range(int(top / step) + 1):
         x = at(k * step)
         parts.append(f'<path d="M{x:.1f} 0V{height - ROW}" stroke="#ddd"/><text x="{x:.1f}" y="{height - 4}"'
-                     f'{" text-anchor=" + chr(34) + "middle" + chr(34) if k else ""}>'
-                     f'{use(k * step)}{" " + escape(rows[0]["unit"]) if not k else ""}</text>')  # fmt: skip
+                     f' text-anchor="middle">{use(k * step)}</text>')  # fmt: skip
+    parts.append(f'<text x="{left - 8}" y="{height - 4}" text-anchor="end">{escape(rows[0]["unit"])}</text>')
     for k, r in enumerate(rows):
         y = ROW * (k + 0.5) + 4
         name = escape(f"{whom(r['actuator'], r['fault'])}, {limits[r['fault']].text(r['severity'])}")

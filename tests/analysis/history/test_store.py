@@ -124,7 +124,8 @@ def test_a_store_without_checksums_gets_them(url, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    "change", ["severity = 0.03", "actuator = 'B'", "cycles = 11", "severity = 'much'", "low = 'x'"]
+    "change",
+    ["severity = 0.03", "actuator = 'B'", "cycles = 11", "severity = 'much'", "low = 'x'", "low = 'x', checksum = ''"],
 )
 def test_a_row_that_was_changed_is_never_used(tmp_path, change):
     Store(tmp_path / "history.db").append([entry(1), entry(2)])
