@@ -72,6 +72,12 @@ CLASSES = (
         "loosened the tolerance. Blocks measure their unknowns in nominal values; no equation differs.",
     ),
     (
+        "affine guards, too",
+        SIZES + r"|mdl_affine_guards|mdl_guard_rates(_\d+)?",
+        "Guards that are affine in the states are sought on the polynomial of a step (decision 0016): a table and a "
+        "function more. No equation differs.",
+    ),
+    (
         "failures, too",
         SIZES,
         "A nonlinear block that fails is told as one, not as linear equations without a solution.",
@@ -133,7 +139,7 @@ def class_of(before: str, now: str) -> str:
         return CLASSES[0][0]
     old, new = parts(before), parts(now)
     computed = [k for k in found if re.match("mdl_rhs|mdl_initial", k)]
-    for (name, allowed, _), keep in zip(CLASSES[1:4], (_every, _every, _no_failure), strict=True):
+    for (name, allowed, _), keep in zip(CLASSES[1:5], (_every, _every, _every, _no_failure), strict=True):
         same = all(equations(old.get(k, []), keep) == equations(new.get(k, []), keep) for k in computed)
         if same and all(re.fullmatch(allowed, k) for k in found):
             return name

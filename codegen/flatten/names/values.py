@@ -97,7 +97,7 @@ def items_of(value: Value) -> tuple[Value, ...]:
 
 
 def holds_records(value: Value) -> bool:
-    return any(isinstance(i, Record) for i in items_of(value))
+    return not isinstance(value, Expr) and any(isinstance(i, Record) for i in items_of(value))
 
 
 def indices(shape: tuple[int, ...]) -> Iterator[tuple[int, ...]]:
@@ -120,6 +120,8 @@ def stack(rows: list[Value], span: Span) -> Array:
 
 def elementwise(function: Callable[..., Expr], values: list[Value], span: Span, what: str) -> Value:
     """`function` on corresponding elements; scalars go with every element."""
+    if all(isinstance(v, Expr) for v in values):
+        return function(*values)
     for v in values:
         if isinstance(v, FunctionValue | ExternalValue):
             raise Diagnostic("R041", f"{what} of a function or an external object", span, "it works on numbers")
