@@ -17,8 +17,8 @@ _Static_assert(MOST == RT_DENSE_DEGREE + 1, "polynomials of guards have the degr
 static const double share = 0.01; /* error of a step in a guard, of its swing there: its extremes are known to 1 % */
 static const double tenth = 0.1;  /* of that, where errors of many short steps add up */
 static const double clear = 0.1;  /* or of its distance from zero: the polynomial errs by a few times the estimate */
-static const double between[] = {0.36, 0.68}; /* of the step: nodes of no method */
-static const double of_slope = 0.25;          /* an error of x' there, times the step, makes about this error of x */
+static const double between[] = {0.15, 0.45, 0.85}; /* of the step: nodes of no method, see `compared` */
+static const double of_slope = 0.25; /* an error of x' there, times the step, makes about this error of x */
 
 enum { PLACES = 5 };
 static const double along[PLACES] = {0, 0.23, 0.48, 0.77, 1}; /* of a step: no period joins them */
@@ -126,7 +126,9 @@ static double estimated(rt_session *s, double to, bool *near) {
 }
 
 /* An estimate may vanish by chance, of a swing that the step passes over above all. So where a guard is near, what its
- * polynomial does is compared with what the equations say, at two places where the method has not looked. */
+ * polynomial does is compared with what the equations say, at places where the method has not looked. Two of them may
+ * both be extremes of the error: of steps of dopri5 up to two periods of a sine, at all phases, two let an error of
+ * 0.57 amplitudes pass, these three one of 0.027 at most. */
 static double compared(rt_session *s, double to) {
   const mdl_descriptor *d = s->d;
   double largest = 0, p[MOST], h = to - s->t_previous;
