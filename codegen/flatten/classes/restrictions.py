@@ -54,6 +54,11 @@ def _findings(cls: ast.Class) -> Iterator[Diagnostic]:
         yield from _component(cls, component)
     if cls.kind == "operator":
         yield from _operator(cls)
+    for nested in cls.classes.values():
+        operator = nested.kind == "operator" or (nested.operator and nested.kind == "function")
+        if operator and cls.kind != "package" and not (cls.operator and cls.kind == "record"):
+            hint = "declare it in an operator record"
+            yield Diagnostic("R070", f"the operator {nested.name} in a {cls.kind}", nested.span, hint)
 
 
 def _names(cls: ast.Class) -> Iterator[Diagnostic]:
