@@ -43,17 +43,8 @@ def test_an_input_is_driven_in_the_unit_that_it_declares(tmp_path: Path, unit: s
 def test_samples_that_do_not_cover_the_run_are_held_with_a_word(tmp_path: Path) -> None:
     samples = recording(tmp_path, "n (rpm)")
     for stop, said in (("1", ""), ("2", ""), ("2.5", "input u: samples from 0 to 1 s")):
-        command = [
-            "simulate",
-            str(turn(tmp_path, "rpm")),
-            "-u",
-            f"u={samples}:n",
-            "--stop",
-            stop,
-            "--out",
-            str(tmp_path),
-        ]
-        result = CliRunner().invoke(app, command)
+        words = ("--stop", stop, "--out", str(tmp_path))
+        result = CliRunner().invoke(app, ["simulate", str(turn(tmp_path, "rpm")), "-u", f"u={samples}:n", *words])
         assert result.exit_code == 0
         assert said in result.output and ("is held" in result.output) == bool(said)
 
