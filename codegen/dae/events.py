@@ -40,11 +40,13 @@ def split(model: flat.FlatModel) -> tuple[list[flat.Equation], list[DiscreteEqua
 
 
 def _is_continuous(eq: flat.Equation, model: flat.FlatModel) -> bool:
-    """Real, and not between discrete variables only."""
-    if eq.lhs.type != REAL and eq.rhs.type != REAL:
-        return False
+    """Real, and not between discrete variables only; or one that holds no unknown, too much wherever it is counted."""
     used = leaves(eq.lhs) | leaves(eq.rhs)
     unknowns = [v for n in used if n.op == "var" and (v := model.variables[str(n.value)]).causality != "input"]
+    if all(v.variability not in (flat.CONTINUOUS, flat.DISCRETE) for v in unknowns):
+        return True
+    if eq.lhs.type != REAL and eq.rhs.type != REAL:
+        return False
     continuous = any(v.variability == flat.CONTINUOUS and v.type == REAL for v in unknowns)
     return continuous or any(n.op == "der" for n in used) or not any(v.variability == flat.DISCRETE for v in unknowns)
 

@@ -28,6 +28,7 @@ from lacuna.codegen.flatten.equations.variables import (
     mark_evaluated,
 )
 from lacuna.codegen.flatten.expressions.constants import evaluate
+from lacuna.codegen.flatten.expressions.derivative import derivative_variables
 from lacuna.codegen.flatten.expressions.lower import lower_scalar
 from lacuna.codegen.flatten.language import LOWERING
 from lacuna.codegen.flatten.names.context import Context
@@ -62,7 +63,6 @@ def flatten(
     top = Instance(context, cls, "", None, _outside_modifier(modifications or {}, cls.span))
     leaves, sections, buses = _instantiate(top)
     context.finish()
-    context.table(Structure).sections = sections
     model = flat.FlatModel(cls.path, cls.span, cls.description)
     for leaf in leaves:
         with context.attempt():
@@ -74,6 +74,7 @@ def flatten(
             flatten_variables(leaf, model)
     model.equations += body.equations + connection_equations(body.connections, context)
     stream_variables(model, context)
+    derivative_variables(model, context)
     context.finish()
     check_components(leaves, buses, body, context)
     model.whens, model.algorithms, model.initial_equations = body.whens, body.algorithms, initial.equations
@@ -163,6 +164,7 @@ def _instantiate(top: Instance) -> tuple[list[Leaf], list[tuple[ast.Section, ast
         declared.update(implicit)
         look_at(top, implicit)
     bind_texts(sections)
+    top.context.table(Structure).sections = sections
     return leaves, sections, buses
 
 

@@ -218,6 +218,24 @@ def refuse_redeclaration(new: ast.Component, old: ast.Component, span: Span) -> 
         error = Diagnostic("R033", message, span, "declare it with 'replaceable'" if not why else "remove 'redeclare'")
         error.notes.append((old.span, "declared here"))
         raise error
+    pairs = [(new.causality, old.causality), (_carried(new), _carried(old))]
+    reason = next((f"{one} where it is {other}" for one, other in pairs if one and other and one != other), "")
+    if _VARIABILITIES.index(new.variability or old.variability) > _VARIABILITIES.index(old.variability):
+        reason = f"{new.variability} where it is {old.variability}"
+    if _carried(new) and not _carried(old):
+        reason = f"{_carried(new)} where it is not"
+    if reason:
+        hint = "keep the prefixes of the declaration"
+        error = Diagnostic("R034", f"{old.name} is redeclared as {reason}", span, hint)
+        error.notes.append((old.span, "declared here"))
+        raise error
+
+
+_VARIABILITIES = ("constant", "parameter", "discrete", "")  # from the narrowest
+
+
+def _carried(declaration: ast.Component) -> str:
+    return "flow" if declaration.flow else "stream" if declaration.stream else ""
 
 
 def inheriting(new: ast.Component, old: ast.Component) -> ast.Component:

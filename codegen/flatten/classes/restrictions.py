@@ -54,6 +54,11 @@ def _findings(cls: ast.Class) -> Iterator[Diagnostic]:
         yield from _component(cls, component)
     if cls.kind == "operator":
         yield from _operator(cls)
+    for nested in cls.classes.values():
+        operator = nested.kind == "operator" or (nested.operator and nested.kind == "function")
+        if operator and cls.kind != "package" and not (cls.operator and cls.kind == "record"):
+            hint = "declare it in an operator record"
+            yield Diagnostic("R070", f"the operator {nested.name} in a {cls.kind}", nested.span, hint)
 
 
 def _names(cls: ast.Class) -> Iterator[Diagnostic]:
@@ -99,7 +104,7 @@ def _declared(cls: ast.Class) -> Iterator[tuple[Span, str]]:
 def _sections(cls: ast.Class) -> Iterator[Diagnostic]:
     if cls.kind in _WITHOUT_SECTIONS and cls.sections:
         section = cls.sections[0]
-        what = "an algorithm" if section.algorithm else "equations"
+        what = "algorithm" if section.algorithm else "equations"
         yield Diagnostic("R070", f"a {cls.kind} has no {what}", section.span, "write a model or a block")
 
 
@@ -109,8 +114,10 @@ def _component(cls: ast.Class, component: ast.Component) -> Iterator[Diagnostic]
         yield Diagnostic("R070", f"a {kind} has no protected elements", span, "make it public")
     if kind in _ALL_PUBLIC and (component.inner or component.outer):
         yield Diagnostic("R070", f"a {kind} has neither inner nor outer elements", span, "declare it in a model")
-    if component.stream and kind not in ("connector", "record"):
-        yield Diagnostic("R070", f"the stream {component.name} of a {kind}", span, "streams belong into connectors")
+    carried = "stream" if component.stream else "flow" if component.flow else ""
+    if carried and kind not in ("connector", "record"):
+        hint = f"{carried}s belong into connectors"
+        yield Diagnostic("R070", f"the {carried} {component.name} of a {kind}", span, hint)
     if cls.expandable and component.flow:
         hint = "connect the flow by a connector of its own"
         yield Diagnostic("R070", f"the flow {component.name} of an expandable connector", span, hint)

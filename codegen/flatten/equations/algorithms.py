@@ -101,7 +101,9 @@ def _statements(items: list[ast.Item], scope: Scope, in_when: bool) -> list[flat
 
 
 def _procedure(item: ast.Procedure, scope: Scope, in_when: bool) -> list[flat.Statement]:
-    if not in_when and str(item.call.function) in ("reinit", "terminate"):
+    if str(item.call.function) == "reinit":
+        raise Diagnostic("R056", "reinit in an algorithm", item.span, "write it in a when-equation (8.3.6)")
+    if not in_when and str(item.call.function) == "terminate":
         hint = f"put it under a condition: when ... then {item.call.function}(...); end when;"
         raise Diagnostic("R056", f"{item.call.function} outside of when", item.span, hint)
     return procedure(item, scope)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.expressions.constants import variability
+from lacuna.codegen.flatten.expressions.constants import evaluate, is_known, variability
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import FALSE, TRUE, Expr
@@ -65,18 +65,25 @@ class SymbolicRun:
 
     def _while(self, s: flat.While, guard: Expr) -> None:
         for _ in range(MAX_ROUNDS):
-            going = _without_no_event(self._now(s.condition))
+            going = self._decided(self._now(s.condition), s.span)
             if going.op != "const":
                 hint = "put the loop in a function and call it"
                 message = f"how often the loop runs is not known at translation: {ex.to_text(going)}"
                 raise Diagnostic("R059", message, s.span, hint)
-            broken = self.block(s.body, guard) if going.value else TRUE
+            broken = self._decided(self.block(s.body, guard), s.span) if going.value else TRUE
             if broken is TRUE:
                 return
             if broken is not FALSE:
                 message = f"whether the loop goes on is not known at translation: {ex.to_text(broken)}"
                 raise Diagnostic("R059", message, s.span, "put the loop in a function and call it")
         raise Diagnostic("F034", f"no end after {MAX_ROUNDS} rounds", s.span, "does the loop reach its end?")
+
+    def _decided(self, condition: Expr, span: Span) -> Expr:
+        """What decides how often a loop runs: its value, where parameters give it (they become structural)."""
+        plain = _without_no_event(condition)
+        if plain.op == "const" or not is_known(plain, self.scope.context):
+            return plain
+        return evaluate(plain, self.scope.context, span, "the condition of the loop")
 
     def type_of(self, name: str) -> str:
         if name not in self.types:

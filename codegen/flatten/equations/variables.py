@@ -104,7 +104,8 @@ def _variable(leaf: Leaf, name: str, attributes: dict[str, Expr | str]) -> flat.
     if "stateSelect" in attributes:
         result.state_select = _state_select(attributes["stateSelect"], leaf)
     result.enumeration = leaf.type.literals
-    if leaf.instance.parent is None and leaf.instance.name == "" and leaf.causality:
+    given_here = leaf.causality == "input" and leaf.modifier.value is not None
+    if leaf.instance.parent is None and leaf.instance.name == "" and leaf.causality and not given_here:
         result.causality = leaf.causality
     return result
 

@@ -15,6 +15,7 @@ from lacuna.codegen.flatten.names.values import (  # fmt: skip
     concatenate,
     elementwise,
     fold,
+    holds_records,
     integers,
     items_of,
     promote,
@@ -119,6 +120,8 @@ def _reduction(join: Callable[[Expr, Expr], Expr], empty: Expr | None) -> Callab
                     raise Diagnostic("R051", f"{e.function} of two needs numbers", e.span, hint)
             return join(*arguments)
         values = _array(arguments[0], e)
+        if holds_records(values) and str(e.function) == "sum":
+            return fold(lambda a, b: scope.context.lowering.overloaded("+", [a, b], e.span, scope), list(values.items))
         if empty is None and values.items and all(isinstance(i, Expr) and i.type == BOOLEAN for i in values.items):
             return fold(ex.logical_and if str(e.function) == "min" else ex.logical_or, list(values.items))
         need_numbers(values, e.span, str(e.function))
@@ -200,6 +203,7 @@ _DOMAINS: dict[str, tuple[Callable[[float], bool], str]] = {
     "log10": (lambda x: x > 0, "numbers above 0"), "asin": (lambda x: abs(x) <= 1, "numbers from -1 to 1"),
     "acos": (lambda x: abs(x) <= 1, "numbers from -1 to 1"),
 }  # fmt: skip
+_QUOTIENTS = ("div", "mod", "rem")
 
 
 def map_call(e: ast.Call, scope: Scope, count: int) -> Value:
@@ -212,6 +216,8 @@ def map_call(e: ast.Call, scope: Scope, count: int) -> Value:
             if name in _DOMAINS and item.op == "const" and not _DOMAINS[name][0](item.value) and not scope.conditional:
                 message = f"{name}({ex.to_text(item)}) does not exist"
                 raise Diagnostic("R064", message, written.span, f"{name} takes {_DOMAINS[name][1]}")
+    if name in _QUOTIENTS and any(ex.is_const(item, 0) for item in scalars(arguments[1])):
+        raise Diagnostic("R046", f"{name}: division by zero", e.span, "the divisor is the constant 0")
     return elementwise(lambda *xs: ex.call(name, *xs), arguments, e.span, f"arguments of {name}")
 
 

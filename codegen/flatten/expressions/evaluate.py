@@ -11,6 +11,7 @@ from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Array, Value, shape_of
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER
 from lacuna.codegen.syntax import ast
+from lacuna.codegen.syntax.references import references
 
 MAX_SIZE = 100_000
 
@@ -47,11 +48,19 @@ def evaluate_dimensions(
                 raise Diagnostic("R043", f"{name} is bound to a scalar", dimension.span, "bind it to an array")
             result.append(shape[position])
             continue
-        size = _dimension(dimension, scope, name)
+        size = _dimension(dimension, _knowing_itself(dimension, scope, modifier, name), name)
         if not 0 <= size <= MAX_SIZE:
             raise Diagnostic("R043", f"{name} has size {size}", dimension.span, f"sizes are from 0 to {MAX_SIZE}")
         result.append(size)
     return result
+
+
+def _knowing_itself(e: ast.Expression, scope: Scope, modifier: Modifier | None, name: str) -> Scope:
+    """`scope` for a size that asks for the binding's: `A[:, size(A, 1)]` (10.1)."""
+    bound = modifier is not None and modifier.value is not None
+    if not bound or name in scope.locals or not any(r.names == (name,) for r in references(e)):
+        return scope
+    return scope.with_locals(**{name: modifier_value(modifier)})
 
 
 def _dimension(e: ast.Expression, scope: Scope, name: str) -> int:

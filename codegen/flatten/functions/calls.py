@@ -25,15 +25,21 @@ from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, Expr
 from lacuna.codegen.syntax import ast
 from lacuna.suggest import did_you_mean
 
-_OUTSIDE = {
+_OUTSIDE = {  # clocks and state machines (chapters 16 and 17)
     "Clock": "use when sample(start, interval) then",
     "previous": "use pre(x) inside when sample(...)",
     "hold": "a discrete variable holds its value",
     "subSample": "use a second sample(...)",
     "superSample": "use a second sample(...)",
     "shiftSample": "use the start of sample(start, interval)",
+    "backSample": "use the start of sample(start, interval)",
+    "noClock": "clocks are left out",
     "interval": "use the parameter given to sample",
-    "Subtask": "clocks are left out",
+    "firstTick": "use initial(), or a discrete variable that counts",
+    **dict.fromkeys(
+        ("initialState", "transition", "activeState", "ticksInState", "timeInState"),
+        "use the steps and transitions of Modelica.StateGraph, or an Integer that when-clauses set",
+    ),
 }
 
 
@@ -68,6 +74,8 @@ def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
         return spatial_distribution(e, scope)
     if isinstance(local, FunctionValue):
         return call_function(local.cls, e, scope, local.bound)
+    if name == "pure":
+        return _taken_as_pure(e, scope)
     cls, holder = find_class(scope.context.library, scope.cls, e.function), scope.instance
     if cls is None:
         cls, holder = _of_component(e.function, scope)
@@ -75,9 +83,12 @@ def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
     if cls is not None and cls.derivative_of is not None:
         return [_partial_derivative(cls, e, scope)]
     if cls is not None and cls.kind == "function":
-        if cls.impure and scope.pure:
-            hint = "call it when something happens (when ... then), or initially"
-            raise Diagnostic("R082", f"the impure function {name} in an equation", e.span, hint)
+        if cls.impure and scope.pure and not (scope.in_function and scope.context.library.foreign_package(e.span.file)):
+            hint = f"call it when something happens (when ... then), or initially; or write pure({name}(...))"
+            where = "an equation"
+            if scope.in_function:  # the Modelica Standard Library does not keep to it: initializeImpureRandom
+                where, hint = f"the pure function {scope.cls.name}", f"write impure before function {scope.cls.name}"
+            raise Diagnostic("R082", f"the impure function {name} in {where}", e.span, hint)
         return call_function(cls, e, scope, _defaults_of(cls, e, holder, scope))
     if cls is not None and is_external(cls):
         return call_function(own_or_inherited(scope.context.library, cls, "constructor"), e, scope)
@@ -97,6 +108,13 @@ def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
     if scope.instance is not None and e.function.names[0] in scope.instance.elements:
         hint = f"{name} is a variable: index it as {name}[i], multiply as {name}*(...)"
     raise Diagnostic("R004", f"there is no function {name}", e.function.span, hint)
+
+
+def _taken_as_pure(e: ast.Call, scope: Scope) -> list[Value]:
+    """pure(f(x)): the results of an impure function where only pure ones may be called (12.3)."""
+    if len(e.args) != 1 or e.named or not isinstance(e.args[0], ast.Call):
+        raise Diagnostic("R050", "pure takes the call of a function", e.span, "pure(f(x))")
+    return scope.context.lowering.results(e.args[0], replace(scope, pure=False))
 
 
 def _literal_by_number(cls: ast.Class, e: ast.Call, scope: Scope) -> Expr:

@@ -166,7 +166,7 @@ def _emit(
     function = flat.Function(name, names, (), {}, {}, {}, [], cls.span)
     context.functions[name] = function
     source = context.table(Sources)[name] = Source(signature, inputs, [])
-    writer = Writer(function, Scope(context, cls, None, {}, in_function=True))
+    writer = Writer(function, Scope(context, cls, None, {}, in_function=True, pure=not cls.impure))
     try:
         for local in (x for x in signature.locals if not isinstance(arguments.get(x.name), str)):
             writer.declare_local(local, inputs)

@@ -14,10 +14,11 @@ from lacuna.codegen.flatten.classes.types import EXTERNAL
 from lacuna.codegen.flatten.expressions.constants import AtRunTime, evaluate, is_known
 from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.functions.code import emitted_call
+from lacuna.codegen.flatten.functions.fitting import fit
 from lacuna.codegen.flatten.functions.interpret import interpret
 from lacuna.codegen.flatten.functions.library.external import call_external
 from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
-from lacuna.codegen.flatten.functions.locals import Local, Signature, fit, signature_of
+from lacuna.codegen.flatten.functions.locals import Local, Signature, signature_of
 from lacuna.codegen.flatten.names.scope import Scope, find_class
 from lacuna.codegen.flatten.names.values import (
     Array,
@@ -29,10 +30,10 @@ from lacuna.codegen.flatten.names.values import (
     shape_text,
     stack,
 )
-from lacuna.codegen.flatten.references.iterators import references
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.syntax import ast
+from lacuna.codegen.syntax.references import references
 from lacuna.suggest import did_you_mean
 
 MAX_INLINE_NODES = 250

@@ -14,10 +14,10 @@ from lacuna.codegen.flatten.equations.effects import effect
 from lacuna.codegen.flatten.expressions.chosen_texts import choose
 from lacuna.codegen.flatten.expressions.constants import AtRunTime
 from lacuna.codegen.flatten.expressions.lower import lower, lower_results, lower_scalar
-from lacuna.codegen.flatten.functions.blanks import blank
 from lacuna.codegen.flatten.functions.effort import MAX_NESTED_STEPS, nested_call, one_more_step
+from lacuna.codegen.flatten.functions.fitting import blank, conform, fit
 from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
-from lacuna.codegen.flatten.functions.locals import Local, Signature, conform, fit, signature_of
+from lacuna.codegen.flatten.functions.locals import Local, Signature, signature_of
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import (
@@ -92,7 +92,7 @@ def _named_constant(local: Local, cls: ast.Class, value: Value, context: Context
 
 class _Run:
     def __init__(self, cls: ast.Class, context: Context, values: dict[str, Value], span: Span) -> None:
-        self.scope = Scope(context, cls, None, values, in_function=True)
+        self.scope = Scope(context, cls, None, values, in_function=True, pure=not cls.impure)
         self.locals = values
         self.span = span
         self.inputs: frozenset[str] = frozenset()

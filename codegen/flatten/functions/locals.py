@@ -6,28 +6,17 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.inheritance import inheriting, refuse_redeclaration
 from lacuna.codegen.flatten.classes.instance import Instance
-from lacuna.codegen.flatten.classes.types import EXTERNAL, Type, causality_of, resolve_type
-from lacuna.codegen.flatten.expressions.enumerations import enumeration_of
-from lacuna.codegen.flatten.expressions.evaluate import evaluate_dimensions
+from lacuna.codegen.flatten.classes.types import Type, causality_of, resolve_type
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import from_tree, merge
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import (
     Array,
-    ExternalValue,
-    Record,
     Value,
-    holds_records,
-    items_of,
-    scalars,
-    shape_of,
-    shape_text,
 )
-from lacuna.codegen.symbolic import expr as ex
-from lacuna.codegen.symbolic.expr import INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
 from lacuna.units import parse_unit
 
@@ -133,7 +122,7 @@ def signature_of(cls: ast.Class, context: Context) -> Signature:
         instance = Instance(context, cls, cls.path, None, None)
         declared = []
         for name, element in instance.elements.items():
-            scope = Scope(context, element.cls, in_function=True)
+            scope = Scope(context, element.cls, in_function=True, pure=not cls.impure)
             declaration, outer, modified_in = element.declaration, element.modifier, None
             if outer is not None and isinstance(outer.redeclare, ast.Component):
                 refuse_redeclaration(outer.redeclare, declaration, outer.span)
@@ -171,6 +160,9 @@ def _check_function(cls: ast.Class, instance: Instance, declared: list[Local]) -
             raise Diagnostic("R066", f"{name} of the function {cls.name} is public", d.span, hint)
         if d.causality and d.protected:
             raise Diagnostic("R066", f"the {d.causality} {name} of {cls.name} is protected", d.span, "make it public")
+        if d.inner or d.outer:
+            what = "inner" if d.inner else "outer"
+            raise Diagnostic("R066", f"{what} {name} in the function {cls.name}", d.span, "hand it on as an input")
 
 
 def _check_iterators(items: Iterable[ast.Item], iterators: frozenset[str] = frozenset()) -> None:
@@ -198,80 +190,3 @@ def _check_components(cls: ast.Class, declared: list[Local]) -> None:
         if kind in ("model", "block", "connector", "package"):
             message = f"{local.name} of the function {cls.name} is a {kind}"
             raise Diagnostic("R066", message, local.declaration.span, "a function holds types and records only")
-
-
-def fit(local: Local, value: Value, scope: Scope, span: Span) -> Value:
-    """`value` for a declared variable: type and size checked, whole numbers made Real where that is declared."""
-    if local.type.primitive == EXTERNAL:
-        if not isinstance(value, ExternalValue) or value.cls is not local.type.cls:
-            raise Diagnostic("R062", f"{local.name} is an external object", span, f"give a {local.declaration.type}")
-        return value
-    if local.type.primitive is None:
-        return _fit_records(local, value, scope, span)
-    sizes = declared_sizes(local, scope, value)
-    if sizes != shape_of(value) or isinstance(value, Record):
-        message = f"{local.name} has size {shape_text(sizes)}, given {shape_text(shape_of(value))}"
-        each = f"for each element: {{f({local.name}) for {local.name} in array}}"
-        raise Diagnostic("R062", message, span, "both need the same size" if sizes else each)
-    items = [typed(item, local.type.primitive, local.name, span) for item in scalars(value)]
-    _require_enumeration(local, scalars(value), scope, span)
-    return Array(sizes, tuple(items)) if isinstance(value, Array) else items[0]
-
-
-def _require_enumeration(local: Local, items: list[Expr | str], scope: Scope, span: Span) -> None:
-    """Raises R025 for a value of one enumeration where a number or another is declared."""
-    cls = local.type.cls
-    wanted = (cls.origin or cls).path if local.type.literals and cls is not None else ""
-    for item in items:
-        found = enumeration_of(item, scope.context) if isinstance(item, Expr) else ""
-        if found and found != wanted:
-            names = [name.rsplit(".", 1)[-1] or local.type.primitive for name in (wanted, found)]
-            hint = f"give a {names[0]}; Integer(e) is the number of a literal"
-            raise Diagnostic("R025", f"{local.name} is {names[0]}, given {names[1]}", span, hint)
-
-
-def conform(old: Value, value: Value, span: Span, name: str, kind: str | None) -> Value:
-    """`value` for a variable of type `kind` (None: a record) that held `old`: the same size, and a type that fits."""
-    if shape_of(old) != shape_of(value) or holds_records(old) != holds_records(value):
-        message = f"{name} has size {shape_text(shape_of(old))}, given {shape_text(shape_of(value))}"
-        raise Diagnostic("R042", message, span, "both need the same size")
-    if kind is None or holds_records(old):
-        return value
-    items = [typed(item, kind, name, span) for item in scalars(value)]
-    return Array(old.shape, tuple(items)) if isinstance(old, Array) else items[0]
-
-
-def _fit_records(local: Local, value: Value, scope: Scope, span: Span) -> Value:
-    """A record, or an array of records, with the fields that are declared; the result is of the declared class."""
-    sizes = declared_sizes(local, scope, value)
-    if sizes != shape_of(value) or not all(isinstance(i, Record) for i in items_of(value)):
-        what = "a record" if not sizes else f"an array {shape_text(sizes)} of records"
-        raise Diagnostic("R062", f"{local.name} is {what}", span, f"give a {local.declaration.type}")
-    return value
-
-
-def declared_sizes(local: Local, scope: Scope, value: Value | None) -> tuple[int, ...]:
-    """The size of a declared variable; `:` takes that of `value`, which a size may ask for: `A[:, size(A, 1)]`."""
-    sizes = []
-    if value is not None and local.declaration.dimensions:
-        scope = scope.with_locals(**{local.name: value})
-    for position, dimension in enumerate(local.declaration.dimensions):
-        if isinstance(dimension, ast.Colon):
-            shape = shape_of(value) if value is not None else ()
-            if position >= len(shape):
-                message = f"{local.name} needs an array of {len(local.declaration.dimensions)} dimensions"
-                raise Diagnostic("R062", message, dimension.span, "give a size, or an array")
-            sizes.append(shape[position])
-        else:
-            sizes += evaluate_dimensions([dimension], scope, None, local.name)
-    return (*sizes, *local.type.dimensions)
-
-
-def typed(item: Expr | str, kind: str, name: str, span: Span) -> Expr | str:
-    """`item` as a value of type `kind`. Raises R062."""
-    found = "String" if isinstance(item, str) else item.type
-    if found != kind and (kind, found) != (REAL, INTEGER):
-        raise Diagnostic("R062", f"{name} is {kind}, given {found}", span, f"give a {kind}")
-    if kind == REAL and not isinstance(item, str) and item.op == "const" and item.type == INTEGER:
-        return ex.const(float(item.value))
-    return item

@@ -11,7 +11,17 @@ from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.functions.declared import bind_arguments, call_function, written_arguments
 from lacuna.codegen.flatten.functions.locals import Local, signature_of
 from lacuna.codegen.flatten.names.scope import Scope, base_classes, own_or_inherited
-from lacuna.codegen.flatten.names.values import Array, Record, Value, items_of, shape_of, stack
+from lacuna.codegen.flatten.names.values import (
+    Array,
+    Record,
+    Value,
+    fold,
+    items_of,
+    shape_of,
+    shape_text,
+    stack,
+    transpose,
+)
 from lacuna.codegen.symbolic.expr import INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
 
@@ -47,6 +57,8 @@ def overloaded(op: str, operands: Sequence[Value], span: Span, scope: Scope) -> 
 
 def _element_by_element(op: str, operands: Sequence[Value], span: Span, scope: Scope) -> Value:
     """The rules for arrays of numbers, applied to arrays of operator records (10.6)."""
+    if op == "*" and all(map(shape_of, operands)):
+        return _product(operands[0], operands[1], span, scope)
     shapes = {shape_of(v) for v in operands if shape_of(v)}
     with_scalar = any(not shape_of(v) for v in operands)
     elementwise = op in _OF_ARRAYS or (op in ("*", "/") and with_scalar and not (op == "/" and shape_of(operands[1])))
@@ -58,6 +70,22 @@ def _element_by_element(op: str, operands: Sequence[Value], span: Span, scope: S
     plain = op.removeprefix(".")
     items = [overloaded(plain, row, span, scope) for row in zip(*columns, strict=True)]
     return Array(shape, items_of(stack(items, span))) if items else Array(shape, ())
+
+
+def _product(a: Array, b: Array, span: Span, scope: Scope) -> Value:
+    """The product of vectors or matrices, one at least of operator records, by their '*' and '+' (10.6.3)."""
+    if a.shape[-1] != b.shape[0] or max(len(a.shape), len(b.shape)) > 2 or not a.shape[-1]:
+        message = f"a product of sizes {shape_text(a.shape)} and {shape_text(b.shape)}"
+        raise Diagnostic("R079", message, span, "inner sizes must agree; .* multiplies element by element")
+
+    def dot(row: Array, column: Array) -> Value:
+        terms = [overloaded("*", pair, span, scope) for pair in zip(row.items, column.items, strict=True)]
+        return fold(lambda x, y: overloaded("+", [x, y], span, scope), terms)
+
+    rows = a.rows() if len(a.shape) == 2 else [a]
+    columns = transpose(b).rows() if len(b.shape) == 2 else [b]
+    items = tuple(dot(row, column) for row in rows for column in columns)
+    return Array(a.shape[:-1] + b.shape[1:], items) if a.shape[:-1] + b.shape[1:] else items[0]
 
 
 def _converted(name: str, operands: Sequence[Value], span: Span, scope: Scope) -> Value | None:

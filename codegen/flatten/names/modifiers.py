@@ -73,10 +73,10 @@ def _refuse_both(one: Modifier, other: Modifier) -> None:
 
 
 def merge(outer: Modifier | None, inner: Modifier | None) -> Modifier | None:
-    """Both together, `outer` first. Raises R031 when it touches what `inner` made final."""
+    """Both together, `outer` first. Raises R031 when it touches what `inner` made final, or a part of it (7.2.6)."""
     if inner is None or outer is None:
         return outer if inner is None else inner
-    if inner.final and (outer.value is not None or outer.redeclare is not None):
+    if inner.final and not outer.empty:
         error = Diagnostic("R031", "this is final and cannot be modified", outer.span, "remove the modification")
         error.notes.append((inner.span, "made final here"))
         raise error

@@ -27,7 +27,7 @@ class Scope:
     initial: bool = False  # in an initial section
     conditional: bool = False  # under a condition not known yet: what cannot be computed may never be asked for
     message: bool = False  # in the text of an assert
-    pure: bool = False  # where no impure function may be called: equations that hold at all times
+    pure: bool = False  # where no impure function may be called: lasting equations, functions that are not impure
 
     def with_locals(self, **values: Value) -> Scope:
         return replace(self, locals={**self.locals, **values})

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator as Iterating
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import replace
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.expressions.constants import known
@@ -15,6 +14,7 @@ from lacuna.codegen.flatten.references.references import node_of
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, TRUE, Expr
 from lacuna.codegen.syntax import ast
+from lacuna.codegen.syntax.references import references
 
 
 def iterate(iterator: ast.Iterator, scope: Scope, body: object) -> tuple[Value, ...]:
@@ -67,21 +67,6 @@ def _index_set(reference: ast.Ref, at: int, position: int, scope: Scope) -> tupl
     if position >= len(shape):
         raise Diagnostic("R044", f"{whole} has {len(shape)} dimensions", reference.span, "it has too many subscripts")
     return tuple(map(ex.const, range(1, shape[position] + 1)))
-
-
-def references(tree: object) -> Iterating[ast.Ref]:
-    """Every name in a part of the syntax tree, those inside subscripts included."""
-    if isinstance(tree, ast.Ref):
-        yield tree
-    if isinstance(tree, list | tuple):
-        for part in tree:
-            yield from references(part)
-    elif isinstance(tree, dict):
-        yield from references(list(tree.values()))
-    elif is_dataclass(tree):
-        for f in fields(tree):
-            if f.name != "span":
-                yield from references(getattr(tree, f.name))
 
 
 def range_values(e: ast.Range, scope: Scope) -> Array:

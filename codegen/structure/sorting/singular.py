@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
@@ -40,13 +40,15 @@ def require_regular(rows: list[Row], names: Sequence[str], model: flat.FlatModel
         lacking = f"too few equations: {len(under_rows)} for {_list(names, under_columns)}"
         first = f"{first}; {lacking}" if first else lacking
     span = rows[unmatched_rows[0]].source.span if unmatched_rows else model.variables[names[unmatched_columns[0]]].span
-    hint = _hint(rows, unmatched_rows, unmatched_columns)
+    hint = _hint(rows, column.keys(), unmatched_rows, unmatched_columns)
     raise Diagnostic("S003", f"the model is structurally singular ({counts}): {first}", span, hint, notes)
 
 
-def _hint(rows: list[Row], unmatched_rows: Sequence[int], unmatched_columns: Sequence[int]) -> str:
+def _hint(rows: list[Row], unknown: Set[str], unmatched_rows: Sequence[int], unmatched_columns: Sequence[int]) -> str:
     if unmatched_columns and any(rows[r].text.startswith("sum of flows") for r in unmatched_rows):
         return "nothing fixes the potentials of these connections: connect a ground, or a fixed flange"
+    if unmatched_rows and not any(_occurring(rows[r]) & unknown for r in unmatched_rows):
+        return "remove it: what it holds is known without it, as a parameter, an input or by other equations"
     if unmatched_rows:
         return "remove one of the equations listed"
     return "add an equation or a connection for one of them"

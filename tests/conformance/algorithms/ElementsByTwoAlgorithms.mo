@@ -1,5 +1,5 @@
 // section: 11.1.2
-// refuse: S010 8
+// refuse: S003 8
 model ElementsByTwoAlgorithms
   Real x[2](start = {-11, -22});
 algorithm

@@ -1,5 +1,5 @@
 // section: 8.3.3
-// refuse: S010 8
+// refuse: S003 8
 model IteratorSet
   Real x[3];
 equation

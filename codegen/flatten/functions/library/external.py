@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.functions.code import emitted_call
-from lacuna.codegen.flatten.functions.library import impure, objects, spectrum, streams, strings
+from lacuna.codegen.flatten.functions.library import impure, linear_equations, objects, spectrum, streams, strings
 from lacuna.codegen.flatten.functions.library.data_files import CSV_COLUMN, column_of_file
 from lacuna.codegen.flatten.functions.library.foreign import check_foreign
 from lacuna.codegen.flatten.functions.library.objects import ExternalCall, Handler
 from lacuna.codegen.flatten.functions.locals import Signature
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Value
-from lacuna.codegen.flatten.references.iterators import references
 from lacuna.codegen.syntax import ast
+from lacuna.codegen.syntax.references import references
 
 HANDLERS: dict[str, Handler] = {
     **objects.TABLES, **strings.STRINGS, **streams.STREAMS,
-    **spectrum.SPECTRA, **impure.IMPURE,
+    **spectrum.SPECTRA, **impure.IMPURE, **linear_equations.LINEAR_EQUATIONS,
 }  # fmt: skip
 
 
@@ -36,7 +36,8 @@ def call_external(signature: Signature, arguments: dict[str, Value], e: ast.Call
         return emitted_call(signature, arguments, scope.context, e.span)
     own = {local.name for local in signature.locals} - set(arguments)  # results, and what only the C works with
     given = [a for a in external.args if not any(r.names[0] in own for r in references(a))]
-    values = [lower(a, inner) for a in given] if external.function else list(arguments.values())
+    by_name = not external.function or external.language != "C"  # of LAPACK all is handed over in places to work in
+    values = list(arguments.values()) if by_name else [lower(a, inner) for a in given]
     results = handler(values, ExternalCall(cls, scope, e.span))
     outputs = [local.name for local in signature.outputs]
     places = [str(a) for a in (external.result, *external.args) if a is not None and str(a) in outputs] or outputs

@@ -1,0 +1,155 @@
+"""What fits the declared variables of a function: types, sizes, fields of records; and what they hold at first."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import prod
+
+from lacuna.codegen.errors import Diagnostic, Span
+from lacuna.codegen.flatten.classes.types import EXTERNAL
+from lacuna.codegen.flatten.expressions.enumerations import enumeration_of
+from lacuna.codegen.flatten.expressions.evaluate import evaluate_dimensions
+from lacuna.codegen.flatten.expressions.lower import lower
+from lacuna.codegen.flatten.functions.locals import Local, signature_of
+from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.flatten.names.values import (
+    Array,
+    ExternalValue,
+    Record,
+    Value,
+    holds_records,
+    items_of,
+    scalars,
+    shape_of,
+    shape_text,
+)
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
+from lacuna.codegen.syntax import ast
+
+
+def fit(local: Local, value: Value, scope: Scope, span: Span) -> Value:
+    """`value` for a declared variable: type and size checked, whole numbers made Real where that is declared."""
+    if local.type.primitive == EXTERNAL:
+        if not isinstance(value, ExternalValue) or value.cls is not local.type.cls:
+            raise Diagnostic("R062", f"{local.name} is an external object", span, f"give a {local.declaration.type}")
+        return value
+    if local.type.primitive is None:
+        return _fit_records(local, value, scope, span)
+    sizes = declared_sizes(local, scope, value)
+    if sizes != shape_of(value) or isinstance(value, Record):
+        message = f"{local.name} has size {shape_text(sizes)}, given {shape_text(shape_of(value))}"
+        each = f"for each element: {{f({local.name}) for {local.name} in array}}"
+        raise Diagnostic("R062", message, span, "both need the same size" if sizes else each)
+    items = [typed(item, local.type.primitive, local.name, span) for item in scalars(value)]
+    _require_enumeration(local, scalars(value), scope, span)
+    return Array(sizes, tuple(items)) if isinstance(value, Array) else items[0]
+
+
+def _require_enumeration(local: Local, items: list[Expr | str], scope: Scope, span: Span) -> None:
+    """Raises R025 for a value of one enumeration where a number or another is declared."""
+    cls = local.type.cls
+    wanted = (cls.origin or cls).path if local.type.literals and cls is not None else ""
+    for item in items:
+        found = enumeration_of(item, scope.context) if isinstance(item, Expr) else ""
+        if found and found != wanted:
+            names = [name.rsplit(".", 1)[-1] or local.type.primitive for name in (wanted, found)]
+            hint = f"give a {names[0]}; Integer(e) is the number of a literal"
+            raise Diagnostic("R025", f"{local.name} is {names[0]}, given {names[1]}", span, hint)
+
+
+def conform(old: Value, value: Value, span: Span, name: str, kind: str | None) -> Value:
+    """`value` for a variable of type `kind` (None: a record) that held `old`: the same size, and a type that fits."""
+    if shape_of(old) != shape_of(value) or holds_records(old) != holds_records(value):
+        message = f"{name} has size {shape_text(shape_of(old))}, given {shape_text(shape_of(value))}"
+        raise Diagnostic("R042", message, span, "both need the same size")
+    if kind is None or holds_records(old):
+        return value
+    items = [typed(item, kind, name, span) for item in scalars(value)]
+    return Array(old.shape, tuple(items)) if isinstance(old, Array) else items[0]
+
+
+def _fit_records(local: Local, value: Value, scope: Scope, span: Span) -> Value:
+    """A record, or an array of records, with the fields that are declared; the result is of the declared class."""
+    sizes = declared_sizes(local, scope, value)
+    if sizes != shape_of(value) or not all(isinstance(i, Record) for i in items_of(value)):
+        what = "a record" if not sizes else f"an array {shape_text(sizes)} of records"
+        raise Diagnostic("R062", f"{local.name} is {what}", span, f"give a {local.declaration.type}")
+    for item in items_of(value):
+        _require_fields(local.type.cls, item, local.name, scope.context, span)
+    return value
+
+
+def _require_fields(cls: ast.Class, value: Record, name: str, context: Context, span: Span) -> None:
+    """A record that stands for one of `cls` has its fields, of their types and dimensions (6.4). Raises R062."""
+    own = value.cls
+    if isinstance(own, ast.Class) and (own.origin or own) is (cls.origin or cls):
+        return
+    for field in signature_of(cls, context).locals:
+        found = value.fields.get(field.name)
+        what = f"{name}.{field.name}"
+        if found is None:
+            other = own.name if isinstance(own, ast.Class) else value.name
+            message = f"{name} is a {cls.name}, given a {other} without {field.name}"
+            raise Diagnostic("R062", message, span, f"give a {cls.name}")
+        if len(shape_of(found)) != len(field.declaration.dimensions) + len(field.type.dimensions):
+            message = f"{what} is given {shape_text(shape_of(found))}, which has other dimensions"
+            raise Diagnostic("R062", message, span, f"give a {cls.name}")
+        for item in items_of(found):
+            if isinstance(item, Record) and field.type.primitive is None:
+                _require_fields(field.type.cls, item, what, context, span)
+            elif isinstance(item, Expr | str) and field.type.primitive in (REAL, INTEGER, BOOLEAN, "String"):
+                typed(item, field.type.primitive, what, span)
+
+
+def declared_sizes(local: Local, scope: Scope, value: Value | None) -> tuple[int, ...]:
+    """The size of a declared variable; `:` takes that of `value`, which a size may ask for: `A[:, size(A, 1)]`."""
+    sizes = []
+    if value is not None and local.declaration.dimensions:
+        scope = scope.with_locals(**{local.name: value})
+    for position, dimension in enumerate(local.declaration.dimensions):
+        if isinstance(dimension, ast.Colon):
+            shape = shape_of(value) if value is not None else ()
+            if position >= len(shape):
+                message = f"{local.name} needs an array of {len(local.declaration.dimensions)} dimensions"
+                raise Diagnostic("R062", message, dimension.span, "give a size, or an array")
+            sizes.append(shape[position])
+        else:
+            sizes += evaluate_dimensions([dimension], scope, None, local.name)
+    return (*sizes, *local.type.dimensions)
+
+
+def typed(item: Expr | str, kind: str, name: str, span: Span) -> Expr | str:
+    """`item` as a value of type `kind`. Raises R062."""
+    found = "String" if isinstance(item, str) else item.type
+    if found != kind and (kind, found) != (REAL, INTEGER):
+        raise Diagnostic("R062", f"{name} is {kind}, given {found}", span, f"give a {kind}")
+    if kind == REAL and not isinstance(item, str) and item.op == "const" and item.type == INTEGER:
+        return ex.const(float(item.value))
+    return item
+
+
+def unset(kind: str) -> Expr:
+    """Stands for a variable that nothing was assigned to."""
+    return ex.node("unset", (), None, kind)
+
+
+def blank(local: Local, scope: Scope) -> Value:
+    """What a variable holds before anything is assigned, in the sizes that it is declared with."""
+    shape = tuple(0 if local.is_flexible else n for n in declared_sizes(local, scope, local.nothing))
+    nothing = unset(local.type.primitive) if local.type.primitive else _blank_record(local, scope)
+    return Array(shape, (nothing,) * prod(shape)) if shape else nothing
+
+
+def _blank_record(local: Local, scope: Scope) -> Record:
+    """A record whose fields hold what its declaration, or that of its class, gives them."""
+    given = {a.name: a.modification.value for a in local.declaration.modification.arguments}
+    fields: dict[str, Value] = {}
+    for part in signature_of(local.type.cls, scope.context).locals:
+        inner = replace(part.scope, locals=dict(fields))
+        value, where = given.get(part.name), scope
+        if value is None:
+            value, where = part.declaration.modification.value, part.around_default(inner)
+        fields[part.name] = blank(part, inner) if value is None else fit(part, lower(value, where), inner, value.span)
+    return Record(local.name, fields, local.type.cls)
