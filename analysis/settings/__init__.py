@@ -11,10 +11,13 @@ from pathlib import Path
 from typing import Any
 
 from lacuna.analysis.errors import AnalysisError
-from lacuna.given import parsed_toml, text_of
+from lacuna.analysis.settings.schema import ADAPTIVE, check
+from lacuna.given import LARGEST, parsed_toml, text_of
+
+__all__ = ["ADAPTIVE", "PAPER", "Band", "Fault", "Settings", "load_settings", "settings_of"]
 
 PAPER = Path(__file__).with_name("paper.toml")
-ADAPTIVE = ("ida", "dopri5", "rodas4")  # solvers that need no step, which settings do not have
+MOST_TESTS = 100_000  # of a map: each is simulated and leaves a file
 
 
 @dataclass(frozen=True)
@@ -129,18 +132,24 @@ def load_settings(path: Path | str = PAPER) -> Settings:
 def settings_of(text: str, path: Path) -> Settings:
     """The settings that `text` says; `path` is named in errors. Raises AnalysisError."""
     raw = parsed_toml(text, path, AnalysisError)
-    try:
-        settings = _settings(path, text, raw)
-    except KeyError as error:
-        raise AnalysisError(f"{path}: {error.args[0]} is missing") from None
-    except (TypeError, ValueError) as error:
-        raise AnalysisError(f"{path}: {error}") from None
-    if settings.fault.step <= 0 or settings.fault.last < settings.fault.first:
-        raise AnalysisError(f"{path}: [fault] needs first <= last and step above zero")
-    if settings.solver not in ADAPTIVE:
-        raise AnalysisError(f"{path}: solver.name is {settings.solver!r}; tests are solved by {', '.join(ADAPTIVE)}")
+    check(raw, path)
+    settings = _settings(path, text, raw)
+    _check_sizes(settings)
     _check_bands(settings)
     return settings
+
+
+def _check_sizes(settings: Settings) -> None:
+    """A map of a number of tests, and recordings of a size, that can be made and read again."""
+    fault, path = settings.fault, settings.path
+    if fault.last < fault.first:
+        raise AnalysisError(f"{path}: [fault] needs first <= last")
+    if (fault.last - fault.first) / fault.step > MOST_TESTS:
+        raise AnalysisError(f"{path}: [fault] makes more than {MOST_TESTS} tests of a map")
+    if settings.sampling_rate * settings.duration * 8 * (len(settings.currents) + 2) > LARGEST:
+        raise AnalysisError(f"{path}: [recording] makes more than {LARGEST >> 20} MB a test")
+    if not settings.speed_after < settings.duration:
+        raise AnalysisError(f"{path}: speed.after is {settings.speed_after:g} s of a test of {settings.duration:g} s")
 
 
 def _check_bands(settings: Settings) -> None:

@@ -20,8 +20,21 @@ def test_the_papers_settings():
     ("old", "new", "message"),
     [
         ("[fault]", "[fault", "Expected ']'"),
-        ("duration = 1.0", "length = 1.0", "'duration' is missing|duration is missing"),
-        ("step = 0.01", "step = -1.0", "step above zero"),
+        ("duration = 1.0", "", "recording.duration is missing"),
+        ("duration = 1.0", "length = 1.0", "recording.length is not known"),
+        ("step = 0.01", "step = -1.0", "fault.step is -1.0, not a number above zero"),
+        ("step = 0.01", "step = nan", "fault.step is nan, not a number above zero"),
+        ("step = 0.01", "step = 1e-9", "more than 100000 tests"),
+        ("sampling_rate = 100000.0", "sampling_rate = 1e9", "more than 1024 MB a test"),
+        ("after = 0.3", "after = 1.0", "speed.after is 1 s of a test of 1 s"),
+        ('parameter = "zeta"', "parameter = []", "fault.parameter is"),
+        ("scale = 100", 'scale = "x"', "fault.scale is 'x'"),
+        ("parameters = []", 'parameters = ["V"]', "1 parameters, but 0 of values"),
+        ('name = "ida"', 'name = "rk4"', "solver.name is 'rk4', not a solver of tests"),
+        ("overlap = 0.67", "overlap = true", "overlap is True"),
+        ("[fault]", "[[fault]]", "fault is a table"),
+        ("[filter]", "[filters]", "there is no table .filters.; did you mean filter"),
+        ("spread = [0.4]", "spread = [0.4, 0.1]", "1 parameters, but 2 of spread"),
         ("sampling_rate = 100000.0", 'sampling_rate = "fast"', "fast"),
         ('mode = "Normal"', 'state = "Normal"', "state"),
         ("overlap = 0.67", 'overlap = "much"', "much"),
@@ -36,7 +49,8 @@ def test_slips_name_the_file_and_the_entry(tmp_path, old, new, message):
 
 
 def test_tables_that_only_some_uses_need(tmp_path):
-    settings = paper_settings(tmp_path, ("[filter]", "[other]"), ("improbable", "unlikely"))
+    gone = ("[filter]", "# [filter]"), ("corner", "# corner"), ("sections = 3", ""), ("improbable", "# improbable")
+    settings = paper_settings(tmp_path, *gone)
     with pytest.raises(AnalysisError, match=r"table \[filter\] is missing"):
         settings.table("filter")
     with pytest.raises(AnalysisError, match=r"assessment\.improbable is missing"):

@@ -1,0 +1,133 @@
+"""What a settings file may hold: its tables, their entries, and what each entry can be."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+import math
+from pathlib import Path
+from typing import Any
+
+from lacuna.analysis.errors import AnalysisError
+from lacuna.suggest import did_you_mean
+
+
+@dataclass(frozen=True)
+class Rule:
+    """`what` an entry is, in words, and whether a value `holds` to it."""
+
+    what: str
+    holds: Callable[[Any], bool]
+
+
+def _number(what: str, holds: Callable[[float], bool]) -> Rule:
+    def finite(value: Any) -> bool:
+        return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+
+    return Rule(f"a number{what}", lambda value: finite(value) and holds(value))
+
+
+def _several(rule: Rule) -> Rule:
+    return Rule(f"a list, each entry {rule.what}", lambda v: isinstance(v, list) and all(map(rule.holds, v)))
+
+
+ADAPTIVE = ("ida", "dopri5", "rodas4")  # solvers that need no step, which settings do not have
+TEXT = Rule("a text", lambda value: isinstance(value, str))
+NAME = Rule("the name of something, a text", lambda value: isinstance(value, str) and bool(value.strip()))
+NUMBER = _number("", lambda value: True)
+POSITIVE = _number(" above zero", lambda value: value > 0)
+NOT_NEGATIVE = _number(" of zero or more", lambda value: value >= 0)
+COUNT = _number(", whole and above zero", lambda value: value > 0 and float(value).is_integer())
+TOLERANCE = _number(" above 0 and below 1", lambda value: 0 < value < 1)
+SHARE = _number(" above 0 and at most 1", lambda value: 0 < value <= 1)
+PART = _number(" of at least 0 and below 1", lambda value: 0 <= value < 1)
+SOLVER = Rule(f"a solver of tests ({', '.join(ADAPTIVE)})", lambda value: value in ADAPTIVE)
+PADDING = Rule("one of none, section, record", lambda value: value in ("none", "section", "record"))
+NAMES, NUMBERS = _several(NAME), _several(NUMBER)
+PAIR = Rule("two numbers, before and after the switch", lambda value: NUMBERS.holds(value) and len(value) == 2)
+
+_FAULT = {
+    "parameter": NAME, "symbol": NAME, "name": TEXT, "unit": TEXT, "scale": POSITIVE, "first": NUMBER, "last": NUMBER,
+    "step": POSITIVE, "healthy?": NUMBER, "limits?": NUMBERS,
+}  # fmt: skip
+TABLES: dict[str, dict[str, Rule]] = {  # an entry that ends with ? may be left out
+    "actuator": {
+        "model": NAME, "test?": TEXT, "parameters?": NAMES, "values?": NUMBERS, "pole_pairs?": POSITIVE,
+        "strongest_angle?": NUMBER,
+    },
+    "fault": _FAULT,
+    "recording": {"sampling_rate": POSITIVE, "duration": POSITIVE},
+    "signals": {"currents": NAMES, "speed": NAME, "angle": NAME},
+    "spectrum": {"section": SHARE, "overlap": PART, "padding": PADDING},
+    "first_peak": {"above": NOT_NEGATIVE, "threshold": PART},
+    "speed": {"after": NOT_NEGATIVE},
+    "solver": {"name": SOLVER, "relative_tolerance": TOLERANCE, "absolute_tolerance": TOLERANCE},
+}  # fmt: skip
+OPTIONAL: dict[str, dict[str, Rule]] = {  # tables that not every use needs
+    "published": {"first_peak_hz": PAIR, "first_peak_bin": PAIR, "switch": NUMBER, "ordering": TEXT},
+    "filter": {"corner": POSITIVE, "sections": COUNT},
+    "assessment": {
+        "model?": NAME, "solver?": SOLVER, "conditions?": COUNT, "every?": COUNT, "sensor_gain?": NOT_NEGATIVE,
+        "sensor_offset?": NOT_NEGATIVE, "sensor_noise?": NOT_NEGATIVE, "converter_step?": NOT_NEGATIVE,
+        "floor?": NOT_NEGATIVE, "frequency_floor?": NOT_NEGATIVE, "maintenance?": NUMBER, "improbable?": PART,
+        "doubtful?": PART,
+    },
+}  # fmt: skip
+LISTS: dict[str, dict[str, Rule]] = {  # tables of which there may be several
+    "bands": {"name": NAME, "mode": TEXT, "first": NUMBER, "last": NUMBER, "action?": TEXT, "published_rise?": NUMBER},
+    "nuisances": {"name": TEXT, "parameters": NAMES, "spread?": NUMBERS, "shift?": NUMBERS},
+    "combined": _FAULT,
+    "strangers": {"name": TEXT, "parameters": NAMES, "factor?": NUMBERS, "value?": NUMBERS},
+}
+
+
+def check(raw: dict[str, Any], path: Path) -> None:
+    """Raises AnalysisError naming `path` and the first entry that is missing, unknown, or not what it can be."""
+    known = {"title": TEXT}, TABLES, OPTIONAL, LISTS
+    for name in raw:
+        if not any(name in names for names in known):
+            _unknown(f"{path}: there is no table [{name}]", name, [n for names in known for n in names])
+    _entries(f"{path}: ", {k: v for k, v in raw.items() if k == "title"}, {"title": TEXT})
+    for name, rules in (TABLES | OPTIONAL).items():
+        if name in raw or name in TABLES:
+            _entries(f"{path}: {name}.", _table(path, raw, name), rules)
+    for name, rules in LISTS.items():
+        tables = raw.get(name, [])
+        if not isinstance(tables, list) or not all(isinstance(table, dict) for table in tables):
+            raise AnalysisError(f"{path}: {name} are tables: each begins with [[{name}]]")
+        for number, table in enumerate(tables, start=1):
+            _entries(f"{path}: {name}[{number}].", table, rules)
+            _equally_many(f"{path}: {name}[{number}]", table)
+    _equally_many(f"{path}: actuator", raw["actuator"])
+
+
+def _table(path: Path, raw: dict[str, Any], name: str) -> dict[str, Any]:
+    if name not in raw:
+        raise AnalysisError(f"{path}: table [{name}] is missing")
+    if not isinstance(raw[name], dict):
+        raise AnalysisError(f"{path}: {name} is a table: it begins with [{name}]")
+    return raw[name]
+
+
+def _entries(place: str, table: dict[str, Any], rules: dict[str, Rule]) -> None:
+    known = {name.rstrip("?"): rule for name, rule in rules.items()}
+    for name, value in table.items():
+        if name not in known:
+            _unknown(f"{place}{name} is not known", name, list(known))
+        if not known[name].holds(value):
+            raise AnalysisError(f"{place}{name} is {value!r}, not {known[name].what}")
+    for name in rules:
+        if name not in table and not name.endswith("?"):
+            raise AnalysisError(f"{place}{name} is missing")
+
+
+def _unknown(message: str, name: str, known: list[str]) -> None:
+    raise AnalysisError(f"{message}; {did_you_mean(name, known, 'there is ' + ', '.join(known))}")
+
+
+def _equally_many(place: str, table: dict[str, Any]) -> None:
+    """Of lists that go together, parameters and what becomes of each."""
+    parameters = table.get("parameters", [])
+    for name in ("values", "spread", "shift", "factor", "value"):
+        if name in table and len(table[name]) != len(parameters):
+            raise AnalysisError(f"{place}: {len(parameters)} parameters, but {len(table[name])} of {name}")
