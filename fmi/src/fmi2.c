@@ -17,9 +17,8 @@ static fmi2Status status(bool done) {
 }
 
 static void say(fmu *f, const char *message) {
-  const fmi2CallbackFunctions *callbacks = f->logger.callbacks;
-  if (callbacks && callbacks->logger)
-    callbacks->logger(f->environment, f->name ? f->name : "", fmi2Error, "logStatusError", "%s", message);
+  fmi2CallbackLogger log = (fmi2CallbackLogger)f->logger;
+  if (log) log(f->environment, f->name ? f->name : "", fmi2Error, "logStatusError", "%s", message);
 }
 
 const char *fmi2GetTypesPlatform(void) {
@@ -42,8 +41,10 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
   component *c = calloc(1, sizeof *c);
   if (!c) return NULL;
   fmu *f = &c->base;
-  f->logger.callbacks = callbacks;
-  f->environment = callbacks ? callbacks->componentEnvironment : NULL;
+  if (callbacks) { /* copied: an importer may reuse its struct, as fmusim does */
+    f->logger = (void (*)(void))callbacks->logger;
+    f->environment = callbacks->componentEnvironment;
+  }
   f->say = say;
   f->logging = logging;
   f->co_simulation = type == fmi2CoSimulation;

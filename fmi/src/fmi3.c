@@ -11,7 +11,7 @@ static fmi3Status status(bool done) {
 }
 
 static void say(fmu *f, const char *message) {
-  fmi3LogMessageCallback log = (fmi3LogMessageCallback)f->logger.plain;
+  fmi3LogMessageCallback log = (fmi3LogMessageCallback)f->logger;
   if (log) log(f->environment, fmi3Error, "logStatusError", message);
 }
 
@@ -30,7 +30,7 @@ static fmi3Instance instantiate(const char *name, const char *token, bool loggin
   fmu *f = calloc(1, sizeof *f);
   if (!f) return NULL;
   f->environment = environment;
-  f->logger.plain = (void (*)(void))log;
+  f->logger = (void (*)(void))log;
   f->say = say;
   f->logging = logging;
   f->co_simulation = co_simulation;

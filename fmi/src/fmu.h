@@ -49,10 +49,7 @@ typedef struct fmu {
   bool logging;
   void *environment;
   void (*say)(struct fmu *f, const char *message);
-  union {
-    void (*plain)(void);
-    const void *callbacks;
-  } logger; /* of the importer */
+  void (*logger)(void); /* of the importer, as its version of the interface has it */
   char *name;
 } fmu;
 

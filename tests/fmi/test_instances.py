@@ -3,10 +3,12 @@ what is refused."""
 
 from __future__ import annotations
 
+import ctypes
 from pathlib import Path
 import subprocess
 import zipfile
 
+from fmpy import fmi2
 import numpy as np
 import pytest
 
@@ -187,6 +189,17 @@ def test_a_value_that_cannot_be_is_refused_with_the_reason(
         fmu.setFloat64([fmu.vr[name]], [value])
     captured = capfd.readouterr()
     assert said in captured.out + captured.err
+
+
+def test_a_reason_reaches_an_importer_that_has_reused_the_struct_of_its_functions(fmus: Fmus) -> None:
+    said: list[bytes] = []
+    functions = fmi2.fmi2CallbackFunctions()
+    functions.logger = logger = fmi2.fmi2CallbackLoggerTYPE(lambda *words: said.append(words[-1]))
+    with fmus.instance("BouncingBall", "me", "2.0", callbacks=functions) as fmu:
+        ctypes.memset(ctypes.byref(functions), 0, ctypes.sizeof(functions))
+        with pytest.raises(Exception, match="failed"):
+            fmu.setReal([fmu.vr["e"]], [1.5])
+    assert logger and len(said) == 1
 
 
 def test_what_cannot_be_exported_is_refused(tmp_path: Path) -> None:
