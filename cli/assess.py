@@ -14,7 +14,9 @@ from lacuna.cli.answer import Answer, answered
 
 @answered
 def assess(
-    recording: Annotated[Path, typer.Argument(help="CSV or MAT file of the recorded test: time first, SI units")],
+    recording: Annotated[
+        Path, typer.Argument(help="The recorded test: time and phase currents, in any format that is read")
+    ],
     map: Annotated[
         Path, typer.Option(help="Folder of the actuator's map, made by `lacuna maps --prepare` or `--with`")
     ] = Path("out/maps/paper"),

@@ -87,7 +87,7 @@ def simulate(
     folder = out or default_folder("simulate", class_name or model)
     written = result.save(folder / f"{file_name(result.model)}.{format}")
     written += result.save_plot(written[0].with_suffix(".svg"), *(signal or [])) if plot else []
-    return Answer(_data(result), [_table(result, solver)], written, loaded.warnings, failure)
+    return Answer(_data(result), [_table(result, solver)], written, loaded.warnings + result.warnings, failure)
 
 
 def _drawn(model: str, loading: dict[str, Any], running: dict[str, Any]) -> Any:

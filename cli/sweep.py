@@ -43,4 +43,5 @@ def sweep(
             scheduler=scheduler, chunk=chunk, out=out, progress=tell,
         )  # fmt: skip
     data = {"tests": len(done), "failed": len(done.failures), "columns": done.names}
-    return Answer(data, [f"{len(done)} tests, {len(done.failures)} failed"], [done.path, done.report])
+    failure = f"no test succeeded; the first: {done.failures[0]}" if len(done.failures) == len(done) else ""
+    return Answer(data, [f"{len(done)} tests, {len(done.failures)} failed"], [done.path, done.report], failure=failure)

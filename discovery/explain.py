@@ -102,9 +102,10 @@ def _conclude(result: Explanation) -> None:
 
 
 def _is_colour(result: Explanation) -> bool:
-    """Whether noise of an unknown level, with a colour of its own, says as much as what was found in it."""
+    """Whether errors of instruments with a memory, noise of an unknown level or what is beside a known one, say as much
+    as what was found in them."""
     case, base = result.case, (replace(result.amendment, attachments=[]), result.base)
-    if not result.lead.direct or not only_instruments(case, *base):
+    if not result.lead.direct or not (within_instruments(result.base) or only_instruments(case, *base)):
         return False
     picked = sum(f.ranked.candidate.pick for f in result.findings)
     return gained(case, base, (result.amendment, result.final)) < NATS + picked

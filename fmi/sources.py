@@ -15,6 +15,7 @@ _HERE = Path(__file__).resolve().parent
 _RUNTIME = _HERE.parent / "runtime"
 _OTHERS = {
     "ida.c",
+    "ida_dense.c",
     "ida_failure.c",
     "ida_matrix.c",
     "ida_tangent.c",

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from lacuna.errors import UserError
 from lacuna.extras import names_missing_packages
 from lacuna.notebook import page, table
 from lacuna.progress import Progress, counted
@@ -93,17 +94,19 @@ def sweep(
 
     `actuator` is a model as `load` takes it, by default that of the settings' tests; `scheduler` the address of a Dask
     scheduler, by default this machine; `chunk` the tests a task. It goes on where it stopped, whatever was lost, from
-    what is in `out` (default: out/sweeps/NAME of the settings). Raises AnalysisError where the settings or the
-    scheduler cannot be used. results.parquet and report.html are written to `out`. Needs the extras `distributed` and
-    `maps`.
+    what is in `out` (default: out/sweeps/NAME of the settings). Raises UserError or AnalysisError where the solver, the
+    settings or the scheduler cannot be used. results.parquet and report.html are written to `out`. Needs the extras
+    `distributed` and `maps`.
     """
     from lacuna.analysis.campaign.points import sobol_points
     from lacuna.analysis.campaign.run import run_campaign
     from lacuna.analysis.campaign.work import Work
     from lacuna.analysis.map.plant import ModelPlant
     from lacuna.analysis.report import sweep as report
-    from lacuna.analysis.settings import PAPER, load_settings
+    from lacuna.analysis.settings import ADAPTIVE, PAPER, load_settings
 
+    if solver not in ADAPTIVE:
+        raise UserError(f"a sweep is solved by {', '.join(ADAPTIVE)}, not by {solver}")
     chosen = load_settings(settings or PAPER)
     compiled = Source.of(actuator or chosen.disturbed_model, class_name, libraries).compiled()
     plant = ModelPlant.of(compiled, chosen)

@@ -32,8 +32,13 @@ def degradation_laws(folders: Sequence[Path | str] = ()) -> list[Law]:
         for name in library.members(package)
         if (cls := library.member(package, name)) is not None
     ]
-    for path in (p for folder in folders for p in _files(Path(folder))):
-        members += [(cls, str(path)) for cls in library.parse_file(path)]
+    for folder in map(Path, folders):
+        given = [(cls, str(path)) for path in _files(folder) for cls in library.parse_file(path)]
+        if not any(_annotation(cls) is not None for cls, _ in given):
+            raise AnalysisError(
+                f"{folder}: declares no degradation law: none has annotation(__Lacuna(law=..., rate=...))"
+            )
+        members += given
     found: dict[str, list[Law]] = {}
     for cls, name in members:
         fields = _annotation(cls)

@@ -268,7 +268,7 @@ def assess(
     """The severity that a recorded pre-flight test shows, by a map that was prepared for it; by a map over two faults,
     both.
 
-    `recording` is a CSV or MAT file: time first, SI units, phase currents in `columns` (in the map's order; default:
+    `recording` is in any format that is read: time and phase currents in `columns` (in the map's order; default:
     the map's own names), `unfiltered` where they did not pass the map's filters. With `out`, assessment.json, a
     figure and report.html are written there. Raises Refusal with the reason where the map does not cover the
     recording. Needs the extra `maps`.

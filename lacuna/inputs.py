@@ -52,6 +52,20 @@ def as_inputs(given: Mapping[str, Input], variables: Mapping[str, Variable]) -> 
     return {name: _one(name, value, variables) for name, value in given.items()}
 
 
+def uncovered(given: Mapping[str, Input], start: float, stop: float) -> list[str]:
+    """A warning for each input whose samples end more than one sample's spacing before the run from `start` to `stop`
+    (s) does, or begin later than it: there a sample is held."""
+    said = []
+    for name, value in given.items():
+        if not isinstance(value, RecordedInput) or len(value.time) < 2:
+            continue
+        first, last = float(value.time[0]), float(value.time[-1])
+        if first - start > value.time[1] - first or stop - last > last - value.time[-2]:
+            span = f"samples from {first:g} to {last:g} s, a run from {start:g} to {stop:g} s"
+            said.append(f"warning: input {name}: {span}; outside of them the first or last value is held")
+    return said
+
+
 def _one(name: str, value: Input, variables: Mapping[str, Variable]) -> RecordedInput | float:
     if isinstance(value, tuple):
         times, values = value

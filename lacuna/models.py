@@ -18,7 +18,7 @@ from lacuna.codegen.flatten import flatten
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.structure.report import dump as dump_structure
 from lacuna.errors import UserError
-from lacuna.inputs import Input, as_inputs
+from lacuna.inputs import Input, as_inputs, uncovered
 from lacuna.notebook import page, table
 from lacuna.progress import Progress, silent, watching
 from lacuna.results import IncompleteRun, Result
@@ -26,6 +26,7 @@ import lacuna.runtime as runtime
 from lacuna.sources import Source, Units
 
 Solver = Literal["ida", "dopri5", "rodas4", "rk4", "euler"]
+FIXED_STEP = ("rk4", "euler")
 Dump = Literal["flat", "structure", "c"]
 POINTS = 500  # rows of a run whose model and caller name no interval, as Modelica tools have it
 NO_VALUE = "F023"  # the code of a parameter without a value, which the caller may give
@@ -196,7 +197,7 @@ class Model:
         self, times: np.ndarray, outputs: Sequence[str], inputs: Mapping[str, Input], progress: Progress | None = None
     ) -> runtime.Result:
         """A run with rows at `times` (s, [rows]) and nothing else."""
-        self._refuse_parameters(inputs)
+        self._refuse(inputs, None, "")
         begin, end = float(times[0]), float(times[-1])
         return runtime.simulate(
             self._model, parameters=self._values, inputs=as_inputs(inputs, self.variables), start=begin, stop=end,
@@ -250,13 +251,12 @@ class Model:
         initial values, by which all outputs are differentiated (ida and dopri5): see `Result.sensitivity`. `progress`
         is told the share of the time that is simulated, about ten times a second; what it raises ends the run.
 
-        Raises UserError or SimulationError for what cannot be used, IncompleteRun (with what there is) where the run
-        ends early.
+        Raises UserError or SimulationError for what cannot be used, IncompleteRun (with its rows) where it ends early.
         """
         model = self.with_parameters(parameters or {})
         begin = model.start_time if start is None else start
         end = model.stop_time if stop is None else stop
-        model._refuse_parameters(inputs or {})
+        model._refuse(inputs or {}, None if solver in FIXED_STEP else step, solver)
         clock = time.perf_counter()
         run = runtime.simulate(
             model.differentiated if sensitivities else model._model, parameters=model._values,
@@ -266,12 +266,16 @@ class Model:
             sensitivities=sensitivities, watch=watching(f"simulating {self.name}", begin, end, progress),
         )  # fmt: skip
         result = Result(run, None if outputs is None else list(outputs), time.perf_counter() - clock)
+        result.warnings += uncovered(inputs or {}, begin, end)
         if not result.complete:
             raise IncompleteRun(result)
         (progress or silent)(f"simulating {self.name}", 1.0)
         return result
 
-    def _refuse_parameters(self, inputs: Iterable[str]) -> None:
+    def _refuse(self, inputs: Iterable[str], step: float | None, solver: str) -> None:
+        """Raises UserError for parameters among the inputs, or a step for a solver that takes none."""
+        if step is not None:
+            raise UserError(f"{solver} chooses its steps itself: a step is for {' and '.join(FIXED_STEP)}")
         for name in inputs:
             if name in self.parameters:
                 raise UserError(f"{name} is a parameter of {self.name}, not an input: set it by parameters, or -p")

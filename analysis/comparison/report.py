@@ -54,19 +54,29 @@ def order_text(study: Study, family: str) -> str:
 
 
 def findings(studies: Sequence[Study]) -> list[str]:
-    """What the studies show, in sentences: the orders, what location does for them, how event times agree."""
-    said = []
+    """What the studies show, in sentences: how near variable steps are, the orders, how event times agree."""
+    said = _variable(studies)
     for family in dict.fromkeys(family for study in studies for family in study.orders):
         on_course = [s.orders[family] for s in studies if family in s.orders and family not in s.off_course]
         known = [order for order in on_course if not np.isnan(order)]
         if known:
             span = " to ".join(dict.fromkeys(f"{order:.2f}" for order in (min(known), max(known))))
             said.append(f"{family}: order {span}, {len(known)} of {_scenarios(len(studies))}")
-    variable = [lane for study in studies for lane in study.lanes if _counts(lane)]
-    if variable:
-        worst = max(signal.relative for lane in variable for signal in lane.signals)
-        said.append(f"variable step at 1e-6 or tighter: signals within {worst:.1e} of the reference, relative")
     return said + _on_events([s for s in studies if _has_events(s)])
+
+
+def _variable(studies: Sequence[Study]) -> list[str]:
+    variable = [lane for study in studies for lane in study.lanes if _counts(lane)]
+    failed = sum(lane.failure is not None for study in studies for lane in study.lanes)
+    said = []
+    if variable:
+        signals = max(signal.relative for lane in variable for signal in lane.signals)
+        matched = [lane.events.maximum for lane in variable if lane.events.matched]
+        times = f", event times within {max(matched):.1e} s" if matched else ""
+        said.append(
+            f"variable steps at 1e-6 or tighter: signals within {signals:.1e} of the reference, relative{times}"
+        )
+    return said + [f"{failed} run{'s' * (failed != 1)} failed: the tables say why"] * bool(failed)
 
 
 def _has_events(study: Study) -> bool:

@@ -14,6 +14,7 @@ from lacuna.analysis.errors import AnalysisError
 from lacuna.given import parsed_toml, text_of
 
 PAPER = Path(__file__).with_name("paper.toml")
+ADAPTIVE = ("ida", "dopri5", "rodas4")  # solvers that need no step, which settings do not have
 
 
 @dataclass(frozen=True)
@@ -136,6 +137,8 @@ def settings_of(text: str, path: Path) -> Settings:
         raise AnalysisError(f"{path}: {error}") from None
     if settings.fault.step <= 0 or settings.fault.last < settings.fault.first:
         raise AnalysisError(f"{path}: [fault] needs first <= last and step above zero")
+    if settings.solver not in ADAPTIVE:
+        raise AnalysisError(f"{path}: solver.name is {settings.solver!r}; tests are solved by {', '.join(ADAPTIVE)}")
     _check_bands(settings)
     return settings
 

@@ -9,6 +9,7 @@ import re
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.syntax import parse
+from lacuna.codegen.syntax.lexer import is_name
 from lacuna.given import require_file
 from lacuna.suggest import did_you_mean
 
@@ -40,7 +41,15 @@ def split_name(name: str) -> tuple[Path | None, str]:
         return Path(place), inner
     if name.endswith(".mo") or os.sep in name or is_file(Path(name) / PACKAGE_FILE):
         return Path(name), ""
-    return None, name
+    named = all(map(is_name, name.split("."))) or not Path(name).is_dir()
+    return (None, name) if named else (Path(name), "")
+
+
+def absent(name: str, known: list[str]) -> str:
+    """What to do where no class is called `name` and none of `known` is like it."""
+    if name == "Modelica":
+        return "name the folder of the Modelica Standard Library by --library, or in MODELICAPATH"
+    return f"there is {', '.join(known[:12])}" if known else ""
 
 
 def outermost(folder: Path) -> Path | None:

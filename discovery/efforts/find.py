@@ -1,7 +1,8 @@
 """The law of a missing effort: located, screened as a regression, fitted by output error, simplified.
 
-Places are taken by their evidence. Where the law found at one leaves noise, only places that the evidence does not
-tell from it are tried beside it, so that a tie is said as one.
+Places are taken by their evidence. Where a law of one term found at one leaves noise, only places that the evidence
+does not tell from it are tried beside it, so that a tie is said as one. Where it takes two, they may stand for a short
+one at another place: an effort of any course, by which places are ranked, does not know which courses are simple.
 """
 
 from __future__ import annotations
@@ -65,13 +66,16 @@ def find(
     except (NotNumeric, SimulationError, np.linalg.LinAlgError) as reason:
         return Found(reason=str(reason))
     efforts = [s for s in found.sites if s.place is not None and s.gain > 0 and admitted(s.location)]
+    short = False
     for site in efforts[:PLACES]:
-        enough = bool(found.laws) and nearly_noise(found.laws[0].fit)
+        enough = short and nearly_noise(found.laws[0].fit)
         if efforts[0].gain - site.gain > INDIFFERENT and (enough or site.gain < WORTH * efforts[0].gain):
             break
-        law, single = _law_at(case, amendment, base, locator, site, progress)
-        _put(found.laws, law, base)
+        proposal, single = _law_at(case, amendment, base, locator, site, progress)
+        _put(found.laws, proposal and proposal.candidate, base)
         _put(found.single, single, base)
+        if proposal is not None and found.laws[0] is proposal.candidate:
+            short = _terms(proposal) == 1
     return found
 
 
@@ -95,7 +99,7 @@ def _ranked(locator: Locator, base: Fit) -> list[Site]:
 
 def _law_at(
     case: Case, amendment: Amendment, base: Fit, locator: Locator, site: Site, progress: Progress
-) -> tuple[Candidate | None, Candidate | None]:
+) -> tuple[Proposal | None, Candidate | None]:
     """The best law at a place: of one group of terms, or of two where one does not leave noise; and, where it is of two
     that are not a level and one term, the best of one."""
     try:
@@ -117,8 +121,13 @@ def _law_at(
         single = best if size == 1 else single
     if best is None:
         return None, None
-    apart = best is not single and all(g.texts != ("1",) for g in best.law.groups)
+    apart = best is not single and _terms(best) > 1
     return simplified(case, amendment, base, best), single.candidate if apart and single else None
+
+
+def _terms(proposal: Proposal) -> int:
+    """Groups of terms beside a constant: zero of a temperature is anywhere."""
+    return sum(g.texts != ("1",) for g in proposal.law.groups)
 
 
 def _best(fitted: list[Proposal], base: Fit) -> Proposal | None:

@@ -19,7 +19,7 @@ from lacuna.discovery.efforts.located import SIZES, TIMES, Locator, thinned_all
 from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.efforts.smoother import Colour, Latent, Piece, evidence
-from lacuna.discovery.fit.evidence import may_be_coloured
+from lacuna.discovery.fit.evidence import INSTRUMENTS, may_be_coloured
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.naming.comparison import MIN_GAIN
 from lacuna.runtime import SimulationError
@@ -76,9 +76,11 @@ def colour_of(locator: Locator) -> Colour:
 
 
 def _worst(locator: Locator) -> np.ndarray:
-    """(outputs,) the largest errors that instruments of these spans have, in SI units."""
+    """(outputs,) the largest errors with a memory that instruments have, by their spans or by noise that is given."""
     courses = [[r.columns[s.column] for r in locator.case.fit] for s in locator.case.outputs]
-    return WORST * np.array([np.nanmax(np.concatenate(c)) - np.nanmin(np.concatenate(c)) for c in courses])
+    spans = np.array([np.nanmax(np.concatenate(c)) - np.nanmin(np.concatenate(c)) for c in courses])
+    given = np.array([locator.base.noise[s.column].given for s in locator.case.outputs])
+    return np.where(given, np.sqrt(INSTRUMENTS**2 - 1.0) * locator.noise, WORST * spans)
 
 
 _NOTHING = Latent(

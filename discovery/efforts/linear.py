@@ -22,6 +22,7 @@ from lacuna.discovery.efforts.numeric import Evaluator, NotNumeric, Value, table
 from lacuna.discovery.fit.machine import Machine
 from lacuna.runtime import RecordedInput
 
+ROUNDING = 1e-9  # of the terms of a sum that cancels: far above what double precision leaves, far below any answer
 NEWTON = 4  # rounds at most; the trajectory solves the equations, only the derivatives are to be found
 
 
@@ -105,6 +106,8 @@ class Linear:
             [table(self._by_state, states, evaluator, n), table(self._by_column, columns, evaluator, n)], axis=2
         )
         answer = -np.linalg.solve(matrix, right)
+        acting = slice(states, states + len(self.inputs))
+        answer[:, :, acting] = _without_rounding(answer[:, :, acting], matrix, right[:, :, acting])
         a, b = answer[:, :states, :states], answer[:, :states, states:]
         step, drive = _discrete(a, b, np.diff(recording.time))
         read, feed = self._outputs(answer, n)
@@ -178,6 +181,13 @@ class Linear:
             elif kept not in self.prepared.storage.inputs:
                 raise NotNumeric(f"{name} is no state and no algebraic variable")
         return both[:, :, :states], both[:, :, states:]
+
+
+def _without_rounding(answer: np.ndarray, matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
+    """Answers (n, u, b) with zero where terms cancel but for their rounding, in any units: an effort that does nothing
+    there, as what is pushed into an ideal source."""
+    terms = np.abs(np.linalg.inv(matrix)) @ np.abs(right)
+    return np.where(np.abs(answer) > ROUNDING * terms, answer, 0.0)
 
 
 def _partials(residual: Expr, leaves: list[Expr]) -> dict[int, Expr]:

@@ -26,18 +26,20 @@ from lacuna.discovery.fit.machine import Machine, write_source
 from lacuna.units import Unit
 
 ALIKE = 1e-5  # of a direction, by which two places may differ: rounding of the linearisation
-SILENT = 1e-9  # share of the strongest place's effect, below which a place has none
 _ORDER = {"node": 0, "equation": 1, "branch": 2, "edge": 3}
 
 
 @dataclass(frozen=True)
 class Place:
-    """Sites that the data cannot tell apart, the one that an amendment uses first; `column` is its input's."""
+    """Sites that the data cannot tell apart, the one that an amendment uses first; `column` is its input's. `other` are
+    those of them where the same is done by an effort of another course: a law may be short in the one and long in the
+    other (the command of a valve, and what flows through it)."""
 
     location: str
     sites: tuple[Site, ...]
     column: int
     unit: str
+    other: tuple[Place, ...] = ()
 
 
 @dataclass
@@ -55,7 +57,7 @@ class Opened:
         size = np.sqrt(np.mean(np.sum(effect**2, axis=1), axis=0))
         unit = effect / np.maximum(np.sqrt(np.sum(effect**2, axis=1, keepdims=True)), 1e-300)
         groups: list[list[int]] = []
-        for k in np.flatnonzero(size > SILENT * size.max(initial=0.0)):
+        for k in np.flatnonzero(size > 0):
             for group in groups:
                 cosine = np.abs(np.sum(unit[:, :, k] * unit[:, :, group[0]], axis=1))
                 if np.mean(1.0 - cosine) < ALIKE:
@@ -83,7 +85,9 @@ class Opened:
         chosen = order[0]
         if all(self.sites[k].kind == "branch" for k in group):  # between two balances: it is the component's
             location = self.sites[chosen].label
-        return Place(location, tuple(self.sites[k] for k in order), chosen, self._unit(chosen))
+        place = Place(location, tuple(self.sites[k] for k in order), chosen, self._unit(chosen))
+        other = [replace(place, sites=(self.sites[k],), column=k, unit=self._unit(k)) for k in _other(effect, order)]
+        return replace(place, other=tuple(other))
 
     def _unit(self, number: int) -> str:
         site, variables = self.sites[number], self.machine.model.variables
@@ -104,6 +108,22 @@ class Opened:
         inference = UnitInference(lambda e: _declared_unit(declared.variables, str(e.value)), lambda name: "")
         found = inference.of(equation.lhs)
         return str(found) if isinstance(found, Unit) and found.factor == 1.0 else ""
+
+
+def _other(effect: np.ndarray, order: list[int]) -> list[int]:
+    """Of sites alike (in `order`), those whose strength changes along the recording, measured by that of the first and
+    of the ones before them."""
+    strengths = np.linalg.norm(effect, axis=1)
+    kept = [order[0]]
+    for k in order[1:]:
+        if all(_parts(strengths[:, k], strengths[:, n]) for n in kept):
+            kept.append(k)
+    return kept[1:]
+
+
+def _parts(one: np.ndarray, other: np.ndarray) -> bool:
+    """Whether two courses are no multiples of each other."""
+    return float(one @ other) ** 2 < (1.0 - ALIKE) * float(one @ one) * float(other @ other)
 
 
 def _declared_unit(variables: Mapping, name: str) -> object:

@@ -57,7 +57,7 @@ def find(
         if after > before - 2 * np.log(len(proposals)):  # ln of the squared number of terms that were looked at
             break
         best = chosen
-    return None if best is None else simplified(case, amendment, base, best)
+    return None if best is None else simplified(case, amendment, base, best).candidate
 
 
 def fitted_law(
@@ -90,7 +90,7 @@ def _free(law: Law, attachment: Attachment, start: dict[str, float]) -> list[Fre
     return free
 
 
-def simplified(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> Candidate:
+def simplified(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> Proposal:
     """The law without coefficients that may be zero, and with whole exponents and orders where the data allows them."""
     shorter: list[Proposal] = []
     for simpler in _simpler(best):
@@ -98,7 +98,7 @@ def simplified(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> C
         shorter += [simpler] if simpler.candidate is not None else []
     correlation = best.candidate.fit.correlation()
     chosen = min([best, *shorter], key=lambda p: score(p.candidate, base, correlation))
-    return best.candidate if chosen is best else simplified(case, amendment, base, chosen)
+    return best if chosen is best else simplified(case, amendment, base, chosen)
 
 
 def _simpler(proposal: Proposal) -> list[Proposal]:

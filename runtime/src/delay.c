@@ -135,7 +135,7 @@ int rt_at_nodes(rt_session *s, rt_point_values values, int count, double *at_nod
   int status = values(&s->data, s->t, s->data.x, s->data.xdot, s->data.v, at_node + (NODES - 1) * count);
   for (int i = NODES - 2; i > 0 && !status; i--) {
     double t = s->t_previous + node[i] * (s->t - s->t_previous);
-    rt_dense_point(s, t, false, s->x_trial);
+    rt_dense_point(s, t, s->x_trial);
     status = rt_rhs(s, t, s->x_trial, s->xdot_trial, s->v_trial);
     if (!status) status = values(&s->data, t, s->x_trial, s->xdot_trial, s->v_trial, at_node + i * count);
   }

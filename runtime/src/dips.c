@@ -25,7 +25,7 @@ static double bent(const rt_session *s, int r, double sign, double h, double c) 
  * through the last three points with four times its curvature, or what that has changed by since the step before; there
  * is no third point after a restart, so then it could. */
 bool rt_may_dip(const rt_session *s, double end) {
-  if (rt_all_shaped(s)) return false;
+  if (s->shaped && s->all_affine) return false;
   if (isnan(s->t_before)) return true;
   double h = end - s->t_previous, before = s->t_previous - s->t_before, where;
   double weight = 2 * h / (h + before), back = weight * h / before;

@@ -44,6 +44,7 @@ static void destroy(void *p) {
     if (vectors[i]) N_VDestroy(vectors[i]);
   if (m->context) SUNContext_Free(&m->context);
   free(m->values);
+  free(m->past);
   free(m);
 }
 
@@ -81,7 +82,8 @@ static void *create(rt_session *s) {
   rt_ida *m = calloc(1, sizeof *m);
   if (!m) return NULL;
   m->values = calloc((size_t)s->d->jac_nnz + 1, sizeof *m->values);
-  if (m->values && SUNContext_Create(SUN_COMM_NULL, &m->context) == 0 && create_vectors(s, m) &&
+  m->past = calloc(RT_IDA_POINTS * (size_t)s->d->n_x, sizeof *m->past);
+  if (m->values && m->past && SUNContext_Create(SUN_COMM_NULL, &m->context) == 0 && create_vectors(s, m) &&
       (m->ida = IDACreate(m->context)) && IDAInit(m->ida, residual, 0, m->y, m->yp) == IDA_SUCCESS &&
       set_options(s, m) && rt_ida_create_matrix(s, m))
     return m;
@@ -154,6 +156,7 @@ static rt_status restart(rt_session *s, void *p) {
   memcpy(N_VGetArrayPointer(m->yp), s->yp, n * sizeof *s->yp);
   if (IDAReInit(m->ida, s->t, m->y, m->yp) != IDA_SUCCESS || IDASetInitStep(m->ida, h) != IDA_SUCCESS)
     return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "IDA refuses to restart at time %.9g s", s->t);
+  rt_ida_remember(s, m, s->t, s->data.x, true);
   m->started = true;
   m->pivots_chosen_at = -1; /* other equations hold, and the old pivots may have become tiny */
   return rt_ida_tangent_restart(s, m);
@@ -218,6 +221,7 @@ static int attempt(rt_session *s, rt_ida *m, double limit, sunrealtype *t, rt_st
   for (;;) {
     int flag = IDASolve(m->ida, limit, t, m->y, m->yp, IDA_ONE_STEP);
     double end = flag == IDA_TSTOP_RETURN ? limit : *t;
+    if (flag >= 0) rt_ida_remember(s, m, end, N_VGetArrayPointer(m->y), false);
     if (flag < 0 || !(test_guards(s, m, end) > 1)) return flag;
     s->result->counters.error_test_fails++;
     if (m->share * s->options.rtol < finest) *status = rt_swing_fail(s, end);
@@ -246,30 +250,6 @@ static rt_status step(rt_session *s, void *p, double limit) {
   return rt_ida_tangent_step(s, m);
 }
 
-/* IDA's polynomial through its last points, as derivatives at the end of the step: s = (t - t_end) / h. */
-static void dense(rt_session *s, void *p, rt_dense *out) {
-  rt_ida *m = p;
-  int n = s->d->n_x;
-  sunrealtype h = 1;
-  IDAGetLastOrder(m->ida, &out->degree);
-  IDAGetLastStep(m->ida, &h);
-  IDAGetCurrentTime(m->ida, &out->t0);
-  out->h = h;
-  double factor = 1;
-  for (int k = 0; k <= out->degree; k++) {
-    IDAGetDky(m->ida, out->t0, k, m->work);
-    for (int i = 0; i < n; i++)
-      out->c[k * n + i] = factor * NV_Ith_S(m->work, i);
-    factor *= h / (k + 1);
-  }
-}
-
-static void point(rt_session *s, void *p, double t, double *x) {
-  rt_ida *m = p;
-  IDAGetDky(m->ida, t, 0, m->work);
-  memcpy(x, N_VGetArrayPointer(m->work), (size_t)s->d->n_x * sizeof *x);
-}
-
 const rt_method rt_method_ida = {
     .name = "ida",
     .multistep = true,
@@ -278,8 +258,7 @@ const rt_method rt_method_ida = {
     .begin = begin,
     .restart = restart,
     .step = step,
-    .dense = dense,
-    .point = point,
+    .dense = rt_ida_dense,
     .count = count,
     .errors = errors,
     .sensitivities = rt_ida_sensitivities,

@@ -5,6 +5,8 @@
 #include "sensitivity.h"
 #include "sundials_compat.h"
 
+enum { RT_IDA_POINTS = RT_DENSE_DEGREE + 1 };
+
 typedef struct {
   SUNContext context;
   void *ida;
@@ -15,9 +17,12 @@ typedef struct {
   bool started;          /* IDA holds counters of this run that are not in the result yet */
   long pivots_chosen_at; /* failures of Newton's method when KLU last chose its pivots; -1: before the restart */
   double longest;        /* first step that guards allow (s) */
-  double share;          /* of the tolerances, that guards far smaller than the states leave of them */
-  int held;              /* terms of undetermined.c in the matrix that KLU has ordered */
-  int columns;           /* sensitivities that IDA is set up for */
+  double *past, past_t[RT_IDA_POINTS]; /* [RT_IDA_POINTS * n_x] states at the ends of the last steps (s), a ring */
+  int latest;                          /* row of the last of them */
+  long taken;                          /* steps that IDA had taken there */
+  double share;                        /* of the tolerances, that guards far smaller than the states leave of them */
+  int held;                            /* terms of undetermined.c in the matrix that KLU has ordered */
+  int columns;                         /* sensitivities that IDA is set up for */
   N_Vector *tangent_y, *tangent_yp, *tangent_atol; /* [columns] */
   double *rows_y, *rows_yp, *rows_r; /* the same as rows of a bundle, [(n_x + n_z) * columns of the bundle] */
 } rt_ida;
@@ -25,6 +30,10 @@ typedef struct {
 /* ida_matrix.c */
 int rt_ida_not_finite(rt_session *s, int row, double value);
 bool rt_ida_create_matrix(rt_session *s, rt_ida *m);
+
+/* ida_dense.c */
+void rt_ida_remember(const rt_session *s, rt_ida *m, double t, const double *x, bool begins);
+void rt_ida_dense(rt_session *s, void *memory, rt_dense *out);
 
 /* ida_failure.c */
 rt_status rt_ida_fail_newton(rt_session *s, rt_ida *m, double h);

@@ -5,6 +5,7 @@
 
 #include "delay.h"
 #include "sensitivity.h"
+#include "swings.h"
 #include "transport.h"
 #include "undetermined.h"
 
@@ -44,8 +45,8 @@ static bool allocate_numbers(rt_session *s) {
   double **states[] = {&m->x,           &m->xdot,  &s->initial_value, &s->x_trial, &s->xdot_trial, &s->x_before,
                        &s->xdot_before, &s->x_end, &s->xdot_end,      &r->x,       &r->xdot,       &s->x_swept};
   double **sizes[] = {&s->nominal}, **division[] = {&s->division};
-  double **guards[] = {&s->g,      &s->g_previous, &s->g_low,         &s->g_trial,       &s->g_before, &s->g_oldest,
-                       &s->g_span, &s->g_travel,   &s->changed_at[0], &s->changed_at[1], &s->due_back};
+  double **guards[] = {&s->g,       &s->g_previous, &s->g_low,    &s->g_trial,       &s->g_before,      &s->g_oldest,
+                       &s->g_reach, &s->g_span,     &s->g_travel, &s->changed_at[0], &s->changed_at[1], &s->due_back};
   double **turns[] = {&s->phase, &s->phase_start};
   const group groups[] = {{parameters, COUNT(parameters), d->n_p},
                           {inputs, COUNT(inputs), d->n_u},
@@ -117,6 +118,7 @@ rt_session *rt_session_new(const rt_model *model, const rt_options *options, cha
   s->model = model;
   s->d = model->descriptor;
   s->options = *options;
+  s->all_affine = rt_all_affine(s->d);
   /* a model without states has nothing to integrate: any method with step size control only walks along its events */
   s->method = s->d->n_x == 0 && method->multistep ? &rt_method_dopri5 : method;
   s->options.solver = s->method->name;

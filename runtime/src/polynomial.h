@@ -8,7 +8,7 @@ double rt_horner(int n, const double *p, double x);
 double rt_floor_of(int n, const double *p);
 double rt_spread(int n, const double *p);
 void rt_enclose(int n, const double *p, double *low, double *high);
-int rt_roots_of(int n, const double *p, double *root);
 int rt_extremes(int n, const double *p, double *place);
+int rt_roots_between(int n, const double *p, int extremes, const double *place, double *root);
 
 #endif

@@ -4,9 +4,6 @@
 
 #include "sensitivity.h"
 
-/* IDA's polynomial costs a call for each of up to six powers, a single point of it one of these calls. */
-enum { POINTS_FOR_A_POLYNOMIAL = 5 };
-
 static bool on_grid(const rt_recorder *r) {
   return r->n_grid > 0 || r->interval > 0;
 }
@@ -87,9 +84,9 @@ static rt_status tangents_inside(rt_session *s, double t, const mdl_tangent **ta
 
 /* A row inside the last step. States come from its polynomial; what else is wanted is computed from them by the
  * explicit form, from the row before on: of several solutions of a nonlinear block, the one that time leads to. */
-static rt_status write_interpolated(rt_session *s, double t, bool alone) {
+static rt_status write_interpolated(rt_session *s, double t) {
   rt_recorder *r = &s->recorder;
-  rt_dense_point(s, t, alone, r->x);
+  rt_dense_point(s, t, r->x);
   if (r->needs_rhs) {
     if (rt_rhs(s, t, r->x, r->xdot, r->v)) return rt_fail_model(s, t, "evaluating outputs");
     rt_status status = rt_check_values(s, t, r->x, r->xdot, r->v);
@@ -102,51 +99,23 @@ static rt_status write_interpolated(rt_session *s, double t, bool alone) {
   return status ? status : write_row(s, t, r->x, r->xdot, r->v, tangents, 0);
 }
 
-/* Grid points not yet recorded before `end`, which is inside the run. */
-static size_t points_before(const rt_session *s, double end) {
-  const rt_recorder *r = &s->recorder;
-  long i = r->next;
-  if (r->n_grid > 0)
-    while (i < r->n_grid && r->grid[i] < end)
-      i++;
-  else
-    while (s->start + (double)i * r->interval < end)
-      i++;
-  return (size_t)(i - r->next);
-}
-
-/* Column j of `points` rows from `row` on inside the last step, of something that is no derivative or algebraic. */
-static void write_column(const rt_session *s, int j, size_t row, size_t points) {
-  const rt_output *o = &s->recorder.outputs[j];
-  double *column = s->result->columns[j] + row;
-  if (o->storage == MDL_STATE) rt_dense_column(&s->dense, s->d->n_x, o->index, points, s->result->time + row, column);
-  for (size_t k = 0; o->storage != MDL_STATE && k < points; k++)
-    column[k] = (o->storage == MDL_PARAMETER ? s->data.p : s->data.d)[o->index];
-  for (size_t k = 0; o->sign < 0 && k < points; k++)
-    column[k] = -column[k];
-}
-
-/* All rows inside the last step, column by column: the cheap way where nothing but states changes inside a step. */
-static rt_status write_columns(rt_session *s, size_t points) {
-  rt_recorder *r = &s->recorder;
-  rt_result *result = s->result;
-  size_t row = result->rows;
-  if (reserve(s, points)) return s->failure.status;
+/* A row inside the last step where nothing but states changes inside a step. */
+static rt_status write_states(rt_session *s, double t) {
+  rt_status status = reserve(s, 1);
+  if (status) return status;
   rt_dense_prepare(s);
-  for (size_t k = 0; k < points; k++) {
-    result->event[row + k] = 0;
-    result->time[row + k] = grid_time(s, r->next + (long)k);
+  rt_result *result = s->result;
+  size_t row = result->rows++;
+  double theta = (t - s->dense.t0) / s->dense.h;
+  result->time[row] = t;
+  result->event[row] = 0;
+  for (int j = 0; j < s->recorder.n; j++) {
+    const rt_output *o = &s->recorder.outputs[j];
+    double value = o->storage == MDL_STATE ? rt_dense_state(&s->dense, s->d->n_x, o->index, theta)
+                                           : (o->storage == MDL_PARAMETER ? s->data.p : s->data.d)[o->index];
+    result->columns[j][row] = o->sign * value;
   }
-  for (int j = 0; j < r->n; j++)
-    write_column(s, j, row, points);
-  result->rows += points;
-  r->next += (long)points;
   return RT_OK;
-}
-
-/* Those of a few rows for which the whole polynomial would cost more than the method's own way to single points. */
-static bool are_few(const rt_session *s, size_t points) {
-  return s->method->point && !s->dense.valid && points <= POINTS_FOR_A_POLYNOMIAL;
 }
 
 /* Grid points of the last step: those before its end, or with `closed` up to its end. */
@@ -157,17 +126,13 @@ static rt_status record_grid(rt_session *s, bool closed) {
   double inside = s->t - s->clock.tolerance, end = closed ? s->t + s->clock.tolerance : inside;
   double t = grid_time(s, r->next);
   if (t > end) return status;
-  size_t points = points_before(s, inside);
-  if (points && !r->needs_point && !s->sensitivities && !are_few(s, points)) {
-    status = write_columns(s, points);
-    t = grid_time(s, r->next);
-  }
+  bool short_way = !r->needs_point && !s->sensitivities;
   for (; !status && t <= end; t = grid_time(s, ++r->next)) {
     if (t >= inside) {
       rt_inputs_at(s, s->t);
       status = write_present(s, t, 0);
     } else {
-      status = write_interpolated(s, t, points <= POINTS_FOR_A_POLYNOMIAL);
+      status = short_way ? write_states(s, t) : write_interpolated(s, t);
     }
   }
   return status;

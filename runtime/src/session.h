@@ -70,8 +70,6 @@ typedef struct {
   rt_status (*restart)(struct rt_session *, void *memory); /* x, xdot or the equations have jumped */
   rt_status (*step)(struct rt_session *, void *memory, double limit);
   void (*dense)(struct rt_session *, void *memory, rt_dense *dense);
-  void (*point)(struct rt_session *, void *memory, double t,
-                double *x);                                    /* cheaper than dense for one point; may be NULL */
   void (*count)(struct rt_session *, void *memory);            /* add the method's own counters to the result */
   void (*errors)(struct rt_session *, void *memory, double *); /* [n_x] of the last step tried; NULL: not known */
   bool (*sensitivities)(struct rt_session *, void *memory);    /* get ready for those of the session, or for none */
@@ -130,6 +128,7 @@ struct rt_session {
   double *g, *g_previous;                          /* [n_rel] guards at t and t_previous */
   double *g_low, *g_trial;                         /* [n_rel] while locating a crossing */
   double *g_before, *g_oldest, t_before, t_oldest; /* [n_rel] guards one and two steps earlier; NAN after a restart */
+  double *g_reach; /* [n_rel] swings.c: no affine guard moves further in the last step from where it was at its start */
   double *g_span, *g_travel; /* [n_rel] largest |g| of the run, and since the relation last switched */
   double *changed_at[2];     /* [n_rel] when the relation last became false, true (s) */
   double *due_back;          /* [n_rel] until when it must switch back, having been thrown back; else -INFINITY */
@@ -141,6 +140,7 @@ struct rt_session {
   unsigned char *rel_swept, *when_before; /* relations before a sweep, when conditions before its pass */
   unsigned char *rel_before, *rel_trial;  /* [n_rel] */
   bool reinitialised, shaped; /* the last event did; shape is of the last step, with the present relations */
+  bool quiet, all_affine;     /* no affine guard crosses in the last step; all guards of state relations are affine */
   unsigned char *flip;        /* [n_rel] relations that switch at t */
   int pending;
   double last_event;          /* time of the last event (s) */
@@ -263,9 +263,9 @@ void rt_clock_tick(rt_session *s);
 bool rt_clock_relations(rt_session *s);
 /* dense.c */
 void rt_dense_prepare(rt_session *s);
-void rt_dense_point(rt_session *s, double t, bool alone, double *x);
+void rt_dense_point(rt_session *s, double t, double *x);
 void rt_dense_eval(const rt_dense *dense, int n, double t, double *x);
-void rt_dense_column(const rt_dense *dense, int n, int i, size_t points, const double *t, double *x);
+double rt_dense_state(const rt_dense *dense, int n, int i, double theta);
 
 /* guards.c, roots.c and dips.c */
 double rt_margin(const rt_session *s, int r, double g);

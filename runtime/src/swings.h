@@ -6,7 +6,7 @@
 
 void rt_swing_shape(rt_session *s, const double *error);
 bool rt_is_shaped(const rt_session *s, int r);
-bool rt_all_shaped(const rt_session *s);
+bool rt_all_affine(const mdl_descriptor *d);
 double rt_swing_error(rt_session *s, double to, const double *error);
 double rt_swing_roughness(rt_session *s, double to, const double *error);
 double rt_swing_crossing(rt_session *s, int r, double to);

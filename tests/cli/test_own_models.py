@@ -164,6 +164,9 @@ def test_formats(place: Path, ending: str) -> None:
         (["simulate", "Beta.Sub.Plant", *BETA, "-u", "v=12"], "no input called v"),
         (["simulate", "Box.mo", "--model", "Box.Smal"], "did you mean Small?"),
         (["list", "models", "Nothing"], "there is no class Nothing"),
+        (["simulate", "Modelica.Blocks.Examples.PID_Controller"], "by --library, or in MODELICAPATH"),
+        (["sweep", "--points", "2", "--solver", "rk4"], "a sweep is solved by ida, dopri5, rodas4, not by rk4"),
+        (["simulate", "Beta.Sub.Plant", *BETA, "--step", "0.1"], "ida chooses its steps itself"),
     ],
 )
 def test_what_cannot_be_used_is_one_line_with_its_place(words: list[str], expected: str) -> None:

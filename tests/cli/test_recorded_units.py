@@ -6,8 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import lacuna
+from lacuna.cli.main import app
 
 MODEL = """model Turn
   input Real u(unit="{unit}");
@@ -36,6 +38,15 @@ def test_an_input_is_driven_in_the_unit_that_it_declares(tmp_path: Path, unit: s
     given = lacuna.recorded(recording(tmp_path, "n (rpm)"), "n")
     result = lacuna.load(turn(tmp_path, unit)).simulate(inputs={"u": given})
     assert result["y"][-1] == pytest.approx(last, rel=1e-12)
+
+
+def test_samples_that_do_not_cover_the_run_are_held_with_a_word(tmp_path: Path) -> None:
+    samples = recording(tmp_path, "n (rpm)")
+    for stop, said in (("1", ""), ("2", ""), ("2.5", "input u: samples from 0 to 1 s")):
+        words = ("--stop", stop, "--out", str(tmp_path))
+        result = CliRunner().invoke(app, ["simulate", str(turn(tmp_path, "rpm")), "-u", f"u={samples}:n", *words])
+        assert result.exit_code == 0
+        assert said in result.output and ("is held" in result.output) == bool(said)
 
 
 def test_an_input_is_not_driven_by_another_quantity(tmp_path: Path) -> None:

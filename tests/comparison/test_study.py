@@ -54,6 +54,12 @@ def test_findings_say_the_orders(study: Study) -> None:
     assert order_text(study, "rk4") == f"{study.orders['rk4']:.2f}"
 
 
+def test_how_near_variable_steps_are_comes_first_and_a_run_that_failed_is_said(study: Study) -> None:
+    assert findings([study])[0].startswith("variable steps at 1e-6 or tighter: signals within")
+    fallen = replace(study, lanes=[replace(study.lanes[0], failure="stopped"), *study.lanes[1:]])
+    assert "1 run failed: the tables say why" in findings([fallen])
+
+
 def test_a_run_on_another_course_is_starred(study: Study) -> None:
     lanes = [
         replace(lane, events=replace(lane.events, unmatched=int(lane.lane.family == "euler"))) for lane in study.lanes

@@ -26,6 +26,7 @@ def outcomes(shared: Path, tmp_path_factory: pytest.TempPathFactory) -> tuple[di
 
 
 @pytest.mark.xdist_group("compliance")
+@pytest.mark.timeout(900)  # a thousand cases count in the first test's time
 def test_what_goes_wrong_is_what_is_listed(outcomes: tuple[dict[str, bool], compliance.Outcomes]) -> None:
     verdicts, results = outcomes
     assert len(verdicts) > 1000

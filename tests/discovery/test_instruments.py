@@ -11,7 +11,7 @@ from scipy.signal import lfilter
 
 from lacuna.codegen.compile import compile_model
 from lacuna.discovery.case.cases import load
-from lacuna.discovery.efforts.instruments import colour_of, only_instruments
+from lacuna.discovery.efforts.instruments import _worst, colour_of, only_instruments
 from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.explain import explain
@@ -78,6 +78,15 @@ def test_a_leak_in_such_noise_is_found(tmp_path: Path) -> None:
     found = explain(case)
     assert found.verdict == "missing_physics"
     assert [f.ranked.attachment.location for f in found.findings] == ["lower"]
+
+
+def test_beside_a_given_level_errors_with_a_memory_are_less_than_it(tmp_path: Path) -> None:
+    folder = written(tmp_path / "case", BELIEVED)
+    toml = (folder / "case.toml").read_text(encoding="utf-8")
+    (folder / "case.toml").write_text(toml.replace('unit = "m"\n', 'unit = "m"\nnoise_std = 0.001\n'), encoding="utf-8")
+    base = fitted(load(folder), lambda text: None)
+    locator = Locator(base.case, opened(base.case, base.amendment, base.case.library(), []), base.base)
+    np.testing.assert_allclose(_worst(locator), 0.8 * 0.001, rtol=0.01)
 
 
 @pytest.mark.parametrize("level", [0.002, 0.001])

@@ -192,7 +192,8 @@ def test_a_model_in_other_units_of_time_takes_the_same_steps(tmp_path: Path, sol
                 assert all(np.array_equal(other[name], one[name]) for name in ("x", "y", "f", "n", "ticks"))
             # IDA's matrix has other pivots, by the size of numbers
             assert (other["n"][-1], other["ticks"][-1]) == (one["n"][-1], one["ticks"][-1])
-            assert abs(other.counters["steps"] - one.counters["steps"]) <= 0.05 * one.counters["steps"]
+            # rounding moves two counts of IDA's steps apart by 4 % (eight paces, rtol 1e-4 to 1e-8): three times that
+            assert abs(other.counters["steps"] - one.counters["steps"]) <= 0.12 * one.counters["steps"]
             assert other["x"][-1] == pytest.approx(one["x"][-1], abs=100 * rtol if solver == "ida" else 1e-9)
 
 

@@ -67,8 +67,16 @@ _HELPERS = {
 }
 
 
+_NAME = re.compile(r"mdl_\w+")  # begins with its letters, which is how they are found quickly
+_CALL = re.compile(r"(mdl_\w+)\(")
+
+
 def helpers(code: str) -> str:
-    """The helpers that `code` calls."""
-    code += "".join(text for name, text in (("mdl_index", _INDEX), ("mdl_enter", _ENTER)) if name in code)
-    code += "".join(text for name, text in NATIVE.items() if name in code)
-    return "\n\n".join(text for name, text in _HELPERS.items() if re.search(rf"\b{name}\b", code))
+    """The helpers that `code` names, and those that they call; one look at the code, which may be long."""
+    wanted = {m[0] for m in _NAME.finditer(code) if not (code[m.start() - 1].isalnum() or code[m.start() - 1] == "_")}
+    waiting = [name for name in wanted if name in _HELPERS]
+    while waiting:
+        inside = set(_CALL.findall(_HELPERS[waiting.pop()])) & _HELPERS.keys() - wanted
+        wanted |= inside
+        waiting += inside
+    return "\n\n".join(text for name, text in _HELPERS.items() if name in wanted)

@@ -11,10 +11,13 @@ from lacuna.discovery.efforts.laws.regression import Regression
 from lacuna.discovery.efforts.laws.terms import counts, groups, variables
 from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.located import Guided, Locator, Site
+from lacuna.discovery.efforts.opened import Place
 from lacuna.discovery.law.law import Law
 from lacuna.discovery.law.law import Site as LawSite
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.law.law_terms import Group
+
+Scored = tuple[float, Regression, tuple[int, ...]]  # deviance and prices, groups of a regression
 
 FAMILIES = 12  # kinds of terms whose shapes are refined
 ZOOMS, FINE = 3, 9  # times that a shape is refined, and values each time; each is a quarter of the last one's spacing
@@ -24,25 +27,39 @@ SAME = 1e-3  # share of what a law explains, by which another one must differ to
 
 
 def proposals(locator: Locator, site: Site, guided: Guided, most: int) -> list[Proposal]:
-    """Laws of one and of two groups of terms at a place, `most` of each, the most telling first."""
+    """Laws of one and of two groups of terms at a place, `most` of each, the most telling first; in any of the
+    quantities in which an effort does the same there."""
+    single: list[Scored] = []
+    double: list[Scored] = []
+    for place in (site.place, *site.place.other):
+        regression, every = _offered(locator, place, guided)
+        ones = _refined(regression, every)
+        single += _scored(regression, _distinct(regression, ones, most))
+        double += _scored(regression, _distinct(regression, _doubled(regression, ones, every), most))
+    chosen = [laws for found in (single, double) for _, *laws in sorted(found, key=lambda f: f[0])[:most]]
+    return [_proposal(regression, groups) for regression, groups in chosen]
+
+
+def _scored(regression: Regression, found: list[tuple[int, ...]]) -> list[Scored]:
+    return [(regression.scores(groups[:-1], groups[-1:])[0], regression, groups) for groups in found]
+
+
+def _offered(locator: Locator, place: Place, guided: Guided) -> tuple[Regression, range]:
+    """The regression at a place, and all groups of terms that may stand there."""
     along = [p.along for p in guided.pieces]
-    answering = _answering(locator, along[0], site.place.column)
+    answering = _answering(locator, along[0], place.column)
     added = locator.base.machine.amendment.added()
     found = variables(
-        along, site.location, locator.base.machine.model.variables, locator.opened.linear.states, answering, added
+        along, place.location, locator.base.machine.model.variables, locator.opened.linear.states, answering, added
     )
     courses = {v.local: np.concatenate([v.course(a.values) for a in along]) / v.size for v in found}
     ranges = {local: (float(c.min()), float(c.max())) for local, c in courses.items()}
     longest = max((a.time for a in along), key=lambda t: t[-1] - t[0])
     interval, duration = float(np.median(np.diff(longest))), float(longest[-1] - longest[0])
-    offered = groups(found, ranges, interval, duration)
-    place = LawSite(site.place.sites[0], site.location, site.place.unit, tuple(found), counts(found, offered))
-    regression = Regression(guided, place, site.place.column)
-    every = regression.add(offered)
-    single = _refined(regression, every)
-    double = _doubled(regression, single, every)
-    chosen = (*_distinct(regression, single, most), *_distinct(regression, double, most))
-    return [_proposal(regression, groups) for groups in chosen]
+    terms = groups(found, ranges, interval, duration)
+    where = LawSite(place.sites[0], place.location, place.unit, tuple(found), counts(found, terms))
+    regression = Regression(guided, where, place.column)
+    return regression, regression.add(terms)
 
 
 def _distinct(regression: Regression, found: Iterable[tuple[int, ...]], most: int) -> list[tuple[int, ...]]:

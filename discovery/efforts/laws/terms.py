@@ -165,6 +165,10 @@ def _of_one_sign(v: Variable, away: bool) -> list[Group]:
         Group((f"abs(abs({x} - {{q}}) + {x} - {{q}})^{p}",), (Shape("q", "1", q, -0.99, 0.99, (), 0.25),))
         for p in BEYOND for q in (0.25, 0.5, 0.75)
     ]  # fmt: skip
+    ends += [
+        Group((f"({x} + {{q}} - abs({x} - {{q}}))",), (Shape("q", "1", q, -0.99, 0.99, (), 0.25),))
+        for q in (0.25, 0.5, 0.75)
+    ]  # up to a limit: what a dead zone loses, what a stop leaves
     return [Group((x,)), *power, *bend, *ends]
 
 
@@ -193,6 +197,10 @@ def _alone(v: Variable) -> list[Group]:
         Group((f"({x} - 0.5*abs({x} + {{q}}) + 0.5*abs({x} - {{q}}))",), (Shape("q", "1", q, 0.01, 0.99, (), 0.25),))
         for q in (0.25, 0.5, 0.75)
     ]  # both ways
+    ends += [
+        Group((f"(abs({x} + {{q}}) - abs({x} - {{q}}))",), (Shape("q", "1", q, 0.01, 0.99, (), 0.25),))
+        for q in (0.25, 0.5, 0.75)
+    ]  # up to a limit either way
     stribeck = Group((v.dry, f"{v.dry}*exp(-abs{x}/{{q}})"), (Shape("q", "1", 0.1, 0.01, 1.0, (), 0.08),))
     plain = [Group((x,)), Group((f"abs{x}",)), Group((f"{x}^2",)), Group((v.dry,))]
     return [*plain, *power, *bend, *reach, *ends, stribeck]

@@ -111,6 +111,13 @@ def test_a_folder_without_laws_is_refused(tmp_path):
         degradation_laws([tmp_path])
 
 
+def test_a_model_that_is_no_law_is_refused(tmp_path):
+    (tmp_path / "Decay.mo").write_text("model Decay\n  Real x(start=1);\nequation\n  der(x) = -x;\nend Decay;\n")
+    for given in (tmp_path, tmp_path / "Decay.mo"):
+        with pytest.raises(AnalysisError, match="declares no degradation law"):
+            degradation_laws([given])
+
+
 def test_a_law_that_is_no_growth_is_refused():
     for growth in (lambda x: -x, lambda x: 0 * x, lambda x: x / 0.0):
         with pytest.raises(AnalysisError, match="growth must be finite"), np.errstate(divide="ignore"):

@@ -119,7 +119,10 @@ def test_library_paths_that_cannot_be_used(place: Path, libraries: list[str], co
     assert str(place / libraries[-1]) in refused.value.message
 
 
-@pytest.mark.parametrize(("name", "code"), [("Folder.mo", "F007"), ("./Folder.mo", "F007"), ("no/such.mo", "F001")])
+@pytest.mark.parametrize(
+    ("name", "code"),
+    [("Folder.mo", "F007"), ("./Folder.mo", "F007"), (".", "F007"), ("", "F007"), ("no/such.mo", "F001")],
+)
 def test_a_model_file_that_is_none(place: Path, name: str, code: str) -> None:
     (place / "Folder.mo").mkdir()
     with pytest.raises(Diagnostic) as refused:
