@@ -16,7 +16,7 @@ STATUS = (
     "interrupted",
 )  # fmt: skip
 EVENT_KINDS = ("state", "time", "sample", "terminate")
-FLAG_KINDS = ("grazing", "order", "non_finite", "rounding", "fold")
+FLAG_KINDS = ("grazing", "order", "non_finite", "rounding", "fold", "arrival")
 STORAGE = ("state", "algebraic", "discrete", "parameter", "input", "derivative")
 TYPES = ("Real", "Integer", "Boolean")
 

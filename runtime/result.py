@@ -52,11 +52,12 @@ class Flag:
     grazing: a relation only touches its threshold, and from there on they are not numbers; order: two events at one
     instant, as far as it is known, that move differently with a parameter; non_finite: a derivative is infinite;
     rounding: the model rounds values at events, and what depends on them has the derivative between two steps; fold:
-    the branch that algebraic unknowns followed has ended, and from there on they are not numbers.
+    the branch that algebraic unknowns followed has ended; arrival: a when-clause read pre(y) where y follows what the
+    event sets. From both on they are not numbers.
     """
 
     time: float
-    kind: str  # grazing | order | non_finite | rounding | fold
+    kind: str  # grazing | order | non_finite | rounding | fold | arrival
     relations: tuple[str, ...]  # as written, those concerned
 
     def __str__(self) -> str:
@@ -65,6 +66,7 @@ class Flag:
             "order": "two events at one instant move differently with a parameter",
             "non_finite": "a derivative is infinite; there are no sensitivities after it",
             "fold": "algebraic unknowns jump, their branch has ended; there are no sensitivities after it",
+            "arrival": "pre(...) of what follows the event was read; there are no sensitivities after it",
             "rounding": "values rounded at events (converters, encoders) count as constant between two steps of theirs",
         }[self.kind]
         return f"{what} at time {self.time:.9g} s" + (f": {'; '.join(self.relations)}" if self.relations else "")

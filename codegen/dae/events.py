@@ -78,6 +78,13 @@ def follow(steps: Sequence[EventStep], explicit: Sequence[Step]) -> bool:
     return any(not found.isdisjoint(leaves(e)) for step in steps for e in _expressions(step))
 
 
+def reads_arrival(steps: Sequence[EventStep]) -> bool:
+    """Whether a step reads pre(y) of a continuous variable: targets aside, what has a value before is discrete."""
+    set_there = {n for step in steps for n in targets(step)}
+    pres = (n for step in steps for e in _expressions(step) for n in leaves(e) if n.op == "pre")
+    return any(not _is(n.args[0], set_there) for n in pres)
+
+
 def _is(n: Expr, names: Collection[str]) -> bool:
     return n.op == "var" and str(n.value) in names
 
@@ -103,10 +110,24 @@ def _refuse_circles(assignments: list[flat.Assign], explicit: Sequence[Step]) ->
             raise Diagnostic("S013", f"the value that the when-clause gives {s.target} follows itself", s.span, hint)
 
 
-def order(model: flat.FlatModel, discrete: list[DiscreteEquation], rewriter: Rewriter) -> list[EventStep]:
+def order(
+    model: flat.FlatModel, discrete: list[DiscreteEquation], rewriter: Rewriter, algebraics: Collection[str]
+) -> list[EventStep]:
     """All steps of an event in sorted order; a loop without pre() is refused. `rewriter` was applied to `model`."""
+
+    def arrival(n: Expr) -> Expr | None:
+        """pre(y) of what is left of a continuous variable: a parameter or a state is what it was."""
+        if n.op != "pre":
+            return None
+        v = model.variables.get(str(n.args[0].value)) if n.args[0].op == "var" else None
+        kept = v is not None and (v.variability == flat.DISCRETE or v.name in algebraics)
+        return n if kept else n.args[0]
+
+    arrived = Rewriter(arrival)
     discrete = [replace(d, value=rewriter.expression(d.value)) for d in discrete]
-    steps: list[EventStep] = [*discrete, *(_sorted_bodies(w) for w in model.whens), *model.algorithms]
+    whens = (_sorted_bodies(arrived.statements([w])[0]) for w in model.whens)
+    algorithms = (replace(a, statements=arrived.statements(a.statements)) for a in model.algorithms)
+    steps: list[EventStep] = [*discrete, *whens, *algorithms]
     writer: dict[str, int] = {}
     for k, step in enumerate(steps):
         for name in targets(step):

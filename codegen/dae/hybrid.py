@@ -74,7 +74,7 @@ def analyse(model: flat.FlatModel) -> Hybrid:
         model,
         variables=freezer.variables,
         equations=equations + freezer.new_equations,
-        initial_equations=[freezer.bodies.equation(e) for e in model.initial_equations],
+        initial_equations=[freezer.starts.equation(e) for e in model.initial_equations],
         whens=whens,
         algorithms=algorithms,
         asserts=[replace(a, condition=freezer.bare(a.condition)) for a in model.asserts],
@@ -106,7 +106,8 @@ class _Freezer:
         self._ticks: dict[Expr, int] = {}
         self._floors: dict[Expr, Expr] = {}
         self._written = ZERO  # the call that is being lowered
-        self.bodies = Rewriter(self._body_rule)
+        self.bodies = Rewriter(self._statement_rule)
+        self.starts = Rewriter(self._body_rule)
 
     # -- where expressions stand ------------------------------------------------------------------------------
 
@@ -142,6 +143,11 @@ class _Freezer:
         if isinstance(s, flat.When):
             return replace(s, branches=[(c, self.bodies.statements(b)) for c, b in s.branches])
         return s
+
+    def _statement_rule(self, n: Expr) -> Expr | None:
+        if n.op == "pre" and self._is_algebraic(n.args[0]):
+            return n  # its value on arrival, which equations may change while what they follow is found
+        return self._body_rule(n)
 
     def _body_rule(self, n: Expr) -> Expr | None:
         if n.op in RELATIONS and self._continuous(n):

@@ -51,7 +51,8 @@ class Storage:
         if n.op == "tick":
             return f"m->tick[{n.value}]"
         if n.op == "pre":
-            return f"m->pre_d[{self._slots[str(n.args[0].value)].index}]"
+            slot = self._slots[str(n.args[0].value)]
+            return f"m->pre_d[{slot.index}]" if slot.array == "d" else f"m->{slot.array}[{slot.index}]"
         slot = self._slots.get(str(n.value)) if n.op == "var" else None
         return f"m->{slot.array}[{slot.index}]" if slot and slot.array in "pud" else None
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from lacuna.codegen import flat
-from lacuna.codegen.dae.events import DiscreteEquation
+from lacuna.codegen.dae.events import DiscreteEquation, reads_arrival
 from lacuna.codegen.dae.operators.transports import OPERATOR
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.emit.callbacks.asserts import assert_index
@@ -183,7 +183,7 @@ def _descriptor(prepared: Prepared, counts: dict[str, int], tangents: bool) -> s
         "division_equation": _pointer("mdl_division_equation", counts["n_divisions"]),
         **{name: f"mdl_{name}" for name in _CALLBACKS},
         **_guards(prepared),
-        **({"events_follow": "1"} if prepared.events_follow else {}),
+        **({"events_follow": "2" if reads_arrival(prepared.events) else "1"} if prepared.events_follow else {}),
         **(_DELAYS if prepared.delays else {}),
         **(_TRANSPORTS if prepared.transports else {}),
         **({"tangents": "&mdl_model_tangents"} if tangents else {}),

@@ -75,7 +75,8 @@ typedef enum {
   RT_FLAG_ORDER,     /* two events at one instant, as far as it is known, that move differently with a parameter */
   RT_FLAG_NONFINITE, /* a derivative is infinite or overflows: from here on there are no sensitivities */
   RT_FLAG_ROUNDING,  /* the model rounds values at events: their derivative is that between two steps, which is zero */
-  RT_FLAG_FOLD /* the branch that algebraic unknowns followed has ended: from here on there are no sensitivities */
+  RT_FLAG_FOLD,   /* the branch that algebraic unknowns followed has ended: from here on there are no sensitivities */
+  RT_FLAG_ARRIVAL /* pre(y) was read where y follows what the event sets: from here on there are no sensitivities */
 } rt_flag_kind;
 
 typedef struct {

@@ -229,7 +229,8 @@ typedef struct mdl_descriptor {
   /* [n_z] 0: unknown z follows from linear equations, so it has one value at a point; NULL: none does. */
   const unsigned char *z_branches;
 
-  /* Whether event() reads v or xdot that follow, through equations, d that it sets. */
+  /* Whether event() reads v or xdot that follow, through equations, d that it sets; 2: and, in m->v, what they were on
+   * arrival. */
   int events_follow;
 
   /* [n_rel] 1: between events the guard is an affine function of states and time; NULL: none is. guard_rates: g[r] of

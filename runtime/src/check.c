@@ -10,6 +10,7 @@
 enum { HALVINGS = 45 };           /* of a step, to find where a divisor is zero */
 static const double pole = 1e6;   /* growth of a quotient on the way there that tells a pole from 0/0 */
 static const double shrunk = 1e3; /* by what a divisor does so at least, or the quotient grows with its numerator */
+static const double bend = 8;     /* most that a divisor may change by where it is zero, of what it does elsewhere */
 
 rt_status rt_check_parameters(rt_session *s) {
   if (rt_finite(s->d->n_p, s->data.p) || !rt_blame(s, MDL_PARAMETER, NULL, NULL)) return RT_OK;
@@ -69,29 +70,40 @@ static int divisions_at(rt_session *s, double t) {
 }
 
 /* The divisor of division k has changed its sign against the numerator's in the last step: it is a pole where the
- * quotient grows without bound on the way there, beyond what it is at both ends, as its divisor vanishes. */
+ * quotient grows without bound on the way there, beyond what it is at both ends, as its divisor vanishes. Where the
+ * rounding of time ends the way before that tells, it is one unless the divisor jumps: unless it changes by far more
+ * than its share of the step's change in what is left. */
 static rt_status look_for_pole(rt_session *s, int k) {
   double *value = s->division + 2 * k, a = s->t_previous, b = s->t;
   int before = s->division_sign[k];
-  double ordinary = fabs(value[0] / value[1]), divisor = fabs(value[1]), nearest;
+  double ordinary = fabs(value[0] / value[1]), divisor = fabs(value[1]), nearest, at_a = NAN, at_b = value[1];
   rt_dense_prepare(s);
   memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial); /* nonlinear blocks start near their roots */
   if (!divisions_at(s, a)) {
     ordinary = fmax(ordinary, fabs(value[0] / value[1]));
     divisor = fmax(divisor, fabs(value[1]));
+    at_a = value[1];
   }
   double at = NAN, numerator = 0;
   for (int i = 0; i < HALVINGS; i++) {
     double middle = 0.5 * (a + b);
+    if (!(middle > a && middle < b)) break;
     if (divisions_at(s, middle)) return rt_fail_model(s, middle, "looking for a division by zero");
     nearest = fabs(value[0] / value[1]);
-    if (isnan(nearest)) break; /* 0/0, or a branch that does not hold there */
-    *(sign(value[0] * value[1]) == before ? &a : &b) = middle;
+    if (isnan(nearest)) { /* 0/0, or a branch that does not hold there */
+      at_a = NAN;
+      break;
+    }
+    bool short_of = sign(value[0] * value[1]) == before;
+    *(short_of ? &a : &b) = middle;
+    *(short_of ? &at_a : &at_b) = value[1];
     if (nearest > pole * ordinary && fabs(value[1]) * shrunk < divisor) {
       at = middle;
       numerator = value[0];
     }
   }
+  double change = fabs(at_b - at_a) * (s->t - s->t_previous); /* over b - a, of the step's */
+  if (isnan(at) && change <= bend * divisor * (b - a) && sign(at_a) != sign(at_b)) at = b, numerator = value[0];
   if (isnan(at)) return RT_OK;
   return rt_fail(s, RT_DOMAIN, at, -1, &s->d->equations[s->d->division_equation[k]],
                  "division by zero: a divisor passes through zero at time %.9g s (numerator %.3g)", at, numerator);

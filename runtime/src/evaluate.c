@@ -32,14 +32,18 @@ int rt_rhs(rt_session *s, double t, const double *x, double *xdot, double *v) {
   return s->d->rhs(&s->data, t, x, xdot, v);
 }
 
-/* x', v and the guards at the present point. */
-int rt_evaluate(rt_session *s) {
+/* x', v and the guards at the present point; v wherever it is to be kept. */
+int rt_evaluate_into(rt_session *s, double *v) {
   mdl_data *m = &s->data;
-  int status = rt_rhs(s, s->t, m->x, m->xdot, m->v);
+  int status = rt_rhs(s, s->t, m->x, m->xdot, v);
   if (!status) status = rt_check_finite(s, m->xdot);
   if (status || !s->d->n_rel) return status;
   s->result->counters.root_evaluations++;
-  return s->d->roots(m, s->t, m->x, m->xdot, m->v, s->g);
+  return s->d->roots(m, s->t, m->x, m->xdot, v, s->g);
+}
+
+int rt_evaluate(rt_session *s) {
+  return rt_evaluate_into(s, s->data.v);
 }
 
 /* The point (y, y') of the residual form that belongs to the present x, x', v; z' is left at zero. */

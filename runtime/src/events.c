@@ -49,14 +49,14 @@ static bool same(const double *a, const double *b, int n) {
   return !memcmp(a, b, (size_t)n * sizeof *a);
 }
 
-/* One sweep of the discrete equations from the state and the when conditions on arrival; the state after it in x_swept.
- */
-static int sweep(rt_session *s) {
+/* One sweep of the discrete equations from the state and the when conditions on arrival, v being what they read of the
+ * continuous variables (m->v is what these were on arrival); the state after it in x_swept. */
+static int sweep(rt_session *s, const double *v) {
   mdl_data *m = &s->data;
   memcpy(m->when, s->when_before, (size_t)s->d->n_when);
   memcpy(s->x_swept, m->x, (size_t)s->d->n_x * sizeof *m->x);
   m->reinitialised = 0;
-  return s->d->event(m, s->t, s->x_swept, m->xdot, m->v);
+  return s->d->event(m, s->t, s->x_swept, m->xdot, v);
 }
 
 /* Whether two sweeps set the same: rounding aside, by which a solution of nonlinear equations may differ from the one
@@ -71,11 +71,12 @@ static bool alike(const double *a, const double *b, int n) {
  * hold with what is set. 0 they do, -1 failed, CIRCLE they do not come to agree. */
 static int agree(rt_session *s) {
   mdl_data *m = &s->data;
+  memcpy(s->v_agreed, m->v, (size_t)s->d->n_v * sizeof *m->v);
   for (int k = 0; k < MAX_ROUNDS; k++) {
-    if (rt_evaluate(s)) return -1;
+    if (rt_evaluate_into(s, s->v_agreed)) return -1;
     memcpy(s->rel_swept, m->rel, (size_t)s->d->n_rel);
     memcpy(s->d_swept, m->d, (size_t)s->d->n_d * sizeof *m->d);
-    if (sweep(s) || rt_jump_sweep(s, false)) return -1;
+    if (sweep(s, s->v_agreed) || rt_jump_sweep(s, s->v_agreed, false)) return -1;
     if (alike(m->d, s->d_swept, s->d->n_d)) return 0;
   }
   return CIRCLE;
@@ -105,7 +106,7 @@ static int pass(rt_session *s, int sweeps, bool singly) {
     switched |= rt_clock_relations(s);
     if (switched && k % SWEEPS_OF_A_CYCLE == SWEEPS_OF_A_CYCLE - 1) start_again(s);
     memcpy(s->d_swept, m->d, (size_t)s->d->n_d * sizeof *m->d);
-    if (sweep(s) || rt_jump_sweep(s, k == 0)) return -1;
+    if (sweep(s, m->v) || rt_jump_sweep(s, m->v, k == 0)) return -1;
     settled = !switched && same(m->d, s->d_swept, s->d->n_d);
     changed |= switched;
     int status = settled || !s->d->events_follow ? 0 : agree(s);

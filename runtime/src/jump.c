@@ -189,24 +189,28 @@ void rt_jump_begin(rt_session *s) {
 
 /* A sweep of the discrete equations, the `first` of a pass or another with the same pre-values: the derivative of the
  * point, with relations and discretes as they were when it was computed, then that of the sweep. */
-int rt_jump_sweep(rt_session *s, bool first) {
+int rt_jump_sweep(rt_session *s, double *v, bool first) {
   const mdl_descriptor *d = s->d;
   mdl_data *m = &s->data;
   rt_sensitivities *f = s->sensitivities;
   if (!f || f->lost) return 0;
+  if (v != m->v && d->events_follow > 1) { /* what y was on arrival has no row of its own */
+    rt_tangent_lose(s, RT_FLAG_ARRIVAL, -1);
+    return 0;
+  }
   size_t relations = (size_t)d->n_rel, discretes = (size_t)d->n_d * sizeof *m->d;
   if (first) memcpy(f->at.pre_d, f->at.d, (size_t)f->columns * discretes);
   memcpy(s->rel_trial, m->rel, relations);
   memcpy(s->d_after, m->d, discretes);
   memcpy(m->rel, s->rel_swept, relations);
   memcpy(m->d, s->d_swept, discretes);
-  int status = d->tangents->rhs(m, s->t, m->x, m->xdot, m->v, &f->at);
+  int status = d->tangents->rhs(m, s->t, m->x, m->xdot, v, &f->at);
   memcpy(m->rel, s->rel_trial, relations);
   memcpy(m->d, s->d_after, discretes);
   memcpy(m->when, s->when_before, (size_t)d->n_when);
   memcpy(s->x_swept, m->x, (size_t)d->n_x * sizeof *m->x);
   memcpy(f->at.x_after, f->at.x, (size_t)(d->n_x * f->columns) * sizeof(double));
-  return status ? status : d->tangents->event(m, s->t, s->x_swept, m->xdot, m->v, &f->at);
+  return status ? status : d->tangents->event(m, s->t, s->x_swept, m->xdot, v, &f->at);
 }
 
 /* The pass is over: its states are where the next one starts. */

@@ -40,7 +40,7 @@ static bool allocate_numbers(rt_session *s) {
          **discrete[] = {&m->d, &m->pre_d, &s->d_swept, &s->d_before, &s->d_after};
   double **unknowns[] = {&s->range, &s->outgrown, &s->atol, &s->y, &s->yp},
          **samples[] = {&s->clock.first, &s->clock.interval};
-  double **algebraic[] = {&m->v, &s->v_trial, &s->v_before, &s->v_end, &r->v}, **dense[] = {&s->dense.c},
+  double **algebraic[] = {&m->v, &s->v_trial, &s->v_before, &s->v_end, &s->v_agreed, &r->v}, **dense[] = {&s->dense.c},
          **shapes[] = {&s->shape, &s->rates};
   double **states[] = {&m->x,           &m->xdot,  &s->initial_value, &s->x_trial, &s->xdot_trial, &s->x_before,
                        &s->xdot_before, &s->x_end, &s->xdot_end,      &r->x,       &r->xdot,       &s->x_swept};

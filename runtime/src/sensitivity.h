@@ -69,7 +69,7 @@ bool rt_fold_follow(rt_session *s);
 /* jump.c */
 rt_status rt_jump_measure(rt_session *s);
 void rt_jump_begin(rt_session *s);
-int rt_jump_sweep(rt_session *s, bool first);
+int rt_jump_sweep(rt_session *s, double *v, bool first);
 void rt_jump_accept(rt_session *s);
 rt_status rt_jump_end(rt_session *s);
 

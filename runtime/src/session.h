@@ -133,7 +133,7 @@ struct rt_session {
   double *changed_at[2];     /* [n_rel] when the relation last became false, true (s) */
   double *due_back;          /* [n_rel] until when it must switch back, having been thrown back; else -INFINITY */
   double *x_trial, *xdot_trial, *v_trial;
-  double *x_before, *xdot_before, *v_before;
+  double *x_before, *xdot_before, *v_before, *v_agreed; /* v_agreed: v as it follows what an event sets (events.c) */
   double *d_before, *d_after;             /* discrete variables before an event; and aside while it is differentiated */
   double *x_swept, *d_swept;              /* states after a sweep of an event, discrete variables before it */
   unsigned char *rel_swept, *when_before; /* relations before a sweep, when conditions before its pass */
@@ -233,7 +233,7 @@ void rt_append_equation(rt_session *s, int equation);
 /* evaluate.c: the model's functions, counted and guarded; > 0 recoverable, < 0 not, m->failure says why */
 int rt_rhs(rt_session *s, double t, const double *x, double *xdot, double *v);
 int rt_check_finite(rt_session *s, const double *x);
-int rt_evaluate(rt_session *s);
+int rt_evaluate(rt_session *s), rt_evaluate_into(rt_session *s, double *v);
 void rt_residual_point(rt_session *s);
 int rt_jacobian(rt_session *s, double t, double *y, double *yp, double cj, double *values);
 rt_status rt_check_forms(rt_session *s);

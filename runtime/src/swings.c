@@ -17,7 +17,8 @@ _Static_assert(MOST == RT_DENSE_DEGREE + 1, "polynomials of guards have the degr
 static const double share = 0.01; /* error of a step in a guard, of its swing there: its extremes are known to 1 % */
 static const double tenth = 0.1;  /* of that, where errors of many short steps add up */
 static const double clear = 0.1;  /* or of its distance from zero: the polynomial errs by a few times the estimate */
-static const double between[] = {0.15, 0.45, 0.85}; /* of the step: nodes of no method, see `compared` */
+enum { BETWEEN = 3 };
+static const double between[BETWEEN] = {0.15, 0.45, 0.85}; /* of the step: nodes of no method, see `compared` */
 static const double of_slope = 0.25; /* an error of x' there, times the step, makes about this error of x */
 
 enum { PLACES = 5 };
@@ -125,6 +126,20 @@ static double estimated(rt_session *s, double to, bool *near) {
   return largest;
 }
 
+/* Rates of the guards at places along the step to `to`, a row of `rates` each; whether there are. */
+static bool look_along(rt_session *s, double to, const double *places, int count) {
+  const mdl_descriptor *d = s->d;
+  memcpy(s->v_trial, s->data.v, (size_t)d->n_v * sizeof *s->v_trial);
+  for (int i = 0; i < count; i++) {
+    double t = s->t_previous + places[i] * (to - s->t_previous);
+    rt_dense_eval(&s->dense, d->n_x, t, s->x_trial);
+    if (rt_rhs(s, t, s->x_trial, s->xdot_trial, s->v_trial) ||
+        d->guard_rates(&s->data, 1, s->xdot_trial, s->rates + i * d->n_rel))
+      return false;
+  }
+  return true;
+}
+
 /* An estimate may vanish by chance, of a swing that the step passes over above all. So where a guard is near, what its
  * polynomial does is compared with what the equations say, at places where the method has not looked. Two of them may
  * both be extremes of the error: of steps of dopri5 up to two periods of a sine, at all phases, two let an error of
@@ -132,21 +147,17 @@ static double estimated(rt_session *s, double to, bool *near) {
 static double compared(rt_session *s, double to) {
   const mdl_descriptor *d = s->d;
   double largest = 0, p[MOST], h = to - s->t_previous;
-  memcpy(s->v_trial, s->data.v, (size_t)d->n_v * sizeof *s->v_trial);
-  for (size_t i = 0; i < sizeof between / sizeof *between; i++) {
-    double t = s->t_previous + between[i] * h;
-    rt_dense_eval(&s->dense, d->n_x, t, s->x_trial);
-    if (rt_rhs(s, t, s->x_trial, s->xdot_trial, s->v_trial) || d->guard_rates(&s->data, 1, s->xdot_trial, s->g_trial))
-      return INFINITY;
-    for (int r = 0; r < d->n_rel; r++) {
-      if (!d->affine_guards[r] || is_far(s, r)) continue;
-      bool near;
-      int n = polynomial(s, r, s->g[r], to, p);
-      double bound = allowed(s, r, n, p, &near), slope = 0;
+  if (!look_along(s, to, between, BETWEEN)) return INFINITY;
+  for (int r = 0; r < d->n_rel; r++) {
+    if (!d->affine_guards[r] || is_far(s, r)) continue;
+    bool near;
+    int n = polynomial(s, r, s->g[r], to, p);
+    double bound = allowed(s, r, n, p, &near), sign = s->data.rel[r] ? 1 : -1;
+    for (int i = 0; i < BETWEEN && near; i++) {
+      double slope = 0;
       for (int k = n; k > 0; k--)
         slope = slope * between[i] + k * p[k];
-      if (near)
-        largest = rt_max(largest, of_slope * fabs(slope - h * (s->data.rel[r] ? 1 : -1) * s->g_trial[r]) / bound);
+      largest = rt_max(largest, of_slope * fabs(slope - h * sign * s->rates[i * d->n_rel + r]) / bound);
     }
   }
   return largest;
@@ -197,14 +208,7 @@ double rt_swing_roughness(rt_session *s, double to, const double *error) {
   bool near;
   rt_swing_shape(s, error);
   if (!s->shaped || !(estimated(s, to, &near) >= 0 && near)) return 0;
-  memcpy(s->v_trial, s->data.v, (size_t)d->n_v * sizeof *s->v_trial);
-  for (int i = 0; i < PLACES; i++) {
-    double t = s->t_previous + along[i] * (to - s->t_previous);
-    rt_dense_eval(&s->dense, d->n_x, t, s->x_trial);
-    if (rt_rhs(s, t, s->x_trial, s->xdot_trial, s->v_trial) ||
-        d->guard_rates(&s->data, 1, s->xdot_trial, s->rates + i * d->n_rel))
-      return INFINITY;
-  }
+  if (!look_along(s, to, along, PLACES)) return INFINITY;
   double largest = 0;
   for (int r = 0; r < d->n_rel; r++)
     if (d->affine_guards[r] && !is_far(s, r)) largest = rt_max(largest, rough(s, r, to));

@@ -29,6 +29,16 @@ def test_a_divisor_that_passes_through_zero_is_a_division_by_zero(tmp_path: Path
     assert failure.line == 4
 
 
+def test_a_pole_is_found_in_seconds_since_1970_too(tmp_path: Path) -> None:
+    """The rounding of time, 2.4e-7 s, lets a quotient grow by less than a pole does; a divisor that jumps is none."""
+    since = {"start": 1.7e9, "stop": 1.7e9 + 1, "max_step": 0.01}
+    failure = simulated(tmp_path, POLE.replace("start=-1", "start=-0.6"), **since).failure
+    assert "division by zero: a divisor passes through zero" in str(failure)
+    assert failure.time - 1.7e9 == pytest.approx(0.3, abs=1e-5)
+    jump = POLE.replace("c/x", "c/noEvent(if x < -0.4 then -1.0 else 1.0)")
+    assert simulated(tmp_path, jump, **since).complete
+
+
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_the_root_of_a_negative_number_is_told_with_its_values(tmp_path: Path, solver: str) -> None:
     failure = simulated(tmp_path, ROOT, solver=solver, max_step=0.05).failure

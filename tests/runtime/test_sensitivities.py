@@ -276,3 +276,25 @@ end Converter;"""
     assert [f.kind for f in result.flags] == ["rounding"]
     np.testing.assert_array_equal(result.sensitivity("y", "a"), 0.0)
     np.testing.assert_allclose(result.sensitivity("x", "a"), result.time)
+
+
+def test_what_was_on_arrival_has_no_sensitivities_where_it_follows_the_event(tmp_path: Path) -> None:
+    text = """model Arrival
+  parameter Real k = 2;
+  discrete Real a(start=0, fixed=true);
+  discrete Real b(start=0, fixed=true);
+  Real y = a + k*time;
+  Real x(start=0, fixed=true);
+equation
+  der(x) = y + b;
+  when time >= 0.5 then
+    a = pre(y) + 1;
+    %s
+  end when;
+end Arrival;"""
+    result = run(compiled(tmp_path, text % "b = y;"), sensitivities=["k"])
+    assert [(f.kind, f.time) for f in result.flags] == [("arrival", pytest.approx(0.5))]
+    assert (result["a"][-1], result["b"][-1]) == (2, 3)
+    plain = run(compiled(tmp_path, text % "b = 0;"), sensitivities=["k"])
+    assert plain.flags == []
+    assert plain.sensitivity("a", "k")[-1] == pytest.approx(0.5)

@@ -28,6 +28,7 @@ from lacuna.codegen.flatten.names.modifiers import (
     merge,
     narrow,
     refuse_each,
+    within_array,
     without_removed,
 )
 from lacuna.codegen.flatten.names.scope import Scope
@@ -196,7 +197,7 @@ class Instance:
         check_component(self.cls, declaration, found, self.context)
         if not sizes:
             return Instance(self.context, found.cls, name, self, merge(modifier, found.modifier), declaration)
-        items = []
+        items, modifier = [], within_array(modifier)
         for index in indices(tuple(sizes)):
             text = "[" + ",".join(map(str, index)) + "]"
             inner = merge(narrow(modifier, tuple(zip(index, sizes, strict=True))), found.modifier)

@@ -114,10 +114,8 @@ def _component(cls: ast.Class, component: ast.Component) -> Iterator[Diagnostic]
         yield Diagnostic("R070", f"a {kind} has no protected elements", span, "make it public")
     if kind in _ALL_PUBLIC and (component.inner or component.outer):
         yield Diagnostic("R070", f"a {kind} has neither inner nor outer elements", span, "declare it in a model")
-    carried = "stream" if component.stream else "flow" if component.flow else ""
-    if carried and kind not in ("connector", "record"):
-        hint = f"{carried}s belong into connectors"
-        yield Diagnostic("R070", f"the {carried} {component.name} of a {kind}", span, hint)
+    if component.stream and kind not in ("connector", "record"):
+        yield Diagnostic("R070", f"the stream {component.name} of a {kind}", span, "streams belong into connectors")
     if cls.expandable and component.flow:
         hint = "connect the flow by a connector of its own"
         yield Diagnostic("R070", f"the flow {component.name} of an expandable connector", span, hint)

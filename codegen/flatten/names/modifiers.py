@@ -28,6 +28,7 @@ class Modifier:
     tree: ast.Modification | None = None  # as written
     weak: bool = False  # of a part of a component that is bound as a whole from further outside
     index: tuple[tuple[int, int], ...] = ()
+    in_array: bool = False  # somewhere inside the modification of an array of components
 
     @property
     def empty(self) -> bool:
@@ -37,7 +38,7 @@ class Modifier:
         """One of its own, with the same children; many are made, and `dataclasses.replace` takes ten times as long."""
         return Modifier(
             self.span, self.value, self.scope, self.each, self.final, self.children, self.redeclare,
-            self.redeclared_in, self.replaced, self.tree, self.weak, self.index,
+            self.redeclared_in, self.replaced, self.tree, self.weak, self.index, self.in_array,
         )  # fmt: skip
 
 
@@ -89,6 +90,7 @@ def merge(outer: Modifier | None, inner: Modifier | None) -> Modifier | None:
         raise error
     result = source.copy()
     result.final = outer.final or inner.final
+    result.in_array = outer.in_array or inner.in_array
     result.children = _inner_children(outer, inner, again)
     if source.value is None:  # it is of the element that either is narrowed to
         result.index = outer.index or inner.index
@@ -127,6 +129,14 @@ def narrow(modifier: Modifier | None, index: tuple[tuple[int, int], ...]) -> Mod
     return replace(modifier, children=children, index=modifier.index + index)
 
 
+def within_array(modifier: Modifier) -> Modifier:
+    """A modifier of an array of components, all its parts marked as such."""
+    marked = modifier.copy()
+    marked.in_array = True
+    marked.children = {name: within_array(child) for name, child in modifier.children.items()}
+    return marked
+
+
 def for_each(modifier: Modifier | None) -> Modifier | None:
     """A modifier that belongs to the type of an element, as seen from an array of them."""
     if modifier is None:
@@ -159,9 +169,8 @@ def same_modifier(one: Modifier | None, other: Modifier | None) -> bool:
 
 
 def refuse_each(*modifiers: Modifier | None) -> None:
-    """Raises R038 for `each` in the modification of what is no array (7.2.5). Elements of arrays are narrowed: they
-    keep the word."""
-    plain = [m for m in modifiers if m is not None and not m.index and not m.each]
+    """Raises R038 for `each` in the modification of what is no array, nor part of one (7.2.5)."""
+    plain = [m for m in modifiers if m is not None and not m.in_array and not m.each]
     for name, child in ((n, c) for m in plain for n, c in m.children.items()):
         if child.each:
             hint = "remove 'each'"
