@@ -101,10 +101,9 @@ def _check_units(model: flat.FlatModel, context: Context, mode: str) -> None:
     package = context.library.foreign_package
     findings = check_units(model, context.argument_units, context.function_units, context.places, package)
     own = [f for f in findings if mode == "all" or not package(f.span.file)]
-    if mode == "warn":
-        context.warnings += [replace(f, severity="warning") for f in own]
-    else:
-        context.errors += own
+    told = [replace(f, severity="warning") for f in own] if mode == "warn" else own
+    context.warnings += [f for f in told if f.severity == "warning"]
+    context.errors += [f for f in told if f.severity == "error"]
     foreign = Counter(package(f.span.file) for f in findings if f not in own)
     for name, count in foreign.items():
         hint = "lacuna check --units all shows them"

@@ -32,8 +32,8 @@ def check_units(
     places: dict[tuple[str, str], Span] | None = None,
     package: Callable[[str], str] = lambda file: "",
 ) -> list[Diagnostic]:
-    """Every finding, one a place, in order of the model; at most MAX_FINDINGS, those in files of libraries aside, which
-    `package` tells by their name. Without any unit there is no check.
+    """Every finding, one a place, in order of the model; at most MAX_FINDINGS of a severity, those in libraries
+    aside, which `package` tells by their name. Without any unit there is no check.
 
     `arguments` are values given to inputs with a unit; `function_units` the units of results by function;
     `places` says where the binding or an attribute of a variable was written, where not in its declaration.
@@ -91,7 +91,7 @@ class _Check:
             action()
         except UnitError as reason:
             message = reason.message + (f"\n    in the equation {text()}" if text is not None else "")
-            finding = Diagnostic(reason.code, message, span, reason.hint)
+            finding = Diagnostic(reason.code, message, span, reason.hint, severity=reason.severity)
             self._note(finding)
         except ValueError as reason:
             self._note(Diagnostic("U005", str(reason), span, 'such as "N.m.s/rad"'))
@@ -99,9 +99,10 @@ class _Check:
     def _note(self, finding: Diagnostic) -> None:
         foreign = bool(self.package(finding.span.file))
         limit = MAX_COUNTED if foreign else MAX_FINDINGS
-        if (finding.code, finding.span) not in self.seen and self.counts[foreign] < limit:
+        kind = foreign, finding.severity
+        if (finding.code, finding.span) not in self.seen and self.counts[kind] < limit:
             self.seen.add((finding.code, finding.span))
-            self.counts[foreign] += 1
+            self.counts[kind] += 1
             self.findings.append(finding)
 
     def _equation(self, inference: UnitInference, e: flat.Equation) -> None:

@@ -1,7 +1,8 @@
 """Units of expressions, bottom up. A literal adapts to its neighbours; an unknown unit makes no claim.
 
 In a product a literal is a plain number of unknown scale (it may convert); added or compared it takes the
-unit of the other operand.
+unit of the other operand. What does not agree for it is a warning: the number may have a unit (as in `10*sin(314*time)`
+volts), which the language gives no place to write.
 """
 
 from __future__ import annotations
@@ -22,11 +23,12 @@ _ANGLE_FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh",
 
 
 class UnitError(Exception):
-    """Two parts of an expression that do not go together; `pairs` are (expression, unit)."""
+    """Two parts of an expression that do not go together; a warning where a number that is written there may be what
+    brings them together."""
 
-    def __init__(self, code: str, message: str, hint: str) -> None:
+    def __init__(self, code: str, message: str, hint: str, severity: str = "error") -> None:
         super().__init__(message)
-        self.code, self.message, self.hint = code, message, hint
+        self.code, self.message, self.hint, self.severity = code, message, hint, severity
 
 
 def short(e: Expr) -> str:
@@ -115,6 +117,8 @@ class UnitInference:
     def require(self, e: Expr, unit: Unit, why: str) -> None:
         found = self.of(e)
         if isinstance(found, Unit) and not found.same(unit):
+            if unit.dimensionless and _has_written_factor(e):
+                return
             hint = "divide by a quantity of the same unit" if unit.dimensionless else f"it needs the unit {unit}"
             raise UnitError("U003", f"{why}; {short(e)} is in {found}", hint)
 
@@ -172,6 +176,9 @@ def disagreement(code: str, how: str, a: Expr, unit_a: Unit, b: Expr, unit_b: Un
         return UnitError("U004", message, f"one is {unit_a.factor / unit_b.factor:.6g} times the other: convert it")
     ratio = unit_a / unit_b
     missing = Unit(ratio.exponents, 1.0)
+    if _has_written_factor(a) or _has_written_factor(b):
+        hint = f"if a number there is in {missing}, make it a parameter with that unit; or correct a declared unit"
+        return UnitError(code, message, hint, "warning")
     return UnitError(code, message, f"multiply {short(b)} by a quantity in {missing}, or correct a declared unit")
 
 
@@ -182,3 +189,15 @@ def of_variable(unit: str, kind: str, variability: str) -> Finding:
     if kind == INTEGER:
         return _COUNT
     return LITERAL if variability == "constant" else UNKNOWN
+
+
+def _has_written_factor(e: Expr) -> bool:
+    """Whether a number that somebody wrote scales `e`, or a term of it: in `sin(314*time)` it may well be a frequency,
+    whose unit has no place to stand. A sign or a 1 is no scale."""
+    if e.op in ("*", "/"):
+        return any(_is_scale(a) or _has_written_factor(a) for a in e.args)
+    return e.op in ("+", "-", "neg") and any(map(_has_written_factor, e.args))
+
+
+def _is_scale(e: Expr) -> bool:
+    return e.op == "const" and abs(e.value) != 1

@@ -9,7 +9,7 @@ from lacuna.cli.main import app
 MODEL = """model Decay
   Real x(unit="m", start=1, fixed=true);
 equation
-  der(x) = -2*x;
+  der(x) = -x;
 end Decay;
 """
 

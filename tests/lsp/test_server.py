@@ -78,7 +78,7 @@ EDITS = [
     ("a = der(w);", "a = sni(w)*1;", "R004"),
     ("a = der(w);", "connect(u, w);", "R061"),
     ("a = der(w);", "a = if fast then 1 else true;", "R021"),
-    ("a = der(w);", "a = der(w) /* ", "P007"),
+    ("a = der(w);", "a = der(w) /* ", "P002"),
     ("  Boolean fast", "  Types.Inertai m = 2;\n  Boolean fast", "R001"),
     ("u = R*i", "u # R*i", "P010"),
     ("0.05", "0.05x", "P011"),

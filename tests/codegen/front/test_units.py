@@ -78,6 +78,8 @@ end M;"""
         "tau = max(0, min(c*phi, 5))",
         "phi = atan2(u, R*i)",
         "x = sqrt(w^2 + 1e-6)*time",
+        "x = sin(2*pi*50*time)",
+        "x = exp(0.1 - time/0.02)",
         "w = w*exp(-phi) + der(phi)",
         "tau = noEvent(abs(tau))*sign(w)",
         "phi = mod(phi + pi, 2*pi)",
@@ -96,6 +98,7 @@ def test_sound_equations_pass(tmp_path: Path, equation: str) -> None:
         ("tau = k*u", "U001", "tau is in N.m"),
         ("J*w = tau", "U001", "J * w is in N.m.s"),
         ("x = sin(w)", "U003", "w is in rad/s"),
+        ("x = sin(-w*1)", "U003", "is in rad/s"),
         ("x = i + w", "U002", "i is in A, w is in rad/s"),
         ("x = if u > i then 1 else 2", "U002", "compared"),
         ("x = 2^tau", "U003", "exponent"),
@@ -110,6 +113,13 @@ def test_unsound_equations_show_both_sides(tmp_path: Path, equation: str, code: 
     assert refused.value.code == code
     assert words in str(refused.value)
     assert refused.value.span.line == 8
+
+
+@pytest.mark.parametrize("equation", ["u = 10*sin(314*time)", "tau = 0.3*u", "u = R*i + 0.5*w", "u = -(2*time)"])
+def test_a_written_factor_may_have_a_unit(tmp_path: Path, equation: str) -> None:
+    (found,) = flatten_text(tmp_path, DECLARED.format(equation + ";")).warnings
+    assert (found.code[:3], found.severity) == ("U00", "warning")
+    assert "make it a parameter with that unit" in found.hint
 
 
 def test_units_that_are_not_declared_are_inferred(tmp_path: Path) -> None:
@@ -143,7 +153,7 @@ def test_arguments_and_results_of_functions(tmp_path: Path) -> None:
 def test_bindings_starts_and_events_are_checked(tmp_path: Path) -> None:
     text = """model M
       parameter Real v0(unit = "m/s") = 1, s0(unit = "m") = 2;
-      parameter Real twice(unit = "m") = 2*v0;
+      parameter Real twice(unit = "m") = v0;
       Real s(unit = "m", start = v0);
       Real v(unit = "m/s");
     equation
