@@ -117,10 +117,11 @@ class UnitInference:
     def require(self, e: Expr, unit: Unit, why: str) -> None:
         found = self.of(e)
         if isinstance(found, Unit) and not found.same(unit):
-            if unit.dimensionless and _has_written_factor(e):
+            written = _has_written_factor(e)
+            if unit.dimensionless and written:
                 return
             hint = "divide by a quantity of the same unit" if unit.dimensionless else f"it needs the unit {unit}"
-            raise UnitError("U003", f"{why}; {short(e)} is in {found}", hint)
+            raise UnitError("U003", f"{why}; {short(e)} is in {found}", hint, "warning" if written else "error")
 
     def _power(self, e: Expr) -> Finding:
         base, exponent = e.args
@@ -192,11 +193,13 @@ def of_variable(unit: str, kind: str, variability: str) -> Finding:
 
 
 def _has_written_factor(e: Expr) -> bool:
-    """Whether a number that somebody wrote scales `e`, or a term of it: in `sin(314*time)` it may well be a frequency,
-    whose unit has no place to stand. A sign or a 1 is no scale."""
+    """Whether a number that somebody wrote scales `e`, or a part of it that has its unit: in `sin(314*time)` it may
+    well be a frequency, whose unit has no place to stand. A sign or a 1 is no scale."""
     if e.op in ("*", "/"):
         return any(_is_scale(a) or _has_written_factor(a) for a in e.args)
-    return e.op in ("+", "-", "neg") and any(map(_has_written_factor, e.args))
+    if e.op in ("if", "smooth"):  # a condition, an order
+        return any(map(_has_written_factor, e.args[1:]))
+    return e.op in ("+", "-", "neg", "min", "max", "noEvent", "pre") and any(map(_has_written_factor, e.args))
 
 
 def _is_scale(e: Expr) -> bool:

@@ -115,7 +115,16 @@ def test_unsound_equations_show_both_sides(tmp_path: Path, equation: str, code: 
     assert refused.value.span.line == 8
 
 
-@pytest.mark.parametrize("equation", ["u = 10*sin(314*time)", "tau = 0.3*u", "u = R*i + 0.5*w", "u = -(2*time)"])
+@pytest.mark.parametrize(
+    "equation",
+    [
+        "u = 10*sin(314*time)",
+        "tau = 0.3*u",
+        "u = R*i + 0.5*w",
+        "u = -(2*time)",
+        "u = smooth(0, if i > 0 then 3*i else 0)",
+    ],
+)
 def test_a_written_factor_may_have_a_unit(tmp_path: Path, equation: str) -> None:
     (found,) = flatten_text(tmp_path, DECLARED.format(equation + ";")).warnings
     assert (found.code[:3], found.severity) == ("U00", "warning")
