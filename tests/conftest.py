@@ -33,8 +33,3 @@ def map_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         if not (folder / "map" / "severity.table").exists():
             prepare_small_map(folder)
     return folder / "map"
-
-
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Groups first: each is one worker's, and takes minutes; begun last, it leaves the other one idle."""
-    items.sort(key=lambda item: item.get_closest_marker("xdist_group") is None)
