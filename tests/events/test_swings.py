@@ -14,7 +14,7 @@ from tests.events.belts import SOLVERS
 from tests.events.models import compiled
 
 
-@pytest.mark.parametrize("number", [*range(11), 73])  # 73: a first step of most of a period
+@pytest.mark.parametrize("number", [*range(12), 73])  # 73: a first step of most of a period
 def test_none_is_lost(tmp_path: Path, number: int) -> None:
     swing = swings.draw(np.random.default_rng([2028, number]), number)
     model = compiled(tmp_path, swing.text)
