@@ -1,4 +1,4 @@
-"""Recordings of cases that tests write: a simulated machine, read with errors."""
+"""Recordings of cases that tests write: a simulated machine, read with errors; and that machine."""
 
 from __future__ import annotations
 
@@ -7,7 +7,17 @@ from pathlib import Path
 
 import numpy as np
 
+from lacuna.codegen.compile import compile_model
 from lacuna.runtime import Model, RecordedInput, simulate
+
+
+def truth(folder: Path, name: str, text: str, cls: str = "") -> Model:
+    """The machine that is concealed: `text`, written where no case looks, and compiled; `cls` in it, if it has several.
+    Nobody checks the units of a machine."""
+    path = folder / "truth" / f"{name}.mo"
+    path.parent.mkdir(parents=True)
+    path.write_text(text, encoding="utf-8")
+    return Model(compile_model(f"{path}:{cls}" if cls else str(path), units="warn").path)
 
 
 def record(

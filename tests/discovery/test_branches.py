@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lacuna.codegen.compile import compile_model
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
@@ -15,9 +14,8 @@ from lacuna.discovery.catalogue.places import read as read_structure
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.efforts.sites import read
 from lacuna.discovery.explain import explain
-from lacuna.runtime import Model
 
-from .recorded import record
+from .recorded import record, truth
 
 WAGONS = """package Wagons
   connector Hook
@@ -99,9 +97,7 @@ validate = ["r3.csv"]
 def train(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A case in which the buffer between two wagons stiffens."""
     folder = tmp_path_factory.mktemp("train")
-    (folder / "truth").mkdir()
-    (folder / "truth" / "Wagons.mo").write_text(STIFFENING, encoding="utf-8")
-    machine = Model(compile_model(f"{folder / 'truth' / 'Wagons.mo'}:Wagons.Train", units="warn").path)
+    machine = truth(folder, "Wagons", STIFFENING, "Wagons.Train")
     case = folder / "case"
     case.mkdir()
     (case / "Wagons.mo").write_text(BELIEVED, encoding="utf-8")

@@ -28,7 +28,7 @@ from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.steps import fit_believed
 from lacuna.runtime import Model, RecordedInput, simulate
 
-from .recorded import record
+from .recorded import record, truth
 
 DATA = np.random.default_rng(5)
 
@@ -181,11 +181,9 @@ validate = ["r3.csv"]
 """
 
 
-def cascade(folder: Path, truth: str) -> Path:
+def cascade(folder: Path, concealed: str) -> Path:
     """A case of the two tanks whose truth is another class of the same variables."""
-    (folder / "truth").mkdir(parents=True)
-    (folder / "truth" / "Cascade.mo").write_text(truth, encoding="utf-8")
-    machine = Model(compile_model(str(folder / "truth" / "Cascade.mo"), units="warn").path)
+    machine = truth(folder, "Cascade", concealed)
     case = folder / "case"
     case.mkdir()
     (case / "Cascade.mo").write_text(BELIEVED, encoding="utf-8")

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from lacuna.codegen.compile import compile_model
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.efforts.instruments import _worst, colour_of, only_instruments
 from lacuna.discovery.efforts.located import Locator
@@ -17,9 +16,8 @@ from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.explain import explain
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.steps import fitted
-from lacuna.runtime import Model
 
-from .recorded import record
+from .recorded import record, truth
 from .test_efforts import BELIEVED, CASCADE, CASE
 
 LEAKING = CASCADE.format(upper="k*upper", lower="(k*lower + c*lower^2)").replace(
@@ -35,12 +33,10 @@ def noise(random: np.random.Generator) -> np.ndarray:
     return 1e-3 * (white + 3 * coloured + np.cumsum(drift) / np.sqrt(SAMPLES))
 
 
-def written(folder: Path, truth: str, size: float = 1.0) -> Path:
-    """A case of the believed cascade whose recordings are of `truth`, with noise of so many times the usual `size`."""
-    source = folder / "truth" / "Cascade.mo"
-    source.parent.mkdir(parents=True)
-    source.write_text(truth, encoding="utf-8")
-    machine = Model(compile_model(str(source)).path)
+def written(folder: Path, concealed: str, size: float = 1.0) -> Path:
+    """A case of the believed cascade whose recordings are of a `concealed` one, with noise of so many times the usual
+    `size`."""
+    machine = truth(folder, "Cascade", concealed)
     time, random = STEP * np.arange(SAMPLES), np.random.default_rng(3)
     for name in ("r1.csv", "r2.csv", "r3.csv"):
         q = 1e-4 * (1 + np.cumsum(random.normal(size=SAMPLES // 50))).clip(0.2, 3).repeat(50)

@@ -7,15 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lacuna.codegen.compile import compile_model
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.steps import fitted
-from lacuna.runtime import Model
 
-from .recorded import record
+from .recorded import record, truth
 
 VESSEL = """model Vessel "Fills from a supply as its valve is told"
   parameter Real C(unit="kg/Pa", min=0) = 1e-6;
@@ -53,9 +51,7 @@ validate = ["r3.csv"]
 def vessel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A case whose valve does not open before it is told to do so by 0.15."""
     folder = tmp_path_factory.mktemp("vessel")
-    (folder / "truth").mkdir()
-    (folder / "truth" / "Vessel.mo").write_text(VESSEL % "noEvent(max(u - 0.15, 0))", encoding="utf-8")
-    machine = Model(compile_model(str(folder / "truth" / "Vessel.mo")).path)
+    machine = truth(folder, "Vessel", VESSEL % "noEvent(max(u - 0.15, 0))")
     (folder / "Vessel.mo").write_text(VESSEL % "u", encoding="utf-8")
     (folder / "case.toml").write_text(CASE, encoding="utf-8")
     random, time = np.random.default_rng(5), np.arange(120) * 0.2
