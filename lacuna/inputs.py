@@ -57,10 +57,10 @@ def uncovered(given: Mapping[str, Input], start: float, stop: float) -> list[str
     (s) does, or begin later than it: there a sample is held."""
     said = []
     for name, value in given.items():
-        if not isinstance(value, RecordedInput) or len(value.time) < 2:
+        if not isinstance(value, RecordedInput):
             continue
-        first, last = float(value.time[0]), float(value.time[-1])
-        if first - start > value.time[1] - first or stop - last > last - value.time[-2]:
+        first, last, spacing = float(value.time[0]), float(value.time[-1]), np.diff(value.time)
+        if first - start > spacing[:1].sum() or stop - last > spacing[-1:].sum():
             span = f"samples from {first:g} to {last:g} s, a run from {start:g} to {stop:g} s"
             said.append(f"warning: input {name}: {span}; outside of them the first or last value is held")
     return said

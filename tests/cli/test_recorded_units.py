@@ -49,6 +49,13 @@ def test_samples_that_do_not_cover_the_run_are_held_with_a_word(tmp_path: Path) 
         assert said in result.output and ("is held" in result.output) == bool(said)
 
 
+def test_one_sample_is_held_with_a_word(tmp_path: Path) -> None:
+    (tmp_path / "one.csv").write_text("time,u\n0.5,3\n", encoding="utf-8")
+    result = lacuna.load(turn(tmp_path, "rpm")).simulate(inputs={"u": lacuna.recorded(tmp_path / "one.csv", "u")})
+    assert set(result["y"]) == {6.0}
+    assert "samples from 0.5 to 0.5 s" in result.warnings[0]
+
+
 def test_an_input_is_not_driven_by_another_quantity(tmp_path: Path) -> None:
     given = lacuna.recorded(recording(tmp_path, "i [mA]"), "i")
     with pytest.raises(lacuna.UserError, match=r"r\.csv: i cannot drive u: A is no rad/s"):
