@@ -103,7 +103,8 @@ def sweep(
     from lacuna.analysis.campaign.work import Work
     from lacuna.analysis.map.plant import ModelPlant
     from lacuna.analysis.report import sweep as report
-    from lacuna.analysis.settings import ADAPTIVE, PAPER, load_settings
+    from lacuna.analysis.settings import PAPER, load_settings
+    from lacuna.runtime import ADAPTIVE
 
     if solver not in ADAPTIVE:
         raise UserError(f"a sweep is solved by {', '.join(ADAPTIVE)}, not by {solver}")

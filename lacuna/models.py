@@ -26,7 +26,6 @@ import lacuna.runtime as runtime
 from lacuna.sources import Source, Units
 
 Solver = Literal["ida", "dopri5", "rodas4", "rk4", "euler"]
-FIXED_STEP = ("rk4", "euler")
 Dump = Literal["flat", "structure", "c"]
 POINTS = 500  # rows of a run whose model and caller name no interval, as Modelica tools have it
 NO_VALUE = "F023"  # the code of a parameter without a value, which the caller may give
@@ -197,7 +196,7 @@ class Model:
         self, times: np.ndarray, outputs: Sequence[str], inputs: Mapping[str, Input], progress: Progress | None = None
     ) -> runtime.Result:
         """A run with rows at `times` (s, [rows]) and nothing else."""
-        self._refuse(inputs, None, "")
+        self._refuse_parameters(inputs)
         begin, end = float(times[0]), float(times[-1])
         return runtime.simulate(
             self._model, parameters=self._values, inputs=as_inputs(inputs, self.variables), start=begin, stop=end,
@@ -254,9 +253,9 @@ class Model:
         Raises UserError or SimulationError for what cannot be used, IncompleteRun (with its rows) where it ends early.
         """
         model = self.with_parameters(parameters or {})
-        begin = model.start_time if start is None else start
-        end = model.stop_time if stop is None else stop
-        model._refuse(inputs or {}, None if solver in FIXED_STEP else step, solver)
+        begin, end = model._span(start, stop)
+        model._refuse_parameters(inputs or {})
+        _refuse_step(step, solver)
         clock = time.perf_counter()
         run = runtime.simulate(
             model.differentiated if sensitivities else model._model, parameters=model._values,
@@ -272,10 +271,10 @@ class Model:
         (progress or silent)(f"simulating {self.name}", 1.0)
         return result
 
-    def _refuse(self, inputs: Iterable[str], step: float | None, solver: str) -> None:
-        """Raises UserError for parameters among the inputs, or a step for a solver that takes none."""
-        if step is not None:
-            raise UserError(f"{solver} chooses its steps itself: a step is for {' and '.join(FIXED_STEP)}")
+    def _span(self, start: float | None, stop: float | None) -> tuple[float, float]:
+        return self.start_time if start is None else start, self.stop_time if stop is None else stop
+
+    def _refuse_parameters(self, inputs: Iterable[str]) -> None:
         for name in inputs:
             if name in self.parameters:
                 raise UserError(f"{name} is a parameter of {self.name}, not an input: set it by parameters, or -p")
@@ -289,3 +288,8 @@ class Model:
         driven = [(n, v.unit, v.description) for n, v in self.inputs.items()]
         size = f"{self.name}: {self._model.n_states} states, {len(self.variables)} variables"
         return page(size, table(head, rows), *([table(("input", "unit", ""), driven)] if driven else []))
+
+
+def _refuse_step(step: float | None, solver: str) -> None:
+    if step is not None and solver in runtime.ADAPTIVE:
+        raise UserError(f"{solver} chooses its steps itself: a step is for {' and '.join(runtime.FIXED_STEP)}")

@@ -5,9 +5,11 @@ from lacuna.runtime.files import metadata, write_csv, write_parquet
 from lacuna.runtime.model import Equation, Model, Variable
 from lacuna.runtime.modelica_mat import write_mat
 from lacuna.runtime.result import EventEntry, Failure, Flag, Result
-from lacuna.runtime.simulation import SOLVERS, RecordedInput, Session, simulate
+from lacuna.runtime.simulation import ADAPTIVE, FIXED_STEP, SOLVERS, RecordedInput, Session, simulate
 
 __all__ = [
+    "ADAPTIVE",
+    "FIXED_STEP",
     "SOLVERS",
     "Equation",
     "EventEntry",

@@ -19,7 +19,8 @@ from lacuna.runtime.library import INTERRUPTED, COptions, library
 from lacuna.runtime.model import MESSAGE_SIZE, Model
 from lacuna.runtime.result import Result
 
-SOLVERS = ("ida", "dopri5", "rodas4", "rk4", "euler")
+ADAPTIVE, FIXED_STEP = ("ida", "dopri5", "rodas4"), ("rk4", "euler")  # these need a step, those choose theirs
+SOLVERS = (*ADAPTIVE, *FIXED_STEP)
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,10 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from lacuna.analysis.errors import AnalysisError
-from lacuna.analysis.settings.schema import ADAPTIVE, check
+from lacuna.analysis.settings.schema import check
 from lacuna.given import LARGEST, parsed_toml, text_of
-
-__all__ = ["ADAPTIVE", "PAPER", "Band", "Fault", "Settings", "load_settings", "settings_of"]
 
 PAPER = Path(__file__).with_name("paper.toml")
 MOST_TESTS = 100_000  # of a map: each is simulated and leaves a file

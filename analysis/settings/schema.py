@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-import math
 from pathlib import Path
+import sys
 from typing import Any
 
 from lacuna.analysis.errors import AnalysisError
+from lacuna.runtime import ADAPTIVE
 from lacuna.suggest import did_you_mean
 
 
@@ -22,7 +23,8 @@ class Rule:
 
 def _number(what: str, holds: Callable[[float], bool]) -> Rule:
     def finite(value: Any) -> bool:
-        return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+        number = isinstance(value, int | float) and not isinstance(value, bool)
+        return number and abs(value) <= sys.float_info.max  # as any size of a whole number can be compared
 
     return Rule(f"a number{what}", lambda value: finite(value) and holds(value))
 
@@ -31,7 +33,6 @@ def _several(rule: Rule) -> Rule:
     return Rule(f"a list, each entry {rule.what}", lambda v: isinstance(v, list) and all(map(rule.holds, v)))
 
 
-ADAPTIVE = ("ida", "dopri5", "rodas4")  # solvers that need no step, which settings do not have
 TEXT = Rule("a text", lambda value: isinstance(value, str))
 NAME = Rule("the name of something, a text", lambda value: isinstance(value, str) and bool(value.strip()))
 NUMBER = _number("", lambda value: True)
@@ -41,7 +42,7 @@ COUNT = _number(", whole and above zero", lambda value: value > 0 and float(valu
 TOLERANCE = _number(" above 0 and below 1", lambda value: 0 < value < 1)
 SHARE = _number(" above 0 and at most 1", lambda value: 0 < value <= 1)
 PART = _number(" of at least 0 and below 1", lambda value: 0 <= value < 1)
-SOLVER = Rule(f"a solver of tests ({', '.join(ADAPTIVE)})", lambda value: value in ADAPTIVE)
+SOLVER = Rule(f"a solver that chooses its steps ({', '.join(ADAPTIVE)})", lambda value: value in ADAPTIVE)
 PADDING = Rule("one of none, section, record", lambda value: value in ("none", "section", "record"))
 NAMES, NUMBERS = _several(NAME), _several(NUMBER)
 PAIR = Rule("two numbers, before and after the switch", lambda value: NUMBERS.holds(value) and len(value) == 2)

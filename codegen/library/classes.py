@@ -16,9 +16,9 @@ from lacuna.codegen.library.access import NONE, Access
 from lacuna.codegen.library.search_path import (
     MODEL_FOLDER,
     PACKAGE_FILE,
-    absent,
     is_file,
     is_folder,
+    known_classes,
     names_in,
     outermost,
     package_in,
@@ -26,7 +26,6 @@ from lacuna.codegen.library.search_path import (
     split_name,
 )  # fmt: skip
 from lacuna.codegen.syntax import ast, parse
-from lacuna.suggest import did_you_mean
 
 HOME_PACKAGE = "Lacuna"
 MODEL_KINDS = ("model", "block", "class")  # what can be simulated
@@ -123,8 +122,9 @@ class Library:
         if (place / PACKAGE_FILE).is_file():
             return [self._package(place)]
         found = package_in(place, name)
-        packages = [self._package(found)] if found is not None and not found.is_file() else []
-        return packages if found is None or packages else self.parse_file(found)
+        if found is None:
+            return []
+        return self.parse_file(found) if found.is_file() else [self._package(found)]
 
     def _in_folder(self, cls: ast.Class, name: str) -> ast.Class | None:
         """The class `name` of a package that is a folder: one that a file elsewhere puts there, else the folder's."""
@@ -205,8 +205,7 @@ class Library:
             if found is None:
                 known = [*self.members(cls), *others]
                 where = f" in package {cls.path}" if cls.name else ""
-                hint = did_you_mean(part, known, absent(part, known))
-                raise Diagnostic("R001", f"there is no class {part}{where}", hint=hint)
+                raise Diagnostic("R001", f"there is no class {part}{where}", hint=known_classes(part, known))
             cls, others = found, ()
         return cls
 

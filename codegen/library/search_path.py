@@ -15,6 +15,7 @@ from lacuna.suggest import did_you_mean
 
 MODEL_FOLDER = Path(__file__).resolve().parents[2] / "model"
 PACKAGE_FILE = "package.mo"
+WITHOUT_MODELICA = "name the folder of the Modelica Standard Library by --library, or in MODELICAPATH"
 _VERSION = re.compile(r"(.+?) (\d[\w.+-]*)")  # of a library's folder: "Modelica 4.0.0" (specification, 18.8.4)
 
 
@@ -45,11 +46,10 @@ def split_name(name: str) -> tuple[Path | None, str]:
     return (None, name) if named else (Path(name), "")
 
 
-def absent(name: str, known: list[str]) -> str:
-    """What to do where no class is called `name` and none of `known` is like it."""
-    if name == "Modelica":
-        return "name the folder of the Modelica Standard Library by --library, or in MODELICAPATH"
-    return f"there is {', '.join(known[:12])}" if known else ""
+def known_classes(name: str, known: list[str]) -> str:
+    """A hint where no class is called `name`: which of `known` may be meant, or what there is."""
+    there = f"there is {', '.join(known[:12])}" if known else ""
+    return did_you_mean(name, known, WITHOUT_MODELICA if name == "Modelica" else there)
 
 
 def outermost(folder: Path) -> Path | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.names.scope import PRIMITIVES, base_classes, find_first, own_or_inherited
 from lacuna.codegen.library.classes import HOME_PACKAGE, Library
-from lacuna.codegen.library.search_path import absent
+from lacuna.codegen.library.search_path import WITHOUT_MODELICA
 from lacuna.codegen.syntax import ast
 from lacuna.suggest import did_you_mean, nearest, question
 
@@ -39,7 +39,7 @@ def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> 
 def _elsewhere(library: Library, ref: ast.Ref) -> str:
     """A hint where a class of this name lies in a package that was not looked in."""
     if ref.names[0] == "Modelica":
-        return absent("Modelica", [])
+        return WITHOUT_MODELICA
     try:
         classes = library.all_classes(library.member(library.root, HOME_PACKAGE))
     except Diagnostic:
