@@ -164,9 +164,9 @@ def _efforts(result: Explanation) -> list[float]:
 
 
 def _equations_may_be_wrong(result: Explanation) -> bool:
-    """Whether a sensor would be accused though places in the equations could not be tried, though far more than noise is
-    left, or though an effort of some course there explains as much as sensors do: by an error of any course, or by the
-    one that was found, which has few numbers."""
+    """Whether a sensor would be accused though places in the equations could not be tried, though more than noise is
+    left, or though an effort of some course there explains as much as sensors do: by an error of any course, or by
+    the one that was found, which has few numbers."""
     efforts = _efforts(result)
     if not efforts:
         return not result.amendment.structure.open
