@@ -20,7 +20,7 @@ from lacuna.discovery.efforts.instruments import colour_of
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.numeric import NotNumeric
-from lacuna.discovery.efforts.opened import Opened, opened
+from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.fit.evidence import nearly_noise, settled
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.law.empirical_law import fitted_law, simplified
@@ -60,10 +60,9 @@ def find(
     """Locate what `base`, the fit of `amendment`, lacks, and fit laws there: at places whose location is `admitted`."""
     progress("opening every place of the equations")
     try:
-        door = opened(case, amendment, library, [f.name for f in base.estimate.free if is_parameter(f.name)])
-        locator = _locator(case, door, base)
+        locator = located(case, amendment, base, library)
         progress(f"locating among {len(locator.places)} places")
-        found = Found(_ranked(locator, base), door.closed, null=locator.null)
+        found = Found(_ranked(locator, base), locator.opened.closed, null=locator.null)
     except (NotNumeric, SimulationError, np.linalg.LinAlgError) as reason:
         return Found(reason=str(reason))
     efforts = [s for s in found.sites if s.place is not None and s.gain > 0 and admitted(s.location)]
@@ -80,9 +79,10 @@ def find(
     return found
 
 
-def _locator(case: Case, door: Opened, base: Fit) -> Locator:
-    """Places about the runs of the machine that is believed: a fit without what is missing may have taken parameters
-    anywhere. About those of the fit where the believed machine does not run."""
+def located(case: Case, amendment: Amendment, base: Fit, library: Library) -> Locator:
+    """Every place of the amended model, about the runs of the machine that is believed: a fit without what is missing
+    may have taken parameters anywhere. About those of the fit where the believed machine does not run."""
+    door = opened(case, amendment, library, [f.name for f in base.estimate.free if is_parameter(f.name)])
     try:
         return Locator(case, door, base, base.point | base.believed())
     except SimulationError:

@@ -21,6 +21,7 @@ from lacuna.codegen.units.inference import UnitInference, of_variable
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.insertion import probe
+from lacuna.discovery.efforts.laws.terms import MOST
 from lacuna.discovery.efforts.linear import Along, Linear
 from lacuna.discovery.efforts.sites import Site, exchanges, read
 from lacuna.discovery.fit.machine import Machine, write_source
@@ -149,7 +150,7 @@ def opened(case: Case, amendment: Amendment, library: Library, parameters: list[
     found = read(library, amendment.structure.model)
     closed = list(found.closed)
     believed, _ = translate(str(write_source(amendment)), search_path=case.search_path)
-    between = exchanges(found.places, lambda site: unit_of(site, believed))
+    between = exchanges(found.places, lambda site: unit_of(site, believed), MOST)
     sites = _openable(case, amendment, [*found.places, *between], closed)
     whole = _with_probes(amendment, sites)
     machine = Machine(case, whole)

@@ -23,7 +23,6 @@ from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.syntax import ast
 
-EXCHANGING = 8  # balances of one unit, whose pairs are tried: there are more pairs in a few than balances
 DEFINITION = "it only says that one variable is the rate of another"
 
 
@@ -97,16 +96,16 @@ def read(library: Library, name: str) -> Sites:
     return Sites(cls, (*nodes, *_branches(group, ports), *found), tuple(closed))
 
 
-def exchanges(places: Iterable[Site], unit: Callable[[Site], str]) -> list[Site]:
+def exchanges(places: Iterable[Site], unit: Callable[[Site], str], most: int) -> list[Site]:
     """Pairs of balances of one unit that are written in the class: a leak from one volume to another, heat between two
-    nodes, a spring between two masses, where no component joins them."""
+    nodes, a spring between two masses, where no component joins them. None of a unit that more than `most` have."""
     of: dict[str, list[Site]] = {}
     for site in places:
         if site.kind == "equation" and not site.instance and "der(" in site.label:
             of.setdefault(unit(site), []).append(site)
     return [
         Site("exchange", f"{a.label} and {b.label}", parts=(a, b))
-        for balances in of.values() if len(balances) <= EXCHANGING for a, b in combinations(balances, 2)
+        for balances in of.values() if len(balances) <= most for a, b in combinations(balances, 2)
     ]  # fmt: skip
 
 

@@ -13,7 +13,6 @@ from lacuna.discovery.catalogue.amend import Attachment
 from lacuna.discovery.fit.machine import Machine
 
 ONE_SIDED = 0.05  # of the greatest size of a variable, below which it is not taken to go to that side
-PART = 1 / 3  # of a recording's length, beyond which a time that starts in samples' intervals is a trend or a constant
 RANGE = 10.0  # how far beyond its start values a parameter without a neutral value may go
 
 
@@ -33,7 +32,7 @@ def shape_starts(
         unit = effect.relative.get(name)
         if unit in of_time:
             starts = [s * of_time[unit] for s in starts]
-            starts = [s for s in starts if unit == "duration" or s < PART * of_time["duration"]] or starts[:1]
+            starts = [s for s in starts if unit == "duration" or s < of_time["duration"]] or starts[:1]
         elif unit:
             side = reached[unit] if effect.two_sided(unit) else (0.0, 0.0)
             starts = [s * _size(side[s < 0], max(reached[unit])) for s in starts]
