@@ -79,7 +79,7 @@ def flatten(
     check_components(leaves, buses, body, context)
     model.whens, model.algorithms, model.initial_equations = body.whens, body.algorithms, initial.equations
     model.asserts = body.asserts + initial.asserts
-    model.functions = context.functions
+    model.functions, model.derivatives = context.functions, context.derivatives
     at_events = assigned([*model.whens, *(s for a in model.algorithms for s in a.statements)])
     with context.attempt():
         require_lasting(body.asserts)
@@ -205,6 +205,7 @@ def _all_expressions(model: flat.FlatModel) -> Iterator[Expr]:
     for f in model.functions.values():
         yield from f.defaults.values()
         yield from expressions(f.body)
+    yield from (r.value for rules in model.derivatives.values() for r in rules if isinstance(r.value, Expr))
 
 
 def _experiment(top: Instance) -> flat.Experiment:

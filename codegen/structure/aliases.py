@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.constants import evaluate_constants, parametric_unknowns
+from lacuna.codegen.symbolic.annotated import OP, plain
 from lacuna.codegen.symbolic.expr import ZERO, Expr, const, der, is_const, neg, pre, var
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import Rewriter, assigned
@@ -33,8 +34,10 @@ def eliminate_aliases(model: flat.FlatModel) -> Aliases:
         model = parametric_unknowns(result.model, differentiated)
         pairs, equations = _alias_pairs(model, differentiated)
         if not pairs:
-            result.model = model
-            return result
+            result.model = _without_names(model)
+            if result.model is model:
+                return result
+            continue
         model = _merge_attributes(replace(model, equations=equations), pairs)
         result.model = _renamer(model, pairs).model(model)
         for name, (target, sign) in result.representative.items():
@@ -42,6 +45,22 @@ def eliminate_aliases(model: flat.FlatModel) -> Aliases:
                 further, other = pairs[target]
                 result.representative[name] = (further, sign * other)
         result.representative.update(pairs)
+
+
+def _without_names(model: flat.FlatModel) -> flat.FlatModel:
+    """Equations a = f(b, ...) in which f gives b itself and annotates its derivative as what belongs to b: a = b. An
+    input has no derivative but that one."""
+
+    def is_itself(e: Expr) -> bool:
+        signed = _signed(e.args[0]) if e.op == OP else None
+        if signed is None or model.variables[signed[0]].causality == "input":
+            return False
+        places = [k for k, a in enumerate(e.args[1:]) if a is e.args[0]]
+        return all(r.rates[k] is None for r in model.derivatives[str(e.value)] for k in places)
+
+    changed = {e: plain(e) for eq in model.equations for e in (eq.lhs, eq.rhs) if is_itself(e)}
+    rewriter = Rewriter(changed.get)
+    return replace(model, equations=[rewriter.equation(eq) for eq in model.equations]) if changed else model
 
 
 def _differentiated(model: flat.FlatModel) -> set[str]:

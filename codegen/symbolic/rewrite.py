@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 from lacuna.codegen import flat
+from lacuna.codegen.symbolic.annotated import DerivativeRule
 from lacuna.codegen.symbolic.expr import Expr, neg, transform
 
 Rule = Callable[[Expr], Expr | None]
@@ -78,7 +79,11 @@ class Rewriter:
             whens=[self.statement(w) for w in model.whens],
             algorithms=[self._algorithm(a) for a in model.algorithms],
             asserts=[self.statement(a) for a in model.asserts],
+            derivatives={key: [self._derivative(r) for r in rules] for key, rules in model.derivatives.items()},
         )
+
+    def _derivative(self, rule: DerivativeRule) -> DerivativeRule:
+        return rule if isinstance(rule.value, Exception) else replace(rule, value=self.expression(rule.value))
 
 
 def assigned(body: Iterable[flat.Statement]) -> list[str]:

@@ -198,7 +198,7 @@ class _Check:
             return self._solve(e.args[0], unit * SECOND, inference)
         if e.op in ("neg", "noEvent", "smooth", "pre"):
             return self._solve(e.args[-1], unit, inference)
-        if e.op == "delay":
+        if e.op in ("delay", "annotated"):
             return self._solve(e.args[0], unit, inference)
         if e.op in ("+", "-", "if", "min", "max"):
             parts = e.args[1:] if e.op == "if" else e.args

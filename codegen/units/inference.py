@@ -87,6 +87,8 @@ class UnitInference:
             for a in e.args[1:]:
                 self.require(a, SECOND, "delay takes a time")
             return self.of(e.args[0])
+        if op == "annotated":
+            return self.of(e.args[0])
         for a in e.args[:-1]:
             self.of(a)
         return self.of(e.args[-1]) if e.args and e.type != BOOLEAN else self._all(e.args)
@@ -199,6 +201,8 @@ def _has_written_factor(e: Expr) -> bool:
         return any(_is_scale(a) or _has_written_factor(a) for a in e.args)
     if e.op in ("if", "smooth"):  # a condition, an order
         return any(map(_has_written_factor, e.args[1:]))
+    if e.op == "annotated":
+        return _has_written_factor(e.args[0])
     return e.op in ("+", "-", "neg", "min", "max", "noEvent", "pre") and any(map(_has_written_factor, e.args))
 
 

@@ -40,6 +40,8 @@ def _constant(n: Expr, context: Context, span: Span, what: str) -> Expr | None:
         return _value_of(str(n.value), context, span, what)
     if n.op in ("noEvent", "smooth"):
         return evaluate(n.args[-1], context, span, what)
+    if n.op == "annotated":
+        return evaluate(n.args[0], context, span, what)
     if n.op == "if":  # the branch that does not hold need not have a value
         condition = evaluate(n.args[0], context, span, what)
         return evaluate(n.args[1] if condition.value else n.args[2], context, span, what)

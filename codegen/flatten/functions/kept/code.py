@@ -9,16 +9,17 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.expressions.constants import AtRunTime, evaluate
 from lacuna.codegen.flatten.expressions.elements import element, local_value
 from lacuna.codegen.flatten.functions.interpret import interpret
+from lacuna.codegen.flatten.functions.kept.parts import matched, parts, rebuilt, variables_of
+from lacuna.codegen.flatten.functions.kept.whole_calls import element_name
+from lacuna.codegen.flatten.functions.kept.writer import Writer
 from lacuna.codegen.flatten.functions.library.foreign import foreign_call
 from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
 from lacuna.codegen.flatten.functions.locals import Signature, signature_of
-from lacuna.codegen.flatten.functions.parts import matched, parts, rebuilt, variables_of
-from lacuna.codegen.flatten.functions.whole_calls import element_name
-from lacuna.codegen.flatten.functions.writer import Writer
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Array, Value, indices, scalars, shape_of
 from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.annotated import OP
 from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr
 from lacuna.codegen.symbolic.rewrite import Rewriter
 from lacuna.codegen.syntax import ast
@@ -184,7 +185,13 @@ def _emit(
             given, wanted = (tuple(n for n in order if (n in inputs) == asked) for asked in (True, False))
             function.body.append(flat.Native(external.function, given, wanted, cls.span))
         function.body += writer.block(signature.body)
-        constant = Rewriter(lambda e: None if e.value in function.shapes else _package_constant(e, context, span))
+
+        def settled(e: Expr) -> Expr | None:
+            if e.op == OP:  # nothing is differentiated by time in a function
+                return constant.expression(e.args[0])
+            return None if e.value in function.shapes else _package_constant(e, context, span)
+
+        constant = Rewriter(settled)
         function.body = constant.statements(function.body)
     except AtRunTime as reason:
         del context.functions[name], context.table(Sources)[name]

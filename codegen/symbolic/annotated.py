@@ -1,0 +1,59 @@
+"""Values of functions whose derivative in time the model gives itself: `annotation(derivative = df)` (12.7.1).
+
+    annotated(value, argument, ...)     value: the key of the rules
+
+is its value to every pass; the arguments are those of the call, scalar by scalar, for the rules alone. From
+differentiation on, `plain` leaves the value.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from lacuna.codegen.symbolic.expr import Expr, is_const, node, substitute, transform
+
+OP = "annotated"
+
+
+@dataclass(frozen=True)
+class DerivativeRule:
+    """The derivative of one scalar result, in terms of what stands for the arguments and for their derivatives.
+
+    It holds where the arguments at the positions `still` do not move (zeroDerivative), and where of each pair in
+    `chain` the second is the derivative of the first (order > 1). `rates` has None where no derivative is asked for.
+    """
+
+    parameters: tuple[Expr, ...]
+    rates: tuple[Expr | None, ...]
+    still: tuple[int, ...]
+    chain: tuple[tuple[int, int], ...]
+    value: Expr | Exception  # why there is none: it is raised where it is asked for
+
+
+Rules = Mapping[str, Sequence[DerivativeRule]]
+
+
+def annotated(value: Expr, arguments: Sequence[Expr], key: str) -> Expr:
+    return value if is_const(value) else node(OP, (value, *arguments), key, value.type)
+
+
+def by_rule(e: Expr, rules: Rules, derivative: Callable[[Expr], Expr]) -> Expr | None:
+    """The derivative of the annotated `e` by the first rule that holds; None where none does."""
+    arguments = e.args[1:]
+    for rule in rules.get(str(e.value), ()):
+        if any(derivative(arguments[a]) is not arguments[b] for a, b in rule.chain):
+            continue
+        if any(not is_const(derivative(arguments[k]), 0) for k in rule.still):
+            continue
+        if isinstance(rule.value, Exception):
+            raise rule.value
+        rates = {r: derivative(a) for r, a in zip(rule.rates, arguments, strict=True) if r is not None}
+        return substitute(rule.value, dict(zip(rule.parameters, arguments, strict=True)) | rates)
+    return None
+
+
+def plain(e: Expr, memo: dict[Expr, Expr] | None = None) -> Expr:
+    """`e` with values alone in the place of annotated ones."""
+    memo = {} if memo is None else memo
+    return transform(e, lambda n: plain(n.args[0], memo) if n.op == OP else None, memo)
