@@ -11,11 +11,13 @@ from lacuna.discovery.efforts.opened import Opened, Place
 from lacuna.discovery.efforts.smoother import Colour, Latent, Piece, Whitener, course, evidence, thinned
 from lacuna.discovery.fit.evidence import SIGMAS
 from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.fit.solver.free import Free
 from lacuna.runtime import RecordedInput
 
 SIZES = 10.0 ** np.arange(-1.0, 2.1, 0.5)  # of the effort that would explain the misfit by itself: half decades
 TIMES = (1 / 300, 1 / 50, 1 / 8)  # of the longest recording: shorter is noise, longer is a constant
 SAMPLES = 1500  # of all recordings together, that hypotheses are weighed on: locating needs no more
+NEAR = 5.0  # believed sigmas, within which parameters are looked for
 LEADING = (1.0, 0.5)  # powers of the misfit that noise is taken to have when the model is led: from coarse to fine
 
 
@@ -153,7 +155,7 @@ class Locator:
 
         The effort alone leads it, from parameters as they are. Led by both, parameters go where no machine has
         them, since an effort that jumps costs by its prior what an inertia that jumps with it does not; what is then
-        left for a law is the effort beside a wrong machine.
+        left for a law is the effort beside a wrong machine. They follow where that leaves them as they are believed.
         """
         latent, _ = self._chosen[id(site)]
         held = np.array([self.point[f.name] - f.centre for f in self.free]) / self.sigma
@@ -162,18 +164,27 @@ class Locator:
             led = [replace(p, noise=self.noise * level**share) for p in pieces]
             acting = [(site.place.column, course(p, latent, held)[0]) for p in led]
             pieces = [self.piece(self.point, r, a) for r, a in zip(self.case.fit, acting, strict=True)]
-        mean = evidence(thinned_all(pieces), latent).mean[0]
+        mean, point = evidence(thinned_all(pieces), latent).mean[0], self.point
+        if np.all(np.abs(mean) < NEAR):
+            point = self.point | _values(self.free, self.sigma, mean)
+            acting = [(site.place.column, course(p, latent, mean)[0]) for p in pieces]
+            pieces = [self.piece(point, r, a) for r, a in zip(self.case.fit, acting, strict=True)]
+            mean = evidence(thinned_all(pieces), latent).mean[0]
         efforts = [course(p, latent, mean) for p in pieces]
         site.effort = {
             r.name: (r.time, e, s) for r, (e, s) in zip(self.case.fit, efforts, strict=True)
         }  # fmt: skip
-        return Guided(self.point, pieces, [e for e, _ in efforts], mean, latent)
+        return Guided(point, pieces, [e for e, _ in efforts], mean, latent)
 
 
 def thinned_all(pieces: list[Piece], samples: int = SAMPLES) -> list[Piece]:
     """The recordings with so few samples that a search over many hypotheses is quick."""
     every = -(-sum(len(p.along.time) for p in pieces) // samples)
     return [thinned(p, every) for p in pieces]
+
+
+def _values(free: list[Free], sigma: np.ndarray, mean: np.ndarray) -> dict[str, float]:
+    return {f.name: f.clip(f.centre + s * m) for f, s, m in zip(free, sigma, mean, strict=True)}
 
 
 def _one(latent: Latent, k: int) -> Latent:
