@@ -48,12 +48,13 @@ def eliminate_aliases(model: flat.FlatModel) -> Aliases:
 
 
 def _without_names(model: flat.FlatModel) -> flat.FlatModel:
-    """Equations a = f(b, ...) in which f gives b itself and annotates its derivative as what belongs to b: a = b. An
-    input has no derivative but that one."""
+    """Equations a = f(b, ...) in which f gives b itself and annotates its derivative as what belongs to b: a = b. What
+    comes from outside or is discrete has no derivative but that one."""
 
     def is_itself(e: Expr) -> bool:
         signed = _signed(e.args[0]) if e.op == OP else None
-        if signed is None or model.variables[signed[0]].causality == "input":
+        v = None if signed is None else model.variables[signed[0]]
+        if v is None or v.causality == "input" or v.variability != flat.CONTINUOUS:
             return False
         places = [k for k, a in enumerate(e.args[1:]) if a is e.args[0]]
         return all(r.rates[k] is None for r in model.derivatives[str(e.value)] for k in places)

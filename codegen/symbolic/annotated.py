@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from lacuna.codegen.symbolic.expr import Expr, is_const, node, substitute, transform
 
 OP = "annotated"
+UNITS = "units"  # the key of a value with one argument: the same in names that have units
 
 
 @dataclass(frozen=True)
@@ -51,6 +52,11 @@ def by_rule(e: Expr, rules: Rules, derivative: Callable[[Expr], Expr]) -> Expr |
         rates = {r: derivative(a) for r, a in zip(rule.rates, arguments, strict=True) if r is not None}
         return substitute(rule.value, dict(zip(rule.parameters, arguments, strict=True)) | rates)
     return None
+
+
+def unmarked(e: Expr) -> Expr:
+    """`e` without what tells the units of numbers."""
+    return transform(e, lambda n: unmarked(n.args[0]) if n.op == OP and n.value == UNITS else None, {})
 
 
 def plain(e: Expr, memo: dict[Expr, Expr] | None = None) -> Expr:

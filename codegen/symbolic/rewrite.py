@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 from lacuna.codegen import flat
-from lacuna.codegen.symbolic.annotated import DerivativeRule
+from lacuna.codegen.symbolic.annotated import OP, UNITS, DerivativeRule, unmarked
 from lacuna.codegen.symbolic.expr import Expr, neg, transform
 
 Rule = Callable[[Expr], Expr | None]
@@ -84,6 +84,11 @@ class Rewriter:
 
     def _derivative(self, rule: DerivativeRule) -> DerivativeRule:
         return rule if isinstance(rule.value, Exception) else replace(rule, value=self.expression(rule.value))
+
+
+def without_units(model: flat.FlatModel) -> flat.FlatModel:
+    """The model without what tells the units of numbers, which nothing after the check of units asks for."""
+    return Rewriter(lambda n: unmarked(n) if n.op == OP and n.value == UNITS else None).model(model)
 
 
 def assigned(body: Iterable[flat.Statement]) -> list[str]:

@@ -136,7 +136,8 @@ class Writer:
     def _assignment(self, item: ast.Assignment, result: list[flat.Statement]) -> None:
         several = isinstance(item.target, ast.Tuple)
         targets = item.target.items if several else [item.target]
-        values = lower_results(item.value, self.scope) if several else [lower(item.value, self.scope)]
+        lowered = lower_results(item.value, self.scope, len(targets)) if several else lower(item.value, self.scope)
+        values = lowered if several else [lowered]
         places = [None if t is None else self._target(t) for t in targets]
         whole = self._whole_call(places, values, item.span)
         if whole is not None:
