@@ -38,7 +38,7 @@ from lacuna.codegen.flatten.sections import flatten_items
 from lacuna.codegen.library.classes import MODEL_KINDS, Library
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import Expr
-from lacuna.codegen.symbolic.rewrite import assigned, expressions, without_units
+from lacuna.codegen.symbolic.rewrite import assigned, expressions, without_marks
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.units.check import check_units
 
@@ -97,7 +97,7 @@ def flatten(
 
 def _check_units(model: flat.FlatModel, context: Context, mode: str) -> flat.FlatModel:
     """The findings to the context; the model without what only this check looks at."""
-    checked = without_units(model) if context.literal_units else model
+    checked = without_marks(model) if context.literal_units or context.derivatives else model
     if mode == "off":
         return checked
     package = context.library.foreign_package
