@@ -9,6 +9,7 @@ from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.causal import Assignment, Step, expressions_of, following
 from lacuna.codegen.structure.sorting.blocks import strong_components
+from lacuna.codegen.symbolic.annotated import plain
 from lacuna.codegen.symbolic.expr import REAL, Expr
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import Rewriter, assigned, expressions
@@ -56,7 +57,7 @@ def _directed(eq: flat.Equation, model: flat.FlatModel, taken: set[str]) -> Disc
         if unknown.op == "var" and unknown not in leaves(value):
             v = model.variables[str(unknown.value)]
             if v.variability == flat.DISCRETE and v.causality != "input" and v.name not in taken:
-                return DiscreteEquation(v.name, value, eq)
+                return DiscreteEquation(v.name, plain(value), eq)
     raise Diagnostic(
         "S010", f"no discrete variable is left for which the equation `{eq.text or eq.lhs}` could be solved", eq.span,
         "write discrete equations as `variable = expression`, one for each variable that no when clause assigns",

@@ -150,7 +150,7 @@ def _never(condition: Expr, before: list[tuple[Expr, list[flat.Statement]]], sco
 def assignment(item: ast.Assignment, scope: Scope) -> list[flat.Statement]:
     """target := value, scalar by scalar; values are read before any is assigned."""
     if isinstance(item.target, ast.Tuple):
-        values = lower_results(item.value, scope)
+        values = lower_results(item.value, scope, len(item.target.items))
         pairs = [(lower(t, scope), v) for t, v in zip(item.target.items, values, strict=False) if t is not None]
     else:
         pairs = [(lower(item.target, scope), lower(item.value, scope))]

@@ -24,6 +24,9 @@ def visible_classes(library: Library, cls: ast.Class) -> list[str]:
 
 
 def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> Diagnostic:
+    if ref.names == ("Clock",):
+        hint = "use when sample(start, interval) then"
+        return Diagnostic("R091", "Clock is outside the subset", ref.span, hint)
     known: list[str] = [*visible_classes(library, cls), *PRIMITIVES]
     missing = ref.names[0]
     current = find_first(library, cls, ref.names[0])
@@ -33,6 +36,8 @@ def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> 
         known, missing = library.members(current), name
         current = own_or_inherited(library, current, name)
     hint = did_you_mean(missing, known) or _elsewhere(library, ref)
+    if current is None and missing == ref.names[0] in visible_classes(library, cls):
+        hint = f"an encapsulated class around it sees only what it imports: import ...{missing};"
     return Diagnostic("R001", f"there is no {what} {ref}", ref.span, hint)
 
 

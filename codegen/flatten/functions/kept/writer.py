@@ -13,9 +13,9 @@ from lacuna.codegen.flatten.expressions.elements import local_value
 from lacuna.codegen.flatten.expressions.lower import lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.functions.fitting import blank, declared_sizes, fit, typed
 from lacuna.codegen.flatten.functions.interpret import unknown_target
+from lacuna.codegen.flatten.functions.kept.parts import matched, parts, variables_of
+from lacuna.codegen.flatten.functions.kept.whole_calls import called
 from lacuna.codegen.flatten.functions.locals import Local
-from lacuna.codegen.flatten.functions.parts import matched, parts, variables_of
-from lacuna.codegen.flatten.functions.whole_calls import called
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Value, scalars, shape_of
 from lacuna.codegen.flatten.references.iterators import iterate
@@ -136,7 +136,8 @@ class Writer:
     def _assignment(self, item: ast.Assignment, result: list[flat.Statement]) -> None:
         several = isinstance(item.target, ast.Tuple)
         targets = item.target.items if several else [item.target]
-        values = lower_results(item.value, self.scope) if several else [lower(item.value, self.scope)]
+        lowered = lower_results(item.value, self.scope, len(targets)) if several else lower(item.value, self.scope)
+        values = lowered if several else [lowered]
         places = [None if t is None else self._target(t) for t in targets]
         whole = self._whole_call(places, values, item.span)
         if whole is not None:
