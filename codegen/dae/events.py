@@ -196,6 +196,15 @@ def _sorted_bodies(w: flat.When) -> flat.When:
     return replace(w, branches=[(c, sorted_body(b)) for c, b in w.branches])
 
 
+def _refuse_own_value(s: flat.Statement) -> None:
+    """Raises S013 for an equation that gives a variable a value by itself: only pre(n) is what it was before."""
+    own = set(assigned([s])) & {str(n.value) for e in expressions([s]) for n in leaves(e) if n.op == "var"}
+    if own:
+        name = min(own)
+        hint = f"write pre({name}) for the value from before the event"
+        raise Diagnostic("S013", f"the equation of {name} in a when-clause holds {name} itself", s.span, hint)
+
+
 def sorted_body(body: list[flat.Statement]) -> list[flat.Statement]:
     writer = {n: k for k, s in enumerate(body) for n in assigned([s])}
     needs = [
@@ -205,7 +214,9 @@ def sorted_body(body: list[flat.Statement]) -> list[flat.Statement]:
     ]  # fmt: skip
     components = strong_components(needs)
     for component in components:
-        if len(component) > 1:
+        if len(component) == 1:
+            _refuse_own_value(body[component[0]])
+        else:
             statements = [body[k] for k in sorted(component)]
             names = ", ".join(n for s in statements for n in assigned([s]))
             raise Diagnostic(

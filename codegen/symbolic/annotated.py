@@ -11,9 +11,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from lacuna.codegen.symbolic.expr import Expr, is_const, node, substitute, transform
+from lacuna.codegen.symbolic.expr import REAL, Expr, is_const, node, substitute, transform
 
 OP = "annotated"
+UNITS = "units"  # the key of a value with one argument: the same in names that have units
 
 
 @dataclass(frozen=True)
@@ -29,6 +30,12 @@ class DerivativeRule:
     still: tuple[int, ...]
     chain: tuple[tuple[int, int], ...]
     value: Expr | Exception  # why there is none: it is raised where it is asked for
+
+    @property
+    def unheard(self) -> frozenset[int]:
+        """Positions of the arguments whose derivatives it leaves out though they may move (noDerivative)."""
+        pairs = enumerate(zip(self.parameters, self.rates, strict=True))
+        return frozenset(k for k, (p, r) in pairs if r is None and p.type == REAL and k not in self.still)
 
 
 Rules = Mapping[str, Sequence[DerivativeRule]]
@@ -51,6 +58,11 @@ def by_rule(e: Expr, rules: Rules, derivative: Callable[[Expr], Expr]) -> Expr |
         rates = {r: derivative(a) for r, a in zip(rule.rates, arguments, strict=True) if r is not None}
         return substitute(rule.value, dict(zip(rule.parameters, arguments, strict=True)) | rates)
     return None
+
+
+def unmarked(e: Expr) -> Expr:
+    """`e` without what tells the units of numbers."""
+    return transform(e, lambda n: unmarked(n.args[0]) if n.op == OP and n.value == UNITS else None, {})
 
 
 def plain(e: Expr, memo: dict[Expr, Expr] | None = None) -> Expr:

@@ -106,7 +106,11 @@ def _depends_on_free(e: Expr, context: Context) -> bool:
     memo = context.table(_Free)
     if e not in memo:
         entry = context.scalars.get(str(e.value)) if e.op == "var" else None
-        memo[e] = entry[0].is_free if entry else any(_depends_on_free(a, context) for a in e.args)
+        memo[e] = (
+            entry[0].is_free
+            if entry
+            else any(_depends_on_free(a, context) for a in (e.args[:1] if e.op == "annotated" else e.args))
+        )
     return memo[e]
 
 
@@ -128,6 +132,7 @@ def _variability(e: Expr, context: Context) -> str:
         return "discrete"
     if e.op == "noEvent":  # what is in it changes as its variables do (3.8.5)
         return max((variability(n, context) for n in leaves(e)), key=_ORDER.__getitem__, default="constant")
-    found = max((variability(a, context) for a in e.args), key=_ORDER.__getitem__, default="constant")
+    parts = e.args[:1] if e.op == "annotated" else e.args
+    found = max((variability(a, context) for a in parts), key=_ORDER.__getitem__, default="constant")
     by_events = e.op in ex.RELATIONS or (e.op == "call" and e.value in ("floor", "ceil", "integer", "div", "sign"))
     return "discrete" if by_events and found == "continuous" else found

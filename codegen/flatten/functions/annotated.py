@@ -24,6 +24,7 @@ from lacuna.codegen.flatten.names.values import (
     items_of,
     scalars,
     shape_of,
+    with_scalars,
 )
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.annotated import DerivativeRule, annotated
@@ -90,7 +91,7 @@ def with_derivatives(
         return s if itself or rule not in context.derivatives else annotated(s, varying, rule)
 
     numbered = iter([marked(k, s) for k, s in enumerate(s for r in results for s in scalars(r))])
-    return [_rebuilt(r, numbered) for r in results]
+    return [with_scalars(r, numbered) for r in results]
 
 
 def _concerned(annotations: Sequence[_Annotation], arguments: dict[str, Value], context: Context) -> bool:
@@ -161,7 +162,7 @@ def _add_rule(
     rates = [_rate_of(s, f"{base}'({k})") for k, s in enumerate(items)]
     context.table(_Known).placeholders.update(s for s in (*stands, *rates) if isinstance(s, Expr))
     each, rate = iter(stands), iter(rates)
-    given = {n: _rebuilt(v, each) for n, v in arguments.items()}
+    given = {n: with_scalars(v, each) for n, v in arguments.items()}
     moving = {i.name: _rates(arguments[i.name], rate, i.type.primitive == REAL) for i in signature.inputs}
     wanted = level.last if annotation.order > 1 else [n for n in arguments if n not in annotation.without]
     derivatives = [moving[n] for n in wanted if moving[n] is not None]
@@ -225,15 +226,6 @@ def _rates(value: Value, rate: Iterator[Expr | None], real: bool) -> Value | Non
         items = tuple(_rates(i, rate, real) for i in value.items)
         return Array(value.shape, items) if (items or real) and None not in items else None
     return next(rate)
-
-
-def _rebuilt(value: Value, new: Iterator[Value]) -> Value:
-    """A value built as `value` is, of other scalars."""
-    if isinstance(value, Record):
-        return Record(value.name, {n: _rebuilt(v, new) for n, v in value.fields.items()}, value.cls)
-    if isinstance(value, Array):
-        return Array(value.shape, tuple(_rebuilt(i, new) for i in value.items))
-    return next(new)
 
 
 def _real(results: list[Value]) -> list[Expr]:

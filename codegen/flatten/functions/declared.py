@@ -19,6 +19,7 @@ from lacuna.codegen.flatten.functions.interpret import interpret
 from lacuna.codegen.flatten.functions.kept.code import emitted_call
 from lacuna.codegen.flatten.functions.library.external import call_external
 from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
+from lacuna.codegen.flatten.functions.literal_units import with_literal_units
 from lacuna.codegen.flatten.functions.locals import Local, Signature, signature_of
 from lacuna.codegen.flatten.names.scope import Scope, find_class
 from lacuna.codegen.flatten.names.values import (
@@ -120,6 +121,8 @@ def _results(signature: Signature, arguments: dict[str, Value], e: ast.Call, sco
             results = interpret(signature, arguments, context, e.span)
             if known or makes_events or _is_small(results, arguments):
                 results = results if makes_events else [_without_events(r) for r in results]
+                if not scope.in_function:
+                    results = with_literal_units(signature, arguments, results, context, e.span)
                 for local, value in zip(signature.outputs, results, strict=True):
                     note_units(local, value, e.span, f"output {local.name} of {cls.name}", scope)
                 return results

@@ -51,6 +51,7 @@ class Context:
     places: dict[tuple[str, str], Span] = field(default_factory=dict)  # of bindings and attributes: (variable, which)
     argument_units: list[tuple[Expr, str, str, Span]] = field(default_factory=list)  # value, unit, what, where
     function_units: dict[str, str] = field(default_factory=dict)  # of the result, by name of a kept function
+    literal_units: dict[str, str] = field(default_factory=dict)  # of numbers given to inputs, by names they have for it
     derivatives: dict[str, list[DerivativeRule]] = field(default_factory=dict)  # of annotated values, by their keys
     call_depth: int = 0
     elements: int = 0
