@@ -12,12 +12,11 @@ from lacuna.discovery.efforts.smoother import Colour, Latent, Piece, Whitener, c
 from lacuna.discovery.fit.evidence import SIGMAS
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.free import Free
-from lacuna.runtime import RecordedInput
+from lacuna.runtime import RecordedInput, SimulationError
 
 SIZES = 10.0 ** np.arange(-1.0, 2.1, 0.5)  # of the effort that would explain the misfit by itself: half decades
 TIMES = (1 / 300, 1 / 50, 1 / 8)  # of the longest recording: shorter is noise, longer is a constant
 SAMPLES = 1500  # of all recordings together, that hypotheses are weighed on: locating needs no more
-NEAR = 5.0  # believed sigmas, within which parameters are looked for
 LEADING = (1.0, 0.5)  # powers of the misfit that noise is taken to have when the model is led: from coarse to fine
 
 
@@ -150,26 +149,41 @@ class Locator:
         left = np.concatenate([p.data[:, :, 0] for p in self.pieces]) / self.noise
         return np.maximum(1.0, np.sqrt(np.nanmean(left**2, axis=0)))
 
+    def _led(self, point: dict[str, float], site: Site, efforts: list[np.ndarray]) -> list[Piece]:
+        """The linear model about the runs from `point` with these efforts at a place."""
+        runs = zip(self.case.fit, efforts, strict=True)
+        return [self.piece(point, recording, (site.place.column, effort)) for recording, effort in runs]
+
+    def _followed(
+        self, site: Site, latent: Latent, pieces: list[Piece]
+    ) -> tuple[dict[str, float], list[Piece], np.ndarray]:  # fmt: skip
+        """(parameters, linear models, estimate of the parameters in units of belief) once these have followed."""
+        told, point = evidence(thinned_all(pieces), latent), self.point
+        while True:
+            trial = self.point | _values(self.free, self.sigma, told.mean[0])
+            try:
+                led = self._led(trial, site, [course(p, latent, told.mean[0])[0] for p in pieces])
+            except SimulationError:
+                return point, pieces, told.mean[0]
+            now = evidence(thinned_all(led), latent)
+            if not now.log[0] > told.log[0] + 1.0:  # nat: less is nothing
+                return point, pieces, told.mean[0]
+            told, point, pieces = now, trial, led
+
     def guided(self, site: Site) -> Guided:
         """The model led along the data by the effort at a place, linearised anew about the run that it gives.
 
         The effort alone leads it, from parameters as they are. Led by both, parameters go where no machine has
         them, since an effort that jumps costs by its prior what an inertia that jumps with it does not; what is then
-        left for a law is the effort beside a wrong machine. They follow where that leaves them as they are believed.
+        left for a law is the effort beside a wrong machine. They follow while the evidence about the runs so led rises.
         """
         latent, _ = self._chosen[id(site)]
         held = np.array([self.point[f.name] - f.centre for f in self.free]) / self.sigma
         pieces, level = self.pieces, self._level()
         for share in LEADING:
             led = [replace(p, noise=self.noise * level**share) for p in pieces]
-            acting = [(site.place.column, course(p, latent, held)[0]) for p in led]
-            pieces = [self.piece(self.point, r, a) for r, a in zip(self.case.fit, acting, strict=True)]
-        mean, point = evidence(thinned_all(pieces), latent).mean[0], self.point
-        if np.all(np.abs(mean) < NEAR):
-            point = self.point | _values(self.free, self.sigma, mean)
-            acting = [(site.place.column, course(p, latent, mean)[0]) for p in pieces]
-            pieces = [self.piece(point, r, a) for r, a in zip(self.case.fit, acting, strict=True)]
-            mean = evidence(thinned_all(pieces), latent).mean[0]
+            pieces = self._led(self.point, site, [course(p, latent, held)[0] for p in led])
+        point, pieces, mean = self._followed(site, latent, pieces)
         efforts = [course(p, latent, mean) for p in pieces]
         site.effort = {
             r.name: (r.time, e, s) for r, (e, s) in zip(self.case.fit, efforts, strict=True)

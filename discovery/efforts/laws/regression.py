@@ -12,12 +12,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from lacuna.discovery.efforts.located import NEAR, Guided, thinned_all
+from lacuna.discovery.efforts.located import Guided, thinned_all
 from lacuna.discovery.efforts.smoother import Latent, Piece, Whitener
 from lacuna.discovery.law.law import Law, Site
 from lacuna.discovery.law.law_terms import Group
 
 DISCREPANCIES = (0.3, 0.03)  # of the located effort's size, that a law may leave
+NEAR = 5.0  # believed sigmas, within which parameters are looked for
 FURTHER = 2.0  # times as far as beside an effort of any course, that a law may leave them
 DEPENDENT = 1e-6  # share of a column that is left beside the others, below which it is none of its own
 
