@@ -40,7 +40,7 @@ class Machine:
         self.step_limits = step_limits or {}
         self.steps: dict[str, int] = {}
         self.path = source or write_source(amendment)
-        self.compiled = compile_model(str(self.path), search_path=case.search_path)
+        self.compiled = compile_model(str(self.path), search_path=case.search_path, quick=True)
         self.model = Model(self.compiled.path)
         self.columns = {s.column: amendment.output(s.variable) for s in case.outputs}
         self._check_signals()
