@@ -9,6 +9,7 @@ from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.causal import Assignment, Step, expressions_of, following
 from lacuna.codegen.structure.sorting.blocks import strong_components
+from lacuna.codegen.symbolic.annotated import plain
 from lacuna.codegen.symbolic.expr import REAL, Expr
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import Rewriter, assigned, expressions
@@ -56,7 +57,7 @@ def _directed(eq: flat.Equation, model: flat.FlatModel, taken: set[str]) -> Disc
         if unknown.op == "var" and unknown not in leaves(value):
             v = model.variables[str(unknown.value)]
             if v.variability == flat.DISCRETE and v.causality != "input" and v.name not in taken:
-                return DiscreteEquation(v.name, value, eq)
+                return DiscreteEquation(v.name, plain(value), eq)
     raise Diagnostic(
         "S010", f"no discrete variable is left for which the equation `{eq.text or eq.lhs}` could be solved", eq.span,
         "write discrete equations as `variable = expression`, one for each variable that no when clause assigns",
@@ -195,6 +196,15 @@ def _sorted_bodies(w: flat.When) -> flat.When:
     return replace(w, branches=[(c, sorted_body(b)) for c, b in w.branches])
 
 
+def _refuse_own_value(s: flat.Statement) -> None:
+    """Raises S013 for an equation that gives a variable a value by itself: only pre(n) is what it was before."""
+    own = set(assigned([s])) & {str(n.value) for e in expressions([s]) for n in leaves(e) if n.op == "var"}
+    if own:
+        name = min(own)
+        hint = f"write pre({name}) for the value from before the event"
+        raise Diagnostic("S013", f"the equation of {name} in a when-clause holds {name} itself", s.span, hint)
+
+
 def sorted_body(body: list[flat.Statement]) -> list[flat.Statement]:
     writer = {n: k for k, s in enumerate(body) for n in assigned([s])}
     needs = [
@@ -204,7 +214,9 @@ def sorted_body(body: list[flat.Statement]) -> list[flat.Statement]:
     ]  # fmt: skip
     components = strong_components(needs)
     for component in components:
-        if len(component) > 1:
+        if len(component) == 1:
+            _refuse_own_value(body[component[0]])
+        else:
             statements = [body[k] for k in sorted(component)]
             names = ", ".join(n for s in statements for n in assigned([s]))
             raise Diagnostic(

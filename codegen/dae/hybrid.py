@@ -20,6 +20,7 @@ from lacuna.codegen import flat
 from lacuna.codegen.dae.ends import arguments, ends, is_call, keep_promises, without_corner
 from lacuna.codegen.dae.relations import Relation, canonical, complement, within
 from lacuna.codegen.symbolic.affine import affine
+from lacuna.codegen.symbolic.annotated import plain
 from lacuna.codegen.symbolic.expr import (  # fmt: skip
     BOOLEAN,
     INTEGER,
@@ -229,7 +230,8 @@ class _Freezer:
                 return holds if positive else logical_not(holds)
             number = self._numbers[left, right] = len(self.relations)
             text = text or within(self._written, left, right)
-            self.relations.append(Relation(left, right, self._source, self._slope(left, right), text))
+            slope = self._slope(left, right)
+            self.relations.append(Relation(plain(left), plain(right), self._source, slope, text))
         return self._frozen(number, positive)
 
     def _frozen(self, number: int, positive: bool) -> Expr:

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flat.foreign import Foreign, ForeignCode
+from lacuna.codegen.symbolic.annotated import Rules
 from lacuna.codegen.symbolic.expr import REAL, Expr
 
 CONSTANT, PARAMETER, DISCRETE, CONTINUOUS = "constant", "parameter", "discrete", "continuous"
@@ -219,3 +220,4 @@ class FlatModel:
     files: dict[str, str] = field(default_factory=dict)  # every file read -> SHA-256 of its text
     warnings: list[Diagnostic] = field(default_factory=list)
     foreign: ForeignCode = field(default_factory=ForeignCode)
+    derivatives: Rules = field(default_factory=dict)  # of the annotated values in the equations

@@ -7,7 +7,7 @@ from lacuna.codegen.flatten.connections.streams import actual_stream, in_stream
 from lacuna.codegen.flatten.connections.structure import cardinality
 from lacuna.codegen.flatten.expressions import arrays, lower, operators
 from lacuna.codegen.flatten.functions import calls, overloads
-from lacuna.codegen.flatten.functions.code import run
+from lacuna.codegen.flatten.functions.kept.code import run
 from lacuna.codegen.flatten.names.context import Lowering
 from lacuna.codegen.flatten.references import iterators
 from lacuna.codegen.flatten.references.references import read, read_part

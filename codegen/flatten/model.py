@@ -38,7 +38,7 @@ from lacuna.codegen.flatten.sections import flatten_items
 from lacuna.codegen.library.classes import MODEL_KINDS, Library
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import Expr
-from lacuna.codegen.symbolic.rewrite import assigned, expressions
+from lacuna.codegen.symbolic.rewrite import assigned, expressions, without_marks
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.units.check import check_units
 
@@ -79,8 +79,8 @@ def flatten(
     check_components(leaves, buses, body, context)
     model.whens, model.algorithms, model.initial_equations = body.whens, body.algorithms, initial.equations
     model.asserts = body.asserts + initial.asserts
-    model.functions = context.functions
-    at_events = assigned([*model.whens, *(s for a in model.algorithms for s in a.statements)])
+    model.functions, model.derivatives = context.functions, context.derivatives
+    at_events = [*assigned(model.whens), *(n for a in model.algorithms for n in a.targets)]
     with context.attempt():
         require_lasting(body.asserts)
         check_discrete(model.equations, leaves, set(at_events), context)
@@ -88,18 +88,22 @@ def flatten(
     add_used_constants(model, context, list(_all_expressions(model)))
     mark_evaluated(model, context.evaluated)
     model.experiment = _experiment(top)
-    _check_units(model, context, units)
+    model = _check_units(model, context, units)
     model.files, model.warnings = {**library.files, **context.files}, context.warnings
     model.foreign = context.table(flat.ForeignCode)
     context.finish()
     return model
 
 
-def _check_units(model: flat.FlatModel, context: Context, mode: str) -> None:
+def _check_units(model: flat.FlatModel, context: Context, mode: str) -> flat.FlatModel:
+    """The findings to the context; the model without what only this check looks at."""
+    checked = without_marks(model) if context.literal_units or context.derivatives else model
     if mode == "off":
-        return
+        return checked
     package = context.library.foreign_package
-    findings = check_units(model, context.argument_units, context.function_units, context.places, package)
+    findings = check_units(
+        model, context.argument_units, context.function_units, context.places, package, context.literal_units
+    )
     own = [f for f in findings if mode == "all" or not package(f.span.file)]
     told = [replace(f, severity="warning") for f in own] if mode == "warn" else own
     context.warnings += [f for f in told if f.severity == "warning"]
@@ -109,6 +113,7 @@ def _check_units(model: flat.FlatModel, context: Context, mode: str) -> None:
         hint = "lacuna check --units all shows them"
         message = f"{count} places of the library {name} do not pass the unit check"
         context.warnings.append(Diagnostic("W007", message, hint=hint, severity="warning"))
+    return checked
 
 
 def _outside_modifier(modifications: dict[str, Expr | float], span: Span) -> Modifier | None:
@@ -205,6 +210,7 @@ def _all_expressions(model: flat.FlatModel) -> Iterator[Expr]:
     for f in model.functions.values():
         yield from f.defaults.values()
         yield from expressions(f.body)
+    yield from (r.value for rules in model.derivatives.values() for r in rules if isinstance(r.value, Expr))
 
 
 def _experiment(top: Instance) -> flat.Experiment:

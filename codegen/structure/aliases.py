@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.constants import evaluate_constants, parametric_unknowns
+from lacuna.codegen.symbolic.annotated import OP
 from lacuna.codegen.symbolic.expr import ZERO, Expr, const, der, is_const, neg, pre, var
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import Rewriter, assigned
@@ -33,8 +34,10 @@ def eliminate_aliases(model: flat.FlatModel) -> Aliases:
         model = parametric_unknowns(result.model, differentiated)
         pairs, equations = _alias_pairs(model, differentiated)
         if not pairs:
-            result.model = model
-            return result
+            result.model = _settled(model) if model.derivatives else model
+            if result.model is model:
+                return result
+            continue
         model = _merge_attributes(replace(model, equations=equations), pairs)
         result.model = _renamer(model, pairs).model(model)
         for name, (target, sign) in result.representative.items():
@@ -42,6 +45,37 @@ def eliminate_aliases(model: flat.FlatModel) -> Aliases:
                 further, other = pairs[target]
                 result.representative[name] = (further, sign * other)
         result.representative.update(pairs)
+
+
+def _settled(model: flat.FlatModel) -> flat.FlatModel:
+    """Values of functions whose annotated derivatives leave out what an argument does (noDerivative) as mere values,
+    where the argument can be differentiated: both say the same then, and the function's body shows more. What follows
+    an input or a discrete variable has no derivative but the annotated one."""
+    outside = _from_outside(model)
+
+    def rule(n: Expr) -> Expr | None:
+        rules = model.derivatives[str(n.value)] if n.op == OP else ()
+        unheard = [r.unheard for r in rules]
+        if not unheard or not all(unheard) or any(outside & leaves(n.args[k + 1]) for k in set().union(*unheard)):
+            return None
+        return rewriter.expression(n.args[0])
+
+    rewriter = Rewriter(rule)
+    equations = [rewriter.equation(eq) for eq in model.equations]
+    same = all(new is old for new, old in zip(equations, model.equations, strict=True))
+    return model if same else replace(model, equations=equations)
+
+
+def _from_outside(model: flat.FlatModel) -> set[Expr]:
+    """Inputs, discrete variables, and what equations v = e give values that follow from them."""
+    given = [v for v in model.variables.values() if v.causality == "input" or v.variability == flat.DISCRETE]
+    found = {var(v.name, v.type) for v in given}
+    pairs = [pair for eq in model.equations for pair in ((eq.lhs, eq.rhs), (eq.rhs, eq.lhs)) if pair[0].op == "var"]
+    before = -1
+    while before < len(found):
+        before = len(found)
+        found |= {a for a, value in pairs if a not in found and found & leaves(value)}
+    return found
 
 
 def _differentiated(model: flat.FlatModel) -> set[str]:

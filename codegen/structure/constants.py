@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from lacuna.codegen import flat
-from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.structure.causal import Step, rewritten
 from lacuna.codegen.structure.system import Row, System
 from lacuna.codegen.symbolic.expr import BUILTINS, ONE, REAL, Expr, div, mul, to_text, transform, var, walk
@@ -108,9 +108,7 @@ def precompute(system: System) -> System:
         operations = [part for part in walk(n) if part.op in ("call", "^", "/")]
         if not operations or any(part.op == "call" and part.value not in BUILTINS for part in operations):
             return None  # cheap, or a function of the model, which might fail where it is not wanted
-        name = to_text(n)
-        names.setdefault(name, flat.Variable(name, model.span, variability=flat.PARAMETER, binding=n, final=True))
-        return var(name)
+        return _parameter(to_text(n), n, names, model.span)
 
     rewriter = Rewriter(rule)
     rows: dict[Row, Row] = {}
@@ -118,6 +116,14 @@ def precompute(system: System) -> System:
         integral = rows[row.integral] if row.integral else None
         rows[row] = Row(rewriter.expression(row.lhs), rewriter.expression(row.rhs), row.source, integral)
     return replace(system, rows=list(rows.values()), model=replace(model, variables=names))
+
+
+def _parameter(name: str, value: Expr, names: dict[str, flat.Variable], span: Span) -> Expr:
+    """The dependent parameter of that value, called `name` where nothing else is: long texts are cut, and alike."""
+    while name in names and names[name].binding is not value:
+        name += "'"
+    names.setdefault(name, flat.Variable(name, span, variability=flat.PARAMETER, binding=value, final=True))
+    return var(name)
 
 
 def precompute_inverses(steps: Sequence[Step], system: System) -> tuple[list[Step], System]:
@@ -130,10 +136,8 @@ def precompute_inverses(steps: Sequence[Step], system: System) -> tuple[list[Ste
         if e.op != "/" or e.args[1].op == "const" or not is_parametric(e.args[1], model.variables):
             return None
         divisor = e.args[1]
-        name = f"inverse of {to_text(divisor)}"
-        value = div(ONE, divisor)
-        names.setdefault(name, flat.Variable(name, model.span, variability=flat.PARAMETER, binding=value, final=True))
-        return mul(transform(e.args[0], inverse, memo), var(name))
+        factor = _parameter(f"inverse of {to_text(divisor)}", div(ONE, divisor), names, model.span)
+        return mul(transform(e.args[0], inverse, memo), factor)
 
     changed = [rewritten(step, lambda e: transform(e, inverse, memo)) for step in steps]
     return changed, replace(system, model=replace(model, variables=names))

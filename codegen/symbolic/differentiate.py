@@ -3,6 +3,7 @@
 One function serves partial derivatives (one seed), Jacobian columns (seeds carried through a sequence of
 assignments) and time derivatives (index reduction): only the seeds of the leaves differ.
 Relations, floor, ceil, integer, div, sign and pre-values are piecewise constant: derivative 0.
+What a model annotates a function with is its derivative in time; other ones are those of the function's body.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from collections.abc import Set as AbstractSet
 
+from lacuna.codegen.symbolic.annotated import Rules, by_rule
 from lacuna.codegen.symbolic.expr import (  # fmt: skip
     BUILTINS,
     ONE,
@@ -67,10 +69,13 @@ class Differentiator:
     """Directional derivative for fixed seeds; `seed(leaf)` is the derivative of a leaf. Reuse it: it memoises.
 
     `active`, where it is known, holds the leaves whose seeds are not zero: what has none of them is not looked into.
+    `rules` are those of annotated values, where time is what is differentiated by.
     """
 
-    def __init__(self, seed: Callable[[Expr], Expr], active: AbstractSet[Expr] | None = None):
-        self._seed, self._active = seed, active
+    def __init__(
+        self, seed: Callable[[Expr], Expr], active: AbstractSet[Expr] | None = None, rules: Rules | None = None
+    ):
+        self._seed, self._active, self._rules = seed, active, rules or {}
         self._memo: dict[Expr, Expr] = {}
 
     def __call__(self, e: Expr) -> Expr:
@@ -130,6 +135,10 @@ class Differentiator:
     def _wrapper(self, e: Expr) -> Expr:
         return special("noEvent", self(e.args[-1]), type=REAL)
 
+    def _annotated(self, e: Expr) -> Expr:
+        found = by_rule(e, self._rules, self)
+        return self(e.args[0]) if found is None else found
+
     def _carriage(self, e: Expr) -> Expr:
         """What an end of a pipe holds, by the position; its bends are few, and a slope of its slope is not kept."""
         number, end, x, order = e.args
@@ -171,7 +180,7 @@ class Differentiator:
 _RULES = {
     "+": "sum", "-": "sum", "neg": "negation", "*": "product", "/": "quotient", "^": "power", "if": "choice",
     "min": "extremum", "max": "extremum", "noEvent": "wrapper", "smooth": "wrapper", "array": "elements",
-    "call": "call", "carried": "carriage",
+    "call": "call", "carried": "carriage", "annotated": "annotated",
 }  # fmt: skip
 
 

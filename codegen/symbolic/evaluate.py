@@ -31,6 +31,8 @@ def evaluate(e: Expr, leaf: Callable[[Expr], Value | None], call: Call | None = 
             return call(n, value)
         if n.op in ("noEvent", "smooth"):
             return value(n.args[-1])
+        if n.op == "annotated":
+            return value(n.args[0])
         if n.op == "if":
             condition = value(n.args[0])
             return None if condition is None else value(n.args[1] if condition else n.args[2])

@@ -19,6 +19,7 @@ which fold constants and drop neutral elements; never call `Expr` itself.
     call      arguments                 name of a built-in or a function of the model
     array     elements                  an array argument of a function call (row-major)
     noEvent   (e,)       smooth (order const, e)
+    annotated (e, arguments...)         key of its derivative's rules (see `annotated.py`): before differentiation
     sample    (start, interval)         edge (e,)   change (var,)   initial ()   terminal ()
 """
 
@@ -344,6 +345,8 @@ def rebuild(e: Expr, args: tuple[Expr, ...]) -> Expr:
         return call(e.value, *args, type=e.type)
     if e.op in ("noEvent", "smooth") and is_const(args[-1]):
         return args[-1]
+    if e.op == "annotated" and is_const(args[0]):
+        return args[0]
     return node(e.op, args, e.value, e.type)
 
 
@@ -382,9 +385,23 @@ _PRECEDENCE = {
 }  # fmt: skip
 
 
+LEGIBLE = 2000  # nodes of a text, what is shared counted wherever it stands: more than anybody reads
+
+
 def to_text(e: Expr) -> str:
-    """Modelica source of `e`."""
+    """Modelica source of `e`; longer operands of a long text are `...`: shared nodes may make one of any length."""
+    sizes: dict[Expr, int] = {}
+    if _tree_size(e, sizes) > LEGIBLE:
+        cut = tuple(var("...", a.type) if sizes[a] > max(20, LEGIBLE // len(e.args)) else a for a in e.args)
+        e = node(e.op, cut, e.value, e.type)
     return _text(e, 0)
+
+
+def _tree_size(e: Expr, sizes: dict[Expr, int]) -> int:
+    found = sizes.get(e)
+    if found is None:
+        found = sizes[e] = 1 + sum(_tree_size(a, sizes) for a in e.args)
+    return found
 
 
 def _text(e: Expr, outer: int) -> str:
@@ -400,6 +417,8 @@ def _text(e: Expr, outer: int) -> str:
         return f"({text})" if outer else text
     if e.op == "array":
         return "{" + ", ".join(_text(a, 0) for a in e.args) + "}"
+    if e.op == "annotated":
+        return _text(e.args[0], outer)
     rank = _PRECEDENCE.get(e.op)
     if rank is None:
         name = e.value if e.op == "call" else e.op

@@ -18,7 +18,7 @@ def leaves(e: Expr) -> frozenset[Expr]:
         if e.op in LEAF_OPS:
             found = frozenset((e,))
         else:
-            parts = [leaves(a) for a in e.args]
+            parts = [leaves(a) for a in (e.args[:1] if e.op == "annotated" else e.args)]
             found = parts[0] if len(parts) == 1 else frozenset().union(*parts)
         memo[e] = found
     return found

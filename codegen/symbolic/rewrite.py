@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 from lacuna.codegen import flat
+from lacuna.codegen.symbolic.annotated import OP, UNITS, DerivativeRule, plain, unmarked
 from lacuna.codegen.symbolic.expr import Expr, neg, transform
 
 Rule = Callable[[Expr], Expr | None]
@@ -78,7 +79,18 @@ class Rewriter:
             whens=[self.statement(w) for w in model.whens],
             algorithms=[self._algorithm(a) for a in model.algorithms],
             asserts=[self.statement(a) for a in model.asserts],
+            derivatives={key: [self._derivative(r) for r in rules] for key, rules in model.derivatives.items()},
         )
+
+    def _derivative(self, rule: DerivativeRule) -> DerivativeRule:
+        return rule if isinstance(rule.value, Exception) else replace(rule, value=self.expression(rule.value))
+
+
+def without_marks(model: flat.FlatModel) -> flat.FlatModel:
+    """The model without what tells the units of numbers, and derivatives outside of equations: nobody asks for them."""
+    settled = Rewriter(lambda n: plain(n) if n.op == OP else None).model(model)
+    equations = Rewriter(lambda n: unmarked(n) if n.op == OP and n.value == UNITS else None)
+    return replace(settled, equations=[equations.equation(e) for e in model.equations], derivatives=model.derivatives)
 
 
 def assigned(body: Iterable[flat.Statement]) -> list[str]:

@@ -31,16 +31,20 @@ def check_units(
     function_units: dict[str, str] | None = None,
     places: dict[tuple[str, str], Span] | None = None,
     package: Callable[[str], str] = lambda file: "",
+    literals: dict[str, str] | None = None,
 ) -> list[Diagnostic]:
     """Every finding, one a place, in order of the model; at most MAX_FINDINGS of a severity, those in libraries
     aside, which `package` tells by their name. Without any unit there is no check.
 
     `arguments` are values given to inputs with a unit; `function_units` the units of results by function;
-    `places` says where the binding or an attribute of a variable was written, where not in its declaration.
+    `places` says where the binding or an attribute of a variable was written, where not in its declaration; `literals`
+    are the units of numbers that are given to inputs, by the names that marked values have for them.
     """
     if not any(v.unit for v in model.variables.values()):
         return []
-    return _Check(model, function_units or {}, places or {}, package).run(arguments)
+    check = _Check(model, function_units or {}, places or {}, package)
+    check.units |= {name: parse_unit(unit) for name, unit in (literals or {}).items()}
+    return check.run(arguments)
 
 
 class _Check:
@@ -198,7 +202,7 @@ class _Check:
             return self._solve(e.args[0], unit * SECOND, inference)
         if e.op in ("neg", "noEvent", "smooth", "pre"):
             return self._solve(e.args[-1], unit, inference)
-        if e.op == "delay":
+        if e.op in ("delay", "annotated"):
             return self._solve(e.args[0], unit, inference)
         if e.op in ("+", "-", "if", "min", "max"):
             parts = e.args[1:] if e.op == "if" else e.args

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 
+from lacuna.codegen.symbolic.annotated import UNITS
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, RELATIONS, Expr, to_text
 from lacuna.units import DIMENSIONLESS, Unit, parse_unit
 
@@ -87,6 +88,8 @@ class UnitInference:
             for a in e.args[1:]:
                 self.require(a, SECOND, "delay takes a time")
             return self.of(e.args[0])
+        if op == "annotated":
+            return self.of(e.args[1 if e.value == UNITS else 0])
         for a in e.args[:-1]:
             self.of(a)
         return self.of(e.args[-1]) if e.args and e.type != BOOLEAN else self._all(e.args)
@@ -199,6 +202,8 @@ def _has_written_factor(e: Expr) -> bool:
         return any(_is_scale(a) or _has_written_factor(a) for a in e.args)
     if e.op in ("if", "smooth"):  # a condition, an order
         return any(map(_has_written_factor, e.args[1:]))
+    if e.op == "annotated":
+        return _has_written_factor(e.args[0])
     return e.op in ("+", "-", "neg", "min", "max", "noEvent", "pre") and any(map(_has_written_factor, e.args))
 
 

@@ -7,6 +7,7 @@
 
 typedef struct {
   int n;
+  const double *row;     /* [n] factors of the rows */
   const double *factors; /* in the matrix of the last set-up */
   int pivot[];
 } content;
@@ -28,8 +29,8 @@ static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector 
   const content *c = solver->content;
   double *values = NV_DATA_S(x);
   const double *right = NV_DATA_S(b);
-  for (int i = 0; i < c->n && values != right; i++)
-    values[i] = right[i];
+  for (int i = 0; i < c->n; i++)
+    values[i] = c->row[i] * right[i];
   rt_lu_solve(c->n, c->factors, c->pivot, values);
   return 0;
 }
@@ -41,7 +42,7 @@ static int destroy(SUNLinearSolver solver) {
   return 0;
 }
 
-SUNLinearSolver rt_dense_solver_new(int n, SUNContext context) {
+SUNLinearSolver rt_dense_solver_new(int n, const double *row, SUNContext context) {
   SUNLinearSolver solver = SUNLinSolNewEmpty(context);
   content *c = calloc(1, sizeof *c + (size_t)n * sizeof *c->pivot);
   if (!solver || !c) {
@@ -50,6 +51,7 @@ SUNLinearSolver rt_dense_solver_new(int n, SUNContext context) {
     return NULL;
   }
   c->n = n;
+  c->row = row;
   solver->content = c;
   solver->ops->gettype = type;
   solver->ops->setup = setup;

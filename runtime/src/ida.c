@@ -13,30 +13,19 @@
 static const double alike = 1.5e-8;           /* root of rounding */
 static const double finest = 8 * DBL_EPSILON; /* relative tolerance that steps can still be tested by */
 static const double relief =
-    1.02;                      /* of the tolerances in a step: a guard that swings comes back before they are slack */
-enum { RESOLVING = 3 };        /* order from which on polynomials bend as guards do; below, IDA is starting */
+    1.02;               /* of the tolerances in a step: a guard that swings comes back before they are slack */
+enum { RESOLVING = 3 }; /* order from which on polynomials bend as guards do; below, IDA is starting */
+/* IDA doubles a step where that errs by its tolerance at most, and then keeps it: it gets half of what is allowed. */
+static const double half = 0.5;
+static const double newton = 0.03;              /* of the tolerances: error of a step by Newton's method */
+static const double untested = 1 / DBL_EPSILON; /* of the tolerances: the steps of a start have been tested */
 enum { MAX_ERROR_FAILS = 25 }; /* in one step: each divides it by four, and a first step may be far too long */
-
-static int residual(sunrealtype t, N_Vector y, N_Vector yp, N_Vector r, void *user) {
-  rt_session *s = user;
-  rt_inputs_at(s, t);
-  double *values = N_VGetArrayPointer(r), sum = 0;
-  int status = s->d->residual(&s->data, t, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), values);
-  if (status) return status;
-  int n = s->d->n_x + s->d->n_z;
-  for (int i = 0; i < n; i++)
-    sum += values[i];
-  if (isfinite(sum)) return 0;
-  int row = 0;
-  while (row < n - 1 && isfinite(values[row]))
-    row++;
-  return rt_ida_not_finite(s, row, values[row]);
-}
 
 static void destroy(void *p) {
   rt_ida *m = p;
   rt_ida_tangent_free(m);
   if (m->ida) IDAFree(&m->ida);
+  if (m->newton) SUNNonlinSolFree(m->newton);
   if (m->solver) SUNLinSolFree(m->solver);
   if (m->matrix) SUNMatDestroy(m->matrix);
   N_Vector vectors[] = {m->y, m->yp, m->work};
@@ -44,7 +33,10 @@ static void destroy(void *p) {
     if (vectors[i]) N_VDestroy(vectors[i]);
   if (m->context) SUNContext_Free(&m->context);
   free(m->values);
+  free(m->row);
   free(m->past);
+  free(m->starts);
+  if (m->starter) rt_method_dopri5.destroy(m->starter);
   free(m);
 }
 
@@ -61,9 +53,9 @@ static int weights(N_Vector y, N_Vector weight, void *user) {
   const rt_session *s = user;
   const rt_ida *m = s->memory;
   const double *value = N_VGetArrayPointer(y);
-  double *w = N_VGetArrayPointer(weight);
+  double *w = N_VGetArrayPointer(weight), share = m->known < RT_IDA_STARTS ? untested : half * m->share;
   for (int i = 0; i < s->d->n_x + s->d->n_z; i++)
-    w[i] = 1 / (m->share * (s->options.rtol * fabs(value[i]) + s->atol[i]));
+    w[i] = 1 / (share * (s->options.rtol * fabs(value[i]) + s->atol[i]));
   return 0;
 }
 
@@ -75,6 +67,7 @@ static bool set_options(rt_session *s, rt_ida *m) {
          IDAWFtolerances(m->ida, weights) == IDA_SUCCESS && IDASetId(m->ida, m->work) == IDA_SUCCESS &&
          IDASetSuppressAlg(m->ida, s->d->n_z > 0) == IDA_SUCCESS && IDASetMaxNumSteps(m->ida, -1) == IDA_SUCCESS &&
          IDASetMaxErrTestFails(m->ida, MAX_ERROR_FAILS) == IDA_SUCCESS &&
+         IDASetNonlinConvCoef(m->ida, newton) == IDA_SUCCESS &&
          (!(s->options.max_step > 0) || IDASetMaxStep(m->ida, s->options.max_step) == IDA_SUCCESS);
 }
 
@@ -82,10 +75,15 @@ static void *create(rt_session *s) {
   rt_ida *m = calloc(1, sizeof *m);
   if (!m) return NULL;
   m->values = calloc((size_t)s->d->jac_nnz + 1, sizeof *m->values);
+  m->row = calloc((size_t)(s->d->n_x + s->d->n_z), sizeof *m->row);
   m->past = calloc(RT_IDA_POINTS * (size_t)s->d->n_x, sizeof *m->past);
-  if (m->values && m->past && SUNContext_Create(SUN_COMM_NULL, &m->context) == 0 && create_vectors(s, m) &&
-      (m->ida = IDACreate(m->context)) && IDAInit(m->ida, residual, 0, m->y, m->yp) == IDA_SUCCESS &&
-      set_options(s, m) && rt_ida_create_matrix(s, m))
+  m->starts = calloc(RT_IDA_STARTS * (size_t)(s->d->n_x + s->d->n_z), sizeof *m->starts);
+  m->starter = rt_method_dopri5.create(s);
+  m->known = RT_IDA_STARTS;
+  if (m->values && m->row && m->past && m->starts && m->starter && SUNContext_Create(SUN_COMM_NULL, &m->context) == 0 &&
+      create_vectors(s, m) && (m->ida = IDACreate(m->context)) &&
+      IDAInit(m->ida, rt_ida_residual, 0, m->y, m->yp) == IDA_SUCCESS && set_options(s, m) &&
+      rt_ida_create_matrix(s, m))
     return m;
   destroy(m);
   return NULL;
@@ -102,48 +100,11 @@ static void count(rt_session *s, void *p) {
   IDAGetNumJacEvals(m->ida, &jacobians);
   IDAGetNonlinSolvStats(m->ida, &iterations, &newton_fails);
   rt_counters *c = &s->result->counters;
-  c->steps += steps;
-  c->residuals += residuals;
+  c->steps += steps - m->start_steps;
   c->error_test_fails += fails;
   c->jacobians += jacobians;
   c->newton_iterations += iterations;
   c->newton_fails += newton_fails;
-}
-
-static double weighted_norm(const rt_session *s, const double *e) {
-  double sum = 0;
-  for (int i = 0; i < s->d->n_x; i++) {
-    double weighted = e[i] / (s->atol[i] + s->options.rtol * fabs(s->data.x[i]));
-    sum += weighted * weighted;
-  }
-  return sqrt(sum / s->d->n_x) / ((const rt_ida *)s->memory)->share;
-}
-
-/* The fastest state crosses its nominal value in 1 / this (s). */
-static double fastest(const rt_session *s) {
-  double rate = 0;
-  for (int i = 0; i < s->d->n_x; i++)
-    rate = rt_max(rate, fabs(s->data.xdot[i]) / s->nominal[i]);
-  return rate;
-}
-
-/* A short explicit step gives x'' and z': short on the scale of the states, long on that of rounding. The first BDF
- * step, of order 1, errs by h^2/2 x'': the largest h within tolerance follows. */
-static double first_step(rt_session *s, double *zdot) {
-  const mdl_descriptor *d = s->d;
-  double speed = weighted_norm(s, s->data.xdot), span = s->stop - s->start;
-  double rate = fastest(s), delta = fmin(1e-6 * span, rate > 0 ? 1e-6 / rate : INFINITY);
-  memcpy(s->v_trial, s->data.v, (size_t)d->n_v * sizeof *s->v_trial);
-  for (int i = 0; i < d->n_x; i++)
-    s->x_trial[i] = s->data.x[i] + delta * s->data.xdot[i];
-  if (rt_rhs(s, s->t + delta, s->x_trial, s->xdot_trial, s->v_trial))
-    return fmin(1e-3 * span, speed > 0 ? 0.5 / speed : INFINITY);
-  for (int k = 0; k < d->n_z; k++)
-    zdot[k] = (s->v_trial[d->z_index[k]] - s->data.v[d->z_index[k]]) / delta;
-  for (int i = 0; i < d->n_x; i++)
-    s->xdot_trial[i] = (s->xdot_trial[i] - s->data.xdot[i]) / delta;
-  double curvature = weighted_norm(s, s->xdot_trial);
-  return fmin(1e-3 * span, curvature > 0 ? sqrt(0.03 / curvature) : INFINITY);
 }
 
 static rt_status restart(rt_session *s, void *p) {
@@ -151,13 +112,16 @@ static rt_status restart(rt_session *s, void *p) {
   size_t n = (size_t)(s->d->n_x + s->d->n_z);
   count(s, m);
   rt_residual_point(s);
-  double h = rt_min(first_step(s, s->yp + s->d->n_x), m->longest);
+  double h = m->h_first = rt_min(rt_ida_first_step(s, s->yp + s->d->n_x), m->longest);
   memcpy(N_VGetArrayPointer(m->y), s->y, n * sizeof *s->y);
   memcpy(N_VGetArrayPointer(m->yp), s->yp, n * sizeof *s->yp);
   if (IDAReInit(m->ida, s->t, m->y, m->yp) != IDA_SUCCESS || IDASetInitStep(m->ida, h) != IDA_SUCCESS)
     return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "IDA refuses to restart at time %.9g s", s->t);
   rt_ida_remember(s, m, s->t, s->data.x, true);
-  m->started = true;
+  m->started = m->fresh = true;
+  m->known = RT_IDA_STARTS;
+  m->start_steps = 0;
+  rt_newton_forget(m->newton);
   m->pivots_chosen_at = -1; /* other equations hold, and the old pivots may have become tiny */
   return rt_ida_tangent_restart(s, m);
 }
@@ -166,6 +130,7 @@ static rt_status begin(rt_session *s, void *p) {
   rt_ida *m = p;
   m->share = 1;
   m->longest = INFINITY;
+  m->length = 0;
   rt_status status = rt_check_forms(s);
   return status ? status : restart(s, m);
 }
@@ -218,6 +183,11 @@ static double test_guards(rt_session *s, rt_ida *m, double end) {
 /* One step, again from its start with smaller tolerances while guards ask for it. */
 static int attempt(rt_session *s, rt_ida *m, double limit, sunrealtype *t, rt_status *status) {
   IDASetStopTime(m->ida, limit);
+  if (m->known < RT_IDA_STARTS) {
+    m->start_steps = RT_IDA_STARTS;
+    int flag = rt_ida_follow_start(m, limit);
+    if (flag < 0) return flag;
+  }
   for (;;) {
     int flag = IDASolve(m->ida, limit, t, m->y, m->yp, IDA_ONE_STEP);
     double end = flag == IDA_TSTOP_RETURN ? limit : *t;
@@ -228,6 +198,7 @@ static int attempt(rt_session *s, rt_ida *m, double limit, sunrealtype *t, rt_st
     m->longest = 0.25 * (end - s->t);
     if (*status || (*status = restart(s, m))) return flag;
     m->longest = INFINITY;
+    m->fresh = false;
     IDASetStopTime(m->ida, limit);
   }
 }
@@ -236,6 +207,9 @@ static rt_status step(rt_session *s, void *p, double limit) {
   rt_ida *m = p;
   sunrealtype t = s->t;
   rt_status status = RT_OK;
+  bool fresh = m->fresh;
+  m->fresh = false;
+  if (fresh && rt_ida_start(s, m, limit)) return RT_OK;
   int flag = attempt(s, m, limit, &t, &status);
   if (status) return status;
   if (flag < 0) return fail(s, m, flag);

@@ -6,15 +6,21 @@
 #include "ida.h"
 #include "onestep.h"
 
+void rt_ida_push(const rt_session *s, rt_ida *m, double t, const double *x) {
+  m->latest = (m->latest + 1) % RT_IDA_POINTS;
+  m->past_t[m->latest] = t;
+  memcpy(m->past + m->latest * s->d->n_x, x, (size_t)s->d->n_x * sizeof *x);
+}
+
 /* The states x are at t, where a step has ended; `begins`: where IDA has been started. */
 void rt_ida_remember(const rt_session *s, rt_ida *m, double t, const double *x, bool begins) {
   long taken = 0;
   if (!begins) IDAGetNumSteps(m->ida, &taken);
   if (!begins && taken == m->taken) return; /* to an end that is there already, within rounding */
   m->taken = taken;
-  m->latest = (m->latest + 1) % RT_IDA_POINTS;
-  m->past_t[m->latest] = t;
-  memcpy(m->past + m->latest * s->d->n_x, x, (size_t)s->d->n_x * sizeof *x);
+  m->first = m->latest;
+  if (!begins) IDAGetLastOrder(m->ida, &m->order);
+  rt_ida_push(s, m, t, x);
 }
 
 /* Polynomials of degree k through n values at each of the nodes z [k + 1], by divided differences: coefficients of
@@ -47,16 +53,19 @@ static inline void interpolate(int k, int n, const double *z, const double *cons
 /* The last step in s = (t - t0) / h from its start on, which is the first node, so that no power of it is left. */
 void rt_ida_dense(rt_session *s, void *memory, rt_dense *out) {
   const rt_ida *m = memory;
-  int n = s->d->n_x, end = m->latest, start = (end + RT_IDA_POINTS - 1) % RT_IDA_POINTS;
+  int n = s->d->n_x, end = m->latest, start = m->first, row = end;
   double z[RT_IDA_POINTS];
   const double *value[RT_IDA_POINTS];
-  IDAGetLastOrder(m->ida, &out->degree);
+  out->degree = m->order;
   out->t0 = m->past_t[start];
   out->h = m->past_t[end] - out->t0;
   for (int j = 0; j <= out->degree; j++) {
-    int from = j == 0 ? start : j == 1 ? end : (end + RT_IDA_POINTS - j) % RT_IDA_POINTS;
-    z[j] = (m->past_t[from] - out->t0) / out->h;
-    value[j] = m->past + from * n;
+    if (j == 0) row = start;
+    if (j == 1) row = end;
+    for (bool next = j > 1; next; next = row == start)
+      row = (row + RT_IDA_POINTS - 1) % RT_IDA_POINTS;
+    z[j] = (m->past_t[row] - out->t0) / out->h;
+    value[j] = m->past + row * n;
   }
   switch (out->degree) {
   case 1:
@@ -72,6 +81,6 @@ void rt_ida_dense(rt_session *s, void *memory, rt_dense *out) {
     interpolate(4, n, z, value, out->c);
     break;
   default:
-    interpolate(out->degree, n, z, value, out->c);
+    interpolate(RT_DENSE_DEGREE, n, z, value, out->c);
   }
 }

@@ -9,12 +9,6 @@
 
 enum { DENSE_LIMIT = 10 }; /* unknowns up to which a dense matrix is faster than KLU */
 
-/* What IDA may recover from by a shorter step. */
-int rt_ida_not_finite(rt_session *s, int row, double value) {
-  s->data.failure = (mdl_failure){MDL_FAILURE_NONFINITE, s->d->residual_equation[row], -1, value, 0};
-  return 1;
-}
-
 static int check_jacobian(rt_session *s, const double *values) {
   for (int k = 0; k < s->d->jac_nnz; k++)
     if (!isfinite(values[k])) return rt_ida_not_finite(s, s->d->jac_rowidx[k], values[k]);
@@ -32,23 +26,31 @@ static int fill_sparse(const rt_session *s, rt_ida *m, SUNMatrix matrix) {
   return choose_pivots ? SUNLinSol_KLUReInit(m->solver, matrix, entries, SUNKLU_REINIT_PARTIAL) : 0;
 }
 
+/* With rows of size 1; the solver gives the right side the same factors. */
+static void fill_dense(const rt_session *s, rt_ida *m, double *a) {
+  const mdl_descriptor *d = s->d;
+  int n = d->n_x + d->n_z;
+  rt_row_factors(s, m->values, m->row);
+  for (int j = 0; j < n; j++)
+    for (int k = d->jac_colptr[j]; k < d->jac_colptr[j + 1]; k++)
+      a[j * n + d->jac_rowidx[k]] = m->row[d->jac_rowidx[k]] * m->values[k];
+  for (int k = 0; k < s->n_held; k++)
+    a[s->held[k].column * n + s->held[k].row] += m->row[s->held[k].row] * s->held[k].value;
+}
+
 static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Vector r, SUNMatrix matrix, void *user,
                     N_Vector t1, N_Vector t2, N_Vector t3) {
   (void)r, (void)t1, (void)t2, (void)t3;
   rt_session *s = user;
-  const mdl_descriptor *d = s->d;
   rt_ida *m = s->memory;
   double *values = m->values;
+  m->cj_of_matrix = cj;
   rt_inputs_at(s, t);
   int status = rt_jacobian(s, t, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), cj, values);
   if (!status) status = check_jacobian(s, values);
   if (status) return status;
   if (SUNMatGetID(matrix) == SUNMATRIX_SPARSE) return fill_sparse(s, m, matrix);
-  for (int j = 0; j < d->n_x + d->n_z; j++)
-    for (int k = d->jac_colptr[j]; k < d->jac_colptr[j + 1]; k++)
-      SUNDenseMatrix_Column(matrix, j)[d->jac_rowidx[k]] = values[k];
-  for (int k = 0; k < s->n_held; k++)
-    SUNDenseMatrix_Column(matrix, s->held[k].column)[s->held[k].row] += s->held[k].value;
+  fill_dense(s, m, SUNDenseMatrix_Data(matrix));
   return 0;
 }
 
@@ -59,8 +61,9 @@ bool rt_ida_create_matrix(rt_session *s, rt_ida *m) {
     m->solver = m->matrix ? SUNLinSol_KLU(m->y, m->matrix, m->context) : NULL;
   } else {
     m->matrix = SUNDenseMatrix(n, n, m->context);
-    m->solver = m->matrix ? rt_dense_solver_new((int)n, m->context) : NULL;
+    m->solver = m->matrix ? rt_dense_solver_new((int)n, m->row, m->context) : NULL;
   }
   return m->solver && IDASetLinearSolver(m->ida, m->solver, m->matrix) == IDA_SUCCESS &&
-         IDASetJacFn(m->ida, jacobian) == IDA_SUCCESS;
+         IDASetJacFn(m->ida, jacobian) == IDA_SUCCESS && (m->newton = rt_newton_new(s, m->context)) &&
+         IDASetNonlinearSolver(m->ida, m->newton) == IDA_SUCCESS;
 }

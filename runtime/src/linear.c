@@ -1,8 +1,32 @@
-/* Small dense linear systems: LU decomposition with partial pivoting (Golub & Van Loan, Matrix Computations, 3.4). The
- * diagonal is kept as its inverses: a solution costs no division. */
+/* Linear systems of the residual form: factors of their rows; and small dense ones by LU decomposition with partial
+ * pivoting (Golub & Van Loan, Matrix Computations, 3.4), whose diagonal is kept as its inverses, so that a solution
+ * costs no division. */
 #include <math.h>
+#include <string.h>
 
-#include "session.h"
+#include "undetermined.h"
+
+/* Powers of two that give the rows of a matrix size 1, where unknowns are measured in their nominal values, so that the
+ * choice of pivots has no units: row [n_x + n_z], of values [jac_nnz] and what is held. */
+void rt_row_factors(const rt_session *s, const double *values, double *row) {
+  const mdl_descriptor *m = s->d;
+  int n = m->n_x + m->n_z;
+  memset(row, 0, (size_t)n * sizeof *row);
+  for (int j = 0; j < n; j++)
+    for (int k = m->jac_colptr[j]; k < m->jac_colptr[j + 1]; k++) {
+      double *size = &row[m->jac_rowidx[k]];
+      *size = rt_max(*size, fabs(values[k]) * s->nominal[j]);
+    }
+  for (int k = 0; k < s->n_held; k++) {
+    double *size = &row[s->held[k].row];
+    *size = rt_max(*size, fabs(s->held[k].value) * s->nominal[s->held[k].column]);
+  }
+  for (int i = 0; i < n; i++) {
+    int exponent = 0;
+    if (row[i] > 0 && isfinite(row[i])) frexp(row[i], &exponent);
+    row[i] = ldexp(1, -exponent);
+  }
+}
 
 static void swap(double *a, double *b) {
   double t = *a;

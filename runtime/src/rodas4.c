@@ -107,27 +107,6 @@ static int differentiate_time(rt_session *s, rt_onestep *o, work *w, double h) {
   return status;
 }
 
-/* Powers of two that give the rows size 1, so that the choice of pivots has no units. */
-static void equilibrate(const rt_session *s, work *w) {
-  const mdl_descriptor *m = s->d;
-  int n = m->n_x + m->n_z;
-  memset(w->row, 0, (size_t)n * sizeof *w->row);
-  for (int j = 0; j < n; j++)
-    for (int k = m->jac_colptr[j]; k < m->jac_colptr[j + 1]; k++) {
-      double *size = &w->row[m->jac_rowidx[k]];
-      *size = rt_max(*size, fabs(w->values[k]) * s->nominal[j]);
-    }
-  for (int k = 0; k < s->n_held; k++) {
-    double *size = &w->row[s->held[k].row];
-    *size = rt_max(*size, fabs(s->held[k].value) * s->nominal[s->held[k].column]);
-  }
-  for (int i = 0; i < n; i++) {
-    int exponent = 0;
-    if (w->row[i] > 0 && isfinite(w->row[i])) frexp(w->row[i], &exponent);
-    w->row[i] = ldexp(1, -exponent);
-  }
-}
-
 static int factor_dense(const rt_session *s, work *w) {
   const mdl_descriptor *m = s->d;
   int n = m->n_x + m->n_z;
@@ -144,7 +123,7 @@ static int factor(rt_session *s, work *w, double h) {
   double cj = 1 / (h * gamma_);
   for (int k = 0; k < s->d->jac_nnz; k++)
     w->values[k] = w->fy[k] + cj * w->fyp[k];
-  equilibrate(s, w);
+  rt_row_factors(s, w->values, w->row);
   int singular = w->sparse ? rt_sparse_factor(s, w->sparse, w->values, w->row) : factor_dense(s, w);
   if (!singular) return 0;
   s->data.failure = (mdl_failure){MDL_FAILURE_SINGULAR, -1, rt_unknown_variable(s, singular - 1), 0, 0};

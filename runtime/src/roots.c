@@ -130,6 +130,15 @@ static rt_status follow(rt_session *s) {
   return RT_OK;
 }
 
+/* A guard that has been zero so far has the size that it reaches in the step, where it keeps its side: beside it, what
+ * the rounding of an equation makes of rest is no crossing. */
+static void foresee_sizes(rt_session *s) {
+  for (int r = 0; r < s->d->n_rel; r++) {
+    double held = s->data.rel[r] ? s->g[r] : -s->g[r];
+    if (s->g_span[r] == 0 && held > 0) s->g_span[r] = held;
+  }
+}
+
 /* The first crossing in the step. Before one that the end of the step shows, other guards may have crossed twice. */
 static int search(rt_session *s, double *crossing) {
   for (;;) {
@@ -160,6 +169,7 @@ rt_status rt_find_state_event(rt_session *s) {
   s->g = oldest;
   s->result->counters.root_evaluations++;
   if (d->roots(m, s->t, m->x, m->xdot, m->v, s->g)) return rt_fail_model(s, s->t, "evaluating relations");
+  foresee_sizes(s);
   double crossing = s->t;
   if (!s->shaped) rt_swing_shape(s, NULL);
   if (search(s, &crossing)) return rt_fail_model(s, s->t, "locating an event");

@@ -289,11 +289,11 @@ rt_status rt_initialise(rt_session *s);
 
 /* record.c */
 void rt_record_begin(rt_session *s);
-rt_status rt_record_end(rt_session *s);
-rt_status rt_record_step(rt_session *s);
+rt_status rt_record_end(rt_session *s), rt_record_step(rt_session *s);
 rt_status rt_record_event_row(rt_session *s);
 
-/* linear.c: dense n x n systems by LU with partial pivoting, column-major */
+/* linear.c: factors of rows; dense n x n systems by LU with partial pivoting, column-major */
+void rt_row_factors(const rt_session *s, const double *values, double *row);
 int rt_lu_factor(int n, double *a, int *pivot);
 void rt_lu_solve(int n, const double *a, const int *pivot, double *b);
 

@@ -7,7 +7,8 @@
 /* n zeros; NULL without memory. Clones of it have the same operations. */
 N_Vector rt_vector_new(long n, SUNContext context);
 
-/* A solver for dense n x n matrices, see dense_solver.c; NULL without memory. */
-SUNLinearSolver rt_dense_solver_new(int n, SUNContext context);
+/* A solver for dense n x n matrices whose rows have been multiplied by the factors row [n], see dense_solver.c; NULL
+ * without memory. */
+SUNLinearSolver rt_dense_solver_new(int n, const double *row, SUNContext context);
 
 #endif

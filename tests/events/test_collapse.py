@@ -23,7 +23,7 @@ JUMPS = """model Jumps
   Real small(start = 1e-3, fixed = true), big(start = 1e6, fixed = true);
 equation
   der(big) = 1e6*cos(time);
-  der(small) = small*noEvent(if small > 1.5e-3 then -1e9 else 1);
+  der(small) = small*noEvent(if small > 1.5e-3 then -1e12 else 1);
 end Jumps;
 """
 

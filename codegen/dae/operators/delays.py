@@ -64,6 +64,8 @@ class _Splitter:
             hint = "give delayTime as a parameter"
             raise Diagnostic("R091", f"{to_text(n)}: a time that varies is outside the subset", self._model.span, hint)
         value, text = self.inner(value), f"delay({to_text(value)}, {to_text(seconds)})"
+        while f"past of {text}" in self.variables:  # a text that was cut, or another delayMax
+            text += "'"
         past, source, delayed = (f"{what} of {text}" for what in ("past", "source", "value"))
         span = self._model.span
         self.delays.append(Delay(source, past, seconds))

@@ -16,6 +16,7 @@ from dataclasses import replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.structure.system import Row, System
+from lacuna.codegen.symbolic.annotated import plain
 from lacuna.codegen.symbolic.expr import ONE, Expr, add, mul, node, sub, transform
 from lacuna.codegen.symbolic.rewrite import Rewriter
 
@@ -48,7 +49,7 @@ def _is_homotopy(n: Expr) -> bool:
 def _with_start(written: flat.Equation, actual: flat.Equation) -> flat.Equation:
     start = _on_path(written.lhs), _on_path(written.rhs)
     same = start[0] is written.lhs and start[1] is written.rhs
-    return actual if same else replace(actual, start=start)
+    return actual if same else replace(actual, start=tuple(map(plain, start)))
 
 
 def _on_path(e: Expr) -> Expr:

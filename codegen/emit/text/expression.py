@@ -90,6 +90,8 @@ def _print(e: Expr, name: Lookup) -> tuple[str, int]:
         return f"m->carried(m, (int){number_of}, {end}, {x}, (int){order})", _PRIMARY
     if e.op in ("noEvent", "smooth"):
         return _print(e.args[-1], name)
+    if e.op == "annotated":
+        return _print(e.args[0], name)
     raise AssertionError(f"no C for {e.op}: {e}")
 
 

@@ -12,7 +12,13 @@ from math import prod
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.inheritance import Element, Inheritance
 from lacuna.codegen.flatten.classes.leaf import Leaf
-from lacuna.codegen.flatten.classes.prefixes import check_block, check_component, check_outer, check_prefixes
+from lacuna.codegen.flatten.classes.prefixes import (
+    check_block,
+    check_component,
+    check_outer,
+    check_prefixes,
+    varies_more,
+)
 from lacuna.codegen.flatten.classes.redeclared import check_modifier, check_redeclared, redeclaration, seen
 from lacuna.codegen.flatten.classes.restrictions import check_flow_record
 from lacuna.codegen.flatten.classes.subtypes import mismatch
@@ -248,6 +254,7 @@ class Instance:
             wanted_sizes = evaluate_dimensions(sizes, scope, None, declaration.name)
             if tuple(wanted_sizes) != tuple(shape):
                 reason = "their sizes differ"
+        reason = reason or varies_more(declaration, found.variability if isinstance(found, Leaf) else "")
         if reason:
             error = Diagnostic(
                 "R076", f"outer {declaration.name}: {reason}", declaration.span, "make their types alike"

@@ -62,6 +62,14 @@ def check_outer(declaration: ast.Component, outside: Modifier | None) -> None:
         raise Diagnostic("R076", f"{declaration.name} is outer and cannot be modified", span, hint)
 
 
+def varies_more(declaration: ast.Component, inner: str) -> str:
+    """Why an inner component of that variability cannot be meant by an outer declaration; "" where it can (5.4)."""
+    wider = ("constant", "parameter", "discrete", "continuous")
+    outer = declaration.variability
+    wrong = outer and inner and wider.index(inner) > wider.index(outer)
+    return f"it is a {outer}, the inner one is {inner}" if wrong else ""
+
+
 def check_block(cls: ast.Class, declaration: ast.Component, found: Type, elements: ElementsOf) -> None:
     """Raises R070 for a connector of a block whose direction is open (4.7)."""
     if cls.kind != "block" or declaration.protected or declaration.causality or declaration.outer:

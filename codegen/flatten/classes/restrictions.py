@@ -41,10 +41,18 @@ def check_class(cls: ast.Class, context: Context) -> None:
     if id(origin) in checked:
         return
     checked.add(id(origin))
-    for finding in _findings(origin):
-        raise finding
+    for around in _around(origin):
+        for finding in _findings(around):
+            raise finding
     check_imports(origin, context.library)
     _check_bases(cls, context)
+
+
+def _around(cls: ast.Class) -> Iterator[ast.Class]:
+    """The class, and the packages that it stands in."""
+    while cls is not None:
+        yield cls
+        cls = cls.parent if cls.parent is not None and cls.parent.kind == "package" else None
 
 
 def _findings(cls: ast.Class) -> Iterator[Diagnostic]:

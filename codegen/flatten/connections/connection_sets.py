@@ -40,13 +40,28 @@ class ConnectionSets:
             self.outside.update((origin, p.end.name) for p in (a, b) if p.end.outside)
 
     def check_sources(self) -> None:
-        """Raises R077 where two outputs drive one signal (9.3)."""
+        """Raises R077 where two outputs drive one signal (9.3), or none a signal of a bus (9.1.3)."""
         for group in self.sources.groups():
             driving = [self.causal[key] for key in group if _is_source(self.causal[key][0])]
             if len(driving) > 1:
                 names = " and ".join(part.end.name for part, _ in driving)
                 hint = "one output drives a signal: remove a connection"
                 raise Diagnostic("R077", f"{names} drive the same signal", driving[1][1], hint)
+        signals: dict[Hashable, list[tuple[Part, Span]]] = {}
+        for (_, name), found in self.causal.items():
+            signals.setdefault(self.ends.find(End(name, False)), []).append(found)
+        for members in signals.values():
+            parts = [part for part, _ in members if not part.leaf.open_ended]
+            brought = [(part, span) for part, span in members if part.leaf.open_ended]
+            if brought and not any(map(_drives_a_bus, parts)):
+                part, span = next((m for m in brought if not m[0].leaf.relayed), brought[0])
+                hint = "connect an output to it"
+                raise Diagnostic("R077", f"nothing drives {part.end.name}: only inputs are connected to it", span, hint)
+
+
+def _drives_a_bus(part: Part) -> bool:
+    """A source, or an output that a component keeps for itself."""
+    return _is_source(part) or (part.leaf.declaration.protected and part.leaf.causality == "output")
 
 
 def _is_source(part: Part) -> bool:

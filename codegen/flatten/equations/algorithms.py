@@ -8,6 +8,7 @@ from dataclasses import replace
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.equations.equations import Collected, check_target, check_types, origin_of, unroll
+from lacuna.codegen.flatten.equations.mixed import lasting_targets, split_by_time
 from lacuna.codegen.flatten.equations.symbolic_run import SymbolicRun
 from lacuna.codegen.flatten.equations.when import procedure, when_conditions
 from lacuna.codegen.flatten.expressions.constants import is_known, known
@@ -27,13 +28,18 @@ def flatten_algorithm(section: ast.Section, scope: Scope, out: Collected) -> Non
     _refuse_inner_whens(section.items)
     statements = _statements(section.items, scope, in_when=False)
     names = assigned(statements)
-    targets = tuple(names) if section.initial else _with_whole_arrays(names, scope.context)
     if any(isinstance(s, flat.When) for s in _nested(statements)):
-        out.algorithms.append(flat.Algorithm(statements, targets, section.span, origin_of(scope)))
-        return
-    run = SymbolicRun(scope, targets)
-    if run.block(statements, TRUE) is not FALSE:
-        raise Diagnostic("R059", "'break' outside of a loop", section.span, "it ends the loop around it")
+        lasting = lasting_targets(statements, scope.context)
+        targets = _with_whole_arrays([n for n in names if n in lasting], scope.context)
+        run = SymbolicRun(scope, targets)
+        kept = split_by_time(statements, lasting, run)
+        others = _with_whole_arrays([n for n in names if n not in lasting], scope.context)
+        out.algorithms.append(flat.Algorithm(kept, others, section.span, origin_of(scope)))
+    else:
+        targets = tuple(names) if section.initial else _with_whole_arrays(names, scope.context)
+        run = SymbolicRun(scope, targets)
+        if run.block(statements, TRUE) is not FALSE:
+            raise Diagnostic("R059", "'break' outside of a loop", section.span, "it ends the loop around it")
     for target in targets:
         value = run.result(target) if target in run.values else run.unassigned(target)
         variable, span = ex.var(target, run.type_of(target)), run.where.get(target, section.span)
@@ -150,7 +156,7 @@ def _never(condition: Expr, before: list[tuple[Expr, list[flat.Statement]]], sco
 def assignment(item: ast.Assignment, scope: Scope) -> list[flat.Statement]:
     """target := value, scalar by scalar; values are read before any is assigned."""
     if isinstance(item.target, ast.Tuple):
-        values = lower_results(item.value, scope)
+        values = lower_results(item.value, scope, len(item.target.items))
         pairs = [(lower(t, scope), v) for t, v in zip(item.target.items, values, strict=False) if t is not None]
     else:
         pairs = [(lower(item.target, scope), lower(item.value, scope))]

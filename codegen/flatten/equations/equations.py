@@ -141,10 +141,7 @@ def _check_declared(leaves: Iterable[Leaf], assigned: set[str]) -> None:
 
 
 def _several(item: ast.Equality, scope: Scope) -> list[flat.Equation]:
-    results = lower_results(item.right, scope)
-    if len(item.left.items) > len(results):
-        message = f"{item.right.function} has {len(results)} results, {len(item.left.items)} are wanted"
-        raise Diagnostic("R023", message, item.left.span, "leave some out")
+    results = lower_results(item.right, scope, len(item.left.items))
     equations = []
     for target in item.left.items:
         if target is not None and not isinstance(target, ast.Ref):

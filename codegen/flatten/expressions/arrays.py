@@ -147,6 +147,9 @@ def _cross(e: ast.Call, scope: Scope) -> Value:
 
 def _vector(e: ast.Call, scope: Scope) -> Value:
     value = _arguments(e, scope, 1, 1)[0]
+    if sum(n > 1 for n in shape_of(value)) > 1:
+        hint = "at most one dimension is larger than 1 (10.3.2); [A[1, :], A[2, :]] puts rows side by side"
+        raise Diagnostic("R051", f"vector of {shape_text(shape_of(value))} elements", e.span, hint)
     items = scalars(value)
     return Array((len(items),), tuple(items))
 

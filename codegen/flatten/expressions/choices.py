@@ -21,10 +21,12 @@ from lacuna.codegen.symbolic.expr import BOOLEAN, Expr
 
 def chosen_value(condition: Expr, then: Value, otherwise: Value, span: Span, scope: Scope) -> Value:
     """`then` or `otherwise` by a condition that may vary in the run; by one that is known where they are not alike."""
-    texts = isinstance(then, str | ChosenText) and isinstance(otherwise, str | ChosenText)
+    texts = isinstance(then, str | ChosenText)
+    if texts != isinstance(otherwise, str | ChosenText):
+        raise Diagnostic("R021", "one alternative only is a String", span, "make them alike")
     if texts and not is_known(condition, scope.context):
         return choose(condition, then, otherwise)
-    if texts or isinstance(then, str) or isinstance(otherwise, str) or shape_of(then) != shape_of(otherwise):
+    if texts or shape_of(then) != shape_of(otherwise):
         decided = known(condition, scope, span, "the condition of alternatives of different size")
         return then if decided.value else otherwise
     if isinstance(then, Record) and isinstance(otherwise, Record) and then.fields.keys() == otherwise.fields.keys():

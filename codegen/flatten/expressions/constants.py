@@ -40,6 +40,8 @@ def _constant(n: Expr, context: Context, span: Span, what: str) -> Expr | None:
         return _value_of(str(n.value), context, span, what)
     if n.op in ("noEvent", "smooth"):
         return evaluate(n.args[-1], context, span, what)
+    if n.op == "annotated":
+        return evaluate(n.args[0], context, span, what)
     if n.op == "if":  # the branch that does not hold need not have a value
         condition = evaluate(n.args[0], context, span, what)
         return evaluate(n.args[1] if condition.value else n.args[2], context, span, what)
@@ -104,7 +106,11 @@ def _depends_on_free(e: Expr, context: Context) -> bool:
     memo = context.table(_Free)
     if e not in memo:
         entry = context.scalars.get(str(e.value)) if e.op == "var" else None
-        memo[e] = entry[0].is_free if entry else any(_depends_on_free(a, context) for a in e.args)
+        memo[e] = (
+            entry[0].is_free
+            if entry
+            else any(_depends_on_free(a, context) for a in (e.args[:1] if e.op == "annotated" else e.args))
+        )
     return memo[e]
 
 
@@ -126,6 +132,7 @@ def _variability(e: Expr, context: Context) -> str:
         return "discrete"
     if e.op == "noEvent":  # what is in it changes as its variables do (3.8.5)
         return max((variability(n, context) for n in leaves(e)), key=_ORDER.__getitem__, default="constant")
-    found = max((variability(a, context) for a in e.args), key=_ORDER.__getitem__, default="constant")
+    parts = e.args[:1] if e.op == "annotated" else e.args
+    found = max((variability(a, context) for a in parts), key=_ORDER.__getitem__, default="constant")
     by_events = e.op in ex.RELATIONS or (e.op == "call" and e.value in ("floor", "ceil", "integer", "div", "sign"))
     return "discrete" if by_events and found == "continuous" else found

@@ -41,7 +41,7 @@ def time_derivative(e: Expr, scope: Scope, span: Span) -> Expr:
 
     if e.op == "var" and e.type != ex.REAL:
         raise Diagnostic("R054", f"the derivative of the {e.type} {e.value}", span, "only Reals have derivatives")
-    return Differentiator(seed)(e)
+    return Differentiator(seed, rules=scope.context.derivatives)(e)
 
 
 def _name(derivative: Expr) -> str:

@@ -38,11 +38,16 @@ def lower(e: ast.Expression, scope: Scope) -> Value:
     return scope.context.lowering.nodes[type(e)](e, scope)
 
 
-def lower_results(e: ast.Expression, scope: Scope) -> list[Value]:
-    """All results of a call, for a list of variables on the left. Raises R023 for anything but a call."""
+def lower_results(e: ast.Expression, scope: Scope, wanted: int) -> list[Value]:
+    """All results of a call, for a list of so many variables on the left. Raises R023 for anything but a call, and for
+    one of fewer results."""
     if not isinstance(e, ast.Call):
         raise Diagnostic("R023", "a list on the left needs a call on the right", e.span, "(a, b) = f(x)")
-    return scope.context.lowering.results(e, scope)
+    results = scope.context.lowering.results(e, scope)
+    if wanted > len(results):
+        message = f"{e.function} has {len(results)} results, {wanted} are wanted"
+        raise Diagnostic("R023", message, e.span, "leave some out")
+    return results
 
 
 def lower_scalar(e: ast.Expression, scope: Scope, kind: str = "") -> Expr:

@@ -11,8 +11,8 @@ from lacuna.codegen.flatten.expressions.constants import is_known, known
 from lacuna.codegen.flatten.expressions.enumerations import literal
 from lacuna.codegen.flatten.expressions.lower import lower, lower_scalar
 from lacuna.codegen.flatten.expressions.transport import OPERATOR, spatial_distribution
-from lacuna.codegen.flatten.functions.code import is_done
 from lacuna.codegen.flatten.functions.declared import bind_arguments, call_function, written_arguments
+from lacuna.codegen.flatten.functions.kept.code import is_done
 from lacuna.codegen.flatten.functions.locals import signature_of
 from lacuna.codegen.flatten.names.component import Component
 from lacuna.codegen.flatten.names.scope import Scope, base_class, find_class, find_first, meant_class, own_or_inherited

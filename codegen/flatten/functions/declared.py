@@ -13,11 +13,13 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.types import EXTERNAL
 from lacuna.codegen.flatten.expressions.constants import AtRunTime, evaluate, is_known
 from lacuna.codegen.flatten.expressions.lower import lower
-from lacuna.codegen.flatten.functions.code import emitted_call
+from lacuna.codegen.flatten.functions.annotated import with_derivatives
 from lacuna.codegen.flatten.functions.fitting import fit
 from lacuna.codegen.flatten.functions.interpret import interpret
+from lacuna.codegen.flatten.functions.kept.code import emitted_call
 from lacuna.codegen.flatten.functions.library.external import call_external
 from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
+from lacuna.codegen.flatten.functions.literal_units import with_literal_units
 from lacuna.codegen.flatten.functions.locals import Local, Signature, signature_of
 from lacuna.codegen.flatten.names.scope import Scope, find_class
 from lacuna.codegen.flatten.names.values import (
@@ -95,8 +97,19 @@ def _vector_shape(signature: Signature, written: Written, span: Span) -> tuple[i
 
 
 def _call(signature: Signature, written: Written, e: ast.Call, scope: Scope) -> list[Value]:
+    arguments = bind_arguments(signature.cls, signature.inputs, written, e, scope, signature.sizing)
+
+    def derivative(function: Signature, given: dict[str, Value]) -> list[Value]:
+        inner = Scope(scope.context, function.cls, in_function=True, pure=not function.cls.impure)
+        placed = {n: (v, e.span) for n, v in given.items()}
+        return _results(function, bind_arguments(function.cls, function.inputs, placed, e, inner), e, inner)
+
+    results = _results(signature, arguments, e, scope)
+    return with_derivatives(signature, arguments, results, scope.context, derivative)
+
+
+def _results(signature: Signature, arguments: dict[str, Value], e: ast.Call, scope: Scope) -> list[Value]:
     context, cls = scope.context, signature.cls
-    arguments = bind_arguments(cls, signature.inputs, written, e, scope, signature.sizing)
     if signature.external is not None and signature.external.external.function not in GENERATORS:
         return call_external(signature, arguments, e, scope)
     items = [a for v in arguments.values() for a in scalars(v)]
@@ -108,6 +121,8 @@ def _call(signature: Signature, written: Written, e: ast.Call, scope: Scope) -> 
             results = interpret(signature, arguments, context, e.span)
             if known or makes_events or _is_small(results, arguments):
                 results = results if makes_events else [_without_events(r) for r in results]
+                if not scope.in_function:
+                    results = with_literal_units(signature, arguments, results, context, e.span)
                 for local, value in zip(signature.outputs, results, strict=True):
                     note_units(local, value, e.span, f"output {local.name} of {cls.name}", scope)
                 return results

@@ -223,7 +223,7 @@ class _Run:
 
     def _assign(self, item: ast.Assignment) -> None:
         if isinstance(item.target, ast.Tuple):
-            results = lower_results(item.value, self.scope)
+            results = lower_results(item.value, self.scope, len(item.target.items))
             for target, value in zip(item.target.items, results, strict=False):
                 if target is not None:
                     self._store(target, value, item.span)

@@ -14,6 +14,7 @@ from lacuna.codegen.flat import Function
 from lacuna.codegen.flatten.names.component import Component, Variable
 from lacuna.codegen.flatten.names.values import Value
 from lacuna.codegen.library.classes import Library
+from lacuna.codegen.symbolic.annotated import DerivativeRule
 from lacuna.codegen.symbolic.expr import Expr
 
 T = TypeVar("T")
@@ -50,6 +51,8 @@ class Context:
     places: dict[tuple[str, str], Span] = field(default_factory=dict)  # of bindings and attributes: (variable, which)
     argument_units: list[tuple[Expr, str, str, Span]] = field(default_factory=list)  # value, unit, what, where
     function_units: dict[str, str] = field(default_factory=dict)  # of the result, by name of a kept function
+    literal_units: dict[str, str] = field(default_factory=dict)  # of numbers given to inputs, by names they have for it
+    derivatives: dict[str, list[DerivativeRule]] = field(default_factory=dict)  # of annotated values, by their keys
     call_depth: int = 0
     elements: int = 0
     files: dict[str, str] = field(default_factory=dict)

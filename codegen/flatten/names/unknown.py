@@ -7,7 +7,7 @@ from lacuna.codegen.flatten.names.scope import PRIMITIVES, base_classes, find_fi
 from lacuna.codegen.library.classes import HOME_PACKAGE, Library
 from lacuna.codegen.library.search_path import WITHOUT_MODELICA
 from lacuna.codegen.syntax import ast
-from lacuna.suggest import did_you_mean, nearest, question
+from lacuna.suggest import LISTED, did_you_mean, nearest, question
 
 
 def visible_classes(library: Library, cls: ast.Class) -> list[str]:
@@ -24,15 +24,22 @@ def visible_classes(library: Library, cls: ast.Class) -> list[str]:
 
 
 def unknown_class(library: Library, cls: ast.Class, ref: ast.Ref, what: str) -> Diagnostic:
+    if ref.names == ("Clock",):
+        hint = "use when sample(start, interval) then"
+        return Diagnostic("R091", "Clock is outside the subset", ref.span, hint)
     known: list[str] = [*visible_classes(library, cls), *PRIMITIVES]
-    missing = ref.names[0]
+    missing, held = ref.names[0], ""
     current = find_first(library, cls, ref.names[0])
     for name in ref.names[1:]:
         if current is None:
             break
         known, missing = library.members(current), name
+        more = f" and {len(known) - LISTED} more" if len(known) > LISTED else ""
+        held = f"{current.name} has {', '.join(known[:LISTED])}{more}" if known else ""
         current = own_or_inherited(library, current, name)
-    hint = did_you_mean(missing, known) or _elsewhere(library, ref)
+    hint = did_you_mean(missing, known) or held or _elsewhere(library, ref)
+    if current is None and missing == ref.names[0] in visible_classes(library, cls):
+        hint = f"an encapsulated class around it sees only what it imports: import ...{missing};"
     return Diagnostic("R001", f"there is no {what} {ref}", ref.span, hint)
 
 

@@ -91,6 +91,15 @@ def scalars(value: Value) -> list[Expr | str]:
     return [] if isinstance(value, ExternalValue) else [value]
 
 
+def with_scalars(value: Value, new: Iterator[Expr | str]) -> Value:
+    """A value built as `value` is, of other scalars."""
+    if isinstance(value, Record):
+        return Record(value.name, {n: with_scalars(v, new) for n, v in value.fields.items()}, value.cls)
+    if isinstance(value, Array):
+        return Array(value.shape, tuple(with_scalars(i, new) for i in value.items))
+    return value if isinstance(value, FunctionValue | ExternalValue) else next(new)
+
+
 def items_of(value: Value) -> tuple[Value, ...]:
     """The elements of an array, records whole; anything else is one element."""
     return value.items if isinstance(value, Array) else (value,)

@@ -32,12 +32,12 @@ def view(
     origin = cls.origin or cls
     holding = {**cls.redeclared, **(redeclared or {})}
     key = (id(origin), id(parent), tuple((n, id(c)) for n, c in sorted(holding.items())), id(whole), id(written),
-           id(cls.constrained))  # fmt: skip
+           id(cls.constrained), cls.inner, cls.outer)  # fmt: skip
     found = library.views.get(key)
     if found is None:
         found = replace(
             origin, origin=origin, parent=parent, redeclared=holding, whole=whole, written=written or cls.written,
-            constrained=cls.constrained,
+            constrained=cls.constrained, inner=cls.inner, outer=cls.outer,
         )  # fmt: skip
         library.views[key] = found
         found.number = library.count_path(found.path)
@@ -86,6 +86,19 @@ def modified(library: Library, cls: ast.Class, tree: ast.Modification, written: 
     return found
 
 
+def _as_far(library: Library, new: ast.Class, old: ast.Class) -> ast.Class:
+    """`new` as inner or outer as the `old` that it stands for: a redeclaration cannot say it (7.3)."""
+    if (new.inner, new.outer) == (old.inner, old.outer):
+        return new
+    key = (id(new), old.inner, old.outer, "as far")
+    found = library.views.get(key)
+    if found is None:
+        found = library.views[key] = replace(new, origin=new.origin or new, inner=old.inner, outer=old.outer)
+        found.number = library.count_path(found.path)
+        library.kept.append(new)
+    return found
+
+
 def constrain(library: Library, new: ast.Class, old: ast.Class, by_element: bool) -> ast.Class:
     """`new` in place of the replaceable class `old`: the modifications of the constraining clause hold for it.
 
@@ -105,6 +118,7 @@ def constrain(library: Library, new: ast.Class, old: ast.Class, by_element: bool
         raise Diagnostic("R037", f"{old.name} and what stands for it differ in visibility", new.span, hint)
     if by_element and new.extends_same is not None:
         return new
+    new = _as_far(library, new, old)
     first = old
     while first.constraint is None and first.stands_for is not None:
         first = first.stands_for

@@ -15,6 +15,7 @@ from lacuna.codegen.structure.index.dummy_derivatives import choose_states
 from lacuna.codegen.structure.index.hidden import expose
 from lacuna.codegen.structure.sorting.singular import require_regular
 from lacuna.codegen.structure.system import Row, System
+from lacuna.codegen.symbolic.annotated import plain
 from lacuna.codegen.symbolic.differentiate import Differentiator
 from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, der, is_const, to_text, var
 from lacuna.codegen.symbolic.leaves import leaves
@@ -34,8 +35,19 @@ def reduce_index(model: flat.FlatModel, equations: list[flat.Equation], relation
     model, started = _derivatives_at_start(model, rows, set(names))
     names += [str(row.lhs.value) for row in started]
     rows += started
-    rows = _Pantelides(model, rows, names).run()
+    rows = _plain(_Pantelides(model, rows, names).run())
     return choose_states(model, rows, names, relations)
+
+
+def _plain(rows: list[Row]) -> list[Row]:
+    """The rows, what is differentiated no more without what it would take."""
+    memo: dict[Expr, Expr] = {}
+    done: dict[Row | None, Row | None] = {None: None}
+    for row in rows:  # those that others are derivatives of come first
+        lhs, rhs, integral = plain(row.lhs, memo), plain(row.rhs, memo), done[row.integral]
+        same = lhs is row.lhs and rhs is row.rhs and integral is row.integral
+        done[row] = row if same else Row(lhs, rhs, row.source, integral)
+    return [done[row] for row in rows]
 
 
 def _derivatives_at_start(model: flat.FlatModel, rows: list[Row], names: set[str]) -> tuple[flat.FlatModel, list[Row]]:
@@ -67,7 +79,7 @@ class TimeDerivative:
     def __init__(self, model: flat.FlatModel, still: Collection[Expr] = ()):
         self._model, self._still = model, still
         self._row: Row | None = None
-        self._differentiate = Differentiator(self._seed)
+        self._differentiate = Differentiator(self._seed, rules=model.derivatives)
 
     def row(self, row: Row) -> Row:
         self._row = row

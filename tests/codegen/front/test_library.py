@@ -85,3 +85,11 @@ def test_misplaced_files_are_refused(tree: Path, file: str | None, text: str | b
         flatten(Library([tree]), name)
     assert refused.value.code == code
     assert refused.value.hint
+
+
+def test_a_package_without_a_class_of_that_name_says_what_it_has(tmp_path: Path) -> None:
+    path = tmp_path / "M.mo"
+    path.write_text("model M package P model Cuboid end Cuboid; end P; P.AirGap gap; end M;", encoding="utf-8")
+    with pytest.raises(Diagnostic) as refused:
+        flatten(Library([tmp_path]), str(path))
+    assert (refused.value.code, refused.value.hint) == ("R001", "P has Cuboid")

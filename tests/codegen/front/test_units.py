@@ -10,6 +10,7 @@ import pytest
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten import flatten
 from lacuna.codegen.library.classes import Library
+from lacuna.codegen.symbolic.expr import walk
 from lacuna.units import format_unit, parse_unit
 from tests.codegen.front.helpers import flatten_text
 
@@ -232,3 +233,22 @@ def test_findings_inside_a_library_are_one_warning_and_own_ones_stay_errors(tmp_
     with pytest.raises(Diagnostic) as refused:
         flatten(Library([shelf]), str(own))
     assert (refused.value.code, refused.value.span.line, refused.value.others) == ("U001", 3, [])
+
+
+@pytest.mark.parametrize("call", ["drag(0.5, v)", "drag(c=0.5, v=v)", "drag(v=v)"])
+@pytest.mark.parametrize(("unit", "code"), [("N.s2/m2", None), ("N.s/m", "U001")])
+def test_a_number_for_an_input_has_the_unit_of_the_input(
+    tmp_path: Path, call: str, unit: str, code: str | None
+) -> None:
+    model = flatten_text(
+        tmp_path,
+        f"""model M
+  function drag input Real c(unit = "{unit}") = 3; input Real v(unit = "m/s"); output Real F;
+  algorithm F := c*v^2; end drag;
+  Real v(unit = "m/s", start = 1); parameter Real m(unit = "kg") = 2;
+equation
+  m*der(v) = -{call};
+end M;""",
+    )
+    assert [w.code for w in model.warnings] == ([] if code is None else [code])
+    assert all(n.op != "annotated" for e in model.equations for side in (e.lhs, e.rhs) for n in walk(side))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from lacuna.codegen.flatten.expressions.lower import lower
-from lacuna.codegen.flatten.functions.code import emitted_call
+from lacuna.codegen.flatten.functions.kept.code import emitted_call
 from lacuna.codegen.flatten.functions.library import impure, linear_equations, objects, spectrum, streams, strings
 from lacuna.codegen.flatten.functions.library.data_files import CSV_COLUMN, column_of_file
 from lacuna.codegen.flatten.functions.library.foreign import check_foreign

@@ -13,9 +13,9 @@ from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flat.foreign import Foreign, ForeignCode
 from lacuna.codegen.flatten.expressions.lower import lower
+from lacuna.codegen.flatten.functions.kept.writer import Writer
 from lacuna.codegen.flatten.functions.library.data_files import folder_of, text_of
 from lacuna.codegen.flatten.functions.locals import Signature
-from lacuna.codegen.flatten.functions.writer import Writer
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Array, Value, items_of, shape_of
 from lacuna.codegen.symbolic.expr import Expr

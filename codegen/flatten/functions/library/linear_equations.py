@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 
-from lacuna.codegen.flatten.functions.code import run_or_emit
+from lacuna.codegen.flatten.functions.kept.code import run_or_emit
 from lacuna.codegen.flatten.functions.library.objects import ExternalCall, Handler
 from lacuna.codegen.flatten.names.values import Array, Value, shape_of
 from lacuna.codegen.symbolic import expr as ex

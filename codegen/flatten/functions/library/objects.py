@@ -12,7 +12,7 @@ import itertools
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.expressions.constants import known
-from lacuna.codegen.flatten.functions.code import run_or_emit
+from lacuna.codegen.flatten.functions.kept.code import run_or_emit
 from lacuna.codegen.flatten.functions.library.data_files import locate
 from lacuna.codegen.flatten.functions.library.tables import lookup
 from lacuna.codegen.flatten.functions.library.tables import polynomials as pp

@@ -10,7 +10,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 from lacuna.codegen.errors import Diagnostic
-from lacuna.codegen.flatten.functions.code import run_or_emit
+from lacuna.codegen.flatten.functions.kept.code import run_or_emit
 from lacuna.codegen.flatten.functions.library.objects import ExternalCall, Handler
 from lacuna.codegen.flatten.names.values import Array, Value
 from lacuna.codegen.syntax import ast, parse

@@ -9,16 +9,17 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.expressions.constants import AtRunTime, evaluate
 from lacuna.codegen.flatten.expressions.elements import element, local_value
 from lacuna.codegen.flatten.functions.interpret import interpret
+from lacuna.codegen.flatten.functions.kept.parts import matched, parts, rebuilt, variables_of
+from lacuna.codegen.flatten.functions.kept.whole_calls import element_name
+from lacuna.codegen.flatten.functions.kept.writer import Writer
 from lacuna.codegen.flatten.functions.library.foreign import foreign_call
 from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
 from lacuna.codegen.flatten.functions.locals import Signature, signature_of
-from lacuna.codegen.flatten.functions.parts import matched, parts, rebuilt, variables_of
-from lacuna.codegen.flatten.functions.whole_calls import element_name
-from lacuna.codegen.flatten.functions.writer import Writer
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Array, Value, indices, scalars, shape_of
 from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.annotated import OP
 from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr
 from lacuna.codegen.symbolic.rewrite import Rewriter
 from lacuna.codegen.syntax import ast
@@ -33,6 +34,7 @@ class Source:
 
     signature: Signature
     inputs: dict[str, Value]
+    fixed: dict[str, Value]  # arguments that it is made for: what sizes follow from
     results: list[Value]
     output: int = 0
     element: int = 0
@@ -47,7 +49,7 @@ def run(name: str, arguments: list[Expr], context: Context, span: Span) -> Expr:
     source = context.table(Sources)[name]
     variables = [v for n, whole in source.inputs.items() for v in parts(n, whole).values()]
     given = (Array(v.shape, a.args) if isinstance(v, Array) else a for v, a in zip(variables, arguments, strict=True))
-    bound = {n: rebuilt(whole, given) for n, whole in source.inputs.items()}
+    bound = source.fixed | {n: rebuilt(whole, given) for n, whole in source.inputs.items()}
     try:
         results = interpret(source.signature, bound, context, span)
     except AtRunTime as reason:
@@ -138,19 +140,32 @@ def _argument(name: str, function: flat.Function) -> Expr:
 
 def _base(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> str:
     cls, kinds = signature.cls, {local.name: local.type for local in signature.inputs}
-    texts = [v for v in arguments.values() if isinstance(v, str)] if _is_foreign(signature) else []
-    numbers = {n: v for n, v in arguments.items() if not (texts and isinstance(v, str))}
+    fixed = {n: v for n, v in arguments.items() if _is_fixed(signature, n, v)}
+    numbers = {n: v for n, v in arguments.items() if n not in fixed}
     inputs = {n: variables_of(n, kinds[n], v, context, span) for n, v in numbers.items()}
     shapes = [shape_of(v) for n, whole in inputs.items() for v in parts(n, whole).values()]
     sizes = ",".join("x".join(map(str, s)) for s in shapes if s)
-    name = (f"{cls.path}[{sizes}]" if sizes else cls.path) + (f"({', '.join(map(repr, texts))})" if texts else "")
+    name = (f"{cls.path}[{sizes}]" if sizes else cls.path) + (f"({_listed(fixed)})" if fixed else "")
     if name not in context.functions:
         for n, v in numbers.items():
             if any(isinstance(s, str) for s in scalars(v)):
                 hint = "decide by an enumeration or a Boolean"
                 raise Diagnostic("F036", f"{cls.name} has the String input {n} and runs at run time", span, hint)
-        _emit(name, signature, inputs, arguments, context, span)
+        _emit(name, signature, inputs, fixed, context, span)
     return name
+
+
+def _is_fixed(signature: Signature, name: str, value: Value) -> bool:
+    """Whether the function is made anew for each value of an input: texts of external C, and constants that decide
+    sizes."""
+    if isinstance(value, str):
+        return _is_foreign(signature)
+    items = scalars(value)
+    return name in signature.sizing and bool(items) and all(isinstance(s, Expr) and s.op == "const" for s in items)
+
+
+def _listed(fixed: dict[str, Value]) -> str:
+    return ", ".join(repr(s) if isinstance(s, str) else ex.to_text(s) for v in fixed.values() for s in scalars(v))
 
 
 def _is_foreign(signature: Signature) -> bool:
@@ -159,16 +174,16 @@ def _is_foreign(signature: Signature) -> bool:
 
 
 def _emit(
-    name: str, signature: Signature, inputs: dict[str, Value], arguments: dict[str, Value], context: Context, span: Span
+    name: str, signature: Signature, inputs: dict[str, Value], fixed: dict[str, Value], context: Context, span: Span
 ) -> None:
     cls = signature.cls
     names = tuple(n for i, v in inputs.items() for n in parts(i, v))
     function = flat.Function(name, names, (), {}, {}, {}, [], cls.span)
     context.functions[name] = function
-    source = context.table(Sources)[name] = Source(signature, inputs, [])
-    writer = Writer(function, Scope(context, cls, None, {}, in_function=True, pure=not cls.impure))
+    source = context.table(Sources)[name] = Source(signature, inputs, fixed, [])
+    writer = Writer(function, Scope(context, cls, None, dict(fixed), in_function=True, pure=not cls.impure))
     try:
-        for local in (x for x in signature.locals if not isinstance(arguments.get(x.name), str)):
+        for local in (x for x in signature.locals if x.name not in fixed):
             writer.declare_local(local, inputs)
         if not signature.outputs:
             writer.declare(DONE, local_value(DONE, BOOLEAN, ()))
@@ -176,15 +191,22 @@ def _emit(
         results = {d.name: writer.scope.locals[d.name] for d in signature.outputs} or {DONE: ex.var(DONE, BOOLEAN)}
         function.outputs = tuple(n for d, v in results.items() for n in parts(d, v))
         source.results = list(results.values())
+        writer.begin()
         if _is_foreign(signature):
-            function.body += foreign_call(signature, arguments, writer, span)
+            function.body += foreign_call(signature, inputs | fixed, writer, span)
         elif signature.external is not None:
             external = signature.external.external
             order = [str(a) for a in external.args]
             given, wanted = (tuple(n for n in order if (n in inputs) == asked) for asked in (True, False))
             function.body.append(flat.Native(external.function, given, wanted, cls.span))
         function.body += writer.block(signature.body)
-        constant = Rewriter(lambda e: None if e.value in function.shapes else _package_constant(e, context, span))
+
+        def settled(e: Expr) -> Expr | None:
+            if e.op == OP:  # nothing is differentiated by time in a function
+                return constant.expression(e.args[0])
+            return None if e.value in function.shapes else _package_constant(e, context, span)
+
+        constant = Rewriter(settled)
         function.body = constant.statements(function.body)
     except AtRunTime as reason:
         del context.functions[name], context.table(Sources)[name]

@@ -6,6 +6,7 @@ from lacuna.codegen import flat
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.values import Value, indices, scalars
 from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.symbolic.annotated import plain
 from lacuna.codegen.symbolic.expr import Expr
 
 
@@ -17,7 +18,7 @@ def element_name(base: str, output: str, index: tuple[int, ...]) -> str:
 def called(values: list[Value], context: Context) -> tuple[Expr, list[str]] | None:
     """The call whose results `values` are, each whole and in order, two scalars or more, with the results' types; None
     for anything else."""
-    items = [s for value in values for s in scalars(value)]
+    items = [plain(s) if isinstance(s, Expr) else s for value in values for s in scalars(value)]
     if len(items) < 2 or not all(isinstance(s, Expr) and s.op == "call" and s.args == items[0].args for s in items):
         return None
     base = _base(str(items[0].value), context)

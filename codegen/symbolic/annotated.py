@@ -1,0 +1,71 @@
+"""Values of functions whose derivative in time the model gives itself: `annotation(derivative = df)` (12.7.1).
+
+    annotated(value, argument, ...)     value: the key of the rules
+
+is its value to every pass; the arguments are those of the call, scalar by scalar, for the rules alone. From
+differentiation on, `plain` leaves the value.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from lacuna.codegen.symbolic.expr import REAL, Expr, is_const, node, substitute, transform
+
+OP = "annotated"
+UNITS = "units"  # the key of a value with one argument: the same in names that have units
+
+
+@dataclass(frozen=True)
+class DerivativeRule:
+    """The derivative of one scalar result, in terms of what stands for the arguments and for their derivatives.
+
+    It holds where the arguments at the positions `still` do not move (zeroDerivative), and where of each pair in
+    `chain` the second is the derivative of the first (order > 1). `rates` has None where no derivative is asked for.
+    """
+
+    parameters: tuple[Expr, ...]
+    rates: tuple[Expr | None, ...]
+    still: tuple[int, ...]
+    chain: tuple[tuple[int, int], ...]
+    value: Expr | Exception  # why there is none: it is raised where it is asked for
+
+    @property
+    def unheard(self) -> frozenset[int]:
+        """Positions of the arguments whose derivatives it leaves out though they may move (noDerivative)."""
+        pairs = enumerate(zip(self.parameters, self.rates, strict=True))
+        return frozenset(k for k, (p, r) in pairs if r is None and p.type == REAL and k not in self.still)
+
+
+Rules = Mapping[str, Sequence[DerivativeRule]]
+
+
+def annotated(value: Expr, arguments: Sequence[Expr], key: str) -> Expr:
+    return value if is_const(value) else node(OP, (value, *arguments), key, value.type)
+
+
+def by_rule(e: Expr, rules: Rules, derivative: Callable[[Expr], Expr]) -> Expr | None:
+    """The derivative of the annotated `e` by the first rule that holds; None where none does."""
+    arguments = e.args[1:]
+    for rule in rules.get(str(e.value), ()):
+        if any(derivative(arguments[a]) is not arguments[b] for a, b in rule.chain):
+            continue
+        if any(not is_const(derivative(arguments[k]), 0) for k in rule.still):
+            continue
+        if isinstance(rule.value, Exception):
+            raise rule.value
+        rates = {r: derivative(a) for r, a in zip(rule.rates, arguments, strict=True) if r is not None}
+        return substitute(rule.value, dict(zip(rule.parameters, arguments, strict=True)) | rates)
+    return None
+
+
+def unmarked(e: Expr) -> Expr:
+    """`e` without what tells the units of numbers."""
+    return transform(e, lambda n: unmarked(n.args[0]) if n.op == OP and n.value == UNITS else None, {})
+
+
+def plain(e: Expr, memo: dict[Expr, Expr] | None = None) -> Expr:
+    """`e` with values alone in the place of annotated ones."""
+    memo = {} if memo is None else memo
+    return transform(e, lambda n: plain(n.args[0], memo) if n.op == OP else None, memo)
