@@ -24,7 +24,6 @@ from lacuna.suggest import did_you_mean
 from lacuna.written import write_whole
 
 RTOL, LEAST_RTOL, FINER = 1e-6, 1e-9, 0.1  # of the solver: usual, least, and the step from one to the next finer one
-COARSER = 100  # times the tolerance, at which a first look is taken: its errors are below a tenth of the noise
 NEGLIGIBLE = 1e-3  # RMS of the solver's errors, in units of noise; friction that is added makes ten times as much of it
 STEPS_PER_SAMPLE, STEPS_PER_SECOND = 40, 8000  # a run that needs more is given up: its parameters are absurd
 STEPS_GROWTH = 10  # so is a hypothesis that needs so many times the steps of the model it amends
@@ -123,7 +122,7 @@ class Machine:
         coarsely: bool = False,
     ) -> dict[str, np.ndarray] | None:  # fmt: skip
         """Output columns (n,) in SI, and the torque of each tracker under its name; None where the run fails. Taken
-        `coarsely` for a first look.
+        `coarsely` for a first look: errors of a hundred times NEGLIGIBLE are still a tenth of the noise.
 
         `parameters` may hold `start:<variable>` for states with unknown start values; `efforts` drive probes."""
         values = values_in(parameters, recording)
@@ -195,7 +194,7 @@ class Machine:
         except queue.Empty:
             outputs = list(dict.fromkeys([*self.columns.values(), *(f"{t}.tau" for t in self._trackers())]))
             return Session(
-                self.model, solver=self.solver, rtol=self.rtol * (COARSER if coarsely else 1), outputs=outputs,
+                self.model, solver=self.solver, rtol=self.rtol / (FINER**2 if coarsely else 1), outputs=outputs,
                 output_times=recording.time, events=False, inputs=self._inputs_of(recording),
                 max_steps=self._step_limit(recording),
             )  # fmt: skip

@@ -14,8 +14,6 @@ from lacuna.discovery.fit.solver.least_squares import Estimate, Problem, solve
 
 STAGES = 10  # of weights, at most: levels that have not settled by then do not
 WORTH = 1.0  # of the weighted cost, that a stage of a fit has to win for another to follow
-COARSE, FINE = 0.1, 1e-3  # of the weighted cost a parameter, that a step has to promise: a third of a standard error
-# where shafts are held on the way, since letting go will move the values by more; else a thirtieth
 SETTLED = 0.02  # relative change of a signal's level at which weights are taken to have settled
 
 
@@ -98,10 +96,10 @@ def anneal(
     """Alternate weights from the residuals and a few steps of least squares until both have settled.
 
     `known` are unweighted columns of the Jacobian that may serve at first. Where a fit of all stages ends it is taken
-    anew, but not where it is only led by trackers.
+    anew, but not where it is only led by trackers: letting go moves the values by more than what is WORTH a step.
     """
     problem.weights, level, values, led = None, {}, start, bool(objective.stiffness)
-    here, best, tolerance = problem.evaluate(start), None, COARSE if led else FINE
+    here, best, tolerance = problem.evaluate(start), None, WORTH / max(len(problem.free), 1) if led else 1e-3
     parts, columns = (here[2] if here else []), dict(known or {})
     for _ in range(stages if here else 0):
         new = {n: max(1.0 if n in objective.noise else 1e-6, v) for n, v in objective.measure(parts).items()}
