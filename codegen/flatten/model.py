@@ -68,7 +68,7 @@ def flatten(
         with context.attempt():
             flatten_variables(leaf, model)
     body, initial = _sections(sections)
-    expand(body.connections, context)
+    expand(body.connections, buses, context)
     for leaf in _leaves_of(buses):
         with context.attempt():
             flatten_variables(leaf, model)
@@ -80,7 +80,7 @@ def flatten(
     model.whens, model.algorithms, model.initial_equations = body.whens, body.algorithms, initial.equations
     model.asserts = body.asserts + initial.asserts
     model.functions, model.derivatives = context.functions, context.derivatives
-    at_events = assigned([*model.whens, *(s for a in model.algorithms for s in a.statements)])
+    at_events = [*assigned(model.whens), *(n for a in model.algorithms for n in a.targets)]
     with context.attempt():
         require_lasting(body.asserts)
         check_discrete(model.equations, leaves, set(at_events), context)

@@ -191,6 +191,7 @@ def _emit(
         results = {d.name: writer.scope.locals[d.name] for d in signature.outputs} or {DONE: ex.var(DONE, BOOLEAN)}
         function.outputs = tuple(n for d, v in results.items() for n in parts(d, v))
         source.results = list(results.values())
+        writer.begin()
         if _is_foreign(signature):
             function.body += foreign_call(signature, inputs | fixed, writer, span)
         elif signature.external is not None:

@@ -31,6 +31,7 @@ class Writer:
     def __init__(self, function: flat.Function, scope: Scope) -> None:
         self.function, self.scope = function, scope
         self.counter = 0
+        self._begun: list[tuple[Local, Value, Value]] = []  # with their variables and, of records, what they hold
 
     def declare(self, name: str, variables: Value) -> None:
         """A variable of the function, or what a record consists of."""
@@ -41,7 +42,7 @@ class Writer:
         self.scope.locals[name] = variables
 
     def declare_local(self, local: Local, inputs: dict[str, Value]) -> None:
-        """An input, or a result or protected variable with what its declaration gives it."""
+        """An input, a result or a protected variable; what its declaration gives it follows by `begin`."""
         scope, default = replace(local.scope, locals=self.scope.locals), local.declaration.modification.value
         if local.name in inputs:
             self.declare(local.name, inputs[local.name])
@@ -55,10 +56,19 @@ class Writer:
             given = local_value(local.name, local.type.primitive, shape)
         variables = variables_of(local.name, local.type, given, scope.context, span)
         self.declare(local.name, variables)
-        if local.type.primitive is not None and default is not None:
-            value = fit(local, lower(default, local.around_default(scope)), scope, default.span)
-            self.assign([((local.name, variables), value)], default.span, self.function.body)
-        elif local.type.primitive is None:
+        if local.type.primitive is None or default is not None:
+            self._begun.append((local, variables, given))
+
+    def begin(self) -> None:
+        """The statements of the declarations, in their order: they may call the function itself, whose results are
+        declared by now."""
+        for local, variables, given in self._begun:
+            span, default = local.declaration.span, local.declaration.modification.value
+            if local.type.primitive is not None:
+                scope = replace(local.scope, locals=self.scope.locals)
+                value = fit(local, lower(default, local.around_default(scope)), scope, default.span)
+                self.assign([((local.name, variables), value)], default.span, self.function.body)
+                continue
             for target, value in matched(variables, given, local.name, span):
                 if isinstance(value, Expr) and value.op != "unset":
                     self.function.body.append(_store(target, value, span))
