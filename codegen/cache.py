@@ -39,6 +39,7 @@ COMPILER = (
     "cc", "-std=c11", "-O2", "-fPIC", "-shared", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic", "-Werror",
     "-Wno-tautological-compare", "-Wno-logical-not-parentheses",  # a model may say `b == b` and `(not a) <> b`
 )  # fmt: skip
+QUICK = {"-O2": "-O1"}  # of models of which hundreds are looked at: half the time, for runs that are as fast
 STRICT = ("-Werror=implicit-function-declaration", "-Werror=int-conversion", "-Wl,-z,defs")  # C of others
 LARGEST = 2 << 30  # bytes that are kept: some 10 000 models of the size of an actuator
 RECENT = 3600  # s
@@ -80,13 +81,9 @@ def generator_version() -> str:
 
 
 def request_key(
-    name: str,
-    search_path: Sequence[str] | None,
-    modifications: Mapping[str, object] | None,
-    units: str,
-    sensitivities: bool = False,
-    access: Access = NONE,
-) -> str:
+    name: str, search_path: Sequence[str] | None, modifications: Mapping[str, object] | None, units: str,
+    sensitivities: bool = False, access: Access = NONE, quick: bool = False,
+) -> str:  # fmt: skip
     """Digest of what was asked for, and where it is looked up: `search_path`, else MODELICAPATH and package Lacuna.
 
     The text of the files is not part of it: the index holds that of each file read, so that an edit makes only those
@@ -95,19 +92,8 @@ def request_key(
     paths = [str(Path(p).resolve()) for p in (default_path() if search_path is None else search_path)]
     file, inner = split_name(name)
     changes = sorted((k, repr(v)) for k, v in (modifications or {}).items())
-    return _digest(
-        json.dumps(
-            [
-                str(file.resolve()) if file else "",
-                inner,
-                paths,
-                changes,
-                units,
-                sensitivities,
-                [access.data, access.external],
-            ]
-        )
-    )
+    asked = [str(file.resolve()) if file else "", inner, paths, changes, units, sensitivities]
+    return _digest(json.dumps([*asked, [access.data, access.external], quick]))
 
 
 def content_hash(
@@ -237,9 +223,11 @@ class Cache:
         _refuse_shared(self.directory)
         return self.directory
 
-    def build(self, digest: str, source: str, foreign: flat.ForeignCode | None = None) -> str:
+    def build(
+        self, digest: str, source: str, foreign: flat.ForeignCode | None = None, quick: bool = False
+    ) -> str:  # fmt: skip
         """Compile C `source` to a library named by its digest and the compiler, and keep both; returns its path."""
-        digest = _digest(digest, compiler())
+        digest = _digest(digest, compiler(), *(["quick"] if quick else []))
         self.private()
         library, c_file = self.directory / f"{digest[:32]}.so", self.directory / f"{digest[:32]}.c"
         if _is_whole(library):
@@ -247,7 +235,7 @@ class Cache:
         write_whole(c_file, source)
         with whole_files(self.directory) as scratch:
             output = scratch / library.name
-            compile_c(c_file, output, foreign)
+            compile_c(c_file, output, foreign, quick)
             _sum_of(output).write_text(str(_file_digest(str(output))), encoding="ascii")
         if next(_builds) % TRIM_EVERY == 0:
             trim(self.directory)
@@ -278,11 +266,14 @@ def _kept(folder: Path) -> Iterator[Path]:
         yield from (Path(inside) / name for name in files)
 
 
-def compile_c(c_file: Path, output: Path, foreign: flat.ForeignCode | None = None) -> None:
+def compile_c(
+    c_file: Path, output: Path, foreign: flat.ForeignCode | None = None, quick: bool = False
+) -> None:  # fmt: skip
     """Run the compiler on a generated file. Raises CompilerError with its messages, Diagnostic for C of others."""
     of_others = foreign is not None and foreign.spans
     options = [o for o in COMPILER if not o.startswith("-W")] + list(STRICT) if of_others else list(COMPILER)
     libraries = foreign.libraries if foreign is not None else []
+    options = [QUICK.get(o, o) if quick else o for o in options]
     command = [*options, f"-I{INCLUDE}", "-o", str(output), str(c_file), *libraries, "-lm"]
     try:
         result = run(command)

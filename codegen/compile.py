@@ -145,16 +145,18 @@ def compile_model(
     units: str = "error",
     sensitivities: bool = False,
     access: Access = NONE,
+    quick: bool = False,
 ) -> CompiledModel:
     """Translate and compile a model, or take it from the cache where nothing that it was made from has changed.
 
     `units`: what an inconsistent unit is, "error" or "warn" (a warning in the report). `sensitivities`: with the
     derivatives that a run with sensitivities needs (its C is twice as long, and a model of its own in the cache).
-    `access`: what a model may reach beyond its text. Raises Diagnostic (a finding about the model) or
+    `access`: what a model may reach beyond its text. `quick`: in half the time, where a model is one of hundreds that
+    are looked at (its C is optimised less, its results are the same). Raises Diagnostic (a finding about the model) or
     cache.CompilerError (the C compiler failed).
     """
     store = cache.Cache(cache_directory)
-    request = cache.request_key(name, search_path, modifications, units, sensitivities, access)
+    request = cache.request_key(name, search_path, modifications, units, sensitivities, access, quick)
     found = store.find(request)
     if found:
         return CompiledModel(found.name, found.library, found.hash, Report(cached=True, warnings=found.warnings))
@@ -164,6 +166,6 @@ def compile_model(
         )
         prepared.hash = cache.content_hash(prepared.declared, modifications, units, sensitivities)
         source = report.run("C", generate, prepared, sensitivities)
-    library = report.run("compile", store.build, prepared.hash, source, prepared.declared.foreign)
+    library = report.run("compile", store.build, prepared.hash, source, prepared.declared.foreign, quick)
     store.remember(request, prepared, library, report.warnings, search_path)
     return CompiledModel(prepared.declared.name, library, prepared.hash, report)

@@ -68,7 +68,7 @@ def flatten(
         with context.attempt():
             flatten_variables(leaf, model)
     body, initial = _sections(sections)
-    expand(body.connections, context)
+    expand(body.connections, buses, context)
     for leaf in _leaves_of(buses):
         with context.attempt():
             flatten_variables(leaf, model)

@@ -3,7 +3,7 @@
     annotated(value, argument, ...)     value: the key of the rules
 
 is its value to every pass; the arguments are those of the call, scalar by scalar, for the rules alone. From
-differentiation on, `plain` leaves the value.
+differentiation on, `plain` leaves the value. Up to the check of units, values may also say what that is to look at.
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from lacuna.codegen.symbolic.expr import REAL, Expr, is_const, node, substitute, transform
 
 OP = "annotated"
-UNITS = "units"  # the key of a value with one argument: the same in names that have units
 
 
 @dataclass(frozen=True)
@@ -48,7 +47,7 @@ def annotated(value: Expr, arguments: Sequence[Expr], key: str) -> Expr:
 def by_rule(e: Expr, rules: Rules, derivative: Callable[[Expr], Expr]) -> Expr | None:
     """The derivative of the annotated `e` by the first rule that holds; None where none does."""
     arguments = e.args[1:]
-    for rule in rules.get(str(e.value), ()):
+    for rule in () if tells_units(e) else rules.get(str(e.value), ()):
         if any(derivative(arguments[a]) is not arguments[b] for a, b in rule.chain):
             continue
         if any(not is_const(derivative(arguments[k]), 0) for k in rule.still):
@@ -60,9 +59,18 @@ def by_rule(e: Expr, rules: Rules, derivative: Callable[[Expr], Expr]) -> Expr |
     return None
 
 
+def in_units(value: Expr, meant: Expr) -> Expr:
+    """`value`, of which the check of units looks at `meant`: the same over names that have units, known to it alone."""
+    return value if is_const(value) else node(OP, (value,), meant, value.type)
+
+
+def tells_units(e: Expr) -> bool:
+    return e.op == OP and isinstance(e.value, Expr)
+
+
 def unmarked(e: Expr) -> Expr:
     """`e` without what tells the units of numbers."""
-    return transform(e, lambda n: unmarked(n.args[0]) if n.op == OP and n.value == UNITS else None, {})
+    return transform(e, lambda n: unmarked(n.args[0]) if tells_units(n) else None, {})
 
 
 def plain(e: Expr, memo: dict[Expr, Expr] | None = None) -> Expr:

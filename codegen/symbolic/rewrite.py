@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 from lacuna.codegen import flat
-from lacuna.codegen.symbolic.annotated import OP, UNITS, DerivativeRule, plain, unmarked
+from lacuna.codegen.symbolic.annotated import OP, DerivativeRule, plain, tells_units, unmarked
 from lacuna.codegen.symbolic.expr import Expr, neg, transform
 
 Rule = Callable[[Expr], Expr | None]
@@ -89,7 +89,7 @@ class Rewriter:
 def without_marks(model: flat.FlatModel) -> flat.FlatModel:
     """The model without what tells the units of numbers, and derivatives outside of equations: nobody asks for them."""
     settled = Rewriter(lambda n: plain(n) if n.op == OP else None).model(model)
-    equations = Rewriter(lambda n: unmarked(n) if n.op == OP and n.value == UNITS else None)
+    equations = Rewriter(lambda n: unmarked(n) if tells_units(n) else None)
     return replace(settled, equations=[equations.equation(e) for e in model.equations], derivatives=model.derivatives)
 
 

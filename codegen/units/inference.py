@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 
-from lacuna.codegen.symbolic.annotated import UNITS
+from lacuna.codegen.symbolic.annotated import tells_units
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, RELATIONS, Expr, to_text
 from lacuna.units import DIMENSIONLESS, Unit, parse_unit
 
@@ -89,7 +89,7 @@ class UnitInference:
                 self.require(a, SECOND, "delay takes a time")
             return self.of(e.args[0])
         if op == "annotated":
-            return self.of(e.args[1 if e.value == UNITS else 0])
+            return self.of(e.value if tells_units(e) else e.args[0])
         for a in e.args[:-1]:
             self.of(a)
         return self.of(e.args[-1]) if e.args and e.type != BOOLEAN else self._all(e.args)

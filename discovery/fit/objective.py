@@ -25,8 +25,10 @@ def noise_of(case: Case) -> dict[str, Noise]:
 class Objective:
     """Residuals of one machine on some recordings, in units of noise, and the weights that lead a fit."""
 
-    def __init__(self, machine: Machine, recordings: Sequence[Recording], noise: Mapping[str, Noise]):
-        self.machine, self.recordings, self.noise = machine, list(recordings), dict(noise)
+    def __init__(
+        self, machine: Machine, recordings: Sequence[Recording], noise: Mapping[str, Noise], coarsely: bool = False
+    ) -> None:  # fmt: skip
+        self.machine, self.recordings, self.noise, self.coarsely = machine, list(recordings), dict(noise), coarsely
         self.columns = list(noise)
         self.samples = [{c: sample_weights(r.columns[c], self.noise[c]) for c in self.columns} for r in recordings]
         self.stiffness: dict[str, float] = {}
@@ -39,7 +41,7 @@ class Objective:
 
     def __call__(self, values: dict[str, float], piece: int) -> np.ndarray | None:
         recording = self.recordings[piece]
-        simulated = self.machine.simulate(values | self.stiffness, recording)
+        simulated = self.machine.simulate(values | self.stiffness, recording, coarsely=self.coarsely)
         if simulated is None:
             return None
         parts = [
@@ -99,27 +101,27 @@ def anneal(
     """Alternate weights from the residuals and a few steps of least squares until both have settled.
 
     `known` are unweighted columns of the Jacobian that may serve at first. Where a fit of all stages ends it is taken
-    anew.
+    anew, but not where it is only led by trackers: letting go moves the values by more than what is WORTH a step.
     """
-    problem.weights, level, values = None, {}, start
-    here, best = problem.evaluate(start), None
+    problem.weights, level, values, led = None, {}, start, bool(objective.stiffness)
+    here, best, tolerance = problem.evaluate(start), None, WORTH / max(len(problem.free), 1) if led else 1e-3
     parts, columns = (here[2] if here else []), dict(known or {})
     for _ in range(stages if here else 0):
         new = {n: max(1.0 if n in objective.noise else 1e-6, v) for n, v in objective.measure(parts).items()}
-        if best is not None and _settled(level, new, best.converged or bool(objective.stiffness)):
+        if best is not None and _settled(level, new, best.converged or led):
             break
         level, weights = new, objective.weights(new)
         problem.weights = weights
         weighted = {k: [c * w for c, w in zip(cs, weights, strict=True)] for k, cs in columns.items()}
         begin = problem.evaluation(values, [p * w for p, w in zip(parts, weights, strict=True)])
-        best = solve(problem, values, iterations=iterations, damping=1e-6, tolerance=1e-3, known=weighted, here=begin,
-                     renewed=renewed)  # fmt: skip
+        best = solve(problem, values, iterations=iterations, damping=1e-6, tolerance=tolerance, known=weighted,
+                     here=begin, renewed=renewed, sure=not led)  # fmt: skip
         values, parts = best.values, [p / w for p, w in zip(best.residuals, weights, strict=True)]
         blocks = [block / w[:, None] for block, w in zip(best.jacobian, weights, strict=False)]
         columns = {k: [block[:, k] for block in blocks] for k in range(len(problem.free))} if blocks else {}
         if best.begun - best.cost < WORTH:
             break
-    if best is not None and not best.converged and stages >= STAGES and renewed:
+    if best is not None and not best.exact and stages >= STAGES and renewed and not led:
         best = problem.renewed(best)
     return best, level
 

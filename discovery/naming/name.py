@@ -106,7 +106,7 @@ def screen_all(
     case: Case, amendment: Amendment, attachments: list[Attachment], base: Fit, progress: Progress
 ) -> tuple[list[Candidate], list[tuple[str, str]]]:
     """Candidates (one for each start), most promising first; and the hypotheses that do not fit this model."""
-    screen = Screen(base, telling_recordings(base))
+    screen = Screen(base, telling_recordings(base), coarsely=True)
     failures: list[tuple[str, str]] = []
     together = shared(case, amendment, attachments, base)
 

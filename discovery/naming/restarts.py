@@ -104,7 +104,7 @@ def _contend(case: Case, base: Fit, candidates: list[Candidate], progress: Progr
     there = linearised(base.machine, case.fit, base.noise, base.estimate.free, base.fixed, best.fit.point)
     if there is None:
         return
-    screen = Screen(there, telling_recordings(there))
+    screen = Screen(there, telling_recordings(there), coarsely=True)
 
     def fit_again(candidate: Candidate, again: Candidate) -> None:
         found = _fit_again(case, there, again, lambda f: f.deviance() <= candidate.fit.deviance(), progress)

@@ -45,13 +45,15 @@ class Candidate:
 
 
 class Screen:
-    """The linearised base fit against which hypotheses are measured."""
+    """The linearised base fit against which hypotheses are measured; `coarsely`, where they only need to be sorted, and
+    while nothing switches: what an event comes too late or too early for is no error of the size of the tolerance."""
 
-    def __init__(self, base: Fit, recordings: Sequence[Recording] | None = None):
+    def __init__(self, base: Fit, recordings: Sequence[Recording] | None = None, coarsely: bool = False) -> None:
         self.base = base
         self.noise = base.noise
         self.recordings = list(base.machine.case.fit if recordings is None else recordings)
-        objective = Objective(base.machine, self.recordings, base.noise)
+        self.coarsely = coarsely and not any(base.machine.events_per_second(base.point, r) for r in self.recordings)
+        objective = Objective(base.machine, self.recordings, base.noise, self.coarsely)
         self.weights = objective.weights(base.level)
         self.residual = objective.weighted(base.point, self.weights)
         self.norm = float(np.linalg.norm(self.residual))
@@ -69,7 +71,7 @@ class Screen:
 
     def outputs(self, machine: Machine, values: Mapping[str, float]) -> np.ndarray | None:
         """Weighted residual of a machine at a point, in the units of the base's; None where it runs away."""
-        found = Objective(machine, self.recordings, self.noise).weighted(values, self.weights)
+        found = Objective(machine, self.recordings, self.noise, self.coarsely).weighted(values, self.weights)
         return None if found is None or np.max(np.abs(found)) > ABSURD else found
 
     def explained(

@@ -13,7 +13,7 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.fit.evidence import is_noise
-from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.fit.fit import Fit, linearised
 from lacuna.discovery.fit.lead import Lead
 from lacuna.discovery.fit.machine import Machine, try_machine
 from lacuna.discovery.naming.candidate_fit import shared
@@ -51,6 +51,22 @@ def test_a_hypothesis_promises_beside_others_what_it_promises_alone(case: Case, 
         own, _ = try_machine(case, replace(amendment, attachments=[one]), base.machine)
         alone, beside = (prepare(screen, one, m) for m in (own, machines[one.label]))
         assert [c.predicted for c in beside] == pytest.approx([c.predicted for c in alone], abs=1e-3), one.label
+
+
+def test_a_first_look_is_coarse_where_nothing_switches_and_promises_the_same(case: Case, base: Fit) -> None:
+    """At a tolerance whose errors are a thousandth of the noise; a hundred times as much is far below the response
+    of a tenth of the misfit. A shaft that sticks lets go when it does, which is no error of that size."""
+    precise = base.machine.precise(base.point, base.noise)
+    base = linearised(precise, case.fit, base.noise, base.estimate.free, base.fixed, base.point)
+    fine, coarse = Screen(base), Screen(base, coarsely=True)
+    drag, friction = (attachment(case, name) for name in ("QuadraticDrag", "CoulombFriction"))
+    alone = [replace(base.machine.amendment, attachments=[a]) for a in (drag, friction)]
+    machine, sticking = (try_machine(case, amendment, base.machine)[0] for amendment in alone)
+    long, first = (prepare(screen, drag, machine)[0].predicted for screen in (fine, coarse))
+    assert coarse.coarsely and long != first == pytest.approx(long, abs=1e-3)
+    stuck = base.fixed | {friction.full_name("tau_c"): 2e-3}
+    switching = linearised(sticking, case.fit, base.noise, base.estimate.free, stuck, base.point)
+    assert not Screen(switching, coarsely=True).coarsely
 
 
 def test_richer_forms_of_friction_are_not_looked_at_where_something_else_leaves_noise(case: Case, base: Fit) -> None:

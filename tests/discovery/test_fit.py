@@ -50,8 +50,18 @@ def test_a_stage_that_led_nowhere_is_not_repeated() -> None:
     trial = problem(rough)
     found, level = anneal(rough, trial, np.array([0.0]))
     assert found.values[0] == 0.0 and not found.converged and level == {"y": 5.0}
-    one_stage = 1 + 1 + 1 + 8  # where it is, for its level and to begin with; a derivative; steps that are tried
+    one_stage = 1 + 1 + 8  # where it is; a derivative, which is good for the end, too; steps that are tried
     assert trial.simulations == one_stage
+
+
+def test_a_stage_that_only_leads_takes_no_derivative_to_be_sure_of_its_end() -> None:
+    objective = OneSignal(lambda x: np.full(4, x), held=3.0)
+    objective.track(8.0, {})
+    trial = problem(objective)
+    found, _ = anneal(objective, trial, np.array([1.0]))
+    assert found.values[0] == pytest.approx(3.0, abs=1e-3)
+    where, derivative, step = 1, 1, 1
+    assert trial.simulations == where + derivative + step
 
 
 def test_a_fit_goes_on_below_the_noise_while_it_wins() -> None:

@@ -35,24 +35,30 @@ class _Checked(set[int]):
     """Classes looked at, by identity."""
 
 
+class _Held(set[int]):
+    """Classes and packages whose contents were looked at, by identity."""
+
+
 def check_class(cls: ast.Class, context: Context) -> None:
     """Raises R070 (contents of a specialised class), R071 (what it extends), R074 (names), or what imports raise."""
     checked, origin = context.table(_Checked), cls.origin or cls
     if id(origin) in checked:
         return
     checked.add(id(origin))
-    for around in _around(origin):
-        for finding in _findings(around):
+    for cls_or_package in _around(origin, context.table(_Held)):
+        for finding in _findings(cls_or_package):
             raise finding
     check_imports(origin, context.library)
     _check_bases(cls, context)
 
 
-def _around(cls: ast.Class) -> Iterator[ast.Class]:
-    """The class, and the packages that it stands in."""
-    while cls is not None:
-        yield cls
-        cls = cls.parent if cls.parent is not None and cls.parent.kind == "package" else None
+def _around(cls: ast.Class, seen: _Held) -> Iterator[ast.Class]:
+    """The class, and the packages that it stands in, as far as their contents were not looked at."""
+    around: ast.Class | None = cls
+    while around is not None and id(around) not in seen:
+        seen.add(id(around))
+        yield around
+        around = around.parent if around.parent is not None and around.parent.kind == "package" else None
 
 
 def _findings(cls: ast.Class) -> Iterator[Diagnostic]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from lacuna.codegen.errors import Diagnostic
@@ -20,10 +20,11 @@ from lacuna.codegen.syntax import ast
 Connections = list[tuple[ast.Connect, Scope]]
 
 
-def expand(connections: Connections, context: Context) -> None:
+def expand(connections: Connections, buses: Iterable[Instance], context: Context) -> None:
     """Add to expandable connectors what `connections` name in them, until nothing is new.
 
-    Raises R061 where neither side of a connection is declared anywhere.
+    Raises R061 where neither side of a connection is declared anywhere, or where a modification gives a value to what
+    only a connection makes present.
     """
     found: dict[tuple[int, tuple[str, ...]], bool] = {}  # by what a name means, all elements of arrays together
 
@@ -33,6 +34,7 @@ def expand(connections: Connections, context: Context) -> None:
             found[key] = _touches_expandable(ref, scope)
         return found[key]
 
+    _refuse_values(buses)
     waiting = [c for c in connections if any(touches(ref, c[1]) for ref in (c[0].left, c[0].right))]
     changed = True
     while changed:
@@ -45,6 +47,15 @@ def expand(connections: Connections, context: Context) -> None:
             hint = "declare it in one of the expandable connectors"
             with context.attempt():
                 raise Diagnostic("R061", f"neither {item.left} nor {item.right} is declared", item.span, hint)
+
+
+def _refuse_values(buses: Iterable[Instance]) -> None:
+    for bus in buses:
+        for name, element in bus.elements.items():
+            given = element.modifier
+            if given is not None and given.value is not None and given.redeclare is None:
+                hint = "connect a source to it"
+                raise Diagnostic("R061", f"{name} of the expandable {bus.name} is given a value", given.span, hint)
 
 
 def _touches_expandable(ref: ast.Ref, scope: Scope) -> bool:
@@ -95,6 +106,10 @@ def _expand_one(item: ast.Connect, scope: Scope, all_of_them: Connections) -> bo
     changed = False
     for a, b in zip(left, right, strict=False):
         if isinstance(a, Instance) and isinstance(b, Instance) and (a.cls.expandable or b.cls.expandable):
+            if not (a.cls.expandable and b.cls.expandable):
+                which = a if a.cls.expandable else b
+                hint = f"name an element of it, such as {which.name}.signal"
+                raise Diagnostic("R061", f"only {which.name} is expandable", item.span, hint)
             changed = _share(a, b) or changed
             changed = _share(b, a) or changed
     return changed

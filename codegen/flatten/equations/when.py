@@ -100,9 +100,23 @@ def _assignments(item: ast.Equality, scope: Scope) -> list[flat.Statement]:
         if target.op != "var" and value.op == "var" and not isinstance(item.left, ast.Tuple):
             target, value = value, target
         check_target(target, item.span, scope)
+        _refuse_part_of_a_component(target, item.span, scope)
         check_types(target, value, item.span, scope)
         statements.append(flat.Assign(str(target.value), value, item.span))
     return statements
+
+
+def _refuse_part_of_a_component(target: Expr, span: Span, scope: Scope) -> None:
+    """Raises R058 where a model or a block in this one declares what a when-clause here sets (4.4.4)."""
+    owner = scope.context.scalars[str(target.value)][0].instance
+    between = []
+    while owner is not None and owner is not scope.instance:
+        between.append(owner)
+        owner = owner.parent
+    own = next((c for c in between if owner is not None and c.cls.kind in ("model", "block")), None)
+    if own is not None:
+        hint = f"set a variable of this model, and connect it or give it to {own.name}"
+        raise Diagnostic("R058", f"{target.value} is a variable of the {own.cls.kind} {own.name}", span, hint)
 
 
 def procedure(item: ast.Procedure, scope: Scope) -> list[flat.Statement]:

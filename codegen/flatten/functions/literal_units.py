@@ -13,7 +13,7 @@ from lacuna.codegen.flatten.functions.locals import Local, Signature
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.values import Value, scalars, with_scalars
 from lacuna.codegen.symbolic import expr as ex
-from lacuna.codegen.symbolic.annotated import UNITS, annotated
+from lacuna.codegen.symbolic.annotated import in_units
 from lacuna.codegen.symbolic.expr import REAL, Expr
 
 
@@ -56,4 +56,4 @@ def _named(local: Local, value: Value, signature: Signature, context: Context) -
 
 def _marked(s: Expr | str, meant: Expr | str) -> Expr | str:
     real = isinstance(s, Expr) and isinstance(meant, Expr) and s.type == REAL
-    return annotated(s, [meant], UNITS) if real and s is not meant else s
+    return in_units(s, meant) if real and s is not meant else s

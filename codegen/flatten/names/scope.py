@@ -173,7 +173,7 @@ def imported_class(library: Library, item: ast.Import) -> ast.Class | None:
             raise Diagnostic("R017", f"{name} is protected in {cls.name}", item.span, "make it public to import it")
         seen = found.encapsulated and (not last or item.every or found.kind == "package" or found.operator)
         hidden = bool(at) and not seen and not is_package_like(library, cls)
-        if hidden or (last and item.every and not is_package_like(library, found)):
+        if hidden or (last and item.every and found.kind != "package"):
             hint = "import a package, or an element of one"
             raise Diagnostic("R075", f"import: {cls.name if hidden else found.name} is no package", item.span, hint)
         cls = found

@@ -14,6 +14,7 @@ from lacuna.codegen.flatten.names.scope import (
     find_class,
     find_first,
     imported_class,
+    is_package_like,
     own_or_inherited,
 )
 from lacuna.codegen.flatten.names.unknown import visible_classes
@@ -69,6 +70,9 @@ def _constant_of(cls: ast.Class, name: str, ref: ast.Ref, context: Context) -> N
         error = Diagnostic("R017", f"{name} is protected in {cls.name}", ref.span, "make it public to use it here")
         error.notes.append((element.declaration.span, "declared here"))
         raise error
+    if not is_package_like(context.library, cls):
+        hint = f"declare {name} in a package"
+        raise Diagnostic("R075", f"{cls.name} is no package, {name} cannot be named from outside", ref.span, hint)
     if cls.partial and cls.origin is None:
         hint = "name a package that extends it"
         raise Diagnostic("R075", f"{cls.name} is partial, its constants are not to be used", ref.span, hint)

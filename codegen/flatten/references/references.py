@@ -9,6 +9,7 @@ import math
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.instance import Absent, ArrayNode, Instance, Node
 from lacuna.codegen.flatten.classes.leaf import Leaf
+from lacuna.codegen.flatten.classes.types import resolve_type
 from lacuna.codegen.flatten.expressions.constants import is_known, known
 from lacuna.codegen.flatten.expressions.elements import at_index
 from lacuna.codegen.flatten.expressions.enumerations import IndexType, enumeration_of, index_number
@@ -47,9 +48,24 @@ def read(ref: ast.Ref, scope: Scope) -> Value:
         node = scope.instance.meant(first)
     if node is not None:
         refuse_conditional(scope.instance, first, ref)
+        _refuse_beyond_outer(node, ref, scope)
         return _walk(node, ref, 0, scope)
     found = from_class(ref, scope)
     return found if isinstance(found, Expr) else _walk(found[0], ref, found[1], scope)
+
+
+def _refuse_beyond_outer(node: Node, ref: ast.Ref, scope: Scope) -> None:
+    """Raises R003 for what an inner component has and the type of the outer declaration has not (5.4)."""
+    element = scope.instance.elements[ref.names[0]]
+    if not element.declaration.outer or len(ref.names) < 2 or not isinstance(node, Instance) or node.cls.expandable:
+        return
+    wanted = resolve_type(element.declaration.type, Scope(scope.context, element.cls)).cls
+    if wanted is None or wanted is node.cls:
+        return
+    known = Instance(scope.context, wanted, "", None, None).elements
+    if ref.names[1] in node.elements and ref.names[1] not in known:
+        hint = did_you_mean(ref.names[1], known, f"{wanted.name} has {', '.join(known)}")
+        raise Diagnostic("R003", f"the outer {ref.names[0]} is a {wanted.name} without {ref.names[1]}", ref.span, hint)
 
 
 def read_local(ref: ast.Ref, scope: Scope) -> Value:

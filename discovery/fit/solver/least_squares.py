@@ -46,6 +46,7 @@ class Estimate:
     iterations: int
     simulations: int
     jacobian: list[np.ndarray] = field(default_factory=list, repr=False)
+    exact: bool = False  # whether the Jacobian was taken where it ended
 
     def __getitem__(self, name: str) -> float:
         return float(self.values[[f.name for f in self.free].index(name)])
@@ -132,7 +133,8 @@ class Problem:
             return found
         columns = self.jacobian(found.values, found.residuals, list(range(len(self.free))))
         normal, _ = _normal_equations(self, found.values, found.residuals, columns)
-        return replace(found, normal=normal, jacobian=_blocks(columns, self.pieces), simulations=self.simulations)
+        return replace(found, normal=normal, jacobian=_blocks(columns, self.pieces), simulations=self.simulations,
+                       exact=True)  # fmt: skip
 
 
 def solve(
@@ -145,6 +147,7 @@ def solve(
     damping: float = 1e-3,
     here: Evaluation | None = None,
     renewed: bool = True,
+    sure: bool = True,
 ) -> Estimate | None:
     """Minimise the cost from `start` (default: each parameter's start or centre). None if it cannot be simulated there.
 
@@ -152,14 +155,14 @@ def solve(
     Jacobian taken there. `known` columns of it (in scaled coordinates) serve while they lead downhill as they say, and
     so does the Jacobian of a step, corrected by what the step has shown (Broyden 1965): differences anew cost a
     simulation a parameter, and are taken where a step misses its prediction; one that is never `renewed` ends
-    there. `here` is what the problem is at the start.
+    there. Nor are they taken only to be `sure` that nothing is left to win. `here` is what the problem is at the start.
     """
     free = problem.free
     values = clipped(free, [f.centre if f.start is None else f.start for f in free]) if start is None else start.copy()
     here = here or problem.evaluate(values)
     if here is None:
         return None
-    begun, columns, renew = here[0], dict(known or {}), False
+    begun, columns, renew, exact = here[0], dict(known or {}), False, False
     converged, count, normal = False, 0, np.zeros((len(free),) * 2)
     while count < iterations and free and not converged:
         count += 1
@@ -170,15 +173,16 @@ def solve(
         if step.taken:
             columns = _corrected(problem, columns, step.values - values, here[2], step.evaluation[2])
             values, here, damping = step.values, step.evaluation, step.damping
-        elif len(missing) == len(free) or not renewed:
-            converged = step.flat and len(missing) == len(free)
+        elif len(missing) == len(free) or not renewed or (step.flat and not sure):
+            exact = len(missing) == len(free)
+            converged = step.flat and exact
             break
         renew = renewed and (not step.taken or step.ratio < TRUSTED)
         damping = damping if step.taken else 1e-3
     cost, data, parts = here
     return Estimate(
         free, values, begun, cost, data, parts, normal, converged, count, problem.simulations,
-        _blocks(columns, problem.pieces),
+        _blocks(columns, problem.pieces), exact,
     )  # fmt: skip
 
 

@@ -216,6 +216,13 @@ def test_what_is_found_in_a_folder_that_others_can_write_to_is_not_loaded(model:
         compile_model(model, cache_directory=str(store))
 
 
+def test_a_model_compiled_quickly_is_a_library_of_its_own_from_the_same_source(model: str, tmp_path: Path) -> None:
+    whole, quick = (compile_model(model, cache_directory=str(tmp_path / "store"), quick=q) for q in (False, True))
+    sources = [Path(m.path).with_suffix(".c").read_text() for m in (whole, quick)]
+    assert whole.path != quick.path and whole.hash == quick.hash and sources[0] == sources[1]
+    assert Path(whole.path).read_bytes() != Path(quick.path).read_bytes()
+
+
 def test_the_folder_is_bounded_and_what_was_used_last_stays(tmp_path: Path) -> None:
     day = 86400
     for k in range(10):

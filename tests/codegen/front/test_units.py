@@ -252,3 +252,20 @@ end M;""",
     )
     assert [w.code for w in model.warnings] == ([] if code is None else [code])
     assert all(n.op != "annotated" for e in model.equations for side in (e.lhs, e.rhs) for n in walk(side))
+
+
+def test_a_number_for_an_input_may_stand_in_bindings_and_sizes(tmp_path: Path) -> None:
+    model = flatten_text(
+        tmp_path,
+        """model M
+  function from_rpm input Real n(unit = "rev/min"); input Real k = 1; output Real w(unit = "rad/s");
+  algorithm w := k*n*3.14159/30; end from_rpm;
+  parameter Real k = 2; parameter Real w0(unit = "rad/s") = from_rpm(30, k);
+  parameter Integer n = if from_rpm(30, k) > 1 then 2 else 3;
+  Real w[n](each unit = "rad/s", each start = from_rpm(60, k));
+equation
+  der(w) = fill(0, n); assert(w[1] < from_rpm(1000, k), "too fast");
+end M;""",
+    )
+    assert model.warnings == []
+    assert [n for n in model.variables if n.startswith("w")] == ["w0", "w[1]", "w[2]"]

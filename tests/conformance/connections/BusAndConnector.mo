@@ -1,5 +1,5 @@
 // section: 9.1.3
-// refuse: S003 13
+// refuse: R061 13
 model BusAndConnector
   expandable connector EC
   end EC;
