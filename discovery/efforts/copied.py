@@ -7,11 +7,12 @@ from pathlib import Path
 import re
 
 from lacuna.codegen.syntax import ast
-from lacuna.discovery.efforts.sites import Site
+from lacuna.discovery.efforts.sites import Site, occurrences
 
 
 def copied(cls: ast.Class, edits: Mapping[Site, str]) -> tuple[str, list[str]]:
-    """(name, lines) of class `cls` with the named variable added to the right side of each edited equation.
+    """(name, lines) of class `cls` with the named variable added to the right side of each edited equation, or to each
+    edited parameter in its equations.
 
     The copy is to be nested in a class that extends it and says what the variables are.
     """
@@ -20,17 +21,22 @@ def copied(cls: ast.Class, edits: Mapping[Site, str]) -> tuple[str, list[str]]:
     starts = [0]
     for line in lines:
         starts.append(starts[-1] + len(line) + 1)
-    changes: list[tuple[int, int, str]] = []
+    changes: list[tuple[int, str]] = []  # what is put in where
     for site, variable in edits.items():
-        begin = starts[site.span.line - 1] + site.span.column - 1
-        side, end = right_side(text, begin)
-        changes.append((side, end, f" ({text[side:end].strip()}) + {variable}"))
+        for part in site.parts or (site,):
+            begin = starts[part.span.line - 1] + part.span.column - 1
+            side, end = right_side(text, begin)
+            if site.kind == "parameter":
+                for at in occurrences(site.label, text, begin, end):
+                    changes += [(at, "("), (at + len(site.label), f" + {variable})")]
+            else:
+                changes += [(side, " ("), (end, f") + {variable}")]
         owner = text.rfind("\nequation", 0, begin)
         owner = _section(text, begin) if owner < 0 else owner
         kind = "input Real" if site.instance else "Real"  # a component is given from outside what it does not say
-        changes.append((owner, owner, f'\n  {kind} {variable} "Missing in a balance";'))
-    for begin, end, new in sorted(changes, reverse=True):
-        text = text[:begin] + new + text[end:]
+        changes.append((owner, f'\n  {kind} {variable} "Missing in a balance";'))
+    for at, new in sorted(changes, key=lambda c: c[0], reverse=True):
+        text = text[:at] + new + text[at:]
     begin = starts[cls.span.line - 1]
     end = re.compile(rf"\bend\s+{re.escape(cls.name)}\s*;").search(text, begin).end()
     body = text[begin:end].split("\n")

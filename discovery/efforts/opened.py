@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from lacuna.codegen import flat
 from lacuna.codegen.cache import CompilerError
 from lacuna.codegen.compile import translate
 from lacuna.codegen.dae.prepared import Prepared
@@ -23,12 +24,12 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.insertion import probe
 from lacuna.discovery.efforts.laws.terms import MOST
 from lacuna.discovery.efforts.linear import Along, Linear
-from lacuna.discovery.efforts.sites import Site, exchanges, read
+from lacuna.discovery.efforts.sites import Site, exchanges, read, varying
 from lacuna.discovery.fit.machine import Machine, write_source
 from lacuna.units import Unit
 
 ALIKE = 1e-5  # of a direction, by which two places may differ: rounding of the linearisation
-_ORDER = {"node": 0, "equation": 1, "branch": 2, "edge": 3, "exchange": 4}
+_ORDER = {"node": 0, "equation": 1, "branch": 2, "edge": 3, "exchange": 4, "parameter": 5}
 
 
 @dataclass(frozen=True)
@@ -85,7 +86,7 @@ class Opened:
         location = name.rpartition(".")[0] or name
         order = sorted(group, key=lambda k: (not _touches(self.sites[k], location), _ORDER[self.sites[k].kind]))
         chosen = order[0]
-        if all(self.sites[k].kind == "branch" for k in group):  # between two balances: it is the component's
+        if all(self.sites[k].kind in ("branch", "parameter") for k in group):  # of several balances: it is named itself
             location = self.sites[chosen].label
         place = Place(location, tuple(self.sites[k] for k in order), chosen, self._unit(chosen))
         other = [replace(place, sites=(self.sites[k],), column=k, unit=self._unit(k)) for k in _other(effect, order)]
@@ -104,6 +105,8 @@ class Opened:
 
 def unit_of(site: Site, prepared: Prepared) -> str:
     """The unit in which an equation of the class, or the first of two, stands; "" where it is not known."""
+    if site.kind == "parameter":
+        return prepared.declared.variables[site.label].unit
     site = site.parts[0] if site.parts else site
     left = site.label.removeprefix(f"{site.instance}: ").partition("=")[0].strip()
     declared = prepared.declared
@@ -151,10 +154,18 @@ def opened(case: Case, amendment: Amendment, library: Library, parameters: list[
     closed = list(found.closed)
     believed, _ = translate(str(write_source(amendment)), search_path=case.search_path)
     between = exchanges(found.places, lambda site: unit_of(site, believed), MOST)
-    sites = _openable(case, amendment, [*found.places, *between], closed)
+    vary = varying(found.places, _scalars(believed))
+    sites = _openable(case, amendment, [*found.places, *between, *vary], closed)
     whole = _with_probes(amendment, sites)
     machine = Machine(case, whole)
     return Opened(machine, Linear(machine, list(whole.inputs), parameters), sites, closed)
+
+
+def _scalars(believed: Prepared) -> list[str]:
+    """Real parameters of the class itself that are no arrays."""
+    variables = believed.declared.variables.items()
+    real = [n for n, v in variables if v.type == "Real" and v.variability == flat.PARAMETER]
+    return [n for n in real if "." not in n and "[" not in n]
 
 
 def _openable(case: Case, amendment: Amendment, sites: list[Site], closed: list[tuple[str, str]]) -> list[Site]:

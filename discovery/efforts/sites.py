@@ -2,9 +2,9 @@
 
 A *node* is a set of connected ports: something may flow in. An *edge* is a connection: something may be lost across it.
 A *branch* goes past a component of two ports: something may flow beside it. An *equation* written in the class is a
-balance: a term may be missing. An *exchange* joins two such balances: what one of them gains the other one loses. Ports
-are any connectors of one flow and one potential; which is which the declaration says. Nothing is known here of domains,
-classes or names.
+balance: a term may be missing. An *exchange* joins two such balances: what one of them gains the other one loses. A
+*parameter* that stands in several equations may vary, in all of them at once. Ports are any connectors of one flow and
+one potential; which is which the declaration says. Nothing is known here of domains, classes or names.
 """
 
 from __future__ import annotations
@@ -38,10 +38,10 @@ class Port:
 @dataclass(frozen=True)
 class Site:
     """A place. `ends` are those of its connection, both of its component, or all of a node's, of which one suffices;
-    `span` is where its equation stands, in the class or in one that it declares and has one `instance` of; an exchange
-    has two equations, its `parts`."""
+    `span` is where its equation stands, in the class or in one that it declares and has one `instance` of; `parts` are
+    the two equations of an exchange, and those in which a parameter stands."""
 
-    kind: str  # node | edge | branch | equation | exchange
+    kind: str  # node | edge | branch | equation | exchange | parameter
     label: str
     ends: tuple[str, ...] = ()
     port: Port | None = None
@@ -107,6 +107,24 @@ def exchanges(places: Iterable[Site], unit: Callable[[Site], str], most: int) ->
         Site("exchange", f"{a.label} and {b.label}", parts=(a, b))
         for balances in of.values() if len(balances) <= most for a, b in combinations(balances, 2)
     ]  # fmt: skip
+
+
+def varying(places: Iterable[Site], parameters: Iterable[str]) -> list[Site]:
+    """Parameters that stand in several equations of the class; one that stands in a single equation varies there, in
+    terms of that equation."""
+    equations = [site for site in places if site.kind == "equation" and not site.instance]
+    found = [(name, [e for e in equations if re.search(_alone(name), e.label)]) for name in parameters]
+    return [Site("parameter", name, parts=tuple(parts)) for name, parts in found if len(parts) > 1]
+
+
+def _alone(name: str) -> str:
+    """Where a name stands by itself: no part of another one, not called, no name of an argument."""
+    return rf"(?<![\w.']){re.escape(name)}(?![\w.'(\[])(?!\s*\()(?!\s*=[^=].*\))"
+
+
+def occurrences(name: str, text: str, begin: int, end: int) -> list[int]:
+    """Where a name stands by itself in text[begin:end]."""
+    return [begin + m.start() for m in re.finditer(_alone(name), text[begin:end])]
 
 
 def _branches(group: dict[str, str], ports: dict[str, Port]) -> list[Site]:

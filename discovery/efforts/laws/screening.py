@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from lacuna.discovery.efforts.laws.regression import Regression
-from lacuna.discovery.efforts.laws.terms import counts, groups, variables
+from lacuna.discovery.efforts.laws.terms import counts, groups, saturating, variables
 from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.located import Guided, Locator, Site
 from lacuna.discovery.efforts.opened import Place
@@ -56,7 +56,11 @@ def _offered(locator: Locator, place: Place, guided: Guided) -> tuple[Regression
     ranges = {local: (float(c.min()), float(c.max())) for local, c in courses.items()}
     longest = max((a.time for a in along), key=lambda t: t[-1] - t[0])
     interval, duration = float(np.median(np.diff(longest))), float(longest[-1] - longest[0])
+    if place.sites[0].kind == "parameter":  # it holds nothing at rest
+        found = [replace(v, sticks=False) for v in found]
     terms = groups(found, ranges, interval, duration)
+    if place.sites[0].kind == "parameter":
+        terms += [group for v in found if v.kind != "rate" for group in saturating(v)]
     where = LawSite(place.sites[0], place.location, place.unit, tuple(found), counts(found, terms))
     regression = Regression(guided, where, place.column)
     return regression, regression.add(terms)
