@@ -56,6 +56,19 @@ equation
   -k*h2%s = A2*der(h2);
 end Tanks;
 """
+MOTOR = """model Motor "A constant that says of the torque and of the voltage what the current and the speed make"
+  parameter Real R(unit="Ohm", min=0) = 0.5;
+  parameter Real L(unit="H", min=0) = 8e-4;
+  parameter Real k(unit="V.s/rad") = 0.06;
+  parameter Real J(unit="kg.m2", min=0) = 3e-4;
+  input Real u(unit="V");
+  Real i(unit="A", start=0, fixed=true);
+  Real w(unit="rad/s", start=0, fixed=true);
+equation
+  L*der(i) = u - R*i - k%s*w; // k, too
+  J*der(w) = k%s*i;
+end Motor;
+"""
 
 
 def case_of(
@@ -129,3 +142,18 @@ def test_the_lag_of_a_sensor_starts_in_intervals_of_the_samples(tmp_path: Path) 
     best = prepare(Screen(result.base), lags[0], machine)[0]
     assert best.predicted > 0.3
     assert 6.0 <= best.start[lags[0].full_name("T")] <= 600.0
+
+
+def test_a_parameter_that_varies_is_one_place_in_all_its_equations(tmp_path: Path) -> None:
+    """A motor constant that falls with the current, in the voltage and in the torque alike."""
+    falls = "/(1 + (i/15)^2)"
+    belief = "R = 0.03\nL = 0.1\nk = 0.03\nJ = 0.1\n"
+    case = case_of(tmp_path, "Motor", MOTOR % (falls, falls), MOTOR % ("", ""), belief,
+                   ("u", "V"), (-8.0, 8.0), [("i", "A", 0.05), ("w", "rad/s", 0.5)], 1e-3)  # fmt: skip
+    result = told(case)
+    locator = located(case, result.amendment, result.base, case.library())
+    site = next(s for s in locator.ranked() if s.place is not None)
+    assert (site.location, site.place.unit) == ("k", "V.s/rad")
+    best = proposals(locator, site, locator.guided(site), 1)[0]
+    assert {v.name for v in best.law.references()} == {"i"}
+    assert best.law.form(best.start) == "motor.saturation"
