@@ -13,7 +13,7 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.efforts.find import INDIFFERENT
-from lacuna.discovery.efforts.instruments import NATS, gained, only_instruments
+from lacuna.discovery.efforts.instruments import NATS, gained, log_evidence, only_instruments
 from lacuna.discovery.experiment.proposal import propose
 from lacuna.discovery.explanation.contenders import contenders
 from lacuna.discovery.explanation.explanation import Clock, Explanation
@@ -164,15 +164,17 @@ def _efforts(result: Explanation) -> list[float]:
 
 
 def _equations_may_be_wrong(result: Explanation) -> bool:
-    """Whether a sensor would be accused though places in the equations explain as much, or could not be tried, or
-    though far more than noise is left."""
+    """Whether a sensor would be accused though places in the equations could not be tried, though more than noise is
+    left, or though an effort of some course there explains as much as sensors do: by an error of any course, or by
+    the one that was found, which has few numbers."""
     efforts = _efforts(result)
     if not efforts:
         return not result.amendment.structure.open
     if astray(result.final):
         return True
+    found = log_evidence(result.case, result.amendment, result.final) - result.opened.null
     sensors = [s.gain for s in result.opened.sites if s.place is None]
-    return max(efforts) > max(sensors) - INDIFFERENT
+    return max(efforts) > max([*sensors, found]) - INDIFFERENT
 
 
 def _withdraw(result: Explanation, best: Ranked) -> None:

@@ -223,8 +223,10 @@ class _Writer:
                 self.left_out.append(f"connect({left}, {right})")
             self.equations += [f"connect({left}, {name}.a);", f"connect({name}.b, {right});"]
         else:
-            variable = self.edits.setdefault(site, _missing(len(self.edits)))
-            self.sums_at.setdefault(variable, []).append(f"{name}.effort")
+            for sense, part in zip(("", "-"), site.parts or (site,), strict=False):
+                variable = self.edits.setdefault(part, _missing(len(self.edits)))
+                lost = site.parts and sense != part.sign
+                self.sums_at.setdefault(variable, []).append(f"(-{name}.effort)" if lost else f"{name}.effort")
 
     def _sensor(self, attachment: Attachment) -> None:
         earlier = self.amendment.attachments[: self.amendment.attachments.index(attachment)]

@@ -45,6 +45,7 @@ class Found:
     closed: list[tuple[str, str]] = field(default_factory=list)
     laws: list[Candidate] = field(default_factory=list)  # best first
     single: list[Candidate] = field(default_factory=list)  # of one group, where one of two does better; best first
+    null: float = 0.0  # log evidence of nothing missing anywhere, over which places have their gain
     reason: str = ""  # why nothing could be located
 
 
@@ -59,10 +60,9 @@ def find(
     """Locate what `base`, the fit of `amendment`, lacks, and fit laws there: at places whose location is `admitted`."""
     progress("opening every place of the equations")
     try:
-        door = opened(case, amendment, library, [f.name for f in base.estimate.free if is_parameter(f.name)])
-        locator = Locator(case, door, base)
+        locator = located(case, amendment, base, library)
         progress(f"locating among {len(locator.places)} places")
-        found = Found(_ranked(locator, base), door.closed)
+        found = Found(_ranked(locator, base), locator.opened.closed, null=locator.null)
     except (NotNumeric, SimulationError, np.linalg.LinAlgError) as reason:
         return Found(reason=str(reason))
     efforts = [s for s in found.sites if s.place is not None and s.gain > 0 and admitted(s.location)]
@@ -77,6 +77,16 @@ def find(
         if proposal is not None and found.laws[0] is proposal.candidate:
             short = _terms(proposal) == 1
     return found
+
+
+def located(case: Case, amendment: Amendment, base: Fit, library: Library) -> Locator:
+    """Every place of the amended model, about the runs of the machine that is believed: a fit without what is missing
+    may have taken parameters anywhere. About those of the fit where the believed machine does not run."""
+    door = opened(case, amendment, library, [f.name for f in base.estimate.free if is_parameter(f.name)])
+    try:
+        return Locator(case, door, base, base.point | base.believed())
+    except SimulationError:
+        return Locator(case, door, base)
 
 
 def _put(laws: list[Candidate], law: Candidate | None, base: Fit) -> None:

@@ -53,6 +53,13 @@ def gained(case: Case, before: tuple[Amendment, Fit], after: tuple[Amendment, Fi
     return with_it - without
 
 
+def log_evidence(case: Case, amendment: Amendment, fit: Fit) -> float:
+    """Log evidence of a fitted model with nothing else missing, on the scale on which places are ranked. Minus infinity
+    where it cannot be opened."""
+    locator = _locator(case, amendment, fit)
+    return -np.inf if locator is None else float(evidence(thinned_all(locator.pieces), _NOWHERE).log[0])
+
+
 def _locator(case: Case, amendment: Amendment, fit: Fit) -> Locator | None:
     try:
         common = [f.name for f in fit.estimate.free if is_parameter(f.name)]
@@ -83,10 +90,8 @@ def _worst(locator: Locator) -> np.ndarray:
     return np.where(given, np.sqrt(INSTRUMENTS**2 - 1.0) * locator.noise, WORST * spans)
 
 
-_NOTHING = Latent(
-    np.array([-1]), np.array([-1]), np.zeros(1), np.ones(1),
-    Colour(np.zeros(0, dtype=int), np.zeros((1, 0)), np.zeros((1, 0))),
-)  # fmt: skip
+_NOWHERE = Latent(np.array([-1]), np.array([-1]), np.zeros(1), np.ones(1))
+_NOTHING = replace(_NOWHERE, colour=Colour(np.zeros(0, dtype=int), np.zeros((1, 0)), np.zeros((1, 0))))
 
 
 def _with_effort(locator: Locator, pieces: list[Piece], colour: Colour) -> Latent:

@@ -12,12 +12,12 @@ from lacuna.discovery.efforts.smoother import Colour, Latent, Piece, Whitener, c
 from lacuna.discovery.fit.evidence import SIGMAS
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.free import Free
-from lacuna.runtime import RecordedInput
+from lacuna.runtime import RecordedInput, SimulationError
 
 SIZES = 10.0 ** np.arange(-1.0, 2.1, 0.5)  # of the effort that would explain the misfit by itself: half decades
 TIMES = (1 / 300, 1 / 50, 1 / 8)  # of the longest recording: shorter is noise, longer is a constant
 SAMPLES = 1500  # of all recordings together, that hypotheses are weighed on: locating needs no more
-COARSE = (1.0, 0.5, 0.0)  # powers of the misfit that noise is taken to have when the model is led: from coarse to fine
+LEADING = (1.0, 0.5)  # powers of the misfit that noise is taken to have when the model is led: from coarse to fine
 
 
 @dataclass
@@ -44,15 +44,17 @@ class Guided:
 
 
 class Locator:
-    """Places of an opened model on a case; `base` is the fit of the model without any effort."""
+    """Places of an opened model on a case; `base` is the fit of the model without any effort, `point` the parameters
+    about whose runs it is linearised, if not those that were fitted."""
 
-    def __init__(self, case: Case, opened: Opened, base: Fit) -> None:
-        self.case, self.opened, self.base = case, opened, base
+    def __init__(self, case: Case, opened: Opened, base: Fit, point: dict[str, float] | None = None) -> None:
+        self.case, self.opened, self.base, self.point = case, opened, base, point or base.point
         self.free = [f for f in base.estimate.free if f.name in opened.linear.parameters]
         self.noise = np.array([base.noise[s.column].std for s in case.outputs])
         self.sigma = np.array([f.sigma or f.scale for f in self.free])
-        self.pieces = [self.piece(base.point, r, None) for r in case.fit]
+        self.pieces = [self.piece(self.point, r, None) for r in case.fit]
         self.places = opened.places(self.pieces[0].along)
+        self.null = -np.inf  # log evidence of no effort at all, once places are ranked
         self.colour: Colour | None = None  # errors of sensors that efforts are looked for beside
 
     def piece(self, point: dict[str, float], recording: Recording, effort: tuple[int, np.ndarray] | None) -> Piece:
@@ -87,7 +89,7 @@ class Locator:
         hypotheses, owners = self.hypotheses()
         thin = thinned_all(self.pieces)
         found = evidence(thin, hypotheses)
-        null = float(found.log[-1])
+        self.null = null = float(found.log[-1])
         samples = sum(np.isfinite(p.data[:, :, 0]).sum() for p in thin)
         whole = max(-0.5 * samples - null, 1e-9)
         result = []
@@ -142,19 +144,47 @@ class Locator:
         """RMS over samples and outputs, in units of noise."""
         return float(np.sqrt(np.nanmean(np.concatenate([o / self.noise for o in outputs]) ** 2)))
 
+    def _level(self) -> np.ndarray:
+        """RMS of each output over all samples, in units of its noise, at least one."""
+        left = np.concatenate([p.data[:, :, 0] for p in self.pieces]) / self.noise
+        return np.maximum(1.0, np.sqrt(np.nanmean(left**2, axis=0)))
+
+    def _led(self, point: dict[str, float], site: Site, efforts: list[np.ndarray]) -> list[Piece]:
+        """The linear model about the runs from `point` with these efforts at a place."""
+        runs = zip(self.case.fit, efforts, strict=True)
+        return [self.piece(point, recording, (site.place.column, effort)) for recording, effort in runs]
+
+    def _followed(
+        self, site: Site, latent: Latent, pieces: list[Piece]
+    ) -> tuple[dict[str, float], list[Piece], np.ndarray]:  # fmt: skip
+        """(parameters, linear models, estimate of the parameters in units of belief) once these have followed."""
+        told, point = evidence(thinned_all(pieces), latent), self.point
+        while True:
+            trial = self.point | _values(self.free, self.sigma, told.mean[0])
+            try:
+                led = self._led(trial, site, [course(p, latent, told.mean[0])[0] for p in pieces])
+            except SimulationError:
+                return point, pieces, told.mean[0]
+            now = evidence(thinned_all(led), latent)
+            if not now.log[0] > told.log[0] + 1.0:  # nat: less is nothing
+                return point, pieces, told.mean[0]
+            told, point, pieces = now, trial, led
+
     def guided(self, site: Site) -> Guided:
-        """The model led along the data by the effort at a place, linearised anew about the run that it gives."""
+        """The model led along the data by the effort at a place, linearised anew about the run that it gives.
+
+        The effort alone leads it, from parameters as they are. Led by both, parameters go where no machine has
+        them, since an effort that jumps costs by its prior what an inertia that jumps with it does not; what is then
+        left for a law is the effort beside a wrong machine. They follow while the evidence about the runs so led rises.
+        """
         latent, _ = self._chosen[id(site)]
-        pieces, point = self.pieces, dict(self.base.point)
-        level = np.array([self.base.level[s.column] for s in self.case.outputs])
-        for share in COARSE:
+        held = np.array([self.point[f.name] - f.centre for f in self.free]) / self.sigma
+        pieces, level = self.pieces, self._level()
+        for share in LEADING:
             led = [replace(p, noise=self.noise * level**share) for p in pieces]
-            mean = evidence(thinned_all(led), latent).mean[0]
-            efforts = [course(p, latent, mean) for p in led]
-            if share > 0:
-                point = dict(self.base.point) | _values(self.free, self.sigma, mean)
-                acting = [(site.place.column, e) for e, _ in efforts]
-                pieces = [self.piece(point, r, a) for r, a in zip(self.case.fit, acting, strict=True)]
+            pieces = self._led(self.point, site, [course(p, latent, held)[0] for p in led])
+        point, pieces, mean = self._followed(site, latent, pieces)
+        efforts = [course(p, latent, mean) for p in pieces]
         site.effort = {
             r.name: (r.time, e, s) for r, (e, s) in zip(self.case.fit, efforts, strict=True)
         }  # fmt: skip

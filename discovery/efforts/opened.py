@@ -14,19 +14,21 @@ import numpy as np
 
 from lacuna.codegen.cache import CompilerError
 from lacuna.codegen.compile import translate
+from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.units.inference import UnitInference, of_variable
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.insertion import probe
+from lacuna.discovery.efforts.laws.terms import MOST
 from lacuna.discovery.efforts.linear import Along, Linear
-from lacuna.discovery.efforts.sites import Site, read
+from lacuna.discovery.efforts.sites import Site, exchanges, read
 from lacuna.discovery.fit.machine import Machine, write_source
 from lacuna.units import Unit
 
 ALIKE = 1e-5  # of a direction, by which two places may differ: rounding of the linearisation
-_ORDER = {"node": 0, "equation": 1, "branch": 2, "edge": 3}
+_ORDER = {"node": 0, "equation": 1, "branch": 2, "edge": 3, "exchange": 4}
 
 
 @dataclass(frozen=True)
@@ -97,17 +99,23 @@ class Opened:
             return variables[f"probe{number}.b.{site.port.flow}"].unit
         if site.kind == "edge":
             return variables[f"probe{number}.a.{site.port.potential}"].unit
-        declared = self.linear.prepared.declared
-        left = site.label.removeprefix(f"{site.instance}: ").partition("=")[0].strip()
-        equation = next(
-            (e for e in declared.equations if e.origin == site.instance and e.text.partition("=")[0].strip() == left),
-            None,
-        )
-        if equation is None:
-            return ""
-        inference = UnitInference(lambda e: _declared_unit(declared.variables, str(e.value)), lambda name: "")
-        found = inference.of(equation.lhs)
-        return str(found) if isinstance(found, Unit) and found.factor == 1.0 else ""
+        return unit_of(site, self.linear.prepared)
+
+
+def unit_of(site: Site, prepared: Prepared) -> str:
+    """The unit in which an equation of the class, or the first of two, stands; "" where it is not known."""
+    site = site.parts[0] if site.parts else site
+    left = site.label.removeprefix(f"{site.instance}: ").partition("=")[0].strip()
+    declared = prepared.declared
+    equation = next(
+        (e for e in declared.equations if e.origin == site.instance and e.text.partition("=")[0].strip() == left),
+        None,
+    )
+    if equation is None:
+        return ""
+    inference = UnitInference(lambda e: _declared_unit(declared.variables, str(e.value)), lambda name: "")
+    found = inference.of(equation.lhs)
+    return str(found) if isinstance(found, Unit) and found.factor == 1.0 else ""
 
 
 def _other(effect: np.ndarray, order: list[int]) -> list[int]:
@@ -141,7 +149,9 @@ def opened(case: Case, amendment: Amendment, library: Library, parameters: list[
     """The amended model with an input at every site where one can act."""
     found = read(library, amendment.structure.model)
     closed = list(found.closed)
-    sites = _openable(case, amendment, list(found.places), closed)
+    believed, _ = translate(str(write_source(amendment)), search_path=case.search_path)
+    between = exchanges(found.places, lambda site: unit_of(site, believed), MOST)
+    sites = _openable(case, amendment, [*found.places, *between], closed)
     whole = _with_probes(amendment, sites)
     machine = Machine(case, whole)
     return Opened(machine, Linear(machine, list(whole.inputs), parameters), sites, closed)

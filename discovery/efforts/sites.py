@@ -2,14 +2,16 @@
 
 A *node* is a set of connected ports: something may flow in. An *edge* is a connection: something may be lost across it.
 A *branch* goes past a component of two ports: something may flow beside it. An *equation* written in the class is a
-balance: a term may be missing. Ports are any connectors of one flow and one potential; which is which the declaration
-says. Nothing is known here of domains, classes or names.
+balance: a term may be missing. An *exchange* joins two such balances: what one of them gains the other one loses. Ports
+are any connectors of one flow and one potential; which is which the declaration says. Nothing is known here of domains,
+classes or names.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from itertools import combinations
 from pathlib import Path
 import re
 
@@ -36,14 +38,22 @@ class Port:
 @dataclass(frozen=True)
 class Site:
     """A place. `ends` are those of its connection, both of its component, or all of a node's, of which one suffices;
-    `span` is where its equation stands, in the class or in one that it declares and has one `instance` of."""
+    `span` is where its equation stands, in the class or in one that it declares and has one `instance` of; an exchange
+    has two equations, its `parts`."""
 
-    kind: str  # node | edge | branch | equation
+    kind: str  # node | edge | branch | equation | exchange
     label: str
     ends: tuple[str, ...] = ()
     port: Port | None = None
     span: Span | None = None
     instance: str = ""
+    parts: tuple[Site, ...] = ()
+
+    @property
+    def sign(self) -> str:
+        """Of a term on the right side by which the storage grows: minus where the rate stands there, too."""
+        left, _, right = self.label.partition("=")
+        return "-" if "der(" in right and "der(" not in left else ""
 
 
 @dataclass(frozen=True)
@@ -84,6 +94,19 @@ def read(library: Library, name: str) -> Sites:
         for root, ends in joined.items() if root in ports
     ]  # fmt: skip
     return Sites(cls, (*nodes, *_branches(group, ports), *found), tuple(closed))
+
+
+def exchanges(places: Iterable[Site], unit: Callable[[Site], str], most: int) -> list[Site]:
+    """Pairs of balances of one unit that are written in the class: a leak from one volume to another, heat between two
+    nodes, a spring between two masses, where no component joins them. None of a unit that more than `most` have."""
+    of: dict[str, list[Site]] = {}
+    for site in places:
+        if site.kind == "equation" and not site.instance and "der(" in site.label:
+            of.setdefault(unit(site), []).append(site)
+    return [
+        Site("exchange", f"{a.label} and {b.label}", parts=(a, b))
+        for balances in of.values() if len(balances) <= most for a, b in combinations(balances, 2)
+    ]  # fmt: skip
 
 
 def _branches(group: dict[str, str], ports: dict[str, Port]) -> list[Site]:

@@ -45,7 +45,7 @@ class Objective:
         if simulated is None:
             return None
         parts = [
-            np.nan_to_num(recording.columns[c] - simulated[c]) * self.samples[piece][c] / self.noise[c].std
+            where_measured(recording.columns[c], simulated[c]) * self.samples[piece][c] / self.noise[c].std
             for c in self.columns
         ]
         if self.stiffness:
@@ -87,6 +87,11 @@ class Objective:
             inertia = constants[f"{shaft.location}.J"]
             self.stiffness |= {f"{name}.c": inertia * bandwidth**2, f"{name}.d": 1.4 * inertia * bandwidth}
             self.torque_scale[name] = inertia * bandwidth
+
+
+def where_measured(measured: np.ndarray, simulated: np.ndarray) -> np.ndarray:
+    """Measured less simulated, nothing where there is no sample; what was simulated to no number stays none."""
+    return np.where(np.isnan(measured), 0.0, measured - simulated)
 
 
 def anneal(

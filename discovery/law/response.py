@@ -17,6 +17,7 @@ from lacuna.discovery.efforts.linear import Linear
 from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.fit.fit import Fit, Objective
 from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.objective import where_measured
 from lacuna.discovery.fit.solver.least_squares import _pool
 from lacuna.runtime import RecordedInput, SimulationError
 
@@ -126,7 +127,7 @@ def _residual(objective: Objective, base: Fit, piece: int, efforts: dict[str, Re
     if simulated is None:
         return None
     parts = [
-        np.nan_to_num(recording.columns[c] - simulated[c]) * objective.samples[piece][c] / base.noise[c].std
+        where_measured(recording.columns[c], simulated[c]) * objective.samples[piece][c] / base.noise[c].std
         for c in objective.columns
     ]
     return np.concatenate(parts)

@@ -24,16 +24,26 @@ def shape_starts(
     shape = [n for n in names if n not in effect.neutral and n not in effect.polar]
     shape += [n for n in effect.fixed if n in effect.starts]
     units = {effect.relative[name] for name in shape if name in effect.relative}
-    reached = _reached(machine, {u: f"{attachment.component}.{u}" for u in units}, point)
+    of_time = _times(machine)
+    reached = _reached(machine, {u: f"{attachment.component}.{u}" for u in units - of_time.keys()}, point)
     lists = []
     for name in shape:
         starts = effect.starts.get(name, [effect.parameter(name).default])
-        if name in effect.relative:
-            unit = effect.relative[name]
+        unit = effect.relative.get(name)
+        if unit in of_time:
+            starts = [s * of_time[unit] for s in starts]
+            starts = [s for s in starts if unit == "duration" or s < of_time["duration"]] or starts[:1]
+        elif unit:
             side = reached[unit] if effect.two_sided(unit) else (0.0, 0.0)
             starts = [s * _size(side[s < 0], max(reached[unit])) for s in starts]
         lists.append([(attachment.full_name(name), s) for s in starts])
     return [dict(combination) for combination in product(*lists)]
+
+
+def _times(machine: Machine) -> dict[str, float]:
+    """The interval of the samples and the length of the longest recording, s."""
+    longest = max(machine.case.fit, key=lambda r: r.time[-1] - r.time[0])
+    return {"interval": longest.interval, "duration": float(longest.time[-1] - longest.time[0])}
 
 
 def _reached(

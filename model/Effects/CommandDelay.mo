@@ -14,7 +14,7 @@ equation
   servo.speed = speed;
   u = servo.u;
   annotation(__Lacuna(effect="drive.delay", attaches="replace", replaces="ServoController",
-    starts(T_d={5e-4, 1e-3, 2e-3, 6e-3, 0.015, 0.03}), interval="interval",
+    starts(T_d={0.5, 1, 2, 6, 15, 30}), relative(T_d="interval"), interval="interval",
     signature="the loop follows as believed, but later than its command", excitation="steps or fast changes of the command",
     reference="Franklin, Powell, Workman 1998"));
 end CommandDelay;

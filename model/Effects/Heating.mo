@@ -9,7 +9,7 @@ model Heating "Resistance rising as the winding warms"
 equation
   der(dR) = (k_R*i*i*(1 + rise/R_0) - dR)/tau_th;
   v = rise*i;
-  annotation(__Lacuna(effect="motor.heating", attaches="phases", neutral(k_R=0), summed(rise="dR"), starts(tau_th={0.3, 2, 15}, R_0={2}),
+  annotation(__Lacuna(effect="motor.heating", attaches="phases", neutral(k_R=0), summed(rise="dR"), starts(tau_th={0.05, 0.3, 2}, R_0={2}), relative(tau_th="duration"),
     signature="voltage that follows the current and grows with the heat put in; a drift over the recording",
     excitation="large currents for longer than the thermal time constant", reference="Hendershot, Miller 2010"),
     Documentation(info="<html>

@@ -8,7 +8,7 @@ initial equation
 equation
   T*der(x) = u - x;
   y = x;
-  annotation(__Lacuna(effect="sensor.lag", attaches="sensor", starts(T={3e-5, 3e-4, 3e-3, 3e-2}),
+  annotation(__Lacuna(effect="sensor.lag", attaches="sensor", starts(T={0.3, 3, 30, 300, 3000}), relative(T="interval"),
     signature="difference in one signal in proportion to its slope", excitation="fast changes of the signal",
     reference="Fraden 2016"));
 end SensorLag;

@@ -16,7 +16,8 @@ has).</li>
 <code>y</code> over the phases.</li>
 <li><code>neutral(p=value)</code>: value of the parameter at which the effect vanishes, if there is one.</li>
 <li><code>starts(p={...})</code>: values from which a fit starts; <code>relative(p=\"x\")</code>: in units of the greatest
-value that variable <code>x</code> of the component takes (on their own side of zero, where they begin on both);
+value that variable <code>x</code> of the component takes (on their own side of zero, where they begin on both); of a
+time, <code>relative(p=\"interval\")</code> is the samples' interval, <code>relative(p=\"duration\")</code> a recording's length;
 <code>whole={\"p\"}</code>: whole numbers, scanned and kept.</li>
 <li><code>polar={\"a\", \"phi\"}</code>: amplitude and phase of one wave; <code>fixed={\"p\"}</code>: not fitted;
 <code>variants(p={...})</code>: values written into the model, one hypothesis each.</li>

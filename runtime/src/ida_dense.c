@@ -80,7 +80,8 @@ void rt_ida_dense(rt_session *s, void *memory, rt_dense *out) {
   case 4:
     interpolate(4, n, z, value, out->c);
     break;
-  default:
+  case RT_DENSE_DEGREE:
     interpolate(RT_DENSE_DEGREE, n, z, value, out->c);
+    break;
   }
 }

@@ -11,6 +11,8 @@
 #include "looks.h"
 #include "swings.h"
 
+enum { ENDLESS = -100 }; /* a status that no model gives */
+
 /* Relations whose guards g are past zero by more than the hysteresis are added to flip; whether there are any. */
 static bool add_changed(rt_session *s, const double *g) {
   bool any = false;
@@ -139,9 +141,11 @@ static void foresee_sizes(rt_session *s) {
   }
 }
 
-/* The first crossing in the step. Before one that the end of the step shows, other guards may have crossed twice. */
+/* The first crossing in the step. Before one that the end of the step shows, other guards may have crossed twice. Each
+ * pass but the first is called for by one of them: a guard that is no polynomial calls once, as it is in flip from then
+ * on; of degree five, it does at its two lowest points at most. */
 static int search(rt_session *s, double *crossing) {
-  for (;;) {
+  for (int passes = 1 + 2 * s->d->n_rel; passes >= 0; passes--) {
     if (add_changed(s, s->g)) {
       s->pending |= RT_PENDING_STATE;
       if (!s->options.locate_events) return 0;
@@ -155,6 +159,18 @@ static int search(rt_session *s, double *crossing) {
     if (status || !(inside < *crossing)) return status;
     *crossing = inside;
   }
+  return ENDLESS;
+}
+
+/* Guards that cross ever earlier are no functions of time and states: the first of them. */
+static rt_status fail_endless(rt_session *s) {
+  int r = 0;
+  while (r < s->d->n_rel - 1 && !s->flip[r])
+    r++;
+  return rt_fail(s, RT_CHATTERING, s->t_previous, -1, &s->d->relations[r].source,
+                 "what this relation compares crosses ever earlier in one step at time %.9g s: is it a function of "
+                 "time and states?",
+                 s->t_previous);
 }
 
 /* Guards at the end of the step; where a relation has changed, move the end of the step back to the first change. */
@@ -172,7 +188,8 @@ rt_status rt_find_state_event(rt_session *s) {
   foresee_sizes(s);
   double crossing = s->t;
   if (!s->shaped) rt_swing_shape(s, NULL);
-  if (search(s, &crossing)) return rt_fail_model(s, s->t, "locating an event");
+  int status = search(s, &crossing);
+  if (status) return status == ENDLESS ? fail_endless(s) : rt_fail_model(s, s->t, "locating an event");
   if (s->pending) {
     for (int r = 0; r < d->n_rel; r++)
       s->flip[r] = s->flip[r] && rt_margin(s, r, s->g[r]) < 0;

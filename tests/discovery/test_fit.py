@@ -100,3 +100,12 @@ def test_what_a_fit_leaves_is_what_its_model_leaves_when_it_is_run(consistent_ca
     assert abs(fitting.carried(found, machine).deviance() - found.deviance()) < 1.0
     begun = fitting.fit(machine, case.fit, noise_of(case), free, fixed, stages=1, iterations=0)
     assert not begun.settled
+
+
+def test_a_residual_whose_square_is_no_number_is_a_failed_simulation() -> None:
+    """Steps into where the machine runs away, to values that are finite, are taken back as failed ones are."""
+    runaway = OneSignal(lambda x: np.full(4, 1e200 if x > 1.5 else 3.0 * (x - 2.0)))
+    trial = problem(runaway)
+    assert trial.evaluate(np.array([2.0])) is None
+    found, level = anneal(runaway, trial, np.array([0.0]))
+    assert 0.5 < found.values[0] <= 1.5 and np.isfinite(found.cost) and level["y"] < 6.0

@@ -14,7 +14,7 @@ from lacuna.codegen.flatten.equations.symbolic_run import SymbolicRun
 from lacuna.codegen.flatten.expressions.constants import variability
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.symbolic import expr as ex
-from lacuna.codegen.symbolic.expr import REAL, TRUE
+from lacuna.codegen.symbolic.expr import REAL, TRUE, Expr
 from lacuna.codegen.symbolic.rewrite import Rewriter, all_statements, assigned
 
 
@@ -35,6 +35,13 @@ def split_by_time(
     statements: Sequence[flat.Statement], lasting: Collection[str], run: SymbolicRun
 ) -> list[flat.Statement]:
     """What runs at events; `run` has then run the rest. Raises R059 for an if or a loop that assigns both."""
+
+    def now(e: Expr) -> Expr | None:
+        """What a Real is at this point: before the first assignment it has its start value (11.1.2)."""
+        if e.op == "var" and e.value in lasting:
+            return run.values[str(e.value)] if e.value in run.values else run.unassigned(str(e.value))
+        return e if e.op in ("pre", "der") else None
+
     kept: list[flat.Statement] = []
     for s in statements:
         names = set(assigned([s]))
@@ -47,7 +54,5 @@ def split_by_time(
         elif isinstance(s, flat.Assert):
             run.block([s], TRUE)
         else:
-            kept.append(
-                Rewriter(lambda e: run.read(e) if e.op == "var" and e.value in run.values else None).statement(s)
-            )
+            kept.append(Rewriter(now).statement(s))
     return kept

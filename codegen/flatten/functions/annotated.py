@@ -8,7 +8,7 @@ with something standing for each argument and each derivative.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.expressions.constants import is_parameter
@@ -78,7 +78,7 @@ def with_derivatives(
     base = known.keys.get(key)
     if base is None:
         base = known.keys[key] = f"{signature.cls.path}:{len(known.keys) + 1}"
-        for annotation in annotations:
+        for annotation in (_by_its_inputs(a, signature, arguments, level) for a in annotations):
             _add_rule(annotation, signature, arguments, results, base, level, context, call)
     unheard = {
         n for a in annotations for name in a.without - a.still for s in scalars(arguments[name]) for n in leaves(s)
@@ -147,6 +147,16 @@ def _annotation(entry: ast.Argument, signature: Signature, context: Context) -> 
     without = frozenset(excluded["noDerivative"] | excluded["zeroDerivative"])
     still = frozenset(excluded["zeroDerivative"])
     return _Annotation(entry.span, signature_of(found, context), order, without, still)
+
+
+def _by_its_inputs(
+    annotation: _Annotation, signature: Signature, arguments: dict[str, Value], level: _Level
+) -> _Annotation:
+    """The annotation with the order that the inputs of its function have: some write none on a second derivative."""
+    moving = [n for n, v in arguments.items() if n not in annotation.without and _real([v])]
+    more = len(annotation.function.inputs) - len(signature.inputs)
+    next_one = annotation.order == 1 and level.order and more == len(level.last) != len(moving)
+    return replace(annotation, order=level.order + 1) if next_one else annotation
 
 
 def _add_rule(

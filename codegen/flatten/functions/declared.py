@@ -265,6 +265,8 @@ def _without_events(value: Value) -> Value:
         if isinstance(item, Record):
             return _without_events(item)
         if isinstance(item, Expr) and item.op not in ("const", "var") and any(map(_eventful, ex.walk(item))):
+            if item.op == "if" and item.type == ex.INTEGER:  # noEvent of a whole one would be Integer(e) of a literal
+                return ex.if_else(*map(quiet, item.args))
             return ex.special("noEvent", item, type=item.type)
         return item
 

@@ -76,19 +76,20 @@ def variables(
         if len(kept) == MOST:
             break
     believed = {n: u for n, u in units.items() if n.partition(".")[0] not in added}
-    return [*kept, *_differences(along, kept, believed, location)]
+    moving = [n for n in states if n in names and np.ptp(np.concatenate([a.values[n] for a in along])) > 0]
+    return [*kept, *_differences(along, kept, moving, believed, location)]
 
 
 def _differences(
-    along: Sequence[Along], kept: list[Variable], units: Mapping[str, str], location: str
+    along: Sequence[Along], kept: list[Variable], states: list[str], units: Mapping[str, str], location: str
 ) -> list[Variable]:  # fmt: skip
     """What drives a flow between two places: states less states, inputs and parameters of the same unit; those that are
     no multiple of a variable that is there. The ones that hold the place's own state come first."""
     fixed = {n for n, v in along[0].values.items() if np.ndim(v) == 0 and units.get(n) and v != 0}
-    states = [v for v in kept if v.kind == "state" and v.unit]
-    pairs = [(a.name, b.name) for k, a in enumerate(states) for b in states[k + 1 :] if a.unit == b.unit]
-    pairs += [(a.name, b.name) for a in states for b in kept if b.kind == "other" and a.unit == b.unit]
-    pairs += [(a.name, n) for a in states for n in sorted(fixed) if a.unit == units[n]]
+    states = [n for n in states if units.get(n)]
+    pairs = [(a, b) for k, a in enumerate(states) for b in states[k + 1 :] if units[a] == units[b]]
+    pairs += [(a, b.name) for a in states for b in kept if b.kind == "other" and units[a] == b.unit]
+    pairs += [(a, n) for a in states for n in sorted(fixed) if units[a] == units[n]]
     pairs.sort(key=lambda pair: not any(n == location or n.rpartition(".")[0] == location for n in pair))
     courses = [np.concatenate([v.course(a.values) for a in along]) for v in kept]
     found: list[Variable] = []

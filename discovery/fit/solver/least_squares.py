@@ -25,6 +25,7 @@ WORKERS = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else 
 _pool = ThreadPoolExecutor(max_workers=WORKERS)
 
 TRUSTED = 0.3  # times the predicted drop, below which a Jacobian is taken anew
+LARGEST = np.finfo(float).max ** 0.25  # a residual beyond it has no J'J: it is squared, as is its quotient by a step
 
 Residual = Callable[[dict[str, float], int], np.ndarray | None]
 
@@ -83,13 +84,13 @@ class Problem:
         self.simulations = 0
 
     def evaluate_each(self, points: list[np.ndarray]) -> list[list[np.ndarray] | None]:
-        """Weighted residuals of all pieces at each point; None where the simulation fails."""
+        """Weighted residuals of all pieces at each point; None where the simulation fails or leaves all bounds."""
         time_limit.check()
         tasks = [(self._named(p), k) for p in points for k in range(self.pieces)]
         self.simulations += len(tasks)
         parts = list(_pool.map(self._weighted, tasks))
         groups = [parts[k : k + self.pieces] for k in range(0, len(parts), self.pieces)]
-        return [None if any(r is None or not np.all(np.isfinite(r)) for r in group) else group for group in groups]
+        return [None if any(r is None or not np.all(np.abs(r) < LARGEST) for r in group) else group for group in groups]
 
     def _weighted(self, task: tuple[dict[str, float], int]) -> np.ndarray | None:
         result = self.residual(*task)

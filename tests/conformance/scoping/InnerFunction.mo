@@ -1,32 +1,25 @@
 // section: 5.4
-// value: e.d.y = 1, f.d.y = 2
-model InnerFunction
-  partial function A
+// value: y = 6, z = 6
+model InnerFunction "inner function by outer function"
+  function base
     input Real u;
-    output Real y;
-  end A;
-  function B
-    extends A;
+    output Real y = u;
   algorithm
-    y := u;
-  end B;
-  function C
-    extends A;
-  algorithm
-    y := u + 1;
-  end C;
-  model D
-    outer function fc = A;
-    Real y = fc(1);
-  end D;
-  model E
-    inner function fc = B;
-    D d;
-  end E;
-  model F
-    inner function fc = C;
-    D d;
-  end F;
-  E e;
-  F f;
+  end base;
+  model U
+    outer function f = base;
+    Real y = f(2*time);
+  end U;
+  model W
+    inner function f = g;
+    function g
+      input Real u;
+      output Real y = 3*u;
+    algorithm
+    end g;
+    U u;
+  end W;
+  W w;
+  Real y = w.u.y;
+  Real z = y;
 end InnerFunction;
