@@ -21,6 +21,7 @@ from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.efforts.opened import opened
+from lacuna.discovery.efforts.sites import SEVERAL
 from lacuna.discovery.fit.evidence import nearly_noise, settled
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.law.empirical_law import fitted_law, simplified
@@ -55,9 +56,9 @@ def find(
     base: Fit,
     library: Library,
     progress: Progress,
-    admitted: Callable[[str], bool] = lambda location: True,
+    admitted: Callable[[Site], bool] = lambda site: True,
 ) -> Found:
-    """Locate what `base`, the fit of `amendment`, lacks, and fit laws there: at places whose location is `admitted`."""
+    """Locate what `base`, the fit of `amendment`, lacks, and fit laws there: at places that are `admitted`."""
     progress("opening every place of the equations")
     try:
         locator = located(case, amendment, base, library)
@@ -65,7 +66,7 @@ def find(
         found = Found(_ranked(locator, base), locator.opened.closed, null=locator.null)
     except (NotNumeric, SimulationError, np.linalg.LinAlgError) as reason:
         return Found(reason=str(reason))
-    efforts = [s for s in found.sites if s.place is not None and s.gain > 0 and admitted(s.location)]
+    efforts = _simplest([s for s in found.sites if s.place is not None and s.gain > 0 and admitted(s)])
     short = False
     for site in efforts[:PLACES]:
         enough = short and nearly_noise(found.laws[0].fit)
@@ -87,6 +88,13 @@ def located(case: Case, amendment: Amendment, base: Fit, library: Library) -> Lo
         return Locator(case, door, base, base.point | base.believed())
     except SimulationError:
         return Locator(case, door, base)
+
+
+def _simplest(efforts: list[Site]) -> list[Site]:
+    """Places without those in several balances at once (what is exchanged, what varies) that do not tell clearly more
+    than any one balance."""
+    one = max((s.gain for s in efforts if s.place.sites[0].kind not in SEVERAL), default=-np.inf)
+    return [s for s in efforts if s.place.sites[0].kind not in SEVERAL or s.gain > one + INDIFFERENT]
 
 
 def _put(laws: list[Candidate], law: Candidate | None, base: Fit) -> None:

@@ -23,6 +23,7 @@ from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.syntax import ast
 
+SEVERAL = ("exchange", "parameter")  # kinds of places in several balances at once
 DEFINITION = "it only says that one variable is the rate of another"
 
 

@@ -13,6 +13,7 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.find import find
+from lacuna.discovery.efforts.located import Site
 from lacuna.discovery.fit.evidence import pays, within_instruments
 from lacuna.discovery.fit.fit import Fit, linearised
 from lacuna.discovery.law.beyond import MARGIN
@@ -79,7 +80,7 @@ def _find_anew(search: Search, k: int, library: Library, progress: Progress) -> 
     base = without(search.fit, old, amendment)
     if base is None:
         return
-    law = _best(search, amendment, base, library, progress, lambda location: location == old.attachment.location)
+    law = _best(search, amendment, base, library, progress, lambda site: site.location == old.attachment.location)
     if law is None:
         return
     correlation = law.fit.correlation()
@@ -92,9 +93,15 @@ def _find_anew(search: Search, k: int, library: Library, progress: Progress) -> 
     search.take([*amendment.attachments, law.attachment], law.fit, after)
 
 
-def _elsewhere(amendment: Amendment) -> Callable[[str], bool]:
+def _elsewhere(amendment: Amendment) -> Callable[[Site], bool]:
+    """Places that have no law yet, nor share a balance with one: both would say what is missing there."""
     taken = {a.location for a in amendment.attachments}
-    return lambda location: location not in taken
+
+    def free(site: Site) -> bool:
+        balances = [part.label for part in site.place.sites[0].parts]
+        return site.location not in taken and not any(f"der({t})" in b for t in taken for b in balances)
+
+    return free
 
 
 def without(found: Fit, ranked: Ranked, amendment: Amendment) -> Fit | None:
@@ -112,7 +119,7 @@ def without(found: Fit, ranked: Ranked, amendment: Amendment) -> Fit | None:
 
 def _best(
     search: Search, amendment: Amendment, base: Fit, library: Library, progress: Progress,
-    admitted: Callable[[str], bool],
+    admitted: Callable[[Site], bool],
 ) -> Candidate | None:  # fmt: skip
     found = find(search.case, amendment, base, library, progress, admitted)
     return found.laws[0] if found.laws else None

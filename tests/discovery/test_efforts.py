@@ -219,10 +219,11 @@ def test_places_of_a_model_without_connectors(tmp_path: Path) -> None:
     amendment = Amendment(read_structure(case.library(), case.base))
     base, _ = fit_believed(case, Machine(case, amendment))
     locator = Locator(case, opened(case, amendment, case.library(), ["A", "B", "k"]), base)
-    assert {(p.location, p.unit) for p in locator.places} == {("upper", "m3/s"), ("lower", "m3/s")}
+    balances = {("upper", "m3/s"), ("lower", "m3/s")}
+    assert {(p.location, p.unit) for p in locator.places} == {*balances, ("k", "m2/s")}
     ranked = locator.ranked()
     assert ranked[0].location == "lower" and ranked[0].gain > ranked[1].gain + 100
-    assert {s.location for s in ranked} == {"upper", "lower", "sensor:upper", "sensor:lower"}
+    assert {s.location for s in ranked} == {"upper", "lower", "k", "sensor:upper", "sensor:lower"}
 
 
 def test_places_of_a_bench_and_what_is_closed() -> None:
