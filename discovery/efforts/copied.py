@@ -21,21 +21,21 @@ def copied(cls: ast.Class, edits: Mapping[Site, str]) -> tuple[str, list[str]]:
     starts = [0]
     for line in lines:
         starts.append(starts[-1] + len(line) + 1)
-    changes: list[tuple[int, str]] = []  # what is put in where
+    changes: list[tuple[int, bool, str]] = []  # where, whether around a right side, what is put in
     for site, variable in edits.items():
         for part in site.parts or (site,):
             begin = starts[part.span.line - 1] + part.span.column - 1
             side, end = right_side(text, begin)
             if site.kind == "parameter":
                 for at in occurrences(site.label, text, begin, end):
-                    changes += [(at, "("), (at + len(site.label), f" + {variable})")]
+                    changes += [(at, False, "("), (at + len(site.label), False, f" + {variable})")]
             else:
-                changes += [(side, " ("), (end, f") + {variable}")]
+                changes += [(side, True, " ("), (end, True, f") + {variable}")]
         owner = text.rfind("\nequation", 0, begin)
         owner = _section(text, begin) if owner < 0 else owner
         kind = "input Real" if site.instance else "Real"  # a component is given from outside what it does not say
-        changes.append((owner, f'\n  {kind} {variable} "Missing in a balance";'))
-    for at, new in sorted(changes, key=lambda c: c[0], reverse=True):
+        changes.append((owner, False, f'\n  {kind} {variable} "Missing in a balance";'))
+    for at, _, new in sorted(changes, key=lambda c: c[:2], reverse=True):  # a parameter closes before its right side
         text = text[:at] + new + text[at:]
     begin = starts[cls.span.line - 1]
     end = re.compile(rf"\bend\s+{re.escape(cls.name)}\s*;").search(text, begin).end()

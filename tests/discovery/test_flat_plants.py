@@ -8,12 +8,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case, load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.catalogue import read as read_catalogue
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
+from lacuna.discovery.efforts.copied import copied
 from lacuna.discovery.efforts.find import located
 from lacuna.discovery.efforts.laws.screening import proposals
+from lacuna.discovery.efforts.sites import read, varying
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.naming.screen import Screen, prepare
@@ -142,6 +145,18 @@ def test_the_lag_of_a_sensor_starts_in_intervals_of_the_samples(tmp_path: Path) 
     best = prepare(Screen(result.base), lags[0], machine)[0]
     assert best.predicted > 0.3
     assert 6.0 <= best.start[lags[0].full_name("T")] <= 600.0
+
+
+def test_a_parameter_varies_inside_the_side_that_a_term_is_added_to(tmp_path: Path) -> None:
+    """In whichever order both were found, and where the parameter is the last word of the equation."""
+    path = tmp_path / "Motor.mo"
+    path.write_text(MOTOR.replace("k%s*i;", "i*k;") % "", encoding="utf-8")
+    sites = read(Library([str(path)]), "Motor")
+    (k,) = varying(sites.places, ["k"])
+    torque = next(s for s in sites.places if s.label.startswith("J*der(w)"))
+    for edits in ({k: "varies", torque: "acts"}, {torque: "acts", k: "varies"}):
+        _, lines = copied(sites.cls, edits)
+        assert "    J*der(w) = ( i*(k + varies)) + acts;" in lines
 
 
 def test_a_parameter_that_varies_is_one_place_in_all_its_equations(tmp_path: Path) -> None:

@@ -60,7 +60,7 @@ def _offered(locator: Locator, place: Place, guided: Guided) -> tuple[Regression
         found = [replace(v, sticks=False) for v in found]
     terms = groups(found, ranges, interval, duration)
     if place.sites[0].kind == "parameter":
-        terms += [group for v in found if v.kind != "rate" for group in saturating(v)]
+        terms += [saturating(v) for v in found if v.kind != "rate"]
     where = LawSite(place.sites[0], place.location, place.unit, tuple(found), counts(found, terms))
     regression = Regression(guided, where, place.column)
     return regression, regression.add(terms)

@@ -238,9 +238,9 @@ def _waves(v: Variable, span: float) -> list[Group]:
     ]
 
 
-def saturating(v: Variable) -> list[Group]:
+def saturating(v: Variable) -> Group:
     """What a coefficient loses as a quantity grows: a core that saturates."""
-    return [Group((f"(1/(1 + {{q}}*{v.scaled}^2) - 1)",), (Shape("q", "1", 1.0, 0.01, 100.0, (), 0.9),))]
+    return Group((f"(1/(1 + {{q}}*{v.scaled}^2) - 1)",), (Shape("q", "1", 1.0, 0.01, 100.0, (), 0.9),))
 
 
 def _together(a: Variable, b: Variable, signed: bool, once: bool) -> list[Group]:
