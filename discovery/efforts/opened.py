@@ -18,6 +18,8 @@ from lacuna.codegen.compile import translate
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.library.classes import Library
+from lacuna.codegen.symbolic.expr import var
+from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.units.inference import UnitInference, of_variable
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
@@ -161,11 +163,16 @@ def opened(case: Case, amendment: Amendment, library: Library, parameters: list[
     return Opened(machine, Linear(machine, list(whole.inputs), parameters), sites, closed)
 
 
-def _scalars(believed: Prepared) -> list[str]:
-    """Real parameters of the class itself that are no arrays."""
-    variables = believed.declared.variables.items()
-    real = [n for n, v in variables if v.type == "Real" and v.variability == flat.PARAMETER]
-    return [n for n in real if "." not in n and "[" not in n]
+def _scalars(believed: Prepared) -> dict[str, int]:
+    """Real parameters of the class itself that are no arrays and that nothing but equations reads: how many, of each.
+    None beside algorithms and when-clauses, in which they would stay."""
+    if believed.declared.algorithms or believed.declared.whens:
+        return {}
+    variables = believed.declared.variables
+    bound = {str(n.value) for v in variables.values() if v.binding is not None for n in leaves(v.binding)}
+    real = [n for n, v in variables.items() if v.type == "Real" and v.variability == flat.PARAMETER]
+    plain = [n for n in real if "." not in n and "[" not in n and n not in bound]
+    return {n: sum(var(n) in leaves(e.lhs) | leaves(e.rhs) for e in believed.declared.equations) for n in plain}
 
 
 def _openable(case: Case, amendment: Amendment, sites: list[Site], closed: list[tuple[str, str]]) -> list[Site]:

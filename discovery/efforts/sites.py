@@ -9,7 +9,7 @@ one potential; which is which the declaration says. Nothing is known here of dom
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
@@ -110,12 +110,12 @@ def exchanges(places: Iterable[Site], unit: Callable[[Site], str], most: int) ->
     ]  # fmt: skip
 
 
-def varying(places: Iterable[Site], parameters: Iterable[str]) -> list[Site]:
-    """Parameters that stand in several equations of the class; one that stands in a single equation varies there, in
-    terms of that equation."""
+def varying(places: Iterable[Site], parameters: Mapping[str, int]) -> list[Site]:
+    """Parameters that stand in several equations, all of them open; `parameters` says in how many. One that stands in a
+    single equation varies there, in terms of that equation."""
     equations = [site for site in places if site.kind == "equation" and not site.instance]
     found = [(name, [e for e in equations if re.search(_alone(name), e.label)]) for name in parameters]
-    return [Site("parameter", name, parts=tuple(parts)) for name, parts in found if len(parts) > 1]
+    return [Site("parameter", name, parts=tuple(parts)) for name, parts in found if 1 < len(parts) == parameters[name]]
 
 
 def _alone(name: str) -> str:

@@ -152,7 +152,8 @@ def test_a_parameter_varies_inside_the_side_that_a_term_is_added_to(tmp_path: Pa
     path = tmp_path / "Motor.mo"
     path.write_text(MOTOR.replace("k%s*i;", "i*k;") % "", encoding="utf-8")
     sites = read(Library([str(path)]), "Motor")
-    (k,) = varying(sites.places, ["k"])
+    (k,) = varying(sites.places, {"k": 2})
+    assert not varying(sites.places, {"k": 3})  # a third one would not vary with them
     torque = next(s for s in sites.places if s.label.startswith("J*der(w)"))
     for edits in ({k: "varies", torque: "acts"}, {torque: "acts", k: "varies"}):
         _, lines = copied(sites.cls, edits)
