@@ -73,6 +73,7 @@ typedef struct {
   void (*count)(struct rt_session *, void *memory);            /* add the method's own counters to the result */
   void (*errors)(struct rt_session *, void *memory, double *); /* [n_x] of the last step tried; NULL: not known */
   bool (*sensitivities)(struct rt_session *, void *memory);    /* get ready for those of the session, or for none */
+  void (*filter)(struct rt_session *, void *memory, double t, double *defect); /* [n_x] of x_trial, defect.c */
   void (*dense_tangent)(struct rt_session *, void *memory, rt_dense *dense); /* as dense, of the states' tangents */
 } rt_method;
 
@@ -263,6 +264,7 @@ bool rt_clock_relations(rt_session *s);
 void rt_dense_prepare(rt_session *s);
 void rt_dense_point(rt_session *s, double t, double *x);
 void rt_dense_eval(const rt_dense *dense, int n, double t, double *x);
+void rt_dense_slope(const rt_dense *dense, int n, double t, double *slope);
 double rt_dense_state(const rt_dense *dense, int n, int i, double theta);
 
 /* guards.c, roots.c and dips.c */
