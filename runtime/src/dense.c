@@ -25,17 +25,6 @@ void rt_dense_eval(const rt_dense *dense, int n, double t, double *x) {
   }
 }
 
-/* x' [n] at t. */
-void rt_dense_slope(const rt_dense *dense, int n, double t, double *slope) {
-  double theta = (t - dense->t0) / dense->h;
-  for (int i = 0; i < n; i++) {
-    double sum = 0;
-    for (int k = dense->degree; k > 0; k--)
-      sum = sum * theta + k * dense->c[k * n + i];
-    slope[i] = sum / dense->h;
-  }
-}
-
 /* State i of n where (t - t0) / h is theta. */
 double rt_dense_state(const rt_dense *dense, int n, int i, double theta) {
   const double *c = dense->c + dense->degree * n + i;
