@@ -12,7 +12,7 @@ from lacuna.discovery.efforts.sites import Site, occurrences
 
 def copied(cls: ast.Class, edits: Mapping[Site, str]) -> tuple[str, list[str]]:
     """(name, lines) of class `cls` with the named variable added to the right side of each edited equation, or to each
-    edited parameter in its equations.
+    edited parameter or input in its equations.
 
     The copy is to be nested in a class that extends it and says what the variables are.
     """
@@ -26,7 +26,7 @@ def copied(cls: ast.Class, edits: Mapping[Site, str]) -> tuple[str, list[str]]:
         for part in site.parts or (site,):
             begin = starts[part.span.line - 1] + part.span.column - 1
             side, end = right_side(text, begin)
-            if site.kind == "parameter":
+            if site.kind in ("parameter", "input"):
                 for at in occurrences(site.label, text, begin, end):
                     changes += [(at, False, "("), (at + len(site.label), False, f" + {variable})")]
             else:

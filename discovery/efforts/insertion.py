@@ -10,6 +10,9 @@ from lacuna.discovery.efforts.sites import Site
 
 Signal = tuple[str, str, str]  # name in the component, expression of the model, unit
 Lag = tuple[str, str, str]  # name of a state of the component, what it follows, its time constant
+Late = tuple[str, str, str, str, str]  # a variable, delay | onset, what arrives in it, how late, kept how far apart
+
+KEPT = 128  # samples of what is late: the interpolation between them is off by less than a thousandth of a slow wave
 
 
 def probe(site: Site, number: int) -> tuple[Attachment, str]:
@@ -23,6 +26,7 @@ def probe(site: Site, number: int) -> tuple[Attachment, str]:
 def component(
     site: Site, name: str, title: str, signals: Sequence[Signal], parameters: Sequence[EffectParameter], text: str,
     unit: str = "", lags: Sequence[Lag] = (), sticking: Sequence[str] = (),
+    late: Sequence[Late] = (),
 ) -> str:  # fmt: skip
     """Source of a class that gives the effort `text`: into a node, lost across an edge, from the first port of a
     component to its second beside it, or added to an equation. Speeds of `sticking` have a `sense_`."""
@@ -39,8 +43,11 @@ def component(
     lines += [f'  parameter Real {p.name}{_unit(p.unit)} = {p.default:.10g} "{p.description}";' for p in parameters]
     lines += [f'  Real {state} "{followed}, late";' for state, followed, _ in lags]
     lines += [line for speed in sticking for line in _modes(speed)]
+    lines += [line for quantity in late for line in _kept(*quantity)]
     lines += ["initial equation", *(f"  {state} = {followed};" for state, followed, _ in lags)] if lags else []
+    lines += [line for quantity in late for line in _keeping(quantity[0], quantity[2])]
     lines.append("equation")
+    lines += [line for quantity in late for line in _arrives(*quantity[:4])]
     lines += [f"  {time}*der({state}) = {followed} - {state};" for state, followed, time in lags]
     lines += [line for speed in sticking for line in _sticks(speed)]
     if site.kind == "node":
@@ -52,6 +59,42 @@ def component(
     else:
         lines.append(f"  effort = {text};")
     return "\n".join([*lines, f"end {name};"])
+
+
+def _kept(name: str, begins: str, followed: str, late: str, apart: str) -> list[str]:
+    return [
+        f'  Real {name} "{followed}, by {late} late";',
+        f'  constant Real apart_{name}(unit="s") = {apart};',
+        f'  discrete Real kept_{name}[{KEPT}](each start=0, each fixed=true) "Its latest samples, newest first";',
+        f'  discrete Real latest_{name}(unit="s", start=0, fixed=true) "Time of the newest";',
+        f'  discrete Real begin_{name}(unit="s", start=0, fixed=true) "Time of the first";',
+        f'  Real age_{name}(unit="s") = time - latest_{name} "Time since the newest";',
+    ]
+
+
+def _keeping(name: str, followed: str) -> list[str]:
+    """What is late, sampled as long as it lasts; before the start it was what it is there."""
+    kept = f"kept_{name}"
+    return [
+        "algorithm",
+        f"  when {{initial(), sample(0, apart_{name})}} then",
+        f"    for k in {KEPT}:-1:2 loop",
+        f"      {kept}[k] := if initial() then {followed} else pre({kept}[k - 1]);",
+        "    end for;",
+        f"    {kept}[1] := {followed};",
+        f"    latest_{name} := time;",
+        f"    begin_{name} := if initial() then time else pre(begin_{name});",
+        "  end when;",
+    ]
+
+
+def _arrives(name: str, begins: str, followed: str, late: str) -> list[str]:
+    kept, age, apart = f"kept_{name}", f"age_{name}", f"apart_{name}"
+    start = f"min(1, max(0, (time - begin_{name} - {late})/{apart} + 0.5))*" if begins == "onset" else ""
+    return [
+        f"  {name} = noEvent({start}(if {age} > {late} then {followed} + ({kept}[1] - {followed})*{late}/{age}",
+        f"    else sum({kept}[k]*max(0, 1 - abs(({age} - {late})/{apart} + k - 1)) for k in 1:{KEPT})));",
+    ]
 
 
 def _modes(speed: str) -> list[str]:

@@ -7,7 +7,7 @@ it changes where it changes no state.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -31,20 +31,26 @@ from lacuna.discovery.fit.machine import Machine, write_source
 from lacuna.units import Unit
 
 ALIKE = 1e-5  # of a direction, by which two places may differ: rounding of the linearisation
-_ORDER = {"node": 0, "equation": 1, "branch": 2, "edge": 3, "exchange": 4, "parameter": 5}
+_ORDER = {"node": 0, "equation": 1, "branch": 2, "edge": 3, "exchange": 4, "parameter": 5, "input": 6}
 
 
 @dataclass(frozen=True)
 class Place:
     """Sites that the data cannot tell apart, the one that an amendment uses first; `column` is its input's. `other` are
     those of them where the same is done by an effort of another course: a law may be short in the one and long in the
-    other (the command of a valve, and what flows through it)."""
+    other (the command of a valve, and what flows through it). So is an input, whose laws are told of it; where it
+    enters in proportion they read `only` the input, all other laws being the same in the balance."""
 
     location: str
     sites: tuple[Site, ...]
     column: int
     unit: str
     other: tuple[Place, ...] = ()
+    only: str = ""
+
+    def named(self, location: str) -> bool:
+        """Whether a law at this place may have that location."""
+        return location in (self.location, *(o.location for o in self.other))
 
 
 @dataclass
@@ -88,11 +94,22 @@ class Opened:
         location = name.rpartition(".")[0] or name
         order = sorted(group, key=lambda k: (not _touches(self.sites[k], location), _ORDER[self.sites[k].kind]))
         chosen = order[0]
-        if all(self.sites[k].kind in ("branch", "parameter") for k in group):  # of several balances: it is named itself
+        if all(
+            self.sites[k].kind in ("branch", "parameter", "input") for k in group
+        ):  # of several balances: it is named itself
             location = self.sites[chosen].label
         place = Place(location, tuple(self.sites[k] for k in order), chosen, self._unit(chosen))
-        other = [replace(place, sites=(self.sites[k],), column=k, unit=self._unit(k)) for k in _other(effect, order)]
-        return replace(place, other=tuple(other))
+        told = [k for k in order[1:] if self.sites[k].kind == "input"]
+        apart = _other(effect, [chosen, *told, *(k for k in order[1:] if k not in told)])
+        inputs = [k for k in told if k not in apart]
+        return replace(place, other=tuple(self._quantity(place, k, k in inputs) for k in (*apart, *inputs)))
+
+    def _quantity(self, place: Place, k: int, proportional: bool) -> Place:
+        """A place by another one of its sites."""
+        site = self.sites[k]
+        location = site.label if site.kind == "input" else place.location
+        only = site.label if proportional else ""
+        return replace(place, location=location, sites=(site,), column=k, unit=self._unit(k), only=only)
 
     def _unit(self, number: int) -> str:
         site, variables = self.sites[number], self.machine.model.variables
@@ -107,7 +124,7 @@ class Opened:
 
 def unit_of(site: Site, prepared: Prepared) -> str:
     """The unit in which an equation of the class, or the first of two, stands; "" where it is not known."""
-    if site.kind == "parameter":
+    if site.kind in ("parameter", "input"):
         return prepared.declared.variables[site.label].unit
     site = site.parts[0] if site.parts else site
     left = site.label.removeprefix(f"{site.instance}: ").partition("=")[0].strip()
@@ -156,22 +173,31 @@ def opened(case: Case, amendment: Amendment, library: Library, parameters: list[
     closed = list(found.closed)
     believed, _ = translate(str(write_source(amendment)), search_path=case.search_path)
     between = exchanges(found.places, lambda site: unit_of(site, believed), MOST)
-    vary = varying(found.places, _scalars(believed))
-    sites = _openable(case, amendment, [*found.places, *between, *vary], closed)
+    vary = varying(found.places, _read(believed, _scalars(believed)))
+    told = [s.variable for s in case.inputs]
+    acting = varying(found.places, _read(believed, told), "input")
+    elsewhere = set(told) - {s.label for s in acting}
+    closed += [(n, "it is read elsewhere than in equations of the class") for n in sorted(elsewhere)]
+    sites = _openable(case, amendment, [*found.places, *between, *vary, *acting], closed)
     whole = _with_probes(amendment, sites)
     machine = Machine(case, whole)
     return Opened(machine, Linear(machine, list(whole.inputs), parameters), sites, closed)
 
 
-def _scalars(believed: Prepared) -> dict[str, int]:
-    """Real parameters of the class itself that are no arrays and that nothing but equations reads: how many, of each.
+def _scalars(believed: Prepared) -> list[str]:
+    """Real parameters of the model."""
+    variables = believed.declared.variables
+    return [n for n, v in variables.items() if v.type == "Real" and v.variability == flat.PARAMETER]
+
+
+def _read(believed: Prepared, names: Iterable[str]) -> dict[str, int]:
+    """Those of the class itself that are no arrays and that nothing but equations reads: how many, of each.
     None beside algorithms and when-clauses, in which they would stay."""
     if believed.declared.algorithms or believed.declared.whens:
         return {}
     variables = believed.declared.variables
     bound = {str(n.value) for v in variables.values() if v.binding is not None for n in leaves(v.binding)}
-    real = [n for n, v in variables.items() if v.type == "Real" and v.variability == flat.PARAMETER]
-    plain = [n for n in real if "." not in n and "[" not in n and n not in bound]
+    plain = [n for n in names if n in variables and "." not in n and "[" not in n and n not in bound]
     return {n: sum(var(n) in leaves(e.lhs) | leaves(e.rhs) for e in believed.declared.equations) for n in plain}
 
 

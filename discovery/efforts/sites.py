@@ -3,8 +3,9 @@
 A *node* is a set of connected ports: something may flow in. An *edge* is a connection: something may be lost across it.
 A *branch* goes past a component of two ports: something may flow beside it. An *equation* written in the class is a
 balance: a term may be missing. An *exchange* joins two such balances: what one of them gains the other one loses. A
-*parameter* that stands in several equations may vary, in all of them at once. Ports are any connectors of one flow and
-one potential; which is which the declaration says. Nothing is known here of domains, classes or names.
+*parameter* that stands in several equations may vary, in all of them at once, and an *input* may act otherwise than it
+was commanded, wherever it is read. Ports are any connectors of one flow and one potential; which is which the
+declaration says. Nothing is known here of domains, classes or names.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.syntax import ast
 
-SEVERAL = ("exchange", "parameter")  # kinds of places in several balances at once
+SEVERAL = ("exchange", "parameter", "input")  # kinds of places that may be in several balances at once
 DEFINITION = "it only says that one variable is the rate of another"
 
 
@@ -40,9 +41,9 @@ class Port:
 class Site:
     """A place. `ends` are those of its connection, both of its component, or all of a node's, of which one suffices;
     `span` is where its equation stands, in the class or in one that it declares and has one `instance` of; `parts` are
-    the two equations of an exchange, and those in which a parameter stands."""
+    the two equations of an exchange, and those in which a parameter or an input stands."""
 
-    kind: str  # node | edge | branch | equation | exchange | parameter
+    kind: str  # node | edge | branch | equation | exchange | parameter | input
     label: str
     ends: tuple[str, ...] = ()
     port: Port | None = None
@@ -110,12 +111,13 @@ def exchanges(places: Iterable[Site], unit: Callable[[Site], str], most: int) ->
     ]  # fmt: skip
 
 
-def varying(places: Iterable[Site], parameters: Mapping[str, int]) -> list[Site]:
-    """Parameters that stand in several equations, all of them open; `parameters` says in how many. One that stands in a
-    single equation varies there, in terms of that equation."""
+def varying(places: Iterable[Site], names: Mapping[str, int], kind: str = "parameter") -> list[Site]:
+    """Parameters that stand in several equations, all of them open; `names` says in how many. One that stands in a
+    single equation varies there, in terms of that equation. Inputs that stand in any number of such equations."""
     equations = [site for site in places if site.kind == "equation" and not site.instance]
-    found = [(name, [e for e in equations if re.search(_alone(name), e.label)]) for name in parameters]
-    return [Site("parameter", name, parts=tuple(parts)) for name, parts in found if 1 < len(parts) == parameters[name]]
+    found = [(name, [e for e in equations if re.search(_alone(name), e.label)]) for name in names]
+    least = 1 if kind == "input" else 2
+    return [Site(kind, name, parts=tuple(parts)) for name, parts in found if least <= len(parts) == names[name]]
 
 
 def _alone(name: str) -> str:

@@ -9,7 +9,7 @@ from lacuna.discovery.catalogue.amend import Attachment
 from lacuna.discovery.catalogue.catalogue import Effect, EffectParameter
 from lacuna.discovery.catalogue.places import Device, Line, Shaft
 from lacuna.discovery.efforts import sites
-from lacuna.discovery.efforts.insertion import Lag, component
+from lacuna.discovery.efforts.insertion import Lag, Late, component
 from lacuna.discovery.law.forms import form_of, picked
 from lacuna.discovery.law.law_terms import Group, Shape, Variable
 
@@ -64,6 +64,7 @@ class Law:
             text = text.format(**{s: f"{values[full]:.4g}" for s, full in shapes.items()})
             terms.append(f"{values[c]:.4g}*{text}")
         whole = re.sub(r"\bdry\((\w+)/\w+_ref\)", r"sign(\1)", " + ".join(terms)).replace("+ -", "- ")
+        whole = re.sub(r"\b(?:delay|onset)\(([^,]+, [^,)]+), [^,)]+\)", r"delay(\1)", whole)
         for v in self.site.variables:
             whole = whole.replace(f"{v.local}_ref", f"{v.size:g}")
             whole = _renamed(whole, v.local, v.reading)
@@ -153,24 +154,24 @@ def _source_at(law: Law, place: sites.Site) -> str:
     used = law.references()
     parameters += [EffectParameter(f"{v.local}_ref", v.unit, "Largest value", 0, 0, v.size) for v in used]
     signals = [(v.local, v.name, v.unit) for v in used]
-    text, lags = _with_states(law.text())
+    text, lags, late = _with_states(law.text())
     sticking = [v.local for v in used if f"dry{v.scaled}" in text]
     text = re.sub(r"\bdry\((\w+)/\w+_ref\)", r"sense_\1", text)
-    return component(place, class_name(law), "Law", signals, parameters, f"noEvent({text})", unit, lags, sticking)
+    return component(place, class_name(law), "Law", signals, parameters, f"noEvent({text})", unit, lags, sticking, late)
 
 
-def _with_states(text: str) -> tuple[str, list[Lag]]:
-    """A law's text with a variable in the place of each quantity that lags, and what these are."""
-    lags: list[Lag] = []
+def _with_states(text: str) -> tuple[str, list[Lag], list[Late]]:
+    """A law's text with a variable in the place of each quantity that lags or is late, and what these are."""
+    text, lags = _named(text, r"\blag\(([^,]+), ([^,)]+)\)", "z")
+    text, late = _named(text, r"\b(delay|onset)\(([^,]+), ([^,)]+), ([^,)]+)\)", "late")
+    return text, lags, late
 
-    def named(found: re.Match) -> str:
-        lag = found["of"], found["time"]
-        number = next((k for k, (_, *known) in enumerate(lags, 1) if tuple(known) == lag), 0) or len(lags) + 1
-        if number > len(lags):
-            lags.append((f"z_{number}", *lag))
-        return f"z_{number}"
 
-    return re.sub(r"\blag\((?P<of>[^,]+), (?P<time>[^,)]+)\)", named, text), lags
+def _named(text: str, pattern: str, name: str) -> tuple[str, list[tuple[str, ...]]]:
+    """The text with numbered names for what the pattern finds, alike ones once; (name, groups of the pattern)."""
+    known: dict[tuple[str, ...], str] = {}
+    text = re.sub(pattern, lambda found: known.setdefault(found.groups(), f"{name}_{len(known) + 1}"), text)
+    return text, [(number, *groups) for groups, number in known.items()]
 
 
 def _renamed(text: str, local: str, name: str) -> str:

@@ -2,7 +2,9 @@
 
 A term's text is Modelica and is evaluated along a trajectory from that same text, so what is screened is what will be
 simulated. `{p}`, `{k}`, `{tau}` and `{omega}` stand for shape parameters, which a fit may move. `lag(x, tau)` is x
-behind a first-order lag that begins at rest: a state of the law's own. `dry(x)` truly sticks: it has modes and events.
+behind a first-order lag that begins at rest: a state of the law's own. `delay(x, late, apart)` is x as it was, kept
+in samples so far apart; before the start it was what it is there, or nothing: `onset(x, late, apart)`. `dry(x)` truly
+sticks: it has modes and events.
 """
 
 from __future__ import annotations
@@ -88,7 +90,12 @@ class Group:
 def evaluate(text: str, trajectory: Mapping[str, np.ndarray], sizes: Mapping[str, float]) -> np.ndarray:
     """A term's text (of this module's making) along a trajectory."""
     names = {**_FUNCTIONS, **trajectory, **{f"{n}_ref": s for n, s in sizes.items()}}
-    names["lag"] = lambda values, tau: lagged(trajectory["time"], values, tau)
+    time = trajectory["time"]
+    names["lag"] = lambda values, tau: lagged(time, values, tau)
+    names["delay"] = lambda values, late, apart: np.interp(time - late, time, values)
+    names["onset"] = lambda values, late, apart: (
+        np.interp(time - late, time, values) * np.clip((time - time[0] - late) / apart + 0.5, 0, 1)
+    )
     value = eval(text.replace("^", "**"), {"__builtins__": {}}, names)
     return np.broadcast_to(np.asarray(value, float), trajectory["time"].shape)
 

@@ -80,7 +80,7 @@ def _find_anew(search: Search, k: int, library: Library, progress: Progress) -> 
     base = without(search.fit, old, amendment)
     if base is None:
         return
-    law = _best(search, amendment, base, library, progress, lambda site: site.location == old.attachment.location)
+    law = _best(search, amendment, base, library, progress, lambda site: site.place.named(old.attachment.location))
     if law is None:
         return
     correlation = law.fit.correlation()

@@ -31,7 +31,6 @@ MAX_FINDINGS = 3  # more are beyond what a few recordings can tell apart
 CARRIED = 3  # times at most, that an accepted fit is begun again from where it stopped
 ALIKE = 0.01  # share of the best gain, within which rivals are released with the best one,
 RELEASED = 3  # at most so many of them
-TRIED = 1.0  # share of the misfit that what was fitted before is taken to promise: none of it waits for a simpler law
 RECONSIDERED = 4  # rivals of an earlier finding that are tried again
 
 
@@ -284,7 +283,7 @@ class Search:
             point = self.fit.point if ranked is finding.ranked else ranked.fit.point
             if machine is not None:
                 start = {f.name: point[f.name] for f in old.free}
-                result.append(Candidate(ranked.attachment, machine, old.free, old.fixed, start, predicted=TRIED))
+                result.append(Candidate(ranked.attachment, machine, old.free, old.fixed, start, predicted=1.0))
         tried = {c.attachment.label for c in result}
         simpler = [
             a for a in enumerate_attachments(self.case, without.structure, self.effects, without)

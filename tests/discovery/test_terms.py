@@ -23,7 +23,7 @@ ROOM = {
 
 def known(**units: str) -> dict[str, SimpleNamespace]:
     """What the search reads of a model's table of variables."""
-    return {n: SimpleNamespace(unit=u, type="Real") for n, u in units.items()}
+    return {n: SimpleNamespace(unit=u, type="Real", kind="algebraic") for n, u in units.items()}
 
 
 def along(**values: np.ndarray | float) -> list[Along]:

@@ -15,7 +15,7 @@ from lacuna.discovery.efforts.opened import Place
 from lacuna.discovery.law.law import Law
 from lacuna.discovery.law.law import Site as LawSite
 from lacuna.discovery.law.law_screen import Proposal
-from lacuna.discovery.law.law_terms import Group
+from lacuna.discovery.law.law_terms import Group, Variable
 
 Scored = tuple[float, Regression, tuple[int, ...]]  # deviance and prices, groups of a regression
 
@@ -54,16 +54,27 @@ def _offered(locator: Locator, place: Place, guided: Guided) -> tuple[Regression
     )
     courses = {v.local: np.concatenate([v.course(a.values) for a in along]) / v.size for v in found}
     ranges = {local: (float(c.min()), float(c.max())) for local, c in courses.items()}
+    if place.only:
+        found = [v for v in found if v.name == place.only and not v.minus]
+    told = {o.only for o in place.other} - {""}
     longest = max((a.time for a in along), key=lambda t: t[-1] - t[0])
     interval, duration = float(np.median(np.diff(longest))), float(longest[-1] - longest[0])
-    if place.sites[0].kind == "parameter":  # it holds nothing at rest
+    varies = place.sites[0].kind in ("parameter", "input")
+    if varies:  # it holds nothing at rest
         found = [replace(v, sticks=False) for v in found]
     terms = groups(found, ranges, interval, duration)
-    if place.sites[0].kind == "parameter":
+    if varies:
         terms += [saturating(v) for v in found if v.kind != "rate"]
+    terms = [g for g in terms if not _reads_only(g, found, told)]
     where = LawSite(place.sites[0], place.location, place.unit, tuple(found), counts(found, terms))
     regression = Regression(guided, where, place.column)
     return regression, regression.add(terms)
+
+
+def _reads_only(group: Group, found: list[Variable], told: set[str]) -> bool:
+    """Whether a group has one variable, which is one of inputs that laws are `told` of instead of the balance."""
+    read = {v.reading for v in found if any(f"{v.local}_ref" in text for text in group.texts)}
+    return len(read) == 1 and read <= told
 
 
 def _distinct(regression: Regression, found: Iterable[tuple[int, ...]], most: int) -> list[tuple[int, ...]]:

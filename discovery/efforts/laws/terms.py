@@ -8,10 +8,12 @@ function). Texts are Modelica.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from lacuna.codegen.units.inference import SECOND
+from lacuna.discovery.efforts.insertion import KEPT
 from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.law.law_terms import Group, Shape, Variable
 from lacuna.runtime.model import Variable as ModelVariable
@@ -68,7 +70,8 @@ def variables(
         if any(_says_nothing_new(scaled, c) for c in courses):
             continue
         unit = units.get(name) or _rate(units.get(name.removeprefix("der(").removesuffix(")"), ""))
-        kind = "state" if name in order else "rate" if name in answering else "other"
+        driven = name in known and known[name].kind == "input"
+        kind = "state" if name in order else "rate" if name in answering else "input" if driven else "other"
         switch = name in known and known[name].type == "Boolean"
         sticks = kind == "state" and f"der({name})" in answering
         kept.append(Variable(f"x{len(kept) + 1}", name, unit, kind, float(f"{size:.2g}"), switch, sticks=sticks))
@@ -88,7 +91,7 @@ def _differences(
     fixed = {n for n, v in along[0].values.items() if np.ndim(v) == 0 and units.get(n) and v != 0}
     states = [n for n in states if units.get(n)]
     pairs = [(a, b) for k, a in enumerate(states) for b in states[k + 1 :] if units[a] == units[b]]
-    pairs += [(a, b.name) for a in states for b in kept if b.kind == "other" and units[a] == b.unit]
+    pairs += [(a, b.name) for a in states for b in kept if b.kind in ("other", "input") and units[a] == b.unit]
     pairs += [(a, n) for a in states for n in sorted(fixed) if units[a] == units[n]]
     pairs.sort(key=lambda pair: not any(n == location or n.rpartition(".")[0] == location for n in pair))
     courses = [np.concatenate([v.course(a.values) for a in along]) for v in kept]
@@ -127,6 +130,7 @@ def groups(
     result = [Group(("1",))]
     for v in found:
         result += _remembering(v, interval, duration) if v.kind not in ("rate", "above") else []
+        result += _late(v, interval, duration) if v.kind == "input" else []
         low, high = ranges[v.local]
         if v.switch:
             result.append(Group((v.scaled,)))
@@ -211,6 +215,20 @@ def _remembering(v: Variable, interval: float, duration: float) -> list[Group]:
     """A relaxation: storage behind a resistance, a damper behind a spring, a winding around a core; all that is faster
     than the samples or slower than a recording is something else."""
     return [Group((f"({v.scaled} - lag({v.scaled}, {{t}}))",), (s,)) for s in _times(interval, duration)]
+
+
+def _late(v: Variable, interval: float, duration: float) -> list[Group]:
+    """A command that arrives late: kept in so many samples that the delay is of tens of them at least, or of few of the
+    recording's own. Before a recording it was what it is at its start, or nothing was commanded."""
+    result = []
+    for shape in _times(interval, duration):
+        apart = interval * np.ceil(OCTAVES * shape.start / ((KEPT - 1) * interval))
+        own = replace(shape, upper=(KEPT - 1) * float(apart))
+        result += [
+            Group((f"({v.scaled} - {before}({v.scaled}, {{t}}, {apart:.6g}))",), (own,))
+            for before in ("delay", "onset")
+        ]
+    return result
 
 
 def _varying(v: Variable, interval: float, duration: float) -> list[Group]:
