@@ -169,12 +169,8 @@ class Machine:
     def events_per_second(self, parameters: Mapping[str, float], recording: Recording) -> float:
         session = self._session(recording)
         time = recording.time
-        result = session.run(
-            parameters=values_in(parameters, recording),
-            initial=self._initial_of(recording),
-            start=float(time[0]),
-            stop=float(time[-1]),
-        )
+        values, initial = values_in(parameters, recording), self._initial_of(recording)
+        result = session.run(parameters=values, initial=initial, start=float(time[0]), stop=float(time[-1]))
         self._sessions[recording.name, False].put(session)
         return float(result.counters["state_events"]) / float(time[-1] - time[0])
 
