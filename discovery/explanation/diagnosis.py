@@ -96,18 +96,13 @@ def _unit(result: Explanation, finding: Finding, name: str) -> str:
 
 def law_text(result: Explanation, finding: Finding) -> str:
     """An empirical law with its numbers, in variables of the model."""
-    return finding.ranked.attachment.expression(_own_values(result, finding))
+    return finding.ranked.attachment.law(result.final.point)
 
 
 def _form(result: Explanation, finding: Finding) -> str:
     """The name of a law that has the form of a known one; "" where it has none."""
-    form = finding.ranked.attachment.form
-    return form(_own_values(result, finding)) if form else ""
-
-
-def _own_values(result: Explanation, finding: Finding) -> dict[str, float]:
-    prefix = f"{finding.ranked.attachment.component}."
-    return {n.removeprefix(prefix): v for n, v in result.final.point.items() if n.startswith(prefix)}
+    attachment = finding.ranked.attachment
+    return attachment.form(attachment.own_values(result.final.point)) if attachment.form else ""
 
 
 def _positive_phase(parameters: dict[str, dict], name: str) -> None:
