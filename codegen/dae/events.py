@@ -138,6 +138,7 @@ def order(
                     [(_span(steps[writer[name]]), "first here")],
                 )  # fmt: skip
             writer[name] = k
+    _refuse_two_reinits([s for s in steps if isinstance(s, flat.When)])
     _check_assigned(model, writer)
     needs = [sorted({writer[n] for n in _reads(s) if n in writer} - {k}) for k, s in enumerate(steps)]
     ordered = []
@@ -171,6 +172,21 @@ def _reads_itself(step: EventStep) -> bool:
 
 def _span(step: EventStep) -> flat.Span:
     return step.source.span if isinstance(step, DiscreteEquation) else step.span
+
+
+def _refuse_two_reinits(whens: list[flat.When]) -> None:
+    """Raises S011 for a state that two when-clauses, or one twice, reinitialise: nothing says which holds (8.3.6)."""
+    found: dict[str, tuple[flat.When, flat.Reinit]] = {}
+    for w in whens:
+        for _, body in w.branches:
+            here: set[str] = set()
+            for s in (s for s in body if isinstance(s, flat.Reinit)):
+                when, first = found.setdefault(s.target, (w, s))
+                if when is not w or s.target in here:
+                    hint = "use elsewhen, or one when-clause that decides between them"
+                    message = f"the state {s.target} is reinitialised twice"
+                    raise Diagnostic("S011", message, s.span, hint, [(first.span, "first here")])
+                here.add(s.target)
 
 
 def _check_assigned(model: flat.FlatModel, writer: dict[str, int]) -> None:
