@@ -12,7 +12,7 @@ from lacuna.codegen.structure.sorting.blocks import strong_components
 from lacuna.codegen.symbolic.annotated import plain
 from lacuna.codegen.symbolic.expr import REAL, Expr
 from lacuna.codegen.symbolic.leaves import leaves
-from lacuna.codegen.symbolic.rewrite import Rewriter, assigned, expressions
+from lacuna.codegen.symbolic.rewrite import Rewriter, all_statements, assigned, expressions
 
 
 @dataclass
@@ -77,6 +77,14 @@ def follow(steps: Sequence[EventStep], explicit: Sequence[Step]) -> bool:
     _refuse_circles([s for step in steps if isinstance(step, flat.When) for s in _assignments(step)], explicit)
     found = following(explicit, begun)
     return any(not found.isdisjoint(leaves(e)) for step in steps for e in _expressions(step))
+
+
+def refuse_reinit(steps: Sequence[EventStep], states: Collection[str]) -> None:
+    """Raises C002 for a reinit of what is no state (8.3.6)."""
+    for s in all_statements([s for s in steps if isinstance(s, flat.When)]):
+        if isinstance(s, flat.Reinit) and s.target not in states:
+            hint = "reinit a state; the structure report lists them"
+            raise Diagnostic("C002", f"reinit({s.target}, ...): {s.target} is not a state here", s.span, hint)
 
 
 def reads_arrival(steps: Sequence[EventStep]) -> bool:
