@@ -49,7 +49,7 @@ class Attachment:
         return {n.removeprefix(prefix): v for n, v in point.items() if n.startswith(prefix)}
 
     def law(self, point: Mapping[str, float]) -> str:
-        """An empirical law with its numbers at a point, in variables of the model; "" for an effect of the catalogue."""
+        """An empirical law with its numbers at a point, in variables of the model; "" for a named effect."""
         return self.expression(self.own_values(point)) if self.expression else ""
 
     def contains(self, other: Attachment) -> bool:
