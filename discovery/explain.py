@@ -30,6 +30,7 @@ from lacuna.discovery.fit.evidence import (
     within_instruments,
 )
 from lacuna.discovery.fit.time_limit import within
+from lacuna.discovery.law.law import law_at
 from lacuna.discovery.naming.comparison import TIE, Ranked
 from lacuna.discovery.naming.foretold import foretold
 from lacuna.discovery.naming.judge import judge_file
@@ -217,7 +218,7 @@ def _as_much(result: Explanation) -> str:
     """What in the equations explains as much as an error of a sensor."""
     law = _rival_law(result)
     if law is not None:
-        return f"a term {law.attachment.law(law.fit.point)} at {law.attachment.location} explains as much"
+        return f"a term {law_at(law.attachment, law.fit.point)} at {law.attachment.location} explains as much"
     place = next(s.location for s in result.opened.sites if s.place is not None)
     return f"an effort at {place} explains as much, for which no law was found"
 

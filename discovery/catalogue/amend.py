@@ -6,7 +6,7 @@ has to be put in series or take another's place, the class is extended selective
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 from lacuna.discovery.catalogue.catalogue import Effect
@@ -42,15 +42,6 @@ class Attachment:
 
     def full_name(self, parameter: str) -> str:
         return f"{self.component}.{parameter}"
-
-    def own_values(self, point: Mapping[str, float]) -> dict[str, float]:
-        """The values at a point that belong to the component of the effect, by its own names."""
-        prefix = self.full_name("")
-        return {n.removeprefix(prefix): v for n, v in point.items() if n.startswith(prefix)}
-
-    def law(self, point: Mapping[str, float]) -> str:
-        """An empirical law with its numbers at a point, in variables of the model; "" for a named effect."""
-        return self.expression(self.own_values(point)) if self.expression else ""
 
     def contains(self, other: Attachment) -> bool:
         """Whether its law holds the other's, at the same place, as a special case."""

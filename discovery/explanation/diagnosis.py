@@ -15,6 +15,7 @@ from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import whiteness
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.free import Free
+from lacuna.discovery.law.law import form_at, law_at
 from lacuna.discovery.naming.name import Finding
 from lacuna.written import write_whole
 
@@ -96,13 +97,12 @@ def _unit(result: Explanation, finding: Finding, name: str) -> str:
 
 def law_text(result: Explanation, finding: Finding) -> str:
     """An empirical law with its numbers, in variables of the model."""
-    return finding.ranked.attachment.law(result.final.point)
+    return law_at(finding.ranked.attachment, result.final.point)
 
 
 def _form(result: Explanation, finding: Finding) -> str:
     """The name of a law that has the form of a known one; "" where it has none."""
-    attachment = finding.ranked.attachment
-    return attachment.form(attachment.own_values(result.final.point)) if attachment.form else ""
+    return form_at(finding.ranked.attachment, result.final.point)
 
 
 def _positive_phase(parameters: dict[str, dict], name: str) -> None:
