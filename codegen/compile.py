@@ -96,6 +96,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     relations = report.run("hybrid", hybrid.rename, frozen.relations, system.renamed)
     relations += [Relation(s.left, s.right, s.source, text=s.text) for s in system.switches]
     steps = report.run("hybrid", events.order, system.model, discrete, system.renamed, system.algebraics)
+    events.refuse_reinit(steps, system.states)
     tearing = Tearing(DeclaredValues(system.model))
     explicit = report.run("matching, BLT, tearing", causalise, system.rows, system.unknowns, tearing)
     repeated = report.run("hybrid", events.follow, steps, explicit)

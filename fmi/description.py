@@ -8,9 +8,10 @@ from xml.etree import ElementTree as ET
 
 from lacuna.fmi.variable import FmiVariable
 from lacuna.fmi.variables import FmiVariables
-from lacuna.units import parse_unit
+from lacuna.units import factors_of, parse_unit
 
 _BASE = ("m", "kg", "s", "A", "K", "mol", "cd")
+_ANGLES = ("rad", "deg", "rev", "rpm")  # each a power of FMI's base unit rad, which counts nothing in Modelica
 _TYPES = {"Real": "Float64", "Integer": "Int32", "Boolean": "Boolean"}  # of FMI 3.0
 
 
@@ -118,8 +119,8 @@ def _units(root: ET.Element, variables: list[FmiVariable]) -> None:
         if any(e.denominator != 1 for e in parsed.exponents) or parsed.factor is None:
             continue
         powers = {b: str(int(e)) for b, e in zip(_BASE, parsed.exponents, strict=True) if e}
-        if name in ("rad", "deg", "rev"):
-            powers["rad"] = "1"
+        if turns := sum(power for symbol, power in factors_of(name) if symbol in _ANGLES):
+            powers["rad"] = str(turns)
         if parsed.factor != 1:
             powers["factor"] = _text(parsed.factor)
         if name == "degC":

@@ -17,9 +17,11 @@ import re
 
 import numpy as np
 
+from lacuna.analysis.recording import instants
 from lacuna.analysis.recording.channel import (
     Recorded,
     RecordingError,
+    clock_name,
     from_table,
     named_columns,
     on_one_time,
@@ -83,10 +85,11 @@ def _units_beside(path: Path, header: Sequence[str]) -> Sequence[str]:
 def read_text(path: Path) -> TextTable:
     """The table in a text file. Raises RecordingError, which names file and line."""
     text, encoding = _decoded(path)
-    lines = text.splitlines()
+    written = text.splitlines()
+    lines = _without_instants(path, written)
     separator, decimal = _marks(path, lines)
     first = _first_row_of_numbers(lines, separator, decimal)
-    above = [_fields(line, separator) for line in lines[:first]]
+    above = [_fields(line, separator) for line in written[:first]]
     width = len(_fields(lines[first], separator))
     names = [row for row in above if len(row) == width]
     if not names:
@@ -95,17 +98,39 @@ def read_text(path: Path) -> TextTable:
     header = names[-2] if units else names[-1]
     if any(_NO_NAME.fullmatch(name) for name in (*header, *(unit for unit in units or () if unit != "1"))):
         raise RecordingError(f"{path}:{first}: numbers where names of columns or units should be")
+    skipped, header, units = above.index(header), list(header), list(units or [""] * width)
     values = _numbers(path, lines, first, Dialect(separator, decimal, encoding), width)
+    begun = _seconds_of_instants(written[first], lines[first], separator, header, units, values)
     kept, notes = named_columns(path, header, values)
     return TextTable(
         path,
         tuple(header[k] for k in kept),
-        tuple((units[k].strip("[]()") if units else "") for k in kept),
+        tuple(units[k].strip("[]()") for k in kept),
         values[kept],
         Dialect(separator, decimal, encoding),
-        above.index(header),
-        tuple(notes),
+        skipped,
+        (*begun, *notes),
     )
+
+
+def _without_instants(path: Path, lines: list[str]) -> list[str]:
+    try:
+        return instants.counted(lines, _SAMPLE) or lines
+    except ValueError as error:
+        raise RecordingError(f"{path}:{error}") from None
+
+
+def _seconds_of_instants(
+    written: str, line: str, separator: str, header: list[str], units: list[str], values: np.ndarray
+) -> list[str]:
+    """Make a column of instants, if the first row has one, one of seconds since its own; and say so."""
+    if written == line:
+        return []
+    fields = zip(_fields(written, separator), _fields(line, separator), strict=False)
+    k = next(k for k, (one, other) in enumerate(fields) if one != other)
+    header[k], units[k] = clock_name(header[k], header), "s"
+    values[k] = (values[k] - values[k, 0]) * 1e-9
+    return [f"time begins at 0, which is {instants.first_of(written)}"]
 
 
 def _no_header(above: list[list[str]], width: int) -> str:

@@ -12,7 +12,7 @@ from lacuna.codegen.structure.sorting.blocks import strong_components
 from lacuna.codegen.symbolic.annotated import plain
 from lacuna.codegen.symbolic.expr import REAL, Expr
 from lacuna.codegen.symbolic.leaves import leaves
-from lacuna.codegen.symbolic.rewrite import Rewriter, assigned, expressions
+from lacuna.codegen.symbolic.rewrite import Rewriter, all_statements, assigned, expressions
 
 
 @dataclass
@@ -79,6 +79,14 @@ def follow(steps: Sequence[EventStep], explicit: Sequence[Step]) -> bool:
     return any(not found.isdisjoint(leaves(e)) for step in steps for e in _expressions(step))
 
 
+def refuse_reinit(steps: Sequence[EventStep], states: Collection[str]) -> None:
+    """Raises C002 for a reinit of what is no state (8.3.6)."""
+    for s in all_statements([s for s in steps if isinstance(s, flat.When)]):
+        if isinstance(s, flat.Reinit) and s.target not in states:
+            hint = "reinit a state; the structure report lists them"
+            raise Diagnostic("C002", f"reinit({s.target}, ...): {s.target} is not a state here", s.span, hint)
+
+
 def reads_arrival(steps: Sequence[EventStep]) -> bool:
     """Whether a step reads pre(y) of a continuous variable: targets aside, what has a value before is discrete."""
     set_there = {n for step in steps for n in targets(step)}
@@ -138,6 +146,7 @@ def order(
                     [(_span(steps[writer[name]]), "first here")],
                 )  # fmt: skip
             writer[name] = k
+    _refuse_two_reinits([s for s in steps if isinstance(s, flat.When)])
     _check_assigned(model, writer)
     needs = [sorted({writer[n] for n in _reads(s) if n in writer} - {k}) for k, s in enumerate(steps)]
     ordered = []
@@ -171,6 +180,21 @@ def _reads_itself(step: EventStep) -> bool:
 
 def _span(step: EventStep) -> flat.Span:
     return step.source.span if isinstance(step, DiscreteEquation) else step.span
+
+
+def _refuse_two_reinits(whens: list[flat.When]) -> None:
+    """Raises S011 for a state that two when-clauses, or one twice, reinitialise: nothing says which holds (8.3.6)."""
+    found: dict[str, tuple[flat.When, flat.Reinit]] = {}
+    for w in whens:
+        for _, body in w.branches:
+            here: set[str] = set()
+            for s in (s for s in body if isinstance(s, flat.Reinit)):
+                when, first = found.setdefault(s.target, (w, s))
+                if when is not w or s.target in here:
+                    hint = "use elsewhen, or one when-clause that decides between them"
+                    message = f"the state {s.target} is reinitialised twice"
+                    raise Diagnostic("S011", message, s.span, hint, [(first.span, "first here")])
+                here.add(s.target)
 
 
 def _check_assigned(model: flat.FlatModel, writer: dict[str, int]) -> None:

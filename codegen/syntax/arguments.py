@@ -17,6 +17,9 @@ class ArgumentParser(Cursor):
     def reference(self) -> ast.Ref: ...
 
     @abstractmethod
+    def type_name(self) -> ast.Ref: ...
+
+    @abstractmethod
     def maybe_comprehension(self) -> ast.Expression: ...
 
     def call(self, function: ast.Ref, start: int) -> ast.Call:
@@ -54,7 +57,7 @@ class ArgumentParser(Cursor):
         """function NAME(a = 1, b = 2)"""
         start = self.at
         self.at += 1
-        result = ast.PartialFunction(self.span(start), self.reference())
+        result = ast.PartialFunction(self.span(start), self.type_name())
         self.expect("(")
         while not self.accept(")"):
             if self.kind != "id" or self.kinds[self.at + 1] != "=":

@@ -23,7 +23,7 @@ class ClassParser(EquationParser):
         within = ""
         if self.accept("within"):
             if self.kind != ";":
-                within = str(self.reference())
+                within = str(self.type_name())
             self.semicolon()
         classes = []
         while self.kind != "eof":
@@ -107,9 +107,7 @@ class ClassParser(EquationParser):
             cls.derivative_of = self._derivative_of()
         else:
             causality = self.word if self.accept("input", "output") else ""
-            base = self.reference()
-            dimensions = list(base.subscripts[-1] or ())
-            base = ast.Ref(base.span, base.names, (None,) * len(base.names), base.absolute)
+            base, dimensions = self.sized_type()
             modification = self.modification() if self.kind == "(" else ast.Modification(self.span(start))
             causality = self.words[start] if causality else ""
             cls.alias = ast.Alias(base.span, base, dimensions, modification, causality)
@@ -121,7 +119,7 @@ class ClassParser(EquationParser):
         """der(f, x, y): the partial derivative of a function by its inputs."""
         self.at += 1
         self.expect("(")
-        function, inputs = self.reference(), []
+        function, inputs = self.type_name(), []
         while self.accept(","):
             inputs.append(self.identifier("an input of the function"))
         self.expect(")", "')' or ','")
@@ -219,7 +217,7 @@ class ClassParser(EquationParser):
             cls.imports += self._import()
         elif self.kind == "extends":
             self.at += 1
-            base = self.reference()
+            base = self.type_name()
             modification = self.modification(selective=True) if self.kind == "(" else ast.Modification(base.span)
             if self.kind == "annotation":
                 self.annotation()

@@ -17,6 +17,7 @@ class Cursor:
         self.words = source.words
         self.at = 0
         self.depth = 0
+        self.loops = 0  # around what is being read
         self.errors: list[Diagnostic] = []
 
     @property

@@ -30,6 +30,7 @@ class EquationParser(ModificationParser):
 
     def _item_into(self, items: list[ast.Item], algorithm: bool, stop: tuple[str, ...]) -> None:
         start, depth = self.at, self.depth
+        self.loops = 0
         try:
             items.append(self._item(algorithm))
         except Diagnostic as error:
@@ -61,7 +62,7 @@ class EquationParser(ModificationParser):
             self.at += 1
             iterators = self.iterators()
             self.expect("loop", "'loop'")
-            result = ast.For(self.span(start), iterators, self._body(algorithm))
+            result = ast.For(self.span(start), iterators, self._loop(algorithm))
             self._end("for", start)
         elif kind == "when":
             result = self._when(algorithm)
@@ -86,6 +87,12 @@ class EquationParser(ModificationParser):
                 raise self.unexpected("'end'")
             items.append(self._item(algorithm))
         return items
+
+    def _loop(self, algorithm: bool) -> list[ast.Item]:
+        self.loops += 1
+        body = self._body(algorithm)
+        self.loops -= 1
+        return body
 
     def _end(self, what: str, start: int) -> None:
         if self.kind == "end" and self.kinds[self.at + 1] == what:
@@ -154,10 +161,12 @@ class EquationParser(ModificationParser):
         if self.kind == "while":
             self.at += 1
             condition = self.condition("loop")
-            body = self._body(True)
+            body = self._loop(True)
             self._end("while", start)
             return ast.While(self.span(start), condition, body)
         if self.accept("break"):
+            if not self.loops:
+                raise Diagnostic("R059", "'break' outside of a loop", self.span(start), "it ends the loop around it")
             return ast.Break(self.span(start))
         if self.accept("return"):
             return ast.Return(self.span(start))

@@ -49,9 +49,7 @@ class ModificationParser(ExpressionParser):
         self._type_prefixes(options)
         if self.kind != "id" and self.kind != ".":
             raise self.unexpected("a declaration, 'equation', 'algorithm' or 'end'")
-        written = self.reference()
-        shared = list(written.subscripts[-1] or ())
-        kind = ast.Ref(written.span, written.names, (None,) * len(written.names), written.absolute)
+        kind, shared = self.sized_type()
         result = []
         while True:
             result.append(self._component(kind, shared, options))
@@ -67,11 +65,27 @@ class ModificationParser(ExpressionParser):
                 self.annotation()
         return result
 
+    def sized_type(self) -> tuple[ast.Ref, list[ast.Expression]]:
+        """The name of a class, and sizes behind it (A.2.4)."""
+        written = self.reference()
+        if any(written.subscripts[:-1]):
+            hint = "sizes stand behind the whole name: A.B[2]"
+            raise Diagnostic("P002", f"subscripts inside the name of a class, {written}", written.span, hint)
+        name = ast.Ref(written.span, written.names, (None,) * len(written.names), written.absolute)
+        return name, list(written.subscripts[-1] or ())
+
+    def type_name(self) -> ast.Ref:
+        name, sizes = self.sized_type()
+        if sizes:
+            hint = f"define a type with these sizes, type T = {name}[...]"
+            raise Diagnostic("P002", f"a class is named without subscripts, {name}", name.span, hint)
+        return name
+
     def constraining_clause(self) -> ast.Extends | None:
         """constrainedby CLASS(...), where it stands here."""
         if not self.accept("constrainedby"):
             return None
-        bound = self.reference()
+        bound = self.type_name()
         modification = self.modification() if self.kind == "(" else ast.Modification(bound.span)
         return ast.Extends(bound.span, bound, modification)
 

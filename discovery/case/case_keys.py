@@ -74,8 +74,9 @@ _UNCERTAINTY = Table(
     each=Key(NOT_NEGATIVE, "relative standard deviation", "0.05"), entry="parameter",
 )  # fmt: skip
 _INITIAL = Table(
-    "states at the first sample", each=Key(START, 'value in SI, "recorded" (the first sample) or "unknown" (fitted)',
-    "at rest at the model's start value"), entry="state",
+    "states at the first sample", entry="state", each=Key(
+        START, 'value in SI, "recorded" (the first sample, within its noise) or "unknown" (fitted)',
+        "at rest at the model's start value"),
 )  # fmt: skip
 
 _ROLE = Key(one_of("input", "output"), "drives the simulation, or is compared with it", needed=True)

@@ -27,6 +27,16 @@ def is_start(name: str) -> bool:
     return name.startswith("start:")
 
 
+def state_of(name: str) -> str:
+    """The state whose start value has this name; nothing where it is the name of another."""
+    return name.removeprefix("start:").rpartition("@")[0] if is_start(name) else ""
+
+
+def is_read(name: str, recording: Recording) -> bool:
+    """Whether a simulation of a recording reads the fitted value of this name."""
+    return is_parameter(name) or name.endswith(own_name("", recording.piece if is_start(name) else recording.file))
+
+
 def values_in(parameters: Mapping[str, float], recording: Recording) -> dict[str, float]:
     """The model's parameters in a recording, without start values; those of its own go before the common ones."""
     suffix = own_name("", recording.file)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from lacuna.discovery.case.noise import Noise, is_coarse
+from lacuna.discovery.case.values import is_start
 from lacuna.discovery.fit.fit import Fit
 
 BLOCKS = (1, 8, 40, 200)  # samples over which a residual is averaged
@@ -148,7 +149,7 @@ def outside_belief(fit: Fit, sigmas: float = 3.0) -> dict[str, float]:
     """Parameters that ended beyond `sigmas` believed sigmas, with how many."""
     result = {}
     for f, value in zip(fit.estimate.free, fit.estimate.values, strict=True):
-        if f.sigma and abs(value - f.centre) > sigmas * f.sigma:
+        if f.sigma and not is_start(f.name) and abs(value - f.centre) > sigmas * f.sigma:
             result[f.name] = float((value - f.centre) / f.sigma)
     return result
 

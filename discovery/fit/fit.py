@@ -21,7 +21,7 @@ from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import STAGES, Objective, alike, anneal
 from lacuna.discovery.fit.solver.free import Free, clipped
 from lacuna.discovery.fit.solver.least_squares import Estimate, Problem
-from lacuna.discovery.fit.starts import unknown_starts, with_starts
+from lacuna.discovery.fit.starts import uncertain_starts, with_starts
 from lacuna.discovery.fit.tracking import noise_bandwidth
 from lacuna.runtime import Variable
 
@@ -119,7 +119,7 @@ def believed(case: Case, machine: Machine) -> tuple[list[Free], dict[str, float]
         _believe(name, value, case.sigma(name, value), variable, free, fixed)
     fixed |= {n: v for n, v in case.parameters.items() if n not in fixed and n not in [f.name for f in free]}
     _believe_own(case, machine, free, fixed)
-    return free + [s for recording in case.fit for s in unknown_starts(machine, recording, {})], fixed
+    return free + [s for recording in case.fit for s in uncertain_starts(machine, recording, {})], fixed
 
 
 def _believe(
@@ -162,7 +162,8 @@ def fit(
 ) -> Fit | None:
     """Fit `free` to the recordings, tracking with each bandwidth in turn (the last one 0). None if it cannot run."""
     objective = Objective(machine, recordings, noise)
-    problem = Problem(free, objective, len(objective.recordings), dict(fixed))
+    readers = objective.readers(f.name for f in free)
+    problem = Problem(free, objective, len(objective.recordings), dict(fixed), readers)
     first = dict(start or {})
     values = clipped(free, [first.get(f.name, f.centre if f.start is None else f.start) for f in free])
 

@@ -110,12 +110,16 @@ class Machine:
         """The output that records a variable; None if none does."""
         return recorded_column(self.case, self.model, variable)
 
-    def unknown_states(self, recording: Recording) -> list[str]:
-        """States whose value at a recording's first sample nobody knows, by the variable that case.toml names."""
+    def uncertain_states(self, recording: Recording) -> dict[str, float | None]:
+        """States whose value at a recording's first sample is not exact, by the variable that case.toml names: that
+        sample where they are recorded, None where nobody knows them."""
         if recording.after_gap:
             first = {v.index: n for n, v in reversed(self.model.states.items())}  # others are aliases of it
-            return [first[index] for index in sorted(first)]
-        return [name for name, value in self._starts(recording).items() if value == "unknown"]
+            return {first[index]: None for index in sorted(first)}
+        said = self._starts(recording)
+        noisy = [name for name, value in said.items() if value == "recorded" and self.recorded(name)]
+        unknown = {name: None for name, value in said.items() if value == "unknown"}
+        return {name: self._first_sample(recording, name) for name in noisy} | unknown
 
     def simulate(
         self, parameters: Mapping[str, float], recording: Recording, efforts: Mapping[str, RecordedInput] | None = None,
@@ -165,12 +169,8 @@ class Machine:
     def events_per_second(self, parameters: Mapping[str, float], recording: Recording) -> float:
         session = self._session(recording)
         time = recording.time
-        result = session.run(
-            parameters=values_in(parameters, recording),
-            initial=self._initial_of(recording),
-            start=float(time[0]),
-            stop=float(time[-1]),
-        )
+        values, initial = values_in(parameters, recording), self._initial_of(recording)
+        result = session.run(parameters=values, initial=initial, start=float(time[0]), stop=float(time[-1]))
         self._sessions[recording.name, False].put(session)
         return float(result.counters["state_events"]) / float(time[-1] - time[0])
 
@@ -241,10 +241,10 @@ class Machine:
         starts = [self._start(n.removeprefix("start:"), v) for n, v in named.items()]
         return {state: value for start in starts for state, value in start.items()}
 
-    def unfitted_states(self, parameters: Mapping[str, float], recording: Recording) -> list[str]:
-        """Those of the unknown states of a recording that the parameters do not give."""
+    def unfitted_states(self, parameters: Mapping[str, float], recording: Recording) -> dict[str, float | None]:
+        """Those of the uncertain states of a recording that the parameters do not give."""
         given = self._fitted_starts(parameters, recording)
-        return [n for n in self.unknown_states(recording) if not self._start(n, 0.0).keys() & given]
+        return {n: v for n, v in self.uncertain_states(recording).items() if not self._start(n, 0.0).keys() & given}
 
     def _first_sample(self, recording: Recording, name: str) -> float:
         for signal in self.case.signals.values():

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
 from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.case.noise import Noise, estimate, sample_weights
+from lacuna.discovery.case.values import is_read
 from lacuna.discovery.catalogue.amend import tracker_name
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.solver.least_squares import Estimate, Problem, solve
@@ -35,6 +36,10 @@ class Objective:
         self._trackers = [tracker_name(k) for k in range(len(machine.amendment.trackers))]
         self.level = dict.fromkeys([*self.columns, *self._trackers], 1.0)
         self.torque_scale = dict.fromkeys(self._trackers, 1.0)
+
+    def readers(self, names: Iterable[str]) -> dict[str, list[int]]:
+        """The recordings, by number, whose simulation reads each of these values."""
+        return {n: [k for k, r in enumerate(self.recordings) if is_read(n, r)] for n in names}
 
     def sections(self) -> list[str]:
         return self.columns + (self._trackers if self.stiffness else [])

@@ -42,7 +42,8 @@ def _around(found: Fit, machine: Machine) -> tuple[Problem | None, list[np.ndarr
     own; None where it does not run."""
     objective = Objective(machine, machine.case.fit, found.noise)
     objective.stiffness = {n: v for n, v in found.fixed.items() if n.startswith("tracker_")}
-    problem = Problem(found.estimate.free, objective, len(objective.recordings), found.fixed)
+    free = found.estimate.free
+    problem = Problem(free, objective, len(objective.recordings), found.fixed, objective.readers(f.name for f in free))
     here = problem.evaluate(found.estimate.values)
     if here is None:
         return None, []

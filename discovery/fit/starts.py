@@ -1,17 +1,21 @@
-"""Values of states at the first sample of a recording that nobody knows.
+"""Values of states at the first sample of a recording that nobody knows, or only as well as its noise lets them.
 
 They are fitted with the parameters where a recording may be fitted. Of one that only judges they are the least that has
-to be known before it can be simulated at all: with the parameters as they are, they are fitted to it alone.
+to be known before it can be simulated at all: with the parameters as they are, they are fitted to it alone. One that is
+recorded is believed to be what the first sample says, within the noise of its column: a state that nothing brings back,
+an angle, would carry the noise of that one sample to the end.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
 from lacuna.discovery.case.cases import Recording
-from lacuna.discovery.case.values import start_name
+from lacuna.discovery.case.noise import Noise
+from lacuna.discovery.case.values import start_name, state_of
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import Objective, noise_of
 from lacuna.discovery.fit.solver.free import Free
@@ -20,30 +24,40 @@ from lacuna.discovery.fit.solver.least_squares import Problem, solve
 STEP = 1e-3  # of what a state changes by, for differences
 
 
-def unknown_starts(machine: Machine, recording: Recording, given: Mapping[str, float]) -> list[Free]:
-    """The start values of a recording to be fitted, without a belief, beside those that are given."""
-    found = []
-    for state in machine.unfitted_states(given, recording):
-        guess, size = _guess(machine, state, recording)
-        found.append(Free(start_name(state, recording), guess, size, step=STEP))
-    return found
+def uncertain_starts(machine: Machine, recording: Recording, given: Mapping[str, float]) -> list[Free]:
+    """The start values of a recording to be fitted, beside those that are given."""
+    unfitted = machine.unfitted_states(given, recording)
+    noise = noise_of(machine.case) if unfitted else {}
+    return [_start(machine, state, sample, recording, noise) for state, sample in unfitted.items()]
 
 
-def _guess(machine: Machine, state: str, recording: Recording) -> tuple[float, float]:
-    """(a value of a state at the first sample, the size of a typical change): as recorded, where it is."""
-    column = machine.recorded(state)
-    values = recording.columns[column] if column else np.zeros(0)
-    seen = values[np.isfinite(values)]
-    if len(seen):
-        return float(seen[0]), float(np.ptp(seen)) or 1.0
-    return 0.0, machine.model.variables[state].nominal or 1.0
+def _start(
+    machine: Machine, state: str, sample: float | None, recording: Recording, noise: Mapping[str, Noise]
+) -> Free:  # fmt: skip
+    column, name = machine.recorded(state), start_name(state, recording)
+    if sample is not None and column:
+        std = noise[column].std
+        return Free(name, sample, std, sigma=std, step=1.0)
+    seen = recording.columns[column] if column else np.zeros(0)
+    seen = seen[np.isfinite(seen)]
+    guess = float(seen[0]) if len(seen) else 0.0
+    size = float(np.ptp(seen)) if len(seen) else machine.model.variables[state].nominal
+    return Free(name, guess, size or 1.0, step=STEP)
 
 
 def with_starts(machine: Machine, recording: Recording, values: Mapping[str, float]) -> dict[str, float]:
     """The values with the start values that they lack for this recording, fitted to it; unchanged where none is."""
-    missing = unknown_starts(machine, recording, values)
+    missing = uncertain_starts(machine, recording, values)
     if not missing:
         return dict(values)
     objective = Objective(machine, [recording], noise_of(machine.case))
     found = solve(Problem(missing, objective, 1, dict(values)))
     return dict(values) | (found.point if found else {})
+
+
+def in_doubt(machine: Machine, free: list[Free], variable: str) -> list[Free]:
+    """Free values where the sensor of a variable may be wrong: its first sample is no belief then."""
+    column = machine.recorded(variable)
+    if column is None:
+        return free
+    return [replace(f, sigma=None) if machine.recorded(state_of(f.name)) == column else f for f in free]

@@ -86,6 +86,12 @@ def component_of(law: Law) -> str:
     return f"law_{law.site.location.replace('.', '_').replace(':', '_')}"
 
 
+def _signature(law: Law) -> str:
+    """What a law is like, in words: of what it is made."""
+    names = dict.fromkeys(f"{v.name} - {v.minus}" if v.minus else v.name for v in law.references())
+    return f"an effort in {law.site.unit or '1'}, {'a function of ' + ', '.join(names) if names else 'constant'}"
+
+
 def attach(law: Law) -> Attachment:
     """The law as an effect of identifier `unknown`, its component's source carried along."""
     site = law.site
@@ -94,7 +100,7 @@ def attach(law: Law) -> Attachment:
     component, place = component_of(law), site.place
     effect = Effect(
         "unknown", class_name(law), "Empirical law", _ATTACHES[type(place)], tuple(parameters),
-        signature=f"no effect of the catalogue; {site.unit} as {law.text()}",
+        signature=_signature(law),
     )  # fmt: skip
     own = _OWN[type(place)]
     signals = tuple((v.local, v.reading) for v in law.references() if v.local not in own)

@@ -15,6 +15,7 @@ from lacuna.discovery.fit.fit import Fit, fit
 from lacuna.discovery.fit.machine import Machine, try_machine
 from lacuna.discovery.fit.objective import Objective
 from lacuna.discovery.fit.solver.free import Free
+from lacuna.discovery.fit.starts import in_doubt
 from lacuna.discovery.naming.comparison import Progress
 from lacuna.discovery.naming.screen import Candidate
 
@@ -28,7 +29,8 @@ def fit_candidate(
     if candidate.fit is not None and candidate.fit.settled:
         return candidate.fit
     progress(f"fitting {candidate.attachment.label}")
-    free: list[Free] = [*base.estimate.free, *candidate.free]
+    believed = in_doubt(base.machine, base.estimate.free, candidate.attachment.variable)
+    free: list[Free] = [*believed, *candidate.free]
     start = candidate.fit.point if candidate.fit is not None else _start(case, base, candidate)
     fixed = base.fixed | candidate.fixed
     return fit(

@@ -99,6 +99,8 @@ bool fmu_happen(fmu *f, fmu_news *news) {
   if (f->driven) s->pending |= RT_PENDING_JUMP;
   if (s->pending) {
     s->input_time = NAN;
+    /* An importer's solver is as exact as it likes: a guard that hardly moves is no chattering while time goes on. */
+    if (!f->co_simulation && s->t - s->last_event > s->clock.tolerance) s->futile_events = 0;
     if (!fmu_done(f, rt_happen(s))) return false;
     news->states_changed = memcmp(s->x_before, s->data.x, (size_t)s->d->n_x * sizeof(double)) != 0;
     s->resume = false; /* the importer decides how far the next step goes */

@@ -28,7 +28,7 @@ static void destroy(void *p) {
   if (m->newton) SUNNonlinSolFree(m->newton);
   if (m->solver) SUNLinSolFree(m->solver);
   if (m->matrix) SUNMatDestroy(m->matrix);
-  N_Vector vectors[] = {m->y, m->yp, m->work};
+  N_Vector vectors[] = {m->y, m->yp, m->work, m->filtered};
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
     if (vectors[i]) N_VDestroy(vectors[i]);
   if (m->context) SUNContext_Free(&m->context);
@@ -42,7 +42,7 @@ static void destroy(void *p) {
 
 static bool create_vectors(rt_session *s, rt_ida *m) {
   sunindextype n = s->d->n_x + s->d->n_z;
-  N_Vector *vectors[] = {&m->y, &m->yp, &m->work};
+  N_Vector *vectors[] = {&m->y, &m->yp, &m->work, &m->filtered};
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
     if (!(*vectors[i] = rt_vector_new(n, m->context))) return false;
   return true;
@@ -122,6 +122,7 @@ static rt_status restart(rt_session *s, void *p) {
   m->known = RT_IDA_STARTS;
   m->start_steps = 0;
   rt_newton_forget(m->newton);
+  m->serves = false;
   m->pivots_chosen_at = -1; /* other equations hold, and the old pivots may have become tiny */
   return rt_ida_tangent_restart(s, m);
 }
@@ -235,6 +236,7 @@ const rt_method rt_method_ida = {
     .dense = rt_ida_dense,
     .count = count,
     .errors = errors,
+    .filter = rt_ida_filter,
     .sensitivities = rt_ida_sensitivities,
     .dense_tangent = rt_ida_dense_tangent,
 };

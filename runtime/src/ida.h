@@ -10,11 +10,12 @@ enum { RT_IDA_POINTS = RT_DENSE_DEGREE + 1, RT_IDA_STARTS = 5 };
 typedef struct {
   SUNContext context;
   void *ida;
-  N_Vector y, yp, work;
+  N_Vector y, yp, work, filtered;
   SUNMatrix matrix;
   SUNLinearSolver solver;
   SUNNonlinearSolver newton;
   double *values, *row;  /* [jac_nnz]; [n_x + n_z] factors of the rows of a dense matrix */
+  bool serves;           /* the matrix is of the present equations */
   double cj_of_matrix;   /* dF/dy + cj dF/dy' is in the matrix (1/s) */
   bool started;          /* IDA holds counters of this run that are not in the result yet */
   long pivots_chosen_at; /* failures of Newton's method when KLU last chose its pivots; -1: before the restart */
@@ -44,6 +45,7 @@ void rt_newton_forget(SUNNonlinearSolver solver);
 
 /* ida_matrix.c */
 bool rt_ida_create_matrix(rt_session *s, rt_ida *m);
+void rt_ida_filter(rt_session *s, void *memory, double t, double *defect);
 
 /* ida_start.c */
 double rt_ida_first_step(rt_session *s, double *zdot);

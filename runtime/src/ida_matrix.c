@@ -45,6 +45,7 @@ static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Ve
   rt_ida *m = s->memory;
   double *values = m->values;
   m->cj_of_matrix = cj;
+  m->serves = true;
   rt_inputs_at(s, t);
   int status = rt_jacobian(s, t, N_VGetArrayPointer(y), N_VGetArrayPointer(yp), cj, values);
   if (!status) status = check_jacobian(s, values);
@@ -52,6 +53,25 @@ static int jacobian(sunrealtype t, sunrealtype cj, N_Vector y, N_Vector yp, N_Ve
   if (SUNMatGetID(matrix) == SUNMATRIX_SPARSE) return fill_sparse(s, m, matrix);
   fill_dense(s, m, SUNDenseMatrix_Data(matrix));
   return 0;
+}
+
+/* The residual at the polynomial's slope is F_x' times the defect, so that cj (F_y + cj F_y')^-1 filters it. A start by
+ * an explicit method has no matrix, and needs none. */
+void rt_ida_filter(rt_session *s, void *memory, double t, double *defect) {
+  const rt_ida *m = memory;
+  const mdl_descriptor *d = s->d;
+  if (!m->serves) return;
+  memcpy(s->y, s->x_trial, (size_t)d->n_x * sizeof *s->y);
+  for (int k = 0; k < d->n_z; k++) {
+    s->y[d->n_x + k] = s->v_trial[d->z_index[k]];
+    s->yp[d->n_x + k] = 0;
+  }
+  const double *solution = N_VGetArrayPointer(m->filtered);
+  if (d->residual(&s->data, t, s->y, s->yp, N_VGetArrayPointer(m->work)) ||
+      SUNLinSolSolve(m->solver, m->matrix, m->filtered, m->work, 0))
+    return;
+  for (int i = 0; i < d->n_x; i++)
+    defect[i] = m->cj_of_matrix * solution[i];
 }
 
 bool rt_ida_create_matrix(rt_session *s, rt_ida *m) {

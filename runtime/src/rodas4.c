@@ -158,6 +158,15 @@ static void solve(const rt_session *s, work *w, double *k) {
   memcpy(k, w->right, (size_t)n_x * sizeof *k);
 }
 
+/* The matrix of the last step serves inside it. */
+static void filter(rt_session *s, void *memory, double t, double *defect) {
+  const rt_onestep *o = memory;
+  (void)t;
+  solve(s, layout(s, o->work), defect);
+  for (int i = 0; i < s->d->n_x; i++)
+    defect[i] /= o->h * gamma_;
+}
+
 static int attempt(rt_session *s, rt_onestep *o, double h) {
   int n = s->d->n_x;
   work *w = layout(s, o->work);
@@ -238,4 +247,5 @@ const rt_method rt_method_rodas4 = {
     .dense = rt_onestep_dense,
     .count = rt_onestep_count,
     .errors = rt_onestep_errors,
+    .filter = filter,
 };

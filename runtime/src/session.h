@@ -73,7 +73,8 @@ typedef struct {
   void (*count)(struct rt_session *, void *memory);            /* add the method's own counters to the result */
   void (*errors)(struct rt_session *, void *memory, double *); /* [n_x] of the last step tried; NULL: not known */
   bool (*sensitivities)(struct rt_session *, void *memory);    /* get ready for those of the session, or for none */
-  void (*dense_tangent)(struct rt_session *, void *memory, rt_dense *dense); /* as dense, of the states' tangents */
+  void (*filter)(struct rt_session *, void *memory, double t, double *defect); /* [n_x] of x_trial, defect.c */
+  void (*dense_tangent)(struct rt_session *, void *memory, rt_dense *dense);   /* as dense, of the states' tangents */
 } rt_method;
 
 extern const rt_method rt_method_ida, rt_method_dopri5, rt_method_rodas4, rt_method_rk4, rt_method_euler;
@@ -289,8 +290,7 @@ rt_status rt_initialise(rt_session *s);
 
 /* record.c */
 void rt_record_begin(rt_session *s);
-rt_status rt_record_end(rt_session *s), rt_record_step(rt_session *s);
-rt_status rt_record_event_row(rt_session *s);
+rt_status rt_record_end(rt_session *s), rt_record_step(rt_session *s), rt_record_event_row(rt_session *s);
 
 /* linear.c: factors of rows; dense n x n systems by LU with partial pivoting, column-major */
 void rt_row_factors(const rt_session *s, const double *values, double *row);

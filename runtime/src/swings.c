@@ -126,20 +126,6 @@ static double estimated(rt_session *s, double to, bool *near) {
   return largest;
 }
 
-/* Rates of the guards at places along the step to `to`, a row of `rates` each; whether there are. */
-static bool look_along(rt_session *s, double to, const double *places, int count) {
-  const mdl_descriptor *d = s->d;
-  memcpy(s->v_trial, s->data.v, (size_t)d->n_v * sizeof *s->v_trial);
-  for (int i = 0; i < count; i++) {
-    double t = s->t_previous + places[i] * (to - s->t_previous);
-    rt_dense_eval(&s->dense, d->n_x, t, s->x_trial);
-    if (rt_rhs(s, t, s->x_trial, s->xdot_trial, s->v_trial) ||
-        d->guard_rates(&s->data, 1, s->xdot_trial, s->rates + i * d->n_rel))
-      return false;
-  }
-  return true;
-}
-
 /* An estimate may vanish by chance, of a swing that the step passes over above all. So where a guard is near, what its
  * polynomial does is compared with what the equations say, at places where the method has not looked. Two of them may
  * both be extremes of the error: of steps of dopri5 up to two periods of a sine, at all phases, two let an error of
@@ -147,7 +133,7 @@ static bool look_along(rt_session *s, double to, const double *places, int count
 static double compared(rt_session *s, double to) {
   const mdl_descriptor *d = s->d;
   double largest = 0, p[MOST], h = to - s->t_previous;
-  if (!look_along(s, to, between, BETWEEN)) return INFINITY;
+  if (!rt_look_along(s, to, between, BETWEEN)) return INFINITY;
   for (int r = 0; r < d->n_rel; r++) {
     if (!d->affine_guards[r] || is_far(s, r)) continue;
     bool near;
@@ -208,7 +194,7 @@ double rt_swing_roughness(rt_session *s, double to, const double *error) {
   bool near;
   rt_swing_shape(s, error);
   if (!s->shaped || !(estimated(s, to, &near) >= 0 && near)) return 0;
-  if (!look_along(s, to, along, PLACES)) return INFINITY;
+  if (!rt_look_along(s, to, along, PLACES)) return INFINITY;
   double largest = 0;
   for (int r = 0; r < d->n_rel; r++)
     if (d->affine_guards[r] && !is_far(s, r)) largest = rt_max(largest, rough(s, r, to));

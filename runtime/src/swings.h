@@ -11,6 +11,7 @@ double rt_swing_error(rt_session *s, double to, const double *error);
 double rt_swing_roughness(rt_session *s, double to, const double *error);
 double rt_swing_crossing(rt_session *s, int r, double to);
 rt_status rt_swing_fail(rt_session *s, double to);
+bool rt_look_along(rt_session *s, double to, const double *places, int count); /* defect.c */
 int rt_find_swing(rt_session *s, double *inside);
 
 #endif

@@ -38,6 +38,26 @@ def test_dialects_of_text(tmp_path: Path, text: str, expected: dict[str, tuple[s
     assert found(read(tmp_path / "r.txt", text)) == expected
 
 
+@pytest.mark.parametrize(
+    ("text", "begins"),
+    [
+        ("Time,u\n2024-01-01T23:59:59.9,1\n2024-01-02T00:00:00,2\n2024-01-02T00:00:00.100,3\n",
+         "2024-01-01T23:59:59.9"),
+        ("stamp;u\n01.03.2024 08:00:00,25;1\n01.03.2024 08:00:00,35;2\n01.03.2024 08:00:00,45;3\n",
+         "01.03.2024 08:00:00,25"),
+        ("made 2020-01-01 00:00:00\nt u\n08:00:00.25 1\n08:00:00.35 2\n08:00:00.45 3\n", "08:00:00.25"),
+        ("t,u\n2024-06-01 10:00:00+02:00,1\n2024-06-01 08:00:00.1Z,2\n2024-06-01 09:00:00.2+0100,3\n",
+         "2024-06-01 10:00:00+02:00"),
+        ("t,u\n10:00:00,1\n10:00:00.1,2\n10:00:00.2,3\n", "10:00:00"),
+    ],
+)  # fmt: skip
+def test_instants_are_seconds_since_the_first(tmp_path: Path, text: str, begins: str) -> None:
+    recorded = read(tmp_path / "r.csv", text)
+    (channel,) = recorded.channels
+    assert channel.time == pytest.approx([0.0, 0.1, 0.2], abs=1e-9) and channel.values.tolist() == [1, 2, 3]
+    assert recorded.notes[-1] == f"time begins at 0, which is {begins}"
+
+
 def test_a_column_that_counts_the_rows_is_left_out_with_a_word(tmp_path: Path) -> None:
     said = ("column 1, which has no name and counts the rows, is left out",)
     assert read(tmp_path / "r.csv", ",time,u\n0,0.0,1\n1,0.1,2\n").notes == said
@@ -51,7 +71,9 @@ def test_a_column_that_counts_the_rows_is_left_out_with_a_word(tmp_path: Path) -
     ("text", "said"),
     [
         ("time;n;i;u\n0,0;1.234,5;1,5;2,5\n", "line 2 `1.234,5` is none"),
-        ("time,u\n2024-01-01 00:00:00,1\n", "line 2 `2024-01-01 00:00:00` is none"),
+        ("time,u\n2024/01/02 00:00:00,1\n", "line 2 `2024/01/02 00:00:00` is none"),
+        ("time,u\n2024-13-01T00:00:00,1\n", ":2: `2024-13-01T00:00:00` is no instant: month must be in 1..12"),
+        ("time,u\n24:00:01,1\n", ":2: `24:00:01` is no instant"),
         ("time,on\n0,true\n", "line 2 `true` is none"),
         (",time,u\n7,0.0,1\n8,0.1,2\n", "column 1 has no name"),
         ("time,u\n0,1\n1,2\nEnd of file\n", ":4: 1 fields"),

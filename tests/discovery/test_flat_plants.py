@@ -18,6 +18,7 @@ from lacuna.discovery.efforts.find import located
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.sites import read, varying
 from lacuna.discovery.explanation.explanation import Explanation
+from lacuna.discovery.fit.evidence import outside_belief
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.naming.screen import Screen, prepare
 from lacuna.discovery.steps import fitted
@@ -71,6 +72,19 @@ equation
   L*der(i) = u - R*i - k%s*w; // k, too
   J*der(w) = k%s*i;
 end Motor;
+"""
+
+
+CART = """model Cart "A force on a mass that nothing brings back"
+  parameter Real m(unit="kg", min=0) = 2;
+  parameter Real d(unit="N.s/m", min=0) = 3;
+  input Real F(unit="N");
+  Real x(unit="m", start=0, fixed=true);
+  Real v(unit="m/s", start=0, fixed=true);
+equation
+  der(x) = v;
+  m*der(v) = F - d*v;
+end Cart;
 """
 
 
@@ -183,3 +197,21 @@ def test_the_right_side_of_an_equation() -> None:
     ):
         side, end = right_side(text, 0)
         assert text[side:end] == expected
+
+
+def test_a_recorded_state_is_known_within_the_noise_of_its_first_sample(tmp_path: Path) -> None:
+    """Two sigmas of the first sample of a position would stay to the end, two of a speed for most of it: nothing of
+    that is physics, or a parameter."""
+    case_of(tmp_path, "Cart", CART, CART, "m = 0.05\nd = 0.05\n", ("F", "N"), (-4.0, 4.0),
+            [("x", "m", 0.02), ("v", "m/s", 0.05)], 0.02)  # fmt: skip
+    table = np.genfromtxt(tmp_path / "r1.csv", delimiter=",", names=True)
+    table["x"][0], table["v"][0] = 0.04, 0.1
+    np.savetxt(tmp_path / "r1.csv", table, "%.8g", ",", header=",".join(table.dtype.names), comments="")
+    text = (tmp_path / "case.toml").read_text(encoding="utf-8")
+    (tmp_path / "case.toml").write_text('initial = {x = "recorded", v = "recorded"}\n' + text, encoding="utf-8")
+    result = told(load(tmp_path))
+    assert max(result.base.level.values()) < 1.12  # three standard errors of the RMS of 300 samples
+    starts = {f.name: result.base.point[f.name] for f in result.base.estimate.free if f.name.startswith("start:")}
+    assert set(starts) == {f"start:{s}@r{n}.csv" for s in "xv" for n in (1, 2)}
+    assert abs(starts["start:x@r1.csv"]) < 0.01 and abs(starts["start:v@r1.csv"]) < 0.05
+    assert outside_belief(result.base) == {}

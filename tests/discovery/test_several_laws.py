@@ -14,6 +14,7 @@ from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as read_structure
 from lacuna.discovery.efforts.find import Found
+from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.numeric import Evaluator, NotNumeric, table
 from lacuna.discovery.efforts.opened import opened
@@ -40,17 +41,16 @@ def test_two_laws_at_two_places_are_found_at_both(tmp_path: Path) -> None:
 
 
 def test_a_law_is_screened_beside_an_effort_at_another_place(tmp_path: Path) -> None:
-    """What both leave is no law of either tank; beside an effort of any course in the other one each has its own."""
+    """What both leave is no law of the upper tank's level; beside an effort of any course in the lower one it is."""
     case = load(cascade(tmp_path, TORRICELLI.replace("q - k*upper", "q - k*upper - 2e-3*upper^3")))
     told = fitted(case, lambda text: None)
     locator = Locator(case, opened(case, told.amendment, case.library(), ["A", "B", "k"]), told.base)
     pair = paired(Found(locator.ranked(), locator=locator), lambda text: None)
     assert {place.site.location for place in pair} == {"upper", "lower"}
-    for place in pair:
-        read = [
-            {v.name for v in proposal.law.references()} for proposal in place.laws() if len(proposal.law.groups) == 1
-        ]
-        assert all(names <= {place.site.location} for names in read) and any(read)
+    upper = next(place for place in pair if place.site.location == "upper")
+    assert all({v.name for v in proposal.law.references()} == {"upper"} for proposal in upper.laws())
+    alone = locator.ranked()[0]
+    assert "q" in {v.name for v in proposals(locator, alone, locator.guided(alone), 1)[0].law.references()}
 
 
 def test_a_slope_that_is_infinite_at_a_sample_is_that_beside_it() -> None:

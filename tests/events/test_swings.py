@@ -75,3 +75,24 @@ end Close;
 def test_guards_through_equations_and_time_are_affine_too(tmp_path: Path, solver: str) -> None:
     """f = x + time and g = x - time, x = 1000 + 0.01 sin(100 t): 16 periods in a second."""
     counted(tmp_path, CLOSE, solver, 1.0, (1e-3, 1e-5, 1e-7), n=16, m=16)
+
+
+STIFF = """model Stiff
+  "an open switch between two inductances with 60 A: their difference follows the voltage at 2e8 in a second"
+  Real a(start=0, fixed=true), b(start=0, fixed=true), v;
+  Integer n(start=0, fixed=true);
+equation
+  v = (a - b)/1e-5;
+  1e-3*der(a) = 10*cos(100*time) + 1e-3*sin(300*time + 1) - v;
+  1e-3*der(b) = 10*cos(100*time) + v;
+  when v > 0 then
+    n = pre(n) + 1;
+  end when;
+end Stiff;
+"""
+
+
+@pytest.mark.parametrize("solver", ["ida", "rodas4"])
+def test_what_fast_rates_make_of_rounding_is_no_swing(tmp_path: Path, solver: str) -> None:
+    """v = 0.5e-3 sin(300 t + 1): it rises at the start, and at 300 t + 1 = 2 pi, 4 pi, 6 pi, 8 pi."""
+    counted(tmp_path, STIFF, solver, 0.1, (1e-4, 1e-6), n=5)

@@ -6,6 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 import zipfile
 
+from fmpy import read_model_description
 from fmpy.validation import validate_fmu
 import numpy as np
 import pytest
@@ -92,6 +93,13 @@ def test_the_source_is_inside_and_equal_models_give_equal_bytes(fmus: Fmus, tmp_
     assert first.read_bytes() == again.read_bytes()
     names = set(zipfile.ZipFile(first).namelist())
     assert {"sources/generated.c", "sources/simulate.c", "sources/fmi3.c", "sources/buildDescription.xml"} <= names
+
+
+def test_angles_count_in_units_as_fmi_counts_them(fmus: Fmus) -> None:
+    """FMI has the radian among its base units, Modelica has not: a speed and a frequency differ by it."""
+    units = {u.name: u.baseUnit for u in read_model_description(fmus.path("T1")).unitDefinitions}
+    assert (units["rad/s"].rad, units["rad/s"].s) == (1, -1)
+    assert units["N.m.s/rad"].rad == -1 and units["N.m"].rad == 0
 
 
 def test_a_foreign_fmu_is_compared_and_a_wrong_one_found(fmus: Fmus) -> None:

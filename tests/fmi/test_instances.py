@@ -166,6 +166,27 @@ def test_an_event_just_after_a_rounded_communication_point_happens_at_its_own_ti
         assert real(fmu, "next") == [6.0]
 
 
+def test_a_guard_may_rest_on_its_threshold_while_an_importers_time_goes_on(fmus: Fmus) -> None:
+    """Another tool's solver finds a guard at its own accuracy, to and fro: 300 events that move nothing are as good as
+    any while time goes on, and chattering where it stands."""
+
+    def rest_at_the_stop(fmu, step: float) -> None:
+        begin(fmu)
+        fmu.updateDiscreteStates()
+        for k in range(300):
+            fmu.enterContinuousTimeMode()
+            fmu.setTime(0.1 + k * step)
+            states = (ctypes.c_double * 2)(1 + (-1) ** k * 1e-12, 0.0)
+            fmu.setContinuousStates(states, 2)
+            fmu.enterEventMode()
+            fmu.updateDiscreteStates()
+
+    with fmus.instance("Clockwork", "me") as fmu:
+        rest_at_the_stop(fmu, 1e-4)
+    with fmus.instance("Clockwork", "me") as fmu, pytest.raises(Exception, match="failed"):
+        rest_at_the_stop(fmu, 0.0)
+
+
 def test_reset_begins_anew(fmus: Fmus) -> None:
     with fmus.instance("Clockwork", "cs") as fmu:
         begin(fmu)

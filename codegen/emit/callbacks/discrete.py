@@ -93,9 +93,6 @@ class Discrete:
                 body.assign(var(s.target, self._type(s.target)), s.value)
             case flat.Reinit():
                 slot = self._storage.slot(s.target)
-                if slot is None or slot.array != "x":
-                    raise Diagnostic("C002", f"reinit({s.target}, ...): {s.target} is not a state here", s.span,
-                                     "reinit a state; the structure report lists them")  # fmt: skip
                 body.line(f"x[{slot.index}] = {body.value(s.value)};")
                 body.line("m->reinitialised = 1;")
             case flat.Terminate():

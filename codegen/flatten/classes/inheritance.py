@@ -25,6 +25,13 @@ class Element:
     declaration: ast.Component
     cls: ast.Class  # where it is declared
     modifier: Modifier | None
+    replaced: Element | None = None  # what an element written with `redeclare` stands for
+
+    def written_in(self, part: str) -> ast.Class:
+        """The class in which its dimensions or its condition are written: a redeclaration may keep them (7.3)."""
+        old = self.replaced
+        kept = old is not None and getattr(self.declaration, part) is getattr(old.declaration, part)
+        return old.written_in(part) if kept else self.cls
 
 
 class Inheritance:
@@ -207,7 +214,7 @@ def _redeclared(element: Element, present: Element | None) -> Element:
         raise Diagnostic("R037", f"{new.name} and what it redeclares differ in visibility", new.span, hint)
     if new.constraint is None and old.constraint is not None:
         new = replace(new, constraint=old.constraint)
-    return replace(element, declaration=inheriting(new, old))
+    return replace(element, declaration=inheriting(new, old), replaced=present)
 
 
 def refuse_redeclaration(new: ast.Component, old: ast.Component, span: Span) -> None:
@@ -256,3 +263,17 @@ def written(reference: ast.Ref) -> str:
         shown = [str(s.value) if isinstance(s, ast.Literal) else "?" for s in subscripts or ()]
         parts.append(name + (f"[{','.join(shown)}]" if shown else ""))
     return ".".join(parts)
+
+
+def own_modifier(element: Element, scope: Scope, redeclared: bool) -> Modifier:
+    """What the declaration says, and its constraining clause: that holds whatever stands there, `redeclared` from
+    outside or by an element; without such a clause what the replaced declaration says does (7.3.2)."""
+    declaration, old = element.declaration, element.replaced
+    own = from_tree(declaration.modification, scope, final=declaration.final)
+    if old is not None and declaration.constraint is old.declaration.constraint:
+        kept = own_modifier(old, replace(scope, cls=old.cls), True)
+        return kept if redeclared else merge(own, kept) or own
+    if declaration.constraint is None:
+        return own
+    constraint = from_tree(declaration.constraint.modification, scope, final=declaration.final)
+    return constraint if redeclared else merge(own, constraint) or own

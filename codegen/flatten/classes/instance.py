@@ -10,7 +10,7 @@ from functools import cached_property
 from math import prod
 
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.classes.inheritance import Element, Inheritance
+from lacuna.codegen.flatten.classes.inheritance import Element, Inheritance, own_modifier
 from lacuna.codegen.flatten.classes.leaf import Leaf
 from lacuna.codegen.flatten.classes.prefixes import (
     check_block,
@@ -30,7 +30,6 @@ from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import (
     Modifier,
     for_each,
-    from_tree,
     merge,
     narrow,
     refuse_each,
@@ -168,16 +167,19 @@ class Instance:
         declaration = element.declaration
         scope = Scope(self.context, element.cls, self)
         redeclared = element.modifier is not None and isinstance(element.modifier.redeclare, ast.Component)
-        own = self._own_modifier(declaration, scope, redeclared)
+        own = own_modifier(element, scope, redeclared)
         modifier = without_removed(merge(element.modifier, own) or own)
         if declaration.outer and not declaration.inner:
             check_outer(declaration, element.modifier)
             return self._outer(declaration, scope)
-        if declaration.condition is not None and not evaluate_boolean(declaration.condition, scope):
+        if declaration.condition is not None and not evaluate_boolean(
+            declaration.condition, replace(scope, cls=element.written_in("condition"))
+        ):
             return Absent(self.path_of(declaration.name), declaration.span)
-        type_scope = scope
+        type_scope, size_scope = scope, replace(scope, cls=element.written_in("dimensions"))
         if redeclared:
             declaration, type_scope = redeclaration(element, modifier, scope, self._elements_of)
+            size_scope = type_scope if modifier.redeclare.dimensions else size_scope
         found = resolve_type(declaration.type, type_scope)
         check_prefixes(declaration, found, self._elements_of)
         check_block(element.cls, declaration, found, self._elements_of)
@@ -189,8 +191,8 @@ class Instance:
             raise Diagnostic("R030", message, outside.span, hint)
         if given:
             modifier = replace(modifier, value=record.fields[declaration.name], index=())
-        sizes = evaluate_dimensions([*declaration.dimensions], type_scope, modifier, declaration.name)
-        index_types = tuple(index_type(d, type_scope) for d in declaration.dimensions)
+        sizes = evaluate_dimensions([*declaration.dimensions], size_scope, modifier, declaration.name)
+        index_types = tuple(index_type(d, size_scope) for d in declaration.dimensions)
         sizes += found.dimensions
         self.context.spend(prod(sizes), declaration.span)
         if not sizes:
@@ -209,15 +211,6 @@ class Instance:
             inner = merge(narrow(modifier, tuple(zip(index, sizes, strict=True))), found.modifier)
             items.append(Instance(self.context, found.cls, name + text, self, inner, declaration))
         return ArrayNode(name, tuple(sizes), items, index_types)
-
-    @staticmethod
-    def _own_modifier(declaration: ast.Component, scope: Scope, redeclared: bool) -> Modifier:
-        """What the declaration says, and its constraining clause: that holds whatever stands there (7.3.2)."""
-        own = from_tree(declaration.modification, scope, final=declaration.final)
-        if declaration.constraint is None:
-            return own
-        constraint = from_tree(declaration.constraint.modification, scope, final=declaration.final)
-        return constraint if redeclared else merge(own, constraint) or own
 
     def _record_value(self) -> Record | None:
         """The record this component is bound to, as in `Data data = other`."""

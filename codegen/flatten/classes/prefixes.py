@@ -71,7 +71,9 @@ def varies_more(declaration: ast.Component, inner: str) -> str:
 
 
 def check_block(cls: ast.Class, declaration: ast.Component, found: Type, elements: ElementsOf) -> None:
-    """Raises R070 for a connector of a block whose direction is open (4.7)."""
+    """Raises R070 for a connector of a block whose direction is open, and for one in a record (4.7)."""
+    if cls.kind == "record" and found.primitive is not None and found.named is not None:
+        _refuse_in_record(declaration, found.named)
     if cls.kind != "block" or declaration.protected or declaration.causality or declaration.outer:
         return
     kind = found.named if found.primitive is not None else found.cls
@@ -88,13 +90,18 @@ def check_block(cls: ast.Class, declaration: ast.Component, found: Type, element
         raise Diagnostic("R070", message, declaration.span, hint)
 
 
+def _refuse_in_record(declaration: ast.Component, cls: ast.Class) -> None:
+    if cls.kind in ("model", "block", "connector"):
+        hint = "an element of a record is of a record or a type: write a model"
+        raise Diagnostic("R070", f"{declaration.name} is a {cls.kind} in a record", declaration.span, hint)
+
+
 def check_component(holder: ast.Class, declaration: ast.Component, found: Type, context: Context) -> None:
     """Raises R014 or R015 for a class that no component is of: packages, functions, what is partial; R070 for models
     and connectors in a record (4.7)."""
     cls = found.cls
-    if holder.kind == "record" and cls.kind in ("model", "block", "connector"):
-        hint = "an element of a record is of a record or a type: write a model"
-        raise Diagnostic("R070", f"{declaration.name} is a {cls.kind} in a record", declaration.span, hint)
+    if holder.kind == "record":
+        _refuse_in_record(declaration, cls)
     if cls.kind in ("package", "function"):
         hint = "components are of a model, block, connector, record or type"
         raise Diagnostic("R014", f"{cls.name} is a {cls.kind}, not a component class", declaration.span, hint)

@@ -38,8 +38,7 @@ def flatten_algorithm(section: ast.Section, scope: Scope, out: Collected) -> Non
     else:
         targets = tuple(names) if section.initial else _with_whole_arrays(names, scope.context)
         run = SymbolicRun(scope, targets)
-        if run.block(statements, TRUE) is not FALSE:
-            raise Diagnostic("R059", "'break' outside of a loop", section.span, "it ends the loop around it")
+        run.block(statements, TRUE)
     for target in targets:
         value = run.result(target) if target in run.values else run.unassigned(target)
         variable, span = ex.var(target, run.type_of(target)), run.where.get(target, section.span)

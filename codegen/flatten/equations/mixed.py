@@ -7,6 +7,7 @@ statements that run at events and read, in the place of those Reals, what they a
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from dataclasses import replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic
@@ -15,7 +16,8 @@ from lacuna.codegen.flatten.expressions.constants import variability
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import REAL, TRUE, Expr
-from lacuna.codegen.symbolic.rewrite import Rewriter, all_statements, assigned
+from lacuna.codegen.symbolic.leaves import leaves
+from lacuna.codegen.symbolic.rewrite import Rewriter, all_statements, assigned, expressions
 
 
 def lasting_targets(statements: Sequence[flat.Statement], context: Context) -> frozenset[str]:
@@ -32,27 +34,80 @@ def lasting_targets(statements: Sequence[flat.Statement], context: Context) -> f
 
 
 def split_by_time(
-    statements: Sequence[flat.Statement], lasting: Collection[str], run: SymbolicRun
+    statements: Sequence[flat.Statement],
+    lasting: Collection[str],
+    run: SymbolicRun,
+    before: frozenset[str] = frozenset(),
+    after: frozenset[str] = frozenset(),
 ) -> list[flat.Statement]:
-    """What runs at events; `run` has then run the rest. Raises R059 for an if or a loop that assigns both."""
+    """What runs at events; `run` has then run the rest. `before`, `after`: what is assigned at every pass before these
+    statements, and behind them. Raises R059 for a loop that assigns both kinds, and for what is not a value that lasts.
+    """
+    kept: list[flat.Statement] = []
+    for k, s in enumerate(statements):
+        names, behind = set(assigned([s])), after | _at_every_pass(statements[k + 1 :])
+        if isinstance(s, flat.When) or not (names & set(lasting) or isinstance(s, flat.Assert)):
+            kept.append(_at_this_point(lasting, run).statement(s))
+        else:
+            _refuse_passing(s, lasting, before & behind)
+            if names <= set(lasting):
+                run.block([s], TRUE)
+            else:
+                kept.append(_split_choice(s, lasting, run, before, behind))
+        before |= _at_every_pass([s])
+    return kept
+
+
+def _at_every_pass(statements: Sequence[flat.Statement]) -> frozenset[str]:
+    return frozenset(assigned([s for s in statements if not isinstance(s, flat.When)]))
+
+
+def _at_this_point(lasting: Collection[str], run: SymbolicRun) -> Rewriter:
+    """What Reals are at this point: before the first assignment they have their start values (11.1.2)."""
 
     def now(e: Expr) -> Expr | None:
-        """What a Real is at this point: before the first assignment it has its start value (11.1.2)."""
         if e.op == "var" and e.value in lasting:
             return run.values[str(e.value)] if e.value in run.values else run.unassigned(str(e.value))
         return e if e.op in ("pre", "der") else None
 
-    kept: list[flat.Statement] = []
-    for s in statements:
+    return Rewriter(now)
+
+
+def _refuse_passing(s: flat.Statement, lasting: Collection[str], passing: frozenset[str]) -> None:
+    """Raises R059 where a Real follows what a later statement of each pass overwrites: only its last value lasts. What
+    is overwritten by when-clauses alone, or read before it is assigned, is at the end of an event what it was."""
+    read = {str(n.value) for e in expressions([s]) for n in leaves(e) if n.op == "var"}
+    if found := read & passing - set(lasting):
+        name = min(found)
+        hint = f"give what {name} is here a variable of its own"
+        raise Diagnostic("R059", f"{name} is read between two of its assignments", s.span, hint)
+
+
+def _split_choice(
+    s: flat.Statement, lasting: Collection[str], run: SymbolicRun, before: frozenset[str], after: frozenset[str]
+) -> flat.Statement:
+    """An if that assigns both kinds: what of it runs at events."""
+    if not isinstance(s, flat.If) or any(isinstance(inner, flat.When | flat.Break) for inner in all_statements([s])):
         names = set(assigned([s]))
-        if not isinstance(s, flat.When) and names and names <= set(lasting):
-            run.block([s], TRUE)
-        elif not isinstance(s, flat.When) and names & set(lasting):
-            both = f"{min(names & set(lasting))} at all times and {min(names - set(lasting))} at events"
-            hint = "assign them in two statements"
-            raise Diagnostic("R059", f"one statement of an algorithm with 'when' assigns {both}", s.span, hint)
-        elif isinstance(s, flat.Assert):
-            run.block([s], TRUE)
-        else:
-            kept.append(Rewriter(now).statement(s))
-    return kept
+        both = f"{min(names & set(lasting))} at all times and {min(names - set(lasting))} at events"
+        hint = "assign them in two statements"
+        raise Diagnostic("R059", f"one loop of an algorithm with 'when' assigns {both}", s.span, hint)
+    point = _at_this_point(lasting, run)
+    values, where, asserts = dict(run.values), dict(run.where), list(run.asserts)
+    branches = []
+    for condition, body in s.branches:
+        run.values = dict(values)
+        branches.append((point.expression(condition), split_by_time(body, lasting, run, before, after)))
+        run.where, run.asserts = dict(where), list(asserts)
+    run.values = values
+    run.block([_lasting_part(s, lasting)], TRUE)
+    return replace(s, branches=branches)
+
+
+def _lasting_part(s: flat.If, lasting: Collection[str]) -> flat.If:
+    branches = []
+    for condition, body in s.branches:
+        parts = [_lasting_part(b, lasting) if isinstance(b, flat.If) else b for b in body]
+        lasts = [b for b in parts if isinstance(b, flat.Assert | flat.If) or set(assigned([b])) <= set(lasting)]
+        branches.append((condition, lasts))
+    return replace(s, branches=branches)

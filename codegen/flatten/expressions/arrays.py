@@ -114,10 +114,11 @@ def _reduction(join: Callable[[Expr, Expr], Expr], empty: Expr | None) -> Callab
     def build(e: ast.Call, scope: Scope) -> Value:
         arguments = _arguments(e, scope, 1, 2 if empty is None else 1)
         if len(arguments) == 2:
-            for a in arguments:
-                if not isinstance(a, Expr) or a.type == BOOLEAN:
-                    hint = "of an array: max(x); of two numbers: max(a, b)"
-                    raise Diagnostic("R051", f"{e.function} of two needs numbers", e.span, hint)
+            if not all(isinstance(a, Expr) for a in arguments) or len({a.type == BOOLEAN for a in arguments}) > 1:
+                hint = "of an array: max(x); of two numbers: max(a, b)"
+                raise Diagnostic("R051", f"{e.function} of two needs scalars of one kind", e.span, hint)
+            if arguments[0].type == BOOLEAN:
+                return (ex.logical_and if str(e.function) == "min" else ex.logical_or)(*arguments)
             return join(*arguments)
         values = _array(arguments[0], e)
         if holds_records(values) and str(e.function) == "sum":

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lacuna.codegen.flatten.names.values import Array, Value, indices, scalars, shape_of
+from lacuna.codegen.flatten.names.values import Array, Record, Value, indices
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import Expr
 
@@ -19,19 +19,16 @@ def local_value(name: str, kind: str, shape: tuple[int, ...]) -> Value:
     return Array(shape, tuple(element(name, kind, tuple(map(ex.const, i))) for i in indices(shape)))
 
 
-def at_index(value: Value, index: Expr) -> Value | None:
+def at_index(value: Value, index: Expr, inner: int = 0) -> Value | None:
     """`value` (the first row of an array) with its row number replaced by a run-time `index`; None where it is no
-    array of element reads."""
-
-    def moved(item: Expr | str, dimensions: int) -> Expr | None:
-        if not isinstance(item, Expr) or item.op != "call" or item.value != "[]":
-            return None
-        position = len(item.args) - 1 - dimensions
-        args = item.args[:position] + (index,) + item.args[position + 1 :]
-        return ex.node("call", args, "[]", item.type)
-
-    dimensions = len(shape_of(value))
-    items = [moved(item, dimensions) for item in scalars(value)]
-    if None in items:
+    array of element reads. `inner`: dimensions of what it is a part of, behind that of the rows."""
+    if isinstance(value, Record):
+        fields = {name: at_index(field, index, inner) for name, field in value.fields.items()}
+        return None if None in fields.values() else Record(value.name, fields, value.cls)
+    if isinstance(value, Array):
+        items = tuple(at_index(item, index, inner + len(value.shape)) for item in value.items)
+        return None if None in items else Array(value.shape, items)
+    if not isinstance(value, Expr) or value.op != "call" or value.value != "[]":
         return None
-    return Array(value.shape, tuple(items)) if isinstance(value, Array) else items[0]
+    position = len(value.args) - 1 - inner
+    return ex.node("call", value.args[:position] + (index,) + value.args[position + 1 :], "[]", value.type)

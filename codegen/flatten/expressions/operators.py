@@ -158,6 +158,8 @@ def _sample(e: ast.Call, scope: Scope) -> Value:
         if not is_parameter(value, scope.context):
             hint = "start and interval are parameters or constants"
             raise Diagnostic("R053", "sample at times that vary", written.span, hint)
+    if parts[1].op == "const" and not parts[1].value > 0:
+        raise Diagnostic("R053", f"sample each {ex.to_text(parts[1])} s", e.args[1].span, "an interval is positive")
     return ex.special("sample", *parts)
 
 

@@ -43,11 +43,16 @@ _OUTSIDE = {  # clocks and state machines (chapters 16 and 17)
 }
 
 
+_OF_MODELS = ("initial", "terminal", "sample", "pre", "edge", "change")  # functions know no events (12.2)
+
+
 def lower_call(e: ast.Call, scope: Scope) -> Value:
     """The value of a call; of several results the first."""
     name = str(e.function)
     handler = scope.context.lowering.functions.get(name.removeprefix(".")) if name not in scope.locals else None
     if handler is not None and not _is_hidden(e.function, scope):
+        if scope.in_function and name.removeprefix(".") in _OF_MODELS:
+            raise Diagnostic("R054", f"{name} in a function", e.span, "give its value as an argument")
         return handler(e, scope)
     results = call_of_model(e, scope)
     if not results or is_done(results[0], scope.context):

@@ -10,6 +10,7 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.instance import Absent, ArrayNode, Instance, Node
 from lacuna.codegen.flatten.classes.leaf import Leaf
 from lacuna.codegen.flatten.classes.types import resolve_type
+from lacuna.codegen.flatten.expressions.choices import chosen_value
 from lacuna.codegen.flatten.expressions.constants import is_known, known
 from lacuna.codegen.flatten.expressions.elements import at_index
 from lacuna.codegen.flatten.expressions.enumerations import IndexType, enumeration_of, index_number
@@ -19,11 +20,11 @@ from lacuna.codegen.flatten.names.values import (
     Array,
     Record,
     Value,
-    elementwise,
     holds_records,
     scalars,
     shape_of,
     stack,
+    with_scalars,
 )
 from lacuna.codegen.flatten.references.class_values import from_class
 from lacuna.codegen.symbolic import expr as ex
@@ -169,8 +170,7 @@ def _numbered(node: ArrayNode, number: Expr, ref: ast.Ref, at: int, scope: Scope
     if number.op == "const":
         return _walk(node.items[number.value - 1], ref, at, scope)
     condition, *numbers = number.args
-    values = [_numbered(node, n, ref, at, scope) for n in numbers]
-    return elementwise(lambda a, b: ex.if_else(condition, a, b), values, ref.span, "elements")
+    return chosen_value(condition, *(_numbered(node, n, ref, at, scope) for n in numbers), ref.span, scope)
 
 
 def apply_subscripts(
@@ -245,17 +245,13 @@ def _choose(rows: list[Value], index: Expr, written: ast.Expression, scope: Scop
         raise Diagnostic("R045", "a subscript of an empty array", written.span, "it has no element")
     is_last = ex.relation("==", index, ex.const(len(rows)))
 
-    def inside(a: Expr) -> Expr:
-        return ex.if_else(is_last, a, ex.const(math.nan)) if a.type == REAL else a
+    def inside(a: Expr | str) -> Expr | str:
+        return ex.if_else(is_last, a, ex.const(math.nan)) if isinstance(a, Expr) and a.type == REAL else a
 
-    result = elementwise(inside, [rows[-1]], written.span, "elements")
+    result = with_scalars(rows[-1], map(inside, scalars(rows[-1])))
     for number in range(len(rows) - 1, 0, -1):
         condition = ex.relation("==", index, ex.const(number))
-
-        def pick(a: Expr, b: Expr, condition: Expr = condition) -> Expr:
-            return ex.if_else(condition, a, b)
-
-        result = elementwise(pick, [rows[number - 1], result], written.span, "elements")
+        result = chosen_value(condition, rows[number - 1], result, written.span, scope)
     return result
 
 

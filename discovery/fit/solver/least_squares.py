@@ -4,14 +4,16 @@ The residual is split into pieces (one a recording), so that a Jacobian by finit
 independent tasks: a simulation releases the interpreter lock, and threads use all cores. Work is done in the
 scaled coordinates z = (value - centre) / scale of each parameter, where one unit is a believed sigma.
 
-Reference: J. J. More, The Levenberg-Marquardt algorithm: implementation and theory, 1978.
+References: J. J. More, The Levenberg-Marquardt algorithm: implementation and theory, 1978; L. K. Schubert, Modification
+of a quasi-Newton method for nonlinear equations with a sparse Jacobian, 1970.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
+from itertools import islice
 import os
 
 import numpy as np
@@ -75,21 +77,33 @@ class Estimate:
 
 
 class Problem:
-    """Pieces of whitened residuals as a function of the free parameters."""
+    """Pieces of whitened residuals as a function of the free parameters; `readers` are the pieces that depend on one,
+    where they are not all."""
 
-    def __init__(self, free: list[Free], residual: Residual, pieces: int, fixed: dict[str, float] | None = None):
-        self.free, self.residual, self.pieces = free, residual, pieces
+    def __init__(
+        self, free: list[Free], residual: Residual, pieces: int, fixed: dict[str, float] | None = None,
+        readers: Mapping[str, list[int]] | None = None,
+    ) -> None:  # fmt: skip
+        self.free, self.residual, self.pieces, self.readers = free, residual, pieces, dict(readers or {})
         self.fixed = dict(fixed or {})
         self.weights: list[np.ndarray] | None = None  # of each sample of each piece; None: all one
         self.simulations = 0
 
-    def evaluate_each(self, points: list[np.ndarray]) -> list[list[np.ndarray] | None]:
-        """Weighted residuals of all pieces at each point; None where the simulation fails or leaves all bounds."""
+    def reading(self, k: int) -> list[int]:
+        """The pieces that depend on a free parameter."""
+        return self.readers.get(self.free[k].name, list(range(self.pieces)))
+
+    def evaluate_each(
+        self, points: list[np.ndarray], pieces: list[list[int]] | None = None
+    ) -> list[list[np.ndarray] | None]:  # fmt: skip
+        """Weighted residuals at each point, of all pieces or of those asked for there; None where the simulation fails
+        or leaves all bounds."""
         time_limit.check()
-        tasks = [(self._named(p), k) for p in points for k in range(self.pieces)]
+        asked = pieces or [list(range(self.pieces))] * len(points)
+        tasks = [(self._named(p), k) for p, ks in zip(points, asked, strict=True) for k in ks]
         self.simulations += len(tasks)
-        parts = list(_pool.map(self._weighted, tasks))
-        groups = [parts[k : k + self.pieces] for k in range(0, len(parts), self.pieces)]
+        parts = _pool.map(self._weighted, tasks)
+        groups = [list(islice(parts, len(ks))) for ks in asked]
         return [None if any(r is None or not np.all(np.abs(r) < LARGEST) for r in group) else group for group in groups]
 
     def _weighted(self, task: tuple[dict[str, float], int]) -> np.ndarray | None:
@@ -110,7 +124,7 @@ class Problem:
 
     def jacobian(self, values: np.ndarray, parts: list[np.ndarray], columns: list[int]) -> dict[int, list[np.ndarray]]:
         """Forward differences of the chosen columns, stepping away from a near bound; failed columns are zero."""
-        points, steps = [], []
+        points, steps, readers = [], [], [self.reading(k) for k in columns]
         for k in columns:
             f = self.free[k]
             h = f.step * f.scale
@@ -120,11 +134,10 @@ class Problem:
             point[k] += h
             points.append(point)
             steps.append(h / f.scale)
-        result = {}
-        for k, h, moved in zip(columns, steps, self.evaluate_each(points), strict=True):
-            result[k] = [np.zeros_like(r) for r in parts] if moved is None else [
-                (m - r) / h for m, r in zip(moved, parts, strict=True)
-            ]  # fmt: skip
+        result = {k: [np.zeros_like(r) for r in parts] for k in columns}
+        for k, h, read, moved in zip(columns, steps, readers, self.evaluate_each(points, readers), strict=True):
+            for piece, part in zip(read, moved or [], strict=False):
+                result[k][piece] = (part - parts[piece]) / h
         return result
 
     def renewed(self, found: Estimate) -> Estimate:
@@ -191,18 +204,19 @@ def _corrected(
     after: list[np.ndarray],
 ) -> dict[int, list[np.ndarray]]:  # fmt: skip
     """The Jacobian after a step `moved` (p,): the least change of it that tells what the residuals did, parameters
-    measured by the size of their columns (Broyden 1965)."""
+    measured by the size of their columns (Broyden 1965); of each piece where it may change at all (Schubert 1970)."""
     sizes = {k: np.sqrt(sum(float(c @ c) for c in pieces)) for k, pieces in columns.items()}
-    step = {k: sizes[k] * moved[k] / problem.free[k].scale for k in columns}
-    length = sum(v * v for v in step.values())
-    if not length > 0:
-        return columns
-    missed = [
-        new - old - sum(columns[k][piece] * (moved[k] / problem.free[k].scale) for k in columns)
-        for piece, (old, new) in enumerate(zip(before, after, strict=True))
-    ]
-    share = {k: sizes[k] * step[k] / length for k in columns}
-    return {k: [c + share[k] * m for c, m in zip(pieces, missed, strict=True)] for k, pieces in columns.items()}
+    result = {k: list(pieces) for k, pieces in columns.items()}
+    for piece, (old, new) in enumerate(zip(before, after, strict=True)):
+        read = [k for k in columns if piece in problem.reading(k)]
+        step = {k: sizes[k] * moved[k] / problem.free[k].scale for k in read}
+        length = sum(v * v for v in step.values())
+        if not length > 0:
+            continue
+        missed = new - old - sum(columns[k][piece] * (moved[k] / problem.free[k].scale) for k in read)
+        for k in read:
+            result[k][piece] = columns[k][piece] + sizes[k] * step[k] / length * missed
+    return result
 
 
 def _blocks(columns: dict[int, list[np.ndarray]], pieces: int) -> list[np.ndarray]:

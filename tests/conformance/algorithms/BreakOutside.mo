@@ -1,5 +1,5 @@
 // section: 11.2.4
-// refuse: R059 5
+// refuse: R059 7
 model BreakOutside
   Real x;
 algorithm

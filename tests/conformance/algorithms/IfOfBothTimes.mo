@@ -1,6 +1,6 @@
 // section: 11.1
-// refuse: R059 10
-model IfOfBothTimes "Left out: one statement that assigns at all times and at events"
+// value: u at 0.6 = 0, k at 0.6 = 0, u = 1, k = 2, n = 1
+model IfOfBothTimes "one statement that assigns at all times and at events"
   Real u;
   Integer n(start = 0, fixed = true), k(start = 0, fixed = true);
 algorithm
