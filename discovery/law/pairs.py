@@ -20,7 +20,7 @@ from lacuna.discovery.efforts.instruments import NATS
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.numeric import NotNumeric
-from lacuna.discovery.fit.evidence import nearly_noise, pays, settled
+from lacuna.discovery.fit.evidence import nearly_noise, pays, settled, within_instruments
 from lacuna.discovery.fit.fit import Fit, linearised
 from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.law.empirical_law import fitted_law, free_of, simplified
@@ -56,7 +56,7 @@ class Place:
 def two_places(unbegun: Search, found: Found, progress: Progress) -> Search | None:
     """A search that has found two laws at two places, where an effort at a second place tells clearly more than one at
     the best place alone does; None where they leave more than noise or do not pay."""
-    if found.locator is None:
+    if found.locator is None or within_instruments(unbegun.fit):
         return None
     try:
         pair = paired(found, progress)
