@@ -120,6 +120,8 @@ def _sections(cls: ast.Class) -> Iterator[Diagnostic]:
         section = cls.sections[0]
         what = "algorithm" if section.algorithm else "equations"
         yield Diagnostic("R070", f"a {cls.kind} has no {what}", section.span, "write a model or a block")
+    for place in (place for section in cls.sections for place in section.stray_breaks):
+        yield Diagnostic("R059", "'break' outside of a loop", place, "it ends the loop around it")
 
 
 def _component(cls: ast.Class, component: ast.Component) -> Iterator[Diagnostic]:
