@@ -97,7 +97,10 @@ def _variable(leaf: Leaf, name: str, attributes: dict[str, Expr | str]) -> flat.
                 raise Diagnostic("R055", f"{key} of {name} varies in time", leaf.modifier.children[key].span, hint)
             setattr(result, key, value)
     if "fixed" in attributes:
-        result.fixed = _of_type(attributes["fixed"], BOOLEAN, f"fixed of {name}", leaf.modifier.children["fixed"].span)
+        place = leaf.modifier.children["fixed"].span
+        result.fixed = _of_type(attributes["fixed"], BOOLEAN, f"fixed of {name}", place)
+        if not is_parameter(result.fixed, context):
+            raise Diagnostic("R055", f"fixed of {name} varies in time", place, "use parameters and constants")
     for key in ("unit", "quantity"):
         if key in attributes:
             setattr(result, key, _text(attributes[key], key, leaf))
