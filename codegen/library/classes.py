@@ -192,20 +192,20 @@ class Library:
         inside = self.member(self.root, inner.split(".")[0]) is None and self.member(cls, inner.split(".")[0])
         return self._below(cls, inner) if inside else self._by_name(inner)
 
-    def _by_name(self, name: str) -> ast.Class:
+    def _by_name(self, name: str, span: Span | None = None) -> ast.Class:
         home = self.member(self.root, HOME_PACKAGE)
         if home is None or self.member(self.root, name.split(".")[0]) is not None:
-            return self._below(self.root, name)
-        return self._below(home, name, self.members(self.root))
+            return self._below(self.root, name, span=span)
+        return self._below(home, name, self.members(self.root), span)
 
-    def _below(self, cls: ast.Class, name: str, others: Iterable[str] = ()) -> ast.Class:
+    def _below(self, cls: ast.Class, name: str, others: Iterable[str] = (), span: Span | None = None) -> ast.Class:
         """The class `name` inside `cls`. Raises R001, with the nearest names among those there and `others`."""
         for part in name.split("."):
             found = self.member(cls, part)
             if found is None:
                 known = [*self.members(cls), *others]
                 where = f" in package {cls.path}" if cls.name else ""
-                raise Diagnostic("R001", f"there is no class {part}{where}", hint=known_classes(part, known))
+                raise Diagnostic("R001", f"there is no class {part}{where}", span, hint=known_classes(part, known))
             cls, others = found, ()
         return cls
 
@@ -231,7 +231,7 @@ class Library:
 
     def _owner(self, cls: ast.Class) -> ast.Class:
         """The package that a file's `within` names; it lies neither in the class itself nor in what is inside it."""
-        owner = around = self._by_name(cls.within)
+        owner = around = self._by_name(cls.within, cls.span)
         while around is not None:
             if around is cls:
                 hint = "name the package that the class lies in, or leave 'within' out"

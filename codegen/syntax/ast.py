@@ -139,6 +139,7 @@ class Section:
     algorithm: bool
     initial: bool
     items: list[Item]
+    stray_breaks: list[Span] = field(default_factory=list)  # in no loop
 
 
 @dataclass(slots=True, eq=False)

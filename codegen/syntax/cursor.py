@@ -18,6 +18,7 @@ class Cursor:
         self.at = 0
         self.depth = 0
         self.loops = 0  # around what is being read
+        self.stray_breaks: list[Span] = []  # in no loop
         self.errors: list[Diagnostic] = []
 
     @property

@@ -20,7 +20,8 @@ class EquationParser(ModificationParser):
         if not self.accept("equation", "algorithm"):
             self.errors.append(self.unexpected("'equation' or 'algorithm'"))
             self.at += self.kind == "id"
-        section = ast.Section(self.span(start), algorithm, initial, [])
+        self.stray_breaks = []
+        section = ast.Section(self.span(start), algorithm, initial, [], self.stray_breaks)
         while self.kind not in (*SECTION_STARTS, "end", "eof") or (self.kind == "initial" and self._is_call()):
             self._item_into(section.items, algorithm, (*SECTION_STARTS, "end"))
         return section
@@ -166,7 +167,7 @@ class EquationParser(ModificationParser):
             return ast.While(self.span(start), condition, body)
         if self.accept("break"):
             if not self.loops:
-                raise Diagnostic("R059", "'break' outside of a loop", self.span(start), "it ends the loop around it")
+                self.stray_breaks.append(self.span(start))
             return ast.Break(self.span(start))
         if self.accept("return"):
             return ast.Return(self.span(start))

@@ -46,6 +46,7 @@ class Found:
     closed: list[tuple[str, str]] = field(default_factory=list)
     laws: list[Candidate] = field(default_factory=list)  # best first
     single: list[Candidate] = field(default_factory=list)  # of one group, where one of two does better; best first
+    locator: Locator | None = None
     null: float = 0.0  # log evidence of nothing missing anywhere, over which places have their gain
     reason: str = ""  # why nothing could be located
 
@@ -63,10 +64,10 @@ def find(
     try:
         locator = located(case, amendment, base, library)
         progress(f"locating among {len(locator.places)} places")
-        found = Found(_ranked(locator, base), locator.opened.closed, null=locator.null)
+        found = Found(_ranked(locator, base), locator.opened.closed, locator=locator, null=locator.null)
     except (NotNumeric, SimulationError, np.linalg.LinAlgError) as reason:
         return Found(reason=str(reason))
-    efforts = _simplest([s for s in found.sites if s.place is not None and s.gain > 0 and admitted(s)])
+    efforts = simplest([s for s in found.sites if s.place is not None and s.gain > 0 and admitted(s)])
     short = False
     for site in efforts[:PLACES]:
         enough = short and nearly_noise(found.laws[0].fit)
@@ -90,7 +91,7 @@ def located(case: Case, amendment: Amendment, base: Fit, library: Library) -> Lo
         return Locator(case, door, base)
 
 
-def _simplest(efforts: list[Site]) -> list[Site]:
+def simplest(efforts: list[Site]) -> list[Site]:
     """Places without those in several balances at once (what is exchanged, what varies) that do not tell clearly more
     than any one balance."""
     one = max((s.gain for s in efforts if s.place.sites[0].kind not in SEVERAL), default=-np.inf)

@@ -81,12 +81,18 @@ def _names(cls: ast.Class) -> Iterator[Diagnostic]:
             yield Diagnostic(
                 "R074", f"{name} is the name of a predefined type", span, f"rename it, for example my{name}"
             )
+    if cls.alias is not None and cls.alias.causality and cls.kind in ("model", "block", "function", "package"):
+        hint = "prefixes are for types, records and connectors"
+        yield Diagnostic("R072", f"the {cls.kind} {cls.name} cannot be {cls.alias.causality}", cls.alias.span, hint)
     named = {component.name for component in cls.components}
     for component in cls.components:
         if component.name in cls.classes:
             hint = "rename one of them"
             both = sorted((component.span, cls.classes[component.name].span), key=lambda s: s.line)
             yield Diagnostic("R010", f"{component.name} is declared as a class, too", both[1], hint)
+        if component.name == "time" and cls.kind in ("model", "block", "class"):
+            hint = "choose another name"
+            yield Diagnostic("R074", "time is the time, in models and blocks", component.span, hint)
         first = component.type.names[0]
         if first in named and not component.type.absolute:
             hint = f"rename the component {first}, or write .{component.type}"
@@ -120,6 +126,8 @@ def _sections(cls: ast.Class) -> Iterator[Diagnostic]:
         section = cls.sections[0]
         what = "algorithm" if section.algorithm else "equations"
         yield Diagnostic("R070", f"a {cls.kind} has no {what}", section.span, "write a model or a block")
+    for place in (place for section in cls.sections for place in section.stray_breaks):
+        yield Diagnostic("R059", "'break' outside of a loop", place, "it ends the loop around it")
 
 
 def _component(cls: ast.Class, component: ast.Component) -> Iterator[Diagnostic]:

@@ -25,9 +25,8 @@ _NUMERIC = ("start", "min", "max", "nominal")
 
 def flatten_variables(leaf: Leaf, model: flat.FlatModel) -> None:
     """Add the scalars of one declaration to `model`, and its binding where it is not a parameter."""
-    if leaf.primitive == "String":
-        _check_text(leaf)
     if leaf.primitive in ("String", EXTERNAL):
+        _check_text(leaf)
         return
     context = leaf.instance.context
     values = {name: leaf.attribute(name) for name in leaf.modifier.children}
@@ -57,12 +56,13 @@ def _refuse_circle(leaf: Leaf, binding: Expr | None) -> None:
 
 
 def _check_text(leaf: Leaf) -> None:
-    """A String is no variable of the run, yet what it is bound to means something; whether its value can be had
-    matters where it is used (codes F, R091, R094). Raises R020 where it is no text."""
+    """A String or an external object is no variable of the run, yet what it is bound to means something; whether the
+    value of a String can be had matters where it is used (codes F, R091, R094). Raises R020 where it is no text."""
     try:
         found = leaf.binding()
     except Diagnostic as error:
-        if error.code[0] == "F" or error.code in ("R091", "R094"):
+        made = leaf.primitive == EXTERNAL  # it is made whether it is used or not
+        if error.code[0] == "F" or (error.code in ("R091", "R094") and not made):
             return
         raise
     for item in () if found is None else items_of(found):
@@ -97,7 +97,10 @@ def _variable(leaf: Leaf, name: str, attributes: dict[str, Expr | str]) -> flat.
                 raise Diagnostic("R055", f"{key} of {name} varies in time", leaf.modifier.children[key].span, hint)
             setattr(result, key, value)
     if "fixed" in attributes:
-        result.fixed = _of_type(attributes["fixed"], BOOLEAN, f"fixed of {name}", leaf.modifier.children["fixed"].span)
+        place = leaf.modifier.children["fixed"].span
+        result.fixed = _of_type(attributes["fixed"], BOOLEAN, f"fixed of {name}", place)
+        if not is_parameter(result.fixed, context):
+            raise Diagnostic("R055", f"fixed of {name} varies in time", place, "use parameters and constants")
     for key in ("unit", "quantity"):
         if key in attributes:
             setattr(result, key, _text(attributes[key], key, leaf))

@@ -33,16 +33,16 @@ def evaluate_integer(e: ast.Expression, scope: Scope, what: str) -> int:
 def evaluate_dimensions(
     dimensions: list[ast.Expression], scope: Scope, modifier: Modifier | None, name: str
 ) -> list[int]:
-    """Sizes of a declaration; `:` takes the size of the binding in `modifier`."""
+    """Sizes of a declaration; `:` takes the size of the binding in `modifier`, or of the start values."""
     result = []
     bound: Value | None = None
     for position, dimension in enumerate(dimensions):
         if isinstance(dimension, ast.Colon):
             if bound is None:
-                if modifier is None or modifier.value is None:
-                    hint = "give a size, or bind it to an array"
-                    raise Diagnostic("R043", f"the size of {name} is unknown", dimension.span, hint)
-                bound = modifier_value(modifier)
+                bound = _given(modifier)
+            if bound is None:
+                hint = "give a size, or bind it to an array"
+                raise Diagnostic("R043", f"the size of {name} is unknown", dimension.span, hint)
             shape = shape_of(bound)
             if position >= len(shape):
                 raise Diagnostic("R043", f"{name} is bound to a scalar", dimension.span, "bind it to an array")
@@ -53,6 +53,14 @@ def evaluate_dimensions(
             raise Diagnostic("R043", f"{name} has size {size}", dimension.span, f"sizes are from 0 to {MAX_SIZE}")
         result.append(size)
     return result
+
+
+def _given(modifier: Modifier | None) -> Value | None:
+    """The binding, or without one an array of start values."""
+    if modifier is None or modifier.value is not None:
+        return None if modifier is None else modifier_value(modifier)
+    start = modifier.children.get("start")
+    return modifier_value(start) if start is not None and start.value is not None and not start.each else None
 
 
 def _knowing_itself(e: ast.Expression, scope: Scope, modifier: Modifier | None, name: str) -> Scope:

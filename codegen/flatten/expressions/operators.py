@@ -145,6 +145,9 @@ def _delay(e: ast.Call, scope: Scope) -> Value:
         hint = "give delayTime as a parameter"
         raise Diagnostic("R091", "a delay by a time that varies is outside the subset", e.args[1].span, hint)
 
+    if seconds.op == "const" and seconds.value < 0:
+        raise Diagnostic("R053", f"a delay of {ex.to_text(seconds)} s", e.args[1].span, "a model knows what has passed")
+
     def build(x: Expr) -> Expr:
         passes = x.op == "const" or is_parameter(x, scope.context) or ex.is_const(seconds, 0)
         return x if passes else ex.special("delay", x, seconds, *longest, type=REAL)

@@ -11,10 +11,10 @@ from dataclasses import replace
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.types import EXTERNAL
-from lacuna.codegen.flatten.expressions.constants import AtRunTime, evaluate, is_known
+from lacuna.codegen.flatten.expressions.constants import AtRunTime
 from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.functions.annotated import with_derivatives
-from lacuna.codegen.flatten.functions.fitting import fit
+from lacuna.codegen.flatten.functions.fitting import SizeVaries, evaluated, fit
 from lacuna.codegen.flatten.functions.interpret import interpret
 from lacuna.codegen.flatten.functions.kept.code import emitted_call
 from lacuna.codegen.flatten.functions.library.external import call_external
@@ -128,22 +128,17 @@ def _results(signature: Signature, arguments: dict[str, Value], e: ast.Call, sco
                 return results
         except AtRunTime:
             pass
+        except SizeVaries:
+            given = {n: evaluated(a, scope, e.span, n) for n, a in arguments.items()}
+            if given == arguments:
+                raise
+            return _results(signature, given, e, scope)
         except Diagnostic as error:
             if error.code != "F035" or not scope.conditional or any(isinstance(a, str) for a in items):
                 raise
         finally:
             context.call_depth -= 1
     return emitted_call(signature, arguments, context, e.span)
-
-
-def _evaluated(value: Value, scope: Scope, span: Span, name: str) -> Value:
-    """The value of an argument that decides sizes: parameters in it become structural."""
-    if not isinstance(value, Expr | Array) or not all(isinstance(s, Expr) for s in scalars(value)):
-        return value
-    if not all(is_known(s, scope.context) for s in scalars(value)):
-        return value
-    items = tuple(evaluate(s, scope.context, span, f"the argument {name}") for s in scalars(value))
-    return Array(value.shape, items) if isinstance(value, Array) else items[0]
 
 
 def written_arguments(
@@ -194,7 +189,7 @@ def bind_arguments(
                 raise Diagnostic("R050", f"the input {local.name} of {cls.name} is not given", e.span, hint)
             bound[local.name] = _fitted(local, value, inner, span)
             if local.name in sizing and not scope.in_function:
-                bound[local.name] = _evaluated(bound[local.name], scope, e.span, local.name)
+                bound[local.name] = evaluated(bound[local.name], scope, e.span, local.name)
             note_units(local, bound[local.name], span, f"input {local.name} of {cls.name}", scope)
             open_.remove(local)
             waiting = True

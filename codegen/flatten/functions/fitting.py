@@ -7,6 +7,7 @@ from math import prod
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.types import EXTERNAL
+from lacuna.codegen.flatten.expressions.constants import evaluate, is_known
 from lacuna.codegen.flatten.expressions.enumerations import enumeration_of
 from lacuna.codegen.flatten.expressions.evaluate import evaluate_dimensions
 from lacuna.codegen.flatten.expressions.lower import lower
@@ -153,3 +154,21 @@ def _blank_record(local: Local, scope: Scope) -> Record:
             value, where = part.declaration.modification.value, part.around_default(inner)
         fields[part.name] = blank(part, inner) if value is None else fit(part, lower(value, where), inner, value.span)
     return Record(local.name, fields, local.type.cls)
+
+
+class SizeVaries(Diagnostic):
+    """A condition that is not known decides the size of an array (12.4.5)."""
+
+    def __init__(self, name: str, span: Span) -> None:
+        hint = "give the function arguments that are parameters or constants"
+        super().__init__("R042", f"what varies decides the size of {name}", span, hint)
+
+
+def evaluated(value: Value, scope: Scope, span: Span, name: str) -> Value:
+    """The value of an argument that decides sizes: parameters in it become structural."""
+    if not isinstance(value, Expr | Array) or not all(isinstance(s, Expr) for s in scalars(value)):
+        return value
+    if not all(is_known(s, scope.context) for s in scalars(value)):
+        return value
+    items = tuple(evaluate(s, scope.context, span, f"the argument {name}") for s in scalars(value))
+    return Array(value.shape, items) if isinstance(value, Array) else items[0]

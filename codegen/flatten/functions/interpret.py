@@ -15,7 +15,7 @@ from lacuna.codegen.flatten.expressions.chosen_texts import choose
 from lacuna.codegen.flatten.expressions.constants import AtRunTime
 from lacuna.codegen.flatten.expressions.lower import lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.functions.effort import MAX_NESTED_STEPS, nested_call, one_more_step
-from lacuna.codegen.flatten.functions.fitting import blank, conform, fit
+from lacuna.codegen.flatten.functions.fitting import SizeVaries, blank, conform, fit
 from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
 from lacuna.codegen.flatten.functions.locals import Local, Signature, signature_of
 from lacuna.codegen.flatten.names.context import Context
@@ -213,6 +213,8 @@ class _Run:
         for condition, values in reversed(outcomes[:-1]):
             for name, value in values.items():
                 if name in merged and merged[name] is not value:
+                    if name in self.flexible and shape_of(value) != shape_of(merged[name]):
+                        raise SizeVaries(name, item.span)
                     merged[name] = _choose(condition, value, merged[name], item.span)
         self._set(merged)
         return ""
