@@ -7,7 +7,7 @@ import pytest
 from scipy.signal import lfilter
 
 from lacuna.discovery.case.noise import Noise, sample_weights
-from lacuna.discovery.fit.evidence import holds, like_noise, pays, whiteness
+from lacuna.discovery.fit.evidence import holds, is_noise, like_noise, pays, whiteness
 
 N = 8000
 white = np.random.default_rng(3).standard_normal(N)
@@ -37,6 +37,24 @@ def test_noise_may_have_a_colour_but_no_bursts_and_no_drift(
     residual: np.ndarray, std: float, given: bool, passes: bool
 ) -> None:
     assert like_noise(fit(residual, std, given)) == passes
+
+
+@pytest.mark.parametrize(
+    ("level", "given", "passes"), [(1.07, True, True), (1.12, True, False), (1.3, False, True), (1.4, False, False)]
+)
+def test_white_noise_passes_up_to_the_level_that_is_known(level: float, given: bool, passes: bool) -> None:
+    """A level that is given counts as known within 4 %, one that was estimated within 30 %; beyond that five standard
+    errors of 8000 samples' mean square let 4 % more pass."""
+    found = fit(level * white / white.std(), 1.0, given)
+    assert whiteness(found)["i"].passed == is_noise(found) == passes
+
+
+def test_a_misfit_too_small_for_one_sample_shows_in_the_means_of_many() -> None:
+    """A quarter of the noise, over 200 samples: 3.5 standard deviations of each mean."""
+    wave = 0.25 * np.sign(np.sin(np.arange(N) * np.pi / 200))
+    found = whiteness(fit(white / white.std() + wave, 1.0, True))["i"]
+    assert found.block == 200 and found.ratio == pytest.approx(1 + 200 * 0.25**2, rel=0.25) and not found.passed
+    assert whiteness(fit(white / white.std() + wave, 1.0, True), slack=0.3)["i"].passed
 
 
 @pytest.mark.parametrize(("unseen", "given", "passes"), [(1.05, True, True), (3.0, True, False), (3.0, False, True)])
