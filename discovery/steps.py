@@ -14,6 +14,7 @@ from lacuna.discovery.case.recordings_check import Problem, check_case
 from lacuna.discovery.catalogue import catalogue, places
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
+from lacuna.discovery.efforts.find import places_of
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import astray, is_noise, nearly_noise, outside_belief
 from lacuna.discovery.fit.fit import Fit, believed, carried, falling_bandwidths, fit, linearised
@@ -28,6 +29,7 @@ from lacuna.discovery.law.open_world import explain_open
 from lacuna.discovery.naming.comparison import MIN_GAIN
 from lacuna.discovery.naming.dips import explored, is_smooth
 from lacuna.discovery.naming.judge import judge, noise_floor, try_judge
+from lacuna.discovery.naming.moved import sensor_instead
 from lacuna.discovery.naming.name import rank
 from lacuna.discovery.naming.search import Search
 from lacuna.discovery.semantic_check import check_against_model
@@ -133,6 +135,10 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
             search, unbegun = _anew(result, search, unbegun, shafts, progress)
         explain_beyond(search, unbegun, progress)
         result.opened = explain_open(search, unbegun, library, progress)
+        if not search.findings:
+            result.instead = sensor_instead(search, catalogue.read(library), progress)
+        if result.instead:
+            result.opened = places_of(search.case, unbegun.amendment, unbegun.fit, library)
     except TimeUp as stopped:
         search.reason = result.stopped = str(stopped)
     _take(result, search)
