@@ -15,6 +15,7 @@ from lacuna.discovery.catalogue import catalogue, places
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.find import places_of
+from lacuna.discovery.efforts.moved import sensor_instead
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import astray, is_noise, nearly_noise, outside_belief
 from lacuna.discovery.fit.fit import Fit, believed, carried, falling_bandwidths, fit, linearised
@@ -29,7 +30,6 @@ from lacuna.discovery.law.open_world import explain_open
 from lacuna.discovery.naming.comparison import MIN_GAIN
 from lacuna.discovery.naming.dips import explored, is_smooth
 from lacuna.discovery.naming.judge import judge, noise_floor, try_judge
-from lacuna.discovery.naming.moved import sensor_instead
 from lacuna.discovery.naming.name import rank
 from lacuna.discovery.naming.search import Search
 from lacuna.discovery.semantic_check import check_against_model

@@ -1,8 +1,9 @@
 """One sensor's error instead of several parameters that no machine has.
 
 Where the believed model leaves noise only with parameters outside what is believed of them, the recordings are
-explained, but by several beliefs that are all wrong at once. An error of one sensor may leave as much and every parameter where it
-was believed. Both are hypotheses of some numbers: a belief that is given up costs what a parameter of an effect costs.
+explained, but by several beliefs that are all wrong at once. An error of one sensor may leave as much and every
+parameter where it was believed. Both are hypotheses of some numbers: a belief that is given up costs what a parameter
+of an effect costs.
 """
 
 from __future__ import annotations
