@@ -30,9 +30,11 @@ from lacuna.discovery.fit.evidence import (
     within_instruments,
 )
 from lacuna.discovery.fit.time_limit import within
-from lacuna.discovery.naming.comparison import Ranked
+from lacuna.discovery.law.law import law_at
+from lacuna.discovery.naming.comparison import TIE, Ranked
 from lacuna.discovery.naming.foretold import foretold
 from lacuna.discovery.naming.judge import judge_file
+from lacuna.discovery.naming.screen import Candidate
 from lacuna.discovery.steps import add_effort, add_findings, add_fit, add_location, add_scatter, opened
 from lacuna.written import write_whole
 
@@ -83,6 +85,9 @@ def _advise(result: Explanation, progress: Progress) -> None:
 
 def _conclude(result: Explanation) -> None:
     """The verdict, from the findings, the whiteness of what is left and the believed parameters."""
+    if result.instead and not _equations_may_be_wrong(result) and _holds(result):
+        result.verdict = "missing_physics"
+        return
     if result.findings and _accuses_sensors(result) and nearly_noise(result.base):
         _believe_again(result)  # an error of an instrument that is smaller than its noise is no finding
     if result.findings and _is_colour(result):
@@ -183,7 +188,7 @@ def _withdraw(result: Explanation, best: Ranked) -> None:
     result.reason = f"{best.attachment.label} fits best, but " + (
         "leaves far more than noise, and no law was found in the equations"
         if _efforts(result) and astray(result.final)
-        else f"an effort at {_first_place(result)} explains as much, for which no law was found"
+        else _as_much(result)
         if _efforts(result)
         else "the equations had not been searched yet: it may as well be physics"
         if result.stopped and result.opened is None
@@ -203,7 +208,7 @@ def _why_closed(result: Explanation) -> str:
 
 def _believe_again(result: Explanation) -> None:
     """Put the believed model, as fitted, in the place of what was found."""
-    result.findings, result.final, result.after = [], result.base, result.before
+    result.findings, result.final, result.after, result.instead = [], result.base, result.before, ()
     result.amendment = replace(result.amendment, attachments=[])
 
 
@@ -212,8 +217,22 @@ def _accuses_sensors(result: Explanation) -> bool:
     return all(f.ranked.attachment.variable for f in result.findings)
 
 
-def _first_place(result: Explanation) -> str:
-    return next(s.location for s in result.opened.sites if s.place is not None)
+def _as_much(result: Explanation) -> str:
+    """What in the equations explains as much as an error of a sensor."""
+    law = _rival_law(result)
+    if law is not None:
+        return f"a term {law_at(law.attachment, law.fit.point)} at {law.attachment.location} explains as much"
+    place = next(s.location for s in result.opened.sites if s.place is not None)
+    return f"an effort at {place} explains as much, for which no law was found"
+
+
+def _rival_law(result: Explanation) -> Candidate | None:
+    """The best law in the equations, where the data does not tell it from what was found."""
+    for law in result.opened.laws[:1]:
+        correlation = law.fit.correlation()
+        if law.fit.deviance(correlation) < result.final.deviance(correlation) + TIE:
+            return law
+    return None
 
 
 def _quiet(result: Explanation) -> bool:

@@ -46,6 +46,7 @@ class Found:
     closed: list[tuple[str, str]] = field(default_factory=list)
     laws: list[Candidate] = field(default_factory=list)  # best first
     single: list[Candidate] = field(default_factory=list)  # of one group, where one of two does better; best first
+    locator: Locator | None = None
     null: float = 0.0  # log evidence of nothing missing anywhere, over which places have their gain
     reason: str = ""  # why nothing could be located
 
@@ -59,14 +60,12 @@ def find(
     admitted: Callable[[Site], bool] = lambda site: True,
 ) -> Found:
     """Locate what `base`, the fit of `amendment`, lacks, and fit laws there: at places that are `admitted`."""
-    progress("opening every place of the equations")
-    try:
-        locator = located(case, amendment, base, library)
-        progress(f"locating among {len(locator.places)} places")
-        found = Found(_ranked(locator, base), locator.opened.closed, null=locator.null)
-    except (NotNumeric, SimulationError, np.linalg.LinAlgError) as reason:
-        return Found(reason=str(reason))
-    efforts = _simplest([s for s in found.sites if s.place is not None and s.gain > 0 and admitted(s)])
+    progress("locating among all places of the equations")
+    found = places_of(case, amendment, base, library)
+    if found.locator is None:
+        return found
+    locator = found.locator
+    efforts = simplest([s for s in found.sites if s.place is not None and s.gain > 0 and admitted(s)])
     short = False
     for site in efforts[:PLACES]:
         enough = short and nearly_noise(found.laws[0].fit)
@@ -80,6 +79,15 @@ def find(
     return found
 
 
+def places_of(case: Case, amendment: Amendment, base: Fit, library: Library) -> Found:
+    """The places of the amended model, ranked; no laws."""
+    try:
+        locator = located(case, amendment, base, library)
+        return Found(_ranked(locator, base), locator.opened.closed, locator=locator, null=locator.null)
+    except (NotNumeric, SimulationError, np.linalg.LinAlgError) as reason:
+        return Found(reason=str(reason))
+
+
 def located(case: Case, amendment: Amendment, base: Fit, library: Library) -> Locator:
     """Every place of the amended model, about the runs of the machine that is believed: a fit without what is missing
     may have taken parameters anywhere. About those of the fit where the believed machine does not run."""
@@ -90,7 +98,7 @@ def located(case: Case, amendment: Amendment, base: Fit, library: Library) -> Lo
         return Locator(case, door, base)
 
 
-def _simplest(efforts: list[Site]) -> list[Site]:
+def simplest(efforts: list[Site]) -> list[Site]:
     """Places without those in several balances at once (what is exchanged, what varies) that do not tell clearly more
     than any one balance."""
     one = max((s.gain for s in efforts if s.place.sites[0].kind not in SEVERAL), default=-np.inf)

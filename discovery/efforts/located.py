@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.efforts.opened import Opened, Place
-from lacuna.discovery.efforts.smoother import Colour, Latent, Piece, Whitener, course, evidence, thinned
+from lacuna.discovery.efforts.smoother import Colour, Latent, Piece, Whitener, acting, course, evidence, thinned
 from lacuna.discovery.fit.evidence import SIGMAS
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.free import Free
@@ -52,20 +54,22 @@ class Locator:
         self.free = [f for f in base.estimate.free if f.name in opened.linear.parameters]
         self.noise = np.array([base.noise[s.column].std for s in case.outputs])
         self.sigma = np.array([f.sigma or f.scale for f in self.free])
-        self.pieces = [self.piece(self.point, r, None) for r in case.fit]
+        self.pieces = [self.piece(self.point, r) for r in case.fit]
         self.places = opened.places(self.pieces[0].along)
         self.null = -np.inf  # log evidence of no effort at all, once places are ranked
-        self.colour: Colour | None = None  # errors of sensors that efforts are looked for beside
+        self.colour: Colour | None = None  # errors of sensors, and an effort, that efforts are looked for beside
 
-    def piece(self, point: dict[str, float], recording: Recording, effort: tuple[int, np.ndarray] | None) -> Piece:
-        """The linear model about a run from `point` with an effort (column, course), and what is left for it."""
+    def piece(
+        self, point: dict[str, float], recording: Recording, efforts: Sequence[tuple[int, np.ndarray]] = ()
+    ) -> Piece:
+        """The linear model about a run from `point` with efforts (column, course), and what is left for them."""
         opened, time = self.opened, recording.time
-        drive = {opened.linear.inputs[effort[0]]: RecordedInput(time, effort[1], "hold")} if effort else None
+        drive = {opened.linear.inputs[column]: RecordedInput(time, course, "hold") for column, course in efforts}
         along = opened.linear.along(point, recording, drive)
         run = opened.machine.trajectory(point, recording, list(opened.machine.columns.values()), drive)
         left = np.stack([recording.columns[c] - run[v] for c, v in opened.machine.columns.items()], axis=1)
-        if effort:
-            left = left + along.response(np.array([effort[0]]), effort[1][:, None], hold=True)[:, :, 0]
+        for column, effort in efforts:
+            left = left + along.response(np.array([column]), effort[:, None], hold=True)[:, :, 0]
         inputs, count = len(opened.linear.inputs), len(self.free)
         columns = np.arange(inputs, inputs + count)
         answers = along.response(columns, np.ones((len(time), count))) * self.sigma
@@ -149,26 +153,36 @@ class Locator:
         left = np.concatenate([p.data[:, :, 0] for p in self.pieces]) / self.noise
         return np.maximum(1.0, np.sqrt(np.nanmean(left**2, axis=0)))
 
-    def _led(self, point: dict[str, float], site: Site, efforts: list[np.ndarray]) -> list[Piece]:
-        """The linear model about the runs from `point` with these efforts at a place."""
-        runs = zip(self.case.fit, efforts, strict=True)
-        return [self.piece(point, recording, (site.place.column, effort)) for recording, effort in runs]
+    def _led(self, point: dict[str, float], latent: Latent, pieces: list[Piece], mean: np.ndarray) -> list[Piece]:
+        """The linear model about the runs from `point` with the efforts that these pieces say there are."""
+        runs = zip(self.case.fit, pieces, strict=True)
+        return [self.piece(point, recording, acting(p, latent, mean)) for recording, p in runs]
 
     def _followed(
-        self, site: Site, latent: Latent, pieces: list[Piece]
+        self, latent: Latent, pieces: list[Piece]
     ) -> tuple[dict[str, float], list[Piece], np.ndarray]:  # fmt: skip
         """(parameters, linear models, estimate of the parameters in units of belief) once these have followed."""
         told, point = evidence(thinned_all(pieces), latent), self.point
         while True:
             trial = self.point | _values(self.free, self.sigma, told.mean[0])
             try:
-                led = self._led(trial, site, [course(p, latent, told.mean[0])[0] for p in pieces])
+                led = self._led(trial, latent, pieces, told.mean[0])
             except SimulationError:
                 return point, pieces, told.mean[0]
             now = evidence(thinned_all(led), latent)
             if not now.log[0] > told.log[0] + 1.0:  # nat: less is nothing
                 return point, pieces, told.mean[0]
             told, point, pieces = now, trial, led
+
+    def beside(self, locator: Locator, site: Site) -> Locator:
+        """Itself, where efforts are looked for beside the one that `locator` found at a place."""
+        latent, _ = locator._chosen[id(site)]
+        none = Colour(np.zeros(0, dtype=int), np.zeros((1, 0)), np.zeros((1, 0)))
+        there = copy(self)
+        there.colour = (self.colour or none).with_effort(
+            int(latent.column[0]), float(latent.size[0]), float(latent.time[0])
+        )
+        return there
 
     def guided(self, site: Site) -> Guided:
         """The model led along the data by the effort at a place, linearised anew about the run that it gives.
@@ -182,8 +196,8 @@ class Locator:
         pieces, level = self.pieces, self._level()
         for share in LEADING:
             led = [replace(p, noise=self.noise * level**share) for p in pieces]
-            pieces = self._led(self.point, site, [course(p, latent, held)[0] for p in led])
-        point, pieces, mean = self._followed(site, latent, pieces)
+            pieces = self._led(self.point, latent, led, held)
+        point, pieces, mean = self._followed(latent, pieces)
         efforts = [course(p, latent, mean) for p in pieces]
         site.effort = {
             r.name: (r.time, e, s) for r, (e, s) in zip(self.case.fit, efforts, strict=True)

@@ -21,19 +21,29 @@ from lacuna.discovery.efforts.linear import Along
 @dataclass(frozen=True)
 class Colour:
     """Errors of instruments that have a memory, beside their white noise: drifts and coloured noise of unknown level,
-    each a chain like an effort's, added to the reading of its `sensor` (an output's number)."""
+    each a chain like an effort's, added to the reading of its `sensor` (an output's number); and efforts at other
+    places, each in its `column`."""
 
-    sensor: np.ndarray  # (c,) int
+    sensor: np.ndarray  # (c,) int; -1: it is an effort
     size: np.ndarray  # (h, c)
     time: np.ndarray  # (h, c) s
+    column: np.ndarray | None = None  # (c,) int; -1: it is an error of a sensor. None: all are
 
     def repeated(self, count: int) -> Colour:
         """Those of the first hypothesis for each of `count`."""
-        return Colour(self.sensor, np.tile(self.size[:1], (count, 1)), np.tile(self.time[:1], (count, 1)))
+        return replace(self, size=np.tile(self.size[:1], (count, 1)), time=np.tile(self.time[:1], (count, 1)))
 
     def one(self, k: int) -> Colour:
         """Those of hypothesis k alone."""
-        return Colour(self.sensor, self.size[k : k + 1], self.time[k : k + 1])
+        return replace(self, size=self.size[k : k + 1], time=self.time[k : k + 1])
+
+    def with_effort(self, column: int, size: float, time: float) -> Colour:
+        """The same, of one hypothesis, and an effort."""
+        own = np.full(len(self.sensor), -1) if self.column is None else self.column
+        return Colour(
+            np.append(self.sensor, -1), np.append(self.size, [[size]], 1), np.append(self.time, [[time]], 1),
+            np.append(own, column),
+        )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -143,6 +153,8 @@ class _Chain:
             own = (outputs[:, None] == colour.sensor[None]).astype(float)
             self.reads = np.concatenate([self.reads, np.broadcast_to(own, (self.h, *own.shape))], axis=2)
         self.width = self.x + self.size.shape[1]
+        beside = () if latent.colour is None or latent.colour.column is None else latent.colour.column
+        self.others = [(self.x + 1 + j, int(c)) for j, c in enumerate(beside) if c >= 0]  # state, column of its effort
 
     def begin(self) -> tuple[np.ndarray, np.ndarray]:
         spread = np.hstack([np.broadcast_to(self.piece.start, (self.h, self.x)), self.size])
@@ -155,6 +167,8 @@ class _Chain:
         read = np.concatenate([np.broadcast_to(along.read[k], (self.h, *along.read[k].shape)), self.reads], axis=2)
         if along.feed.shape[2]:
             read[:, :, self.x] += along.feed[k][:, self.column].T * self.acts[:, None]
+        for at, column in self.others:
+            read[:, :, at] += along.feed[k][:, column]
         return read * seen[None, :, None], seen, np.where(seen[:, None], data, 0.0)
 
     def move(self, k: int) -> tuple[np.ndarray, np.ndarray]:
@@ -164,6 +178,8 @@ class _Chain:
         matrix[:, : self.x, : self.x] = along.step[k]
         if along.drive.shape[2]:
             matrix[:, : self.x, self.x] = along.drive[k][:, self.column].T * self.acts[:, None]
+        for at, column in self.others:
+            matrix[:, : self.x, at] = along.drive[k][:, column]
         keeps = np.exp(-(along.time[k + 1] - along.time[k]) / self.time)
         tail, added = np.arange(self.x, self.width), np.zeros_like(matrix)
         matrix[:, tail, tail] = keeps
@@ -181,6 +197,7 @@ class Whitener:
         self.steps: list[tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]] = []
         self.covers: list[np.ndarray] = []  # of states and effort before each sample is read
         self.at = chain.x  # where the effort is among the states
+        self.others = chain.others
         _, cover = chain.begin()
         for k in range(chain.n):
             read, _, _ = chain.read(k)
@@ -211,8 +228,10 @@ class Whitener:
             state = move @ (state + gain @ innovation)
         return white, states
 
-    def effort(self, readings: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """(effort (n,), its standard deviation (n,)) from readings (n, y), backwards, no inverses (de Jong 1989)."""
+    def effort(self, readings: np.ndarray, at: int | None = None) -> tuple[np.ndarray, np.ndarray]:
+        """(effort (n,), its standard deviation (n,)) from readings (n, y), backwards, no inverses (de Jong 1989); or
+        another of the states, the one `at` a number."""
+        at = self.at if at is None else at
         white, states = self._filtered(readings[:, :, None])
         pull, weight = np.zeros(len(self.covers[0])), np.zeros_like(self.covers[0])
         result = np.empty((len(states), 2))
@@ -222,9 +241,9 @@ class Whitener:
             keep = move - move @ gain @ read
             pull = scaled.T @ white[k, :, 0] + keep.T @ pull
             weight = scaled.T @ scaled + keep.T @ weight @ keep
-            row = self.covers[k][self.at]
-            variance = row[self.at] - row @ weight @ row
-            result[k] = states[k, self.at, 0] + row @ pull, np.sqrt(max(variance, 0.0))
+            row = self.covers[k][at]
+            variance = row[at] - row @ weight @ row
+            result[k] = states[k, at, 0] + row @ pull, np.sqrt(max(variance, 0.0))
         return result[:, 0], result[:, 1]
 
 
@@ -232,6 +251,13 @@ def course(piece: Piece, latent: Latent, mean: np.ndarray) -> tuple[np.ndarray, 
     """(effort (n,), its standard deviation (n,)) of one hypothesis, the parameters at `mean` (in units of belief)."""
     left = piece.data[:, :, 0] + piece.data[:, :, 1:] @ mean
     return Whitener(piece, latent).effort(left)
+
+
+def acting(piece: Piece, latent: Latent, mean: np.ndarray) -> list[tuple[int, np.ndarray]]:
+    """(column, course (n,)) of every effort of one hypothesis: its own, and those beside it."""
+    left, whitener = piece.data[:, :, 0] + piece.data[:, :, 1:] @ mean, Whitener(piece, latent)
+    places = [(whitener.at, int(latent.column[0])), *whitener.others]
+    return [(column, whitener.effort(left, at)[0]) for at, column in places]
 
 
 def thinned(piece: Piece, every: int) -> Piece:

@@ -15,6 +15,7 @@ from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import whiteness
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.free import Free
+from lacuna.discovery.law.law import form_at, law_at
 from lacuna.discovery.naming.name import Finding
 from lacuna.written import write_whole
 
@@ -96,18 +97,12 @@ def _unit(result: Explanation, finding: Finding, name: str) -> str:
 
 def law_text(result: Explanation, finding: Finding) -> str:
     """An empirical law with its numbers, in variables of the model."""
-    return finding.ranked.attachment.expression(_own_values(result, finding))
+    return law_at(finding.ranked.attachment, result.final.point)
 
 
 def _form(result: Explanation, finding: Finding) -> str:
     """The name of a law that has the form of a known one; "" where it has none."""
-    form = finding.ranked.attachment.form
-    return form(_own_values(result, finding)) if form else ""
-
-
-def _own_values(result: Explanation, finding: Finding) -> dict[str, float]:
-    prefix = f"{finding.ranked.attachment.component}."
-    return {n.removeprefix(prefix): v for n, v in result.final.point.items() if n.startswith(prefix)}
+    return form_at(finding.ranked.attachment, result.final.point)
 
 
 def _positive_phase(parameters: dict[str, dict], name: str) -> None:
@@ -209,6 +204,8 @@ def sentence(result: Explanation) -> str:
     """The verdict as an engineer would say it."""
     if result.verdict == "missing_physics":
         parts = [_named(result, f) for f in result.findings]
+        if result.instead:
+            return f"The model lacks {' and '.join(parts)}; without it {_moved(result)} from what was believed."
         gain = result.before.validate[""] / max(result.after.validate[""], 1e-12)
         share = explained(result)
         rest = "" if share >= PARTIAL else f" This is a part of it only: {1 - share:.0%} of the misfit is left."
@@ -227,6 +224,10 @@ def sentence(result: Explanation) -> str:
     if result.stopped:
         return f"What is missing is not known yet: {result.reason}."
     return "These recordings cannot say what is missing: " + (result.reason or "the residual is not noise") + "."
+
+
+def _moved(result: Explanation) -> str:
+    return f"{' and '.join(result.instead)} would have to be far"
 
 
 def _named(result: Explanation, finding: Finding) -> str:

@@ -69,11 +69,12 @@ class Machine:
         for table, values in tables:
             for name in values:
                 self._check_parameter(table, name)
-        driven = {self.model.inputs[n].index for n in (*(s.variable for s in self.case.inputs), *self.amendment.inputs)}
-        for name, variable in self.model.inputs.items():  # aliases of an input share its index
-            if variable.index not in driven and not name.startswith(("tracker_", "probe_")):
-                raise CaseError(f"{self.case.folder / 'case.toml'}: input `{name}` of the model is not recorded")
-            driven.add(variable.index)
+        inputs = self.model.inputs
+        own = [n for n in inputs if n.startswith(("tracker_", "probe_"))]
+        given = (*(s.variable for s in self.case.inputs), *self.amendment.inputs, *own)
+        driven = {inputs[n].index for n in given}  # which aliases of an input share
+        for name in (n for n, v in inputs.items() if v.index not in driven):
+            raise CaseError(f"{self.case.folder / 'case.toml'}: input `{name}` of the model is not recorded")
 
     def _check_parameter(self, table: str, name: str) -> None:
         if name not in self.model.variables:

@@ -73,13 +73,13 @@ def fitted_law(
     machine, _ = try_machine(case, replace(amendment, attachments=[*amendment.attachments, attachment]), base.machine)
     if machine is None:
         return None
-    free = _free(law, attachment, start)
+    free = free_of(law, attachment, start)
     first = (believed or base.point) | {attachment.full_name(n): v for n, v in start.items()}
     found = fit(machine, case.fit, base.noise, [*base.estimate.free, *free], base.fixed, start=first)
     return None if found is None else Candidate(attachment, machine, free, start=first, fit=found, pick=law.pick())
 
 
-def _free(law: Law, attachment: Attachment, start: dict[str, float]) -> list[Free]:
+def free_of(law: Law, attachment: Attachment, start: dict[str, float]) -> list[Free]:
     """Coefficients of any sign, scaled by the largest of all; shapes within their bounds."""
     scale = max(abs(start[c]) for c, _, _ in law.numbered()) or 1.0
     free = [Free(attachment.full_name(c), start[c], max(abs(start[c]), 0.1 * scale)) for c, _, _ in law.numbered()]

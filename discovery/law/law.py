@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 import re
 
@@ -84,6 +85,21 @@ class Law:
 
 def component_of(law: Law) -> str:
     return f"law_{law.site.location.replace('.', '_').replace(':', '_')}"
+
+
+def law_at(attachment: Attachment, point: Mapping[str, float]) -> str:
+    """A law with its numbers at a point, in variables of the model; "" for a named effect."""
+    return attachment.expression(_own(attachment, point)) if attachment.expression else ""
+
+
+def form_at(attachment: Attachment, point: Mapping[str, float]) -> str:
+    """The name of a known form that a law has at a point; "" where it has none."""
+    return attachment.form(_own(attachment, point)) if attachment.form else ""
+
+
+def _own(attachment: Attachment, point: Mapping[str, float]) -> dict[str, float]:
+    prefix = attachment.full_name("")
+    return {n.removeprefix(prefix): v for n, v in point.items() if n.startswith(prefix)}
 
 
 def _signature(law: Law) -> str:

@@ -28,6 +28,7 @@ class Proposal:
     law: Law
     start: dict[str, float]
     candidate: Candidate | None = None
+    point: dict[str, float] | None = None  # the believed parameters beside which it starts, if not those of the fit
 
 
 def sites(case: Case, base: Fit) -> list[Site]:

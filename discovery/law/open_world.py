@@ -10,9 +10,10 @@ from collections.abc import Callable
 
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.efforts.find import Found, find
-from lacuna.discovery.fit.evidence import like_noise, nearly_noise, within_instruments
+from lacuna.discovery.fit.evidence import like_noise, nearly_noise, settled, within_instruments
 from lacuna.discovery.law.beyond import MARGIN
-from lacuna.discovery.law.several import apart, go_on
+from lacuna.discovery.law.pairs import is_short, two_places
+from lacuna.discovery.law.several import apart, go_on, take_if_less
 from lacuna.discovery.naming.comparison import (
     MIN_GAIN,
     TIE,
@@ -46,10 +47,17 @@ def explain_open(search: Search, unbegun: Search, library: Library, progress: Pr
     found = find(search.case, unbegun.amendment, unbegun.fit, library, progress)
     taken = bool(found.laws) and _take(search, unbegun, found, progress)
     physics = any(not f.ranked.attachment.variable for f in search.findings) and not search.amendment.trackers
+    whole = bool(search.findings) and within_instruments(search.fit) and not (taken and found.single)
+    two = None if whole else two_places(unbegun, found, progress)
+    short = two is not None and settled(two.fit) and all(map(is_short, two.findings))
+    if short and take_if_less(search, two, unbegun.fit):
+        return found
     if taken or physics:
         go_on(search, library, progress)
     if taken and found.single:
         apart(search, unbegun, found.single[0], library, progress)
+    if two is not None:
+        take_if_less(search, two, unbegun.fit)
     return found
 
 

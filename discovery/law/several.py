@@ -38,7 +38,7 @@ def go_on(search: Search, library: Library, progress: Progress) -> None:
         after = try_judge(law.machine, law.fit.point)
         if after is None:
             return
-        search.findings.append(_finding(law, search.fit, search.judgement, after))
+        search.findings.append(finding(law, search.fit, search.judgement, after))
         search.take([*search.amendment.attachments, law.attachment], law.fit, after)
         for k in range(len(search.findings) - 1):
             _find_anew(search, k, library, progress)
@@ -54,16 +54,25 @@ def apart(search: Search, unbegun: Search, single: Candidate, library: Library, 
     after = try_judge(single.machine, single.fit.point)
     if after is None:
         return
-    trial = replace(unbegun, findings=[_finding(single, unbegun.fit, unbegun.judgement, after)], namings=[])
+    trial = replace(unbegun, findings=[finding(single, unbegun.fit, unbegun.judgement, after)], namings=[])
     trial.take([single.attachment], single.fit, after)
     go_on(trial, library, progress)
+    if len(trial.findings) > 1:
+        take_if_less(search, trial, unbegun.fit)
+
+
+def take_if_less(search: Search, trial: Search, base: Fit) -> bool:
+    """Take what another search has found where deviance and prices, those of `base` being none, are less."""
     correlation = min(search.fit, trial.fit, key=lambda f: f.deviance()).correlation()
-    if len(trial.findings) > 1 and _paid(trial, unbegun.fit, correlation) < _paid(search, unbegun.fit, correlation):
-        search.findings[:] = trial.findings
-        search.take(trial.amendment.attachments, trial.fit, trial.judgement)
+    if paid(trial, base, correlation) >= paid(search, base, correlation):
+        return False
+    search.findings[:] = trial.findings
+    search.take(trial.amendment.attachments, trial.fit, trial.judgement)
+    search.reason = ""
+    return True
 
 
-def _paid(search: Search, base: Fit, correlation: dict[str, float]) -> float:
+def paid(search: Search, base: Fit, correlation: dict[str, float]) -> float:
     """Deviance of what was found, with the price of its parameters and of having been picked among many."""
     added = len(search.fit.estimate.free) - len(base.estimate.free)
     picks = sum(f.ranked.candidate.pick for f in search.findings)
@@ -89,7 +98,7 @@ def _find_anew(search: Search, k: int, library: Library, progress: Progress) -> 
     margin = MARGIN if old.attachment.effect.identifier != "unknown" else 0.0
     if after is None or score(law, base, correlation) >= present - margin:
         return
-    search.findings[k] = _finding(law, base, search.findings[k].before, after)
+    search.findings[k] = finding(law, base, search.findings[k].before, after)
     search.take([*amendment.attachments, law.attachment], law.fit, after)
 
 
@@ -133,6 +142,6 @@ def _pays(search: Search, before: Fit, law: Candidate) -> bool:
     return pays(left_out(search.case, before), left_out(search.case, law.fit), search.floor)
 
 
-def _finding(law: Candidate, base: Fit, before: Judgement, after: Judgement) -> Finding:
+def finding(law: Candidate, base: Fit, before: Judgement, after: Judgement) -> Finding:
     ranked = Ranked(law, law.fit, score(law, base, law.fit.correlation()), 1.0)
     return Finding(ranked, Naming([ranked], []), before, after)

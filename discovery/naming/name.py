@@ -36,6 +36,7 @@ from lacuna.discovery.naming.race import (
     best_starts,
     first_round,
     leading,
+    outdone,
     relatives,
     stands_out,
     still_in,
@@ -233,6 +234,7 @@ class Contest:
         least = HALF * first[0].predicted if best is not None and nearly_noise(best.fit) else -float("inf")
         self._fit(self._untried([c for c in first if c.predicted > least]))
         if self.fitted:
+            self._fit(outdone(self.candidates, self.fitted))
             self._fit(relatives(self.candidates, self.fitted, self.best()))
             begin_again(self.case, self.base, list(self.fitted.values()), self.progress)
 

@@ -114,6 +114,17 @@ def relatives(candidates: list[Candidate], fitted: dict[str, Candidate], best: C
     return [c for k, c in enumerate(found) if labels[:k].count(labels[k]) < STARTS]
 
 
+def outdone(candidates: list[Candidate], fitted: dict[str, Candidate]) -> list[Candidate]:
+    """Fitted laws that fit worse than one which they contain at their place: a dip. From where that one ended."""
+    found = []
+    for label, law in fitted.items():
+        simpler = [c for c in fitted.values() if law.attachment.contains(c.attachment)]
+        best = min(simpler, key=lambda c: c.fit.deviance(), default=law)
+        if best.fit.deviance() < law.fit.deviance():
+            found += [_enriched(c, best) for c in candidates if c.attachment.label == label][:STARTS]
+    return found
+
+
 def _enriched(candidate: Candidate, best: Candidate) -> Candidate:
     """A law that contains the best one, begun where that one ended: its levels equal, what it adds at nothing."""
     own, effect, full = best.attachment, candidate.attachment.effect, candidate.attachment.full_name

@@ -42,7 +42,7 @@ static void clear(rt_session *s) {
   s->t_before = s->t_oldest = NAN;
   s->resume = s->in_pieces = false;
   s->dense.valid = false;
-  s->steps_taken = 0;
+  s->steps_taken = s->pieces_taken = 0;
   s->futile_events = s->tiny_steps = s->pending = 0;
 }
 

@@ -119,7 +119,7 @@ struct rt_session {
   double t_uncrossed;               /* where the last event located has not happened yet */
   double t_end;                     /* end of the last step; later than t when an event cut it short, and then */
   double *x_end, *xdot_end, *v_end; /* the point there */
-  long steps_taken;                 /* in this run */
+  long steps_taken, pieces_taken;   /* in this run, and looks inside steps */
   int tiny_steps;                   /* consecutive steps that hardly differ from none */
   bool in_pieces, resume;           /* the last step is longer; go on in it, for no state or slope has changed at t */
   double look, look_curved;         /* longest piece of the last step to be looked at at once, of any step (s) */

@@ -9,7 +9,7 @@
 #include "transport.h"
 #include "undetermined.h"
 
-enum { MAX_TINY_STEPS = 100, STEPS_BETWEEN_LOOKS = 64 };
+enum { MAX_TINY_STEPS = 100, STEPS_BETWEEN_LOOKS = 64, PIECES_OF_A_STEP = 6 };
 static const double most_steps = 1e10; /* of a fixed size: weeks */
 static const double look_every = 0.1;  /* s of wall time: has the caller lost interest? */
 static const double patience = 60;     /* s of computing that may bring less than */
@@ -94,10 +94,16 @@ rt_status rt_begin(rt_session *s) {
   return status ? status : rt_record_step(s);
 }
 
+/* Looks inside steps cost as well: one evaluation of the model, of which a step of dopri5 has six. */
+static rt_status check_steps(rt_session *s) {
+  long most = s->options.max_steps;
+  if (most <= 0 || s->steps_taken + s->pieces_taken / PIECES_OF_A_STEP < most) return RT_OK;
+  return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "more than %ld steps%s up to time %.9g s", most,
+                 s->pieces_taken > s->steps_taken ? ", looks inside them counted," : "", s->t);
+}
+
 static rt_status step(rt_session *s) {
-  if (s->steps_taken++ >= s->options.max_steps && s->options.max_steps > 0)
-    return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "more than %ld steps up to time %.9g s", s->options.max_steps,
-                   s->t);
+  s->steps_taken++;
   s->dense.valid = s->shaped = false;
   if (!s->tiny_steps)
     s->data.failure.kind = MDL_FAILURE_NONE; /* while steps vanish, what made them short is their cause */
@@ -122,11 +128,13 @@ static rt_status step(rt_session *s) {
 static rt_status move_on(rt_session *s) {
   s->t_previous = s->t;
   s->pending = 0;
+  rt_status status = check_steps(s);
+  if (status) return status;
   if (!s->resume) {
-    rt_status status = step(s);
-    if (status || !s->in_pieces) return status;
+    if ((status = step(s)) || !s->in_pieces) return status;
   }
   s->resume = false;
+  s->pieces_taken++;
   return rt_look_on(s);
 }
 

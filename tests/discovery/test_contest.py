@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
@@ -19,6 +20,7 @@ from lacuna.discovery.fit.machine import Machine, try_machine
 from lacuna.discovery.naming.candidate_fit import shared
 from lacuna.discovery.naming.judge import judge, noise_floor
 from lacuna.discovery.naming.name import Contest
+from lacuna.discovery.naming.race import outdone
 from lacuna.discovery.naming.screen import Screen, prepare
 from lacuna.discovery.naming.search import Search
 from lacuna.discovery.steps import fit_believed
@@ -84,6 +86,26 @@ def test_richer_forms_of_friction_are_looked_at_where_nothing_leaves_noise(case:
     contest = Contest(case, base, base.machine.amendment, [attachment(case, n) for n in names], lambda text: None)
     contest.lead()
     assert {c.attachment.effect.name for c in contest.candidates} == set(names)
+
+
+def test_a_law_that_ended_in_a_dip_begins_again_where_one_that_it_contains_ended(friction_case: Path) -> None:
+    case = load(friction_case)
+    base = fit_believed(case, Machine(case, Amendment(read(Library(), case.model))))[0]
+    simple, richer = (attachment(case, n) for n in ("CoulombFriction", "StribeckFriction"))
+    contest = Contest(case, base, base.machine.amendment, [simple], lambda text: None)
+    contest.lead()
+    plain = contest.fitted[simple.label]
+    machine, _ = try_machine(case, replace(base.machine.amendment, attachments=[richer]), base.machine)
+    starts = prepare(Screen(base), richer, machine)
+    free = [*base.estimate.free, *starts[0].free]
+    levels = {richer.full_name(n): 0.0 for n in ("tau_c", "tau_s")}
+    nothing = base.point | {f.name: f.centre for f in starts[0].free} | levels
+    dip = replace(starts[0], fit=linearised(machine, case.fit, base.noise, free, base.fixed | starts[0].fixed, nothing))
+    again = outdone(starts, contest.fitted | {richer.label: dip})
+    assert again and again[0].start[richer.full_name("tau_s")] == plain.fit.point[simple.full_name("tau_c")]
+    assert outdone(starts, {richer.label: dip}) == []
+    contest._fit(again)
+    assert contest.fitted[richer.label].fit.deviance() < plain.fit.deviance() + 1e-3
 
 
 def test_a_contest_whose_leaders_go_astray_is_left_and_can_be_resumed(case: Case, base: Fit) -> None:

@@ -15,7 +15,6 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as read_structure
-from lacuna.discovery.efforts.copied import right_side
 from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.opened import opened
@@ -53,19 +52,14 @@ def piece(n: int, missing: int = 0, scale: float = 1.0) -> Piece:
 
 def dense(p: Piece, latent: Latent) -> tuple[np.ndarray, np.ndarray]:
     """(covariance of the readings seen, that of the effort with them) by the definition, without any recursion."""
-    n, h = len(p.along.time), np.exp(-np.abs(np.subtract.outer(p.along.time, p.along.time)) / latent.time[0])
-    effort = latent.size[0] ** 2 * h
-    answer, start = np.zeros((n, 2, n)), np.zeros((n, 2, 2))
-    state, free = np.zeros((2, n)), np.eye(2)
-    for k in range(n):
-        unit = np.eye(n)[k]
-        answer[k] = p.along.read[k] @ state + np.outer(p.along.feed[k][:, latent.column[0]], unit)
+    apart = np.abs(np.subtract.outer(p.along.time, p.along.time))
+    effort = latent.size[0] ** 2 * np.exp(-apart / latent.time[0])
+    start, free = np.zeros((len(apart), 2, 2)), np.eye(2)
+    for k in range(len(apart)):
         start[k] = p.along.read[k] @ free
-        if k < n - 1:
-            state = p.along.step[k] @ state + np.outer(p.along.drive[k][:, latent.column[0]], unit)
-            free = p.along.step[k] @ free
+        free = p.along.step[k] @ free if k < len(apart) - 1 else free
     seen = np.isfinite(p.data).all(axis=2)
-    g, s = answer[seen], start[seen]
+    g, s = answers(p, latent.column[0])[seen], start[seen]
     noise = np.broadcast_to(p.noise, seen.shape)[seen]
     cover = g @ effort @ g.T + s @ np.diag(p.start**2) @ s.T + np.diag(noise**2)
     when, output = np.nonzero(seen)
@@ -74,16 +68,34 @@ def dense(p: Piece, latent: Latent) -> tuple[np.ndarray, np.ndarray]:
     for sensor, size, time in zip(own.sensor, own.size[0], own.time[0], strict=True) if own else ():
         both = np.outer(output == sensor, output == sensor)
         cover += both * size**2 * np.exp(-apart / time)
+    for j, column in enumerate(own.column if own and own.column is not None else ()):
+        if column >= 0:
+            other = answers(p, column)[seen]
+            between = np.abs(np.subtract.outer(p.along.time, p.along.time))
+            cover += own.size[0, j] ** 2 * other @ np.exp(-between / own.time[0, j]) @ other.T
     return cover, effort @ g.T
 
 
+def answers(p: Piece, column: int) -> np.ndarray:
+    """(n, y, n): readings to an effort in a column that is one at a single sample."""
+    n = len(p.along.time)
+    answer, state = np.zeros((n, 2, n)), np.zeros((2, n))
+    for k in range(n):
+        unit = np.eye(n)[k]
+        answer[k] = p.along.read[k] @ state + np.outer(p.along.feed[k][:, column], unit)
+        if k < n - 1:
+            state = p.along.step[k] @ state + np.outer(p.along.drive[k][:, column], unit)
+    return answer
+
+
 LATENT = Latent(np.array([1]), np.array([-1]), np.array([0.8]), np.array([3.0]))
-
-
 COLOUR = Colour(np.array([1, 0, 1]), np.array([[0.5, 0.2, 1.1]]), np.array([[2.0, 0.7, 40.0]]))
+TWO = replace(LATENT, colour=COLOUR.with_effort(0, 0.6, 5.0))
 
 
-@pytest.mark.parametrize("latent", [LATENT, replace(LATENT, colour=COLOUR)], ids=["white", "coloured"])
+@pytest.mark.parametrize(
+    "latent", [LATENT, replace(LATENT, colour=COLOUR), TWO], ids=["white", "coloured", "beside another effort"]
+)
 def test_the_smoother_equals_one_dense_solve(latent: Latent) -> None:
     pieces = [piece(30, missing=7), piece(21)]
     parts = [dense(p, latent) for p in pieces]
@@ -243,16 +255,6 @@ def test_an_equation_that_only_names_a_rate_is_no_place(tmp_path: Path) -> None:
     found = read(Library([str(file)]), "Free")
     assert [s.label for s in found.places] == ["2*der(v) = -x", "der(h) = q"]
     assert [label for label, _ in found.closed] == ["der(x) = v"]
-
-
-def test_the_right_side_of_an_equation() -> None:
-    for text, expected in (
-        ("a = b + c;", " b + c"),
-        ('a*der(x) = if u >= 1 then f(x=2) else 3 "why; so" annotation(Icon());', " if u >= 1 then f(x=2) else 3 "),
-        ("v = // = no\n  der(x);", " // = no\n  der(x)"),
-    ):
-        side, end = right_side(text, 0)
-        assert text[side:end] == expected
 
 
 def test_a_direction_that_nothing_holds_is_undetermined() -> None:

@@ -13,7 +13,7 @@ from lacuna.discovery.case.cases import Case, load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.catalogue import read as read_catalogue
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
-from lacuna.discovery.efforts.copied import copied
+from lacuna.discovery.efforts.copied import copied, right_side
 from lacuna.discovery.efforts.find import located
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.sites import read, varying
@@ -187,6 +187,16 @@ def test_a_parameter_that_varies_is_one_place_in_all_its_equations(tmp_path: Pat
     best = proposals(locator, site, locator.guided(site), 1)[0]
     assert {v.name for v in best.law.references()} == {"i"}
     assert best.law.form(best.start) == "motor.saturation"
+
+
+def test_the_right_side_of_an_equation() -> None:
+    for text, expected in (
+        ("a = b + c;", " b + c"),
+        ('a*der(x) = if u >= 1 then f(x=2) else 3 "why; so" annotation(Icon());', " if u >= 1 then f(x=2) else 3 "),
+        ("v = // = no\n  der(x);", " // = no\n  der(x)"),
+    ):
+        side, end = right_side(text, 0)
+        assert text[side:end] == expected
 
 
 def test_a_recorded_state_is_known_within_the_noise_of_its_first_sample(tmp_path: Path) -> None:

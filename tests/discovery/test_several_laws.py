@@ -13,13 +13,19 @@ from lacuna.codegen.symbolic.expr import const, mul, power, var
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as read_structure
+from lacuna.discovery.efforts.find import Found
+from lacuna.discovery.efforts.laws.screening import proposals
+from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.numeric import Evaluator, NotNumeric, table
+from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.explain import explain
 from lacuna.discovery.fit.fit import believed, fit
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import noise_of
+from lacuna.discovery.law.pairs import paired
 from lacuna.discovery.law.several import without
 from lacuna.discovery.naming.foretold import DRAWS, foretold
+from lacuna.discovery.steps import fitted
 
 from .test_efforts import BELIEVED, TORRICELLI, cascade
 
@@ -32,6 +38,19 @@ def test_two_laws_at_two_places_are_found_at_both(tmp_path: Path) -> None:
     assert {f.ranked.attachment.location for f in result.findings} == {"upper", "lower"}
     floor = np.sqrt(np.mean([f**2 for f in result.floor.values()]))
     assert result.after.validate[""] < 1.1 * floor
+
+
+def test_a_law_is_screened_beside_an_effort_at_another_place(tmp_path: Path) -> None:
+    """What both leave is no law of the upper tank's level; beside an effort of any course in the lower one it is."""
+    case = load(cascade(tmp_path, TORRICELLI.replace("q - k*upper", "q - k*upper - 2e-3*upper^3")))
+    told = fitted(case, lambda text: None)
+    locator = Locator(case, opened(case, told.amendment, case.library(), ["A", "B", "k"]), told.base)
+    pair = paired(Found(locator.ranked(), locator=locator), lambda text: None)
+    assert {place.site.location for place in pair} == {"upper", "lower"}
+    upper = next(place for place in pair if place.site.location == "upper")
+    assert all({v.name for v in proposal.law.references()} == {"upper"} for proposal in upper.laws())
+    alone = locator.ranked()[0]
+    assert "q" in {v.name for v in proposals(locator, alone, locator.guided(alone), 1)[0].law.references()}
 
 
 def test_a_slope_that_is_infinite_at_a_sample_is_that_beside_it() -> None:

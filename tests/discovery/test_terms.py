@@ -9,7 +9,7 @@ import numpy as np
 from lacuna.discovery.efforts.laws.terms import counts, groups, variables
 from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.sites import Site as Place
-from lacuna.discovery.law.empirical_law import _free
+from lacuna.discovery.law.empirical_law import free_of
 from lacuna.discovery.law.law import Law, Site, attach
 from lacuna.discovery.law.law_terms import Group, Variable
 
@@ -66,7 +66,7 @@ def test_every_term_can_be_evaluated_and_is_counted_by_how_many_variables_it_has
     for group in every:
         law = Law(place, (group,))
         start = {n: s.start for n, s in law.shapes().items()} | {c: 1.0 for c, _, _ in law.numbered()}
-        assert all(f.scale > 0 for f in _free(law, attach(law), start)), group
+        assert all(f.scale > 0 for f in free_of(law, attach(law), start)), group
         for course in group.values(paths, sizes):
             assert np.isfinite(course).all(), group.texts
     one, several = counts(kept, every)

@@ -171,6 +171,16 @@ def test_max_steps_ends_a_run_that_takes_too_many(servo: runtime.Model):
         assert result.counters["steps"] == 50 and "more than 50 steps" in str(result.failure)
 
 
+def test_looks_inside_steps_count_as_well(tmp_path: Path):
+    """A phase that runs ten million radians a second is looked at an eighth of a turn at a time."""
+    equations = "der(x) = 1;\n  der(y) = if sin(1e7*x) > 2 then 1 else 0;"
+    variables = "Real x(start=0, fixed=true), y(start=0, fixed=true);"
+    fast = written(tmp_path, f"model Fast\n  {variables}\nequation\n  {equations}\nend Fast;\n")
+    result = runtime.Session(fast, solver="dopri5", max_steps=1000).run(stop=10.0)
+    assert "more than 1000 steps, looks inside them counted, up to time" in str(result.failure)
+    assert result.counters["root_evaluations"] < 20_000
+
+
 def test_assert_and_terminate_end_a_run(tmp_path: Path):
     equations = (
         'der(x) = 1;\n  assert(x < 0.5, "x is too large");\n  when x > 0.3 then\n    terminate("enough");\n  end when;'
