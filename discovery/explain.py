@@ -85,6 +85,9 @@ def _advise(result: Explanation, progress: Progress) -> None:
 
 def _conclude(result: Explanation) -> None:
     """The verdict, from the findings, the whiteness of what is left and the believed parameters."""
+    if result.instead and not _equations_may_be_wrong(result) and _holds(result):
+        result.verdict = "missing_physics"
+        return
     if result.findings and _accuses_sensors(result) and nearly_noise(result.base):
         _believe_again(result)  # an error of an instrument that is smaller than its noise is no finding
     if result.findings and _is_colour(result):
@@ -205,7 +208,7 @@ def _why_closed(result: Explanation) -> str:
 
 def _believe_again(result: Explanation) -> None:
     """Put the believed model, as fitted, in the place of what was found."""
-    result.findings, result.final, result.after = [], result.base, result.before
+    result.findings, result.final, result.after, result.instead = [], result.base, result.before, ()
     result.amendment = replace(result.amendment, attachments=[])
 
 

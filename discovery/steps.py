@@ -14,6 +14,8 @@ from lacuna.discovery.case.recordings_check import Problem, check_case
 from lacuna.discovery.catalogue import catalogue, places
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
+from lacuna.discovery.efforts.find import places_of
+from lacuna.discovery.efforts.moved import sensor_instead
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import astray, is_noise, nearly_noise, outside_belief
 from lacuna.discovery.fit.fit import Fit, believed, carried, falling_bandwidths, fit, linearised
@@ -133,6 +135,10 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
             search, unbegun = _anew(result, search, unbegun, shafts, progress)
         explain_beyond(search, unbegun, progress)
         result.opened = explain_open(search, unbegun, library, progress)
+        if not search.findings:
+            result.instead = sensor_instead(search, catalogue.read(library), progress)
+        if result.instead:
+            result.opened = places_of(search.case, unbegun.amendment, unbegun.fit, library)
     except TimeUp as stopped:
         search.reason = result.stopped = str(stopped)
     _take(result, search)

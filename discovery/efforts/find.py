@@ -60,13 +60,11 @@ def find(
     admitted: Callable[[Site], bool] = lambda site: True,
 ) -> Found:
     """Locate what `base`, the fit of `amendment`, lacks, and fit laws there: at places that are `admitted`."""
-    progress("opening every place of the equations")
-    try:
-        locator = located(case, amendment, base, library)
-        progress(f"locating among {len(locator.places)} places")
-        found = Found(_ranked(locator, base), locator.opened.closed, locator=locator, null=locator.null)
-    except (NotNumeric, SimulationError, np.linalg.LinAlgError) as reason:
-        return Found(reason=str(reason))
+    progress("locating among all places of the equations")
+    found = places_of(case, amendment, base, library)
+    if found.locator is None:
+        return found
+    locator = found.locator
     efforts = simplest([s for s in found.sites if s.place is not None and s.gain > 0 and admitted(s)])
     short = False
     for site in efforts[:PLACES]:
@@ -79,6 +77,15 @@ def find(
         if proposal is not None and found.laws[0] is proposal.candidate:
             short = _terms(proposal) == 1
     return found
+
+
+def places_of(case: Case, amendment: Amendment, base: Fit, library: Library) -> Found:
+    """The places of the amended model, ranked; no laws."""
+    try:
+        locator = located(case, amendment, base, library)
+        return Found(_ranked(locator, base), locator.opened.closed, locator=locator, null=locator.null)
+    except (NotNumeric, SimulationError, np.linalg.LinAlgError) as reason:
+        return Found(reason=str(reason))
 
 
 def located(case: Case, amendment: Amendment, base: Fit, library: Library) -> Locator:

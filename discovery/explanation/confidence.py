@@ -43,6 +43,8 @@ def odds(finding: Finding, share: float) -> str:
 
 def explained(result: Explanation) -> float:
     """Share of the misfit above noise, on the recordings fitted, that the findings take away."""
+    if result.instead:  # nothing is above noise, without it either: it is parameters that it puts back
+        return 1.0
     before, after = _excess(result.base), _excess(result.final)
     return float(np.clip(1.0 - after / before, 0.0, 1.0)) if before > 0 else 1.0
 

@@ -204,6 +204,8 @@ def sentence(result: Explanation) -> str:
     """The verdict as an engineer would say it."""
     if result.verdict == "missing_physics":
         parts = [_named(result, f) for f in result.findings]
+        if result.instead:
+            return f"The model lacks {' and '.join(parts)}; without it {_moved(result)} from what was believed."
         gain = result.before.validate[""] / max(result.after.validate[""], 1e-12)
         share = explained(result)
         rest = "" if share >= PARTIAL else f" This is a part of it only: {1 - share:.0%} of the misfit is left."
@@ -222,6 +224,10 @@ def sentence(result: Explanation) -> str:
     if result.stopped:
         return f"What is missing is not known yet: {result.reason}."
     return "These recordings cannot say what is missing: " + (result.reason or "the residual is not noise") + "."
+
+
+def _moved(result: Explanation) -> str:
+    return f"{' and '.join(result.instead)} would have to be far"
 
 
 def _named(result: Explanation, finding: Finding) -> str:

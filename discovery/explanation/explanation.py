@@ -45,6 +45,7 @@ class Explanation:
     after: Judgement | None = None
     floor: dict[str, float] = field(default_factory=dict)
     seconds: dict[str, float] = field(default_factory=dict)
+    instead: tuple[str, ...] = ()  # parameters that would be outside belief without the sensor's error that was found
     lead: Lead = field(default_factory=Lead)  # of fits of this model
     scatter: dict[str, float] = field(default_factory=dict)  # of each parameter, from dip to dip on rough ground
     _errors: dict[str, float] | None = None

@@ -114,10 +114,10 @@ def _trial(unbegun: Search, offered: list[list[Proposal]], progress: Progress) -
         if best is not None and settled(best.candidate.fit):
             break
     for other in ones[1:]:
-        if best is None or settled(best.candidate.fit):
+        if best is not None and settled(best.candidate.fit):
             break
-        trial = _joint(case, amendment, base, other, best, progress)
-        if trial is not None and trial.candidate.fit.deviance() < best.candidate.fit.deviance():
+        trial = _joint(case, amendment, base, other, best or twos[0], progress)
+        if trial is not None and _better(best, trial) is trial:
             first, best = other, trial
     if best is None:
         return None

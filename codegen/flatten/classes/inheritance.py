@@ -27,6 +27,13 @@ class Element:
     modifier: Modifier | None
     replaced: Element | None = None  # what an element written with `redeclare` stands for
 
+    @property
+    def is_unsized(self) -> bool:
+        """Whether nothing in the declaration says how large it is."""
+        return any(isinstance(d, ast.Colon) for d in self.declaration.dimensions) and (
+            self.declaration.modification.value is None
+        )
+
     def written_in(self, part: str) -> ast.Class:
         """The class in which its dimensions or its condition are written: a redeclaration may keep them (7.3)."""
         old = self.replaced

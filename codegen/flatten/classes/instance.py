@@ -97,6 +97,8 @@ class Instance:
             above = above.parent
         inherited = Inheritance(context, self, cls, modifier)
         self.elements, self.sections, self.classes = inherited.elements, inherited.sections, inherited.classes
+        if cls.expandable:  # what has no size is there once a connection brings it, with its size (9.1.3)
+            self.elements = {n: e for n, e in self.elements.items() if not e.is_unsized}
         self._visible = inherited.visible
         for own in self.classes:
             check_redeclared(own, context, self._elements_of)

@@ -156,6 +156,14 @@ def _add(owner: Instance, ref: ast.Ref, found: list[Connector], scope: Scope, co
         owner.adopt(name, ArrayNode(owner.path_of(name), shape, items, (None,)))
     else:
         owner.adopt(name, _like(node, name, owner))
+    if (
+        isinstance(node, Leaf)
+        and node.causality == "input"
+        and not node.declaration.protected
+        and (node.instance is scope.instance and owner.parent is scope.instance)
+    ):  # what its own input brings goes out by its own bus
+        for leaf in _leaves(owner.child(name)):
+            leaf.relayed = True
 
 
 def _largest(owner: Instance, name: str, connections: Connections) -> tuple[int, ...]:

@@ -6,7 +6,8 @@ from functools import lru_cache
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.names.context import Context
-from lacuna.codegen.flatten.names.scope import Scope, boolean_type, enumeration
+from lacuna.codegen.flatten.names.index_types import boolean_type, enumeration
+from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, BUILTINS, FALSE, INTEGER, TRUE, Expr
 from lacuna.codegen.syntax import ast

@@ -12,7 +12,8 @@ from lacuna.codegen.flatten.expressions.enumerations import as_integer
 from lacuna.codegen.flatten.expressions.lower import Handler, lower, lower_scalar
 from lacuna.codegen.flatten.expressions.texts import text_of
 from lacuna.codegen.flatten.expressions.transport import OPERATOR
-from lacuna.codegen.flatten.names.scope import Scope, enumeration
+from lacuna.codegen.flatten.names.index_types import enumeration
+from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Value, elementwise, scalars, shape_of
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr

@@ -10,7 +10,8 @@ from lacuna.codegen.flatten.expressions.constants import is_known, known
 from lacuna.codegen.flatten.expressions.enumerations import enumeration_of
 from lacuna.codegen.flatten.expressions.lower import lower, lower_scalar
 from lacuna.codegen.flatten.names.context import Context
-from lacuna.codegen.flatten.names.scope import Scope, literals_of
+from lacuna.codegen.flatten.names.index_types import literals_of
+from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import ChosenText, Record, Value
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, INTEGER, REAL, TRUE, Expr

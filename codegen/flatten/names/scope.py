@@ -263,38 +263,3 @@ def is_package_like(library: Library, cls: ast.Class, depth: int = 0) -> bool:
         return True
     plain = all(c.variability == "constant" for c in cls.components) and not cls.sections
     return plain and all(is_package_like(library, b, depth + 1) for b in base_classes(library, cls))
-
-
-def enumeration(ref: ast.Ref, scope: Scope) -> ast.Class | None:
-    """The enumeration type that `ref` names, if it names one."""
-    if scope.instance is not None and ref.names[0] in scope.instance.elements:
-        return None
-    cls = find_class(scope.context.library, scope.cls, ref)
-    return cls if cls is not None and cls.literals is not None else None
-
-
-def boolean_type(ref: ast.Ref, scope: Scope, depth: int = 0) -> bool:
-    """Does `ref` name the type Boolean, or one declared as it?"""
-    if scope.instance is not None and ref.names[0] in scope.instance.elements:
-        return False
-    cls = find_class(scope.context.library, scope.cls, ref)
-    if cls is None:
-        return str(ref) == "Boolean"
-    alias = cls.alias
-    return (
-        alias is not None
-        and not alias.dimensions
-        and depth < 30
-        and boolean_type(
-            alias.base, replace(scope, cls=cls.parent or scope.context.library.root, instance=None), depth + 1
-        )
-    )
-
-
-def literals_of(path: str, scope: Scope) -> list[str]:
-    """Names of the literals of the enumeration with this full name."""
-    names = path.split(".")
-    cls: ast.Class | None = scope.context.library.root
-    for name in names:
-        cls = own_or_inherited(scope.context.library, cls, name) if cls is not None else None
-    return [name for name, _ in cls.literals] if cls is not None and cls.literals else []
