@@ -2,25 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.expressions.constants import AtRunTime, evaluate
 from lacuna.codegen.flatten.expressions.elements import element, local_value
+from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.functions.interpret import interpret
 from lacuna.codegen.flatten.functions.kept.parts import matched, parts, rebuilt, variables_of
 from lacuna.codegen.flatten.functions.kept.whole_calls import element_name
 from lacuna.codegen.flatten.functions.kept.writer import Writer
 from lacuna.codegen.flatten.functions.library.foreign import foreign_call
 from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
-from lacuna.codegen.flatten.functions.locals import Signature, signature_of
+from lacuna.codegen.flatten.functions.locals import Local, Signature, signature_of
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Array, Value, indices, scalars, shape_of
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.annotated import OP
-from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, TRUE, Expr
 from lacuna.codegen.symbolic.rewrite import Rewriter
 from lacuna.codegen.syntax import ast
 
@@ -184,7 +186,11 @@ def _emit(
     writer = Writer(function, Scope(context, cls, None, dict(fixed), in_function=True, pure=not cls.impure))
     try:
         for local in (x for x in signature.locals if x.name not in fixed):
-            writer.declare_local(local, inputs)
+            number = _settled(local, signature, writer.scope)
+            if number is None:
+                writer.declare_local(local, inputs)
+            else:
+                writer.scope.locals[local.name] = number
         if not signature.outputs:
             writer.declare(DONE, local_value(DONE, BOOLEAN, ()))
             function.defaults[DONE] = TRUE
@@ -214,6 +220,30 @@ def _emit(
         error = Diagnostic("F036", message, span, "sizes may depend on the sizes of arguments, not on their values")
         error.notes.append((reason.args[1], "here"))
         raise error from None
+
+
+def _settled(local: Local, signature: Signature, scope: Scope) -> Expr | None:
+    """The number of an Integer variable that its declaration gives and nothing assigns: sizes may follow it."""
+    value = local.declaration.modification.value
+    protected = local not in signature.inputs and local not in signature.outputs
+    if value is None or not protected or local.declaration.dimensions or local.type.primitive != INTEGER:
+        return None
+    if local.name in set(_targets(signature.body)):
+        return None
+    number = lower(value, local.around_default(scope))
+    return number if isinstance(number, Expr) and number.op == "const" and number.type == INTEGER else None
+
+
+def _targets(items: Iterable[ast.Item]) -> Iterator[str]:
+    """Names of the variables that statements assign."""
+    for item in items:
+        if isinstance(item, ast.Assignment):
+            targets = item.target.items if isinstance(item.target, ast.Tuple) else [item.target]
+            yield from (target.names[0] for target in targets if target is not None)
+        elif isinstance(item, ast.For | ast.While):
+            yield from _targets(item.body)
+        elif isinstance(item, ast.If):
+            yield from _targets(inner for _, body in item.branches for inner in body)
 
 
 def _package_constant(e: Expr, context: Context, span: Span) -> Expr | None:
