@@ -16,6 +16,7 @@ import numpy as np
 from lacuna.discovery.case.cases import Recording
 from lacuna.discovery.catalogue.amend import Attachment
 from lacuna.discovery.catalogue.catalogue import Effect, EffectParameter
+from lacuna.discovery.fit.evidence import outside_belief
 from lacuna.discovery.fit.fit import Fit, Objective
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.solver.free import Free, pulls
@@ -153,8 +154,20 @@ def prepare(screen: Screen, attachment: Attachment, machine: Machine) -> list[Ca
     found = [_linearised(screen, attachment, machine, names, point, shape, limits, amounts) for shape in shapes]
     if not any(n in effect.neutral for n in names):
         found += [_from_believed(screen, attachment, machine, names, shape, limits) for shape in shapes]
+    elif outside_belief(screen.base) and any(n in effect.starts for n in effect.neutral):
+        found += _of_size(screen, attachment, machine, names)
     found = [replace(c, attachment=asked) for c in found if c is not None]
     return sorted(found, key=lambda c: -c.predicted)
+
+
+def _of_size(screen: Screen, attachment: Attachment, machine: Machine, names: list[str]) -> list[Candidate | None]:
+    """The candidates with amounts that have starts of their own at these, and the believed parameters: where others
+    stand for the effect (a soft shaft for play), a little of it beside them explains nothing."""
+    effect = attachment.effect
+    sized = replace(effect, neutral={n: v for n, v in effect.neutral.items() if n not in effect.starts})
+    attachment = replace(attachment, effect=sized)
+    shapes = shape_starts(attachment, machine, names, dict(screen.base.point))
+    return [_from_believed(screen, attachment, machine, names, shape, limits_of(shapes)) for shape in shapes]
 
 
 def _in_place(screen: Screen, attachment: Attachment) -> Attachment:
