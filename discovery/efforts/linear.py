@@ -44,17 +44,19 @@ class Along:
     def response(self, columns: np.ndarray, courses: np.ndarray, hold: bool = False, every: int = 1) -> np.ndarray:
         """(n, y, j): outputs to each of j courses (n, j), course i acting in column columns[i]; from rest.
 
-        Courses are linear between samples, or held; `every` keeps one sample in so many.
+        Courses are linear between samples, or held; `every` keeps one sample in so many. A response that runs away is
+        no number from there on.
         """
         n, count = len(self.time), len(columns)
         state = np.zeros((self.step.shape[1], count))
         result = np.empty((-(-n // every), self.read.shape[1], count))
-        for k in range(n):
-            if k % every == 0:
-                result[k // every] = self.read[k] @ state + self.feed[k][:, columns] * courses[k]
-            if k < n - 1:
-                acting = courses[k] if hold else 0.5 * (courses[k] + courses[k + 1])
-                state = self.step[k] @ state + self.drive[k][:, columns] * acting
+        with np.errstate(over="ignore", invalid="ignore"):
+            for k in range(n):
+                if k % every == 0:
+                    result[k // every] = self.read[k] @ state + self.feed[k][:, columns] * courses[k]
+                if k < n - 1:
+                    acting = courses[k] if hold else 0.5 * (courses[k] + courses[k + 1])
+                    state = self.step[k] @ state + self.drive[k][:, columns] * acting
         return result
 
 
