@@ -83,7 +83,9 @@ def _stages(rng: np.random.Generator, number: int) -> System:
         text += f"  {'when' if k == 1 else 'elsewhen'} pre(mode) == {k} and {condition} then\n    mode = {k + 1};\n"
     text += "  end when;\n  second = 0;\n"
     for k, (condition, jump) in enumerate(zip(conditions, () if rest else jumps, strict=False), 1):
-        text += f"  {'when' if k == 1 else 'elsewhen'} pre(mode) == {k} and {condition} then\n    reinit(x, {jump!r});\n"
+        text += (
+            f"  {'when' if k == 1 else 'elsewhen'} pre(mode) == {k} and {condition} then\n    reinit(x, {jump!r});\n"
+        )
     text += "" if rest else "  end when;\n"
     return System(text + f"end Hybrid{number};\n", times, [], 1.2 * t, 0.05, size / slope)
 
