@@ -79,13 +79,11 @@ class Locator:
 
     def _start(self, recording: Recording) -> np.ndarray:
         """Standard deviations of the states at the first sample: that of the noise where they are recorded."""
-        result = np.zeros(len(self.opened.linear.states))
-        own = self.case.own.get(recording.name)
-        for name, value in (self.case.initial | (own.initial if own else {})).items():
-            signal = next((s for s in self.case.outputs if name in (s.column, s.variable)), None)
+        result, machine = np.zeros(len(self.opened.linear.states)), self.base.machine
+        for name, sample in machine.uncertain_states(recording).items():
             kept, _ = self.opened.linear.prepared.aliases.get(name, (name, 1))
-            if value == "recorded" and signal is not None and kept in self.opened.linear.states:
-                result[self.opened.linear.states.index(kept)] = self.base.noise[signal.column].std
+            if sample is not None and kept in self.opened.linear.states:
+                result[self.opened.linear.states.index(kept)] = self.base.noise[machine.recorded(name)].std
         return result
 
     def ranked(self) -> list[Site]:
