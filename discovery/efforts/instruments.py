@@ -15,8 +15,8 @@ import numpy as np
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.catalogue.amend import Amendment
-from lacuna.discovery.efforts.chains import Colour, Latent, Piece
-from lacuna.discovery.efforts.evidence import evidence
+from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
+from lacuna.discovery.efforts.latent.evidence import evidence
 from lacuna.discovery.efforts.located import SIZES, TIMES, Locator, thinned_all
 from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.efforts.opened import opened

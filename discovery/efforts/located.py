@@ -9,10 +9,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from lacuna.discovery.case.cases import Case, Recording
-from lacuna.discovery.efforts.chains import Colour, Latent, Piece
-from lacuna.discovery.efforts.evidence import evidence
+from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
+from lacuna.discovery.efforts.latent.evidence import evidence
+from lacuna.discovery.efforts.latent.smoother import Whitener, acting, courses, thinned
 from lacuna.discovery.efforts.opened import Opened, Place
-from lacuna.discovery.efforts.smoother import Whitener, acting, courses, thinned
 from lacuna.discovery.fit.evidence import SIGMAS
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.free import Free

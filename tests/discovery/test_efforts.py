@@ -15,13 +15,13 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as read_structure
-from lacuna.discovery.efforts.chains import Colour, Latent, Piece
-from lacuna.discovery.efforts.evidence import evidence
+from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
+from lacuna.discovery.efforts.latent.evidence import evidence
+from lacuna.discovery.efforts.latent.smoother import Whitener, courses, thinned
 from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.efforts.sites import read
-from lacuna.discovery.efforts.smoother import Whitener, courses, thinned
 from lacuna.discovery.explain import explain, judge_written, write_amended
 from lacuna.discovery.explanation import diagnosis
 from lacuna.discovery.fit.intervals import undetermined

@@ -12,9 +12,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from lacuna.discovery.efforts.chains import Latent, Piece
+from lacuna.discovery.efforts.latent.chains import Latent, Piece
+from lacuna.discovery.efforts.latent.smoother import Whitener
 from lacuna.discovery.efforts.located import Guided, thinned_all
-from lacuna.discovery.efforts.smoother import Whitener
 from lacuna.discovery.law.law import Law, Site
 from lacuna.discovery.law.law_terms import Group
 

@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from lacuna.discovery.efforts.chains import Chains, Latent, Piece
+from lacuna.discovery.efforts.latent.chains import Chains, Latent, Piece
 
 
 class Whitener:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lacuna.discovery.efforts.chains import Chains, Latent, Piece
+from lacuna.discovery.efforts.latent.chains import Chains, Latent, Piece
 
 
 @dataclass
