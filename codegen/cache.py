@@ -2,7 +2,7 @@
 
 A request (model, search path, modifications) remembers which files it read with their SHA-256; while those files
 and this generator are unchanged the compiled library is used again without parsing anything. Everything is
-written beside its place and renamed, so that processes may share the cache.
+written beside its place and renamed, so that processes may share the cache; what a power cut damaged is made again.
 """
 
 from __future__ import annotations
@@ -215,7 +215,7 @@ class Cache:
             "folders": _folders(prepared.declared.files, search_path),
             "warnings": [[w.code, w.message, span, w.hint] for w, span in spans],
         }  # fmt: skip
-        write_whole(self._index(request), json.dumps(entry))
+        write_whole(self._index(request), json.dumps(entry), lasting=False)
 
     def private(self) -> Path:
         """The directory, made where it is missing. Raises CompilerError where others can write to it."""
@@ -232,8 +232,8 @@ class Cache:
         library, c_file = self.directory / f"{digest[:32]}.so", self.directory / f"{digest[:32]}.c"
         if _is_whole(library):
             return str(library)
-        write_whole(c_file, source)
-        with whole_files(self.directory) as scratch:
+        write_whole(c_file, source, lasting=False)
+        with whole_files(self.directory, lasting=False) as scratch:
             output = scratch / library.name
             compile_c(c_file, output, foreign, quick)
             _sum_of(output).write_text(str(_file_digest(str(output))), encoding="ascii")

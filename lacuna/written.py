@@ -3,7 +3,8 @@
 What is new is written into a folder of its own beside its place, synced to the disk, and renamed; then the folder that
 holds the names is synced, too. Where a rename fails, those before it are taken back. A power cut between the renames of
 several files, or a disk that refuses everything from there on, can leave some of each making: the command that made
-them makes them again.
+them makes them again. What is not `lasting`, as in a cache whose reader sees what is damaged, is not synced: to make
+hundreds of small files takes less time than to wait for the disk.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ _YOUNG = 60  # s: one that was made so lately may not be locked yet
 
 
 @contextmanager
-def whole_file(path: Path) -> Iterator[Path]:
+def whole_file(path: Path, lasting: bool = True) -> Iterator[Path]:
     """Where to write what then replaces `path`, if the block ends well. A link is followed, a mode kept."""
     path = path.resolve() if path.is_symlink() else path
     with _scratch(path.parent) as scratch:
@@ -32,27 +33,30 @@ def whole_file(path: Path) -> Iterator[Path]:
         yield partial
         if path.exists():
             shutil.copymode(path, partial)
-        _sync(partial)
+        if lasting:
+            _sync(partial)
         partial.replace(path)
-        _sync_names(path.parent)
+        if lasting:
+            _sync_names(path.parent)
 
 
 @contextmanager
-def whole_files(folder: Path) -> Iterator[Path]:
+def whole_files(folder: Path, lasting: bool = True) -> Iterator[Path]:
     """A folder whose files then replace those of the same name in `folder`, all of them if the block ends well, or
     none; folders in it must be new."""
     with _scratch(folder) as scratch:
         yield scratch
         made = sorted(scratch.iterdir())
-        for path in scratch.rglob("*"):
+        for path in scratch.rglob("*") if lasting else ():
             _sync(path)
         _replace_all(made, folder, scratch / _BEFORE)
-        _sync_names(folder)
+        if lasting:
+            _sync_names(folder)
 
 
-def write_whole(path: Path, content: str | bytes) -> None:
+def write_whole(path: Path, content: str | bytes, lasting: bool = True) -> None:
     """`path` with this content, texts in UTF-8."""
-    with whole_file(path) as partial:
+    with whole_file(path, lasting) as partial:
         partial.write_bytes(content if isinstance(content, bytes) else content.encode("utf-8"))
 
 

@@ -5,7 +5,7 @@ The one description of the file: the reader refuses what is not in it, and docs/
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 import math
 from typing import Any
@@ -142,6 +142,24 @@ CASE = Table(
         ),
     },
 )  # fmt: skip
+
+
+def with_dots(raw: Mapping[str, Any], table: Table = CASE) -> dict[str, Any]:
+    """The case with names that have dots whole: TOML reads `motor.J = 1` as a table `motor` that has a J."""
+    if isinstance(table.each, Key):
+        return dict(_whole(raw))
+    inner = {n: table.keys.get(n, table.each) for n in raw}
+    return {
+        n: with_dots(v, inner[n]) if isinstance(inner[n], Table) and isinstance(v, dict) else v for n, v in raw.items()
+    }
+
+
+def _whole(raw: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    for name, value in raw.items():
+        if isinstance(value, dict) and value:
+            yield from ((f"{name}.{inner}", v) for inner, v in _whole(value))
+        else:
+            yield name, value
 
 
 def check(raw: Mapping[str, Any], table: Table = CASE, place: str = "") -> None:

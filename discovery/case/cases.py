@@ -13,7 +13,7 @@ from lacuna.analysis.recording.channel import RecordingError, on_one_time
 from lacuna.analysis.recording.formats import read_recorded
 from lacuna.codegen.flatten.model import flatten
 from lacuna.codegen.library.classes import Library
-from lacuna.discovery.case.case_keys import KeyProblem, check
+from lacuna.discovery.case.case_keys import KeyProblem, check, with_dots
 from lacuna.discovery.case.case_model import CaseModel, case_model
 from lacuna.given import toml_of
 from lacuna.recorded_units import ZERO_CELSIUS, UnitError, to_si
@@ -170,7 +170,7 @@ def load(folder: str | Path, libraries: Sequence[str | Path] = ()) -> Case:
 
 
 def _read(path: Path) -> dict:
-    raw = toml_of(path, CaseError)
+    raw = with_dots(toml_of(path, CaseError))
     try:
         check(raw)
     except KeyProblem as error:

@@ -7,7 +7,7 @@ one at another place: an effort of any course, by which places are ranked, does 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -18,7 +18,7 @@ from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.instruments import colour_of
 from lacuna.discovery.efforts.laws.screening import proposals
-from lacuna.discovery.efforts.located import Locator, Site
+from lacuna.discovery.efforts.located import Guided, Locator, Site
 from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.efforts.sites import SEVERAL
@@ -128,27 +128,31 @@ def _law_at(
 ) -> tuple[Proposal | None, Candidate | None]:
     """The best law at a place: of one group of terms, or of two where one does not leave noise; and, where it is of two
     that are not a level and one term, the best of one."""
-    try:
-        guided = locator.guided(site)
-        progress(f"screening laws at {site.location}")
-        offered = proposals(locator, site, guided, LAWS)
-    except (NotNumeric, SimulationError, np.linalg.LinAlgError):
-        return None, None
     best: Proposal | None = None
     single: Proposal | None = None
-    for size in (1, 2):
-        if best is not None and settled(best.candidate.fit):
-            break
-        tried = [p for p in offered if len(p.law.groups) == size]
+    for tried, guided in _offered(locator, site, progress):
         for proposal in tried:
             progress(f"fitting a law at {site.location}: {proposal.law.text()}")
             proposal.candidate = fitted_law(case, amendment, base, proposal.law, proposal.start, guided.point)
         best = _best([p for p in (best, *tried) if p is not None and p.candidate is not None], base)
-        single = best if size == 1 else single
+        single = best if best is None or len(best.law.groups) == 1 else single
+        if best is not None and settled(best.candidate.fit):
+            break
     if best is None:
         return None, None
     apart = best is not single and _terms(best) > 1
     return simplified(case, amendment, base, best), single.candidate if apart and single else None
+
+
+def _offered(locator: Locator, site: Site, progress: Progress) -> Iterator[tuple[list[Proposal], Guided]]:
+    """Laws to be fitted at a place, as they are asked for, and what they were screened along."""
+    try:
+        guided = locator.guided(site)
+        progress(f"screening laws at {site.location}")
+        for offered in proposals(locator, site, guided, LAWS):
+            yield offered, guided
+    except (NotNumeric, SimulationError, np.linalg.LinAlgError):
+        return
 
 
 def _terms(proposal: Proposal) -> int:

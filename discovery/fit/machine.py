@@ -286,7 +286,7 @@ def write_source(amendment: Amendment) -> Path:
     name = "Candidate_" + hashlib.sha256(text.encode()).hexdigest()[:16]
     path, named = folder / f"{name}.mo", text.replace("Candidate", name)
     if not path.exists() or path.read_bytes() != named.encode("utf-8"):  # a damaged one would be no hypothesis
-        write_whole(path, named)
+        write_whole(path, named, lasting=False)
     return path
 
 

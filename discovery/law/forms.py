@@ -39,6 +39,7 @@ class Form:
     gives: tuple[str, ...]
     of: tuple[str, ...]
     exponent: float = 0.0
+    between: bool = False  # its variable is what one place has over another
 
 
 FORMS = (
@@ -67,6 +68,9 @@ FORMS = (
     Form("overflow", BEYOND, FLOW, LEVEL),
     Form("overflow", r"^abs\(abs\(X - \S+\) \+ X - \S+\)\^1.5$", ("m3/s",), ("m",)),
     Form("loss.turbulent", POWER, LEVEL, FLOW, 2.0),
+    Form("end_stop", r"^X\*\(1 \+ sign\((?:abs|-)?Y - \S+\)\)$", FORCE, SPEED),
+    Form("backlash", r"^\(abs\(X \+ \S+\) - abs\(X - \S+\)\)$", FORCE, PLACE, between=True),
+    Form("backlash", r"^X\*\(1 - sign\(absY - \S+\)\)$", FORCE, SPEED, between=True),
 )
 
 KINDS = 3  # of groups, each as likely before: of a known form, a function of one variable, one of several
@@ -110,7 +114,9 @@ def _named(text: str, variables: Sequence[Variable], gives: str, shapes: Mapping
     plain = plain.replace("absX", "abs(X)")
     for form in FORMS:
         found = re.match(form.text, plain)
-        if found and _alike(gives, form.gives) and _alike(first.unit, form.of) and _has(form, found, shapes):
+        if not found or (form.between and not first.minus):
+            continue
+        if _alike(gives, form.gives) and _alike(first.unit, form.of) and _has(form, found, shapes):
             return form.name
     return ""
 

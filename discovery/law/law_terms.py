@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+import re
 
 import numpy as np
 
@@ -39,6 +40,7 @@ class Variable:
     switch: bool = False  # a Boolean of the model: 1 while it is true
     minus: str = ""
     sticks: bool = False  # an effort at the place acts on its rate at once: dry friction there holds it at rest
+    rate: str = ""  # the variable here that is its rate: what a stop's damper follows
 
     @property
     def dry(self) -> str:
@@ -80,6 +82,11 @@ class Group:
 
     texts: tuple[str, ...]
     shapes: tuple[Shape, ...] = ()
+
+    @property
+    def kind(self) -> tuple[str, ...]:
+        """Its texts, but for how far apart what is late is kept: that follows how late it is."""
+        return tuple(re.sub(r"\b(delay|onset)\(([^,]+, [^,)]+), [^,)]+\)", r"\1(\2)", text) for text in self.texts)
 
     def values(self, trajectory: Mapping[str, np.ndarray], sizes: Mapping[str, float]) -> list[np.ndarray]:
         """Each term (n,) along a trajectory (local names and `time`) with its shapes at their starts."""

@@ -47,7 +47,8 @@ class Place:
     def laws(self) -> list[Proposal]:
         """Laws of one group of terms, the most telling first, then of two; started where the efforts at both lead."""
         guided = self.locator.guided(self.site)
-        offered = proposals(self.locator, self.site, guided, LAWS)
+        ones, _, twos = proposals(self.locator, self.site, guided, LAWS)
+        offered = [*ones, *twos]
         for proposal in offered:
             proposal.point = guided.point
         return offered

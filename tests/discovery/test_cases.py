@@ -67,3 +67,18 @@ def test_degrees_celsius_are_read_as_the_kelvin_of_the_variable(tmp_path: Path) 
     np.testing.assert_allclose(case.fit[0].columns["T"], [293.15, 300.0, np.nan])
     np.testing.assert_allclose(case.fit[0].columns["C"], [20, 30, 40])
     assert case.signals["T"].noise_std == 0.5
+
+
+def test_names_with_dots_need_no_quotes(consistent_case: Path, tmp_path: Path) -> None:
+    for file in consistent_case.iterdir():
+        if file.suffix == ".csv":
+            (tmp_path / file.name).write_bytes(file.read_bytes())
+    text = (consistent_case / "case.toml").read_text()
+    name = load(consistent_case).fit[0].name
+    text = text.replace("[signals.", "[uncertainty.shaft]\nJ = 0.2\n[signals.", 1)
+    text += f'\n[recording."{name}"]\ninitial = {{shaft.w = 3.0}}\nparameters = {{shaft.disc.J = 2e-3}}\n'
+    (tmp_path / "case.toml").write_text(text)
+    case = load(tmp_path)
+    assert case.uncertainty["shaft.J"] == 0.2
+    assert case.own[name].initial == {"shaft.w": 3.0}
+    assert case.own[name].parameters == {"shaft.disc.J": 2e-3}

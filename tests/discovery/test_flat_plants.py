@@ -125,7 +125,7 @@ def test_a_coefficient_that_varies_is_offered_where_a_fit_without_it_ran_away(tm
     locator = located(case, result.amendment, result.base, case.library())
     site = next(s for s in locator.ranked() if s.place is not None)
     assert site.location == "Tw"
-    offered = [p.law for p in proposals(locator, site, locator.guided(site), 3)]
+    offered = [p.law for laws in proposals(locator, site, locator.guided(site), 3) for p in laws]
     factors = [
         {v.name for v in law.references()} for law in offered if any("^2" in t for g in law.groups for t in g.texts)
     ]
@@ -141,7 +141,7 @@ def test_what_one_balance_gains_and_another_loses_is_one_place(tmp_path: Path) -
     locator = located(case, result.amendment, result.base, case.library())
     efforts = [s for s in locator.ranked() if s.place is not None]
     assert efforts[0].place.sites[0].kind == "exchange" and efforts[0].gain > efforts[1].gain + 100.0
-    proposal = proposals(locator, efforts[0], locator.guided(efforts[0]), 1)[0]
+    proposal = next(proposals(locator, efforts[0], locator.guided(efforts[0]), 1))[0]
     driving = next(v for v in proposal.law.references())
     assert (driving.name, driving.minus) == ("h1", "h2")
     assert proposal.start["c_1"] / driving.size == pytest.approx(-6e-4, rel=0.05)
@@ -184,7 +184,7 @@ def test_a_parameter_that_varies_is_one_place_in_all_its_equations(tmp_path: Pat
     locator = located(case, result.amendment, result.base, case.library())
     site = next(s for s in locator.ranked() if s.place is not None)
     assert (site.location, site.place.unit) == ("k", "V.s/rad")
-    best = proposals(locator, site, locator.guided(site), 1)[0]
+    best = next(proposals(locator, site, locator.guided(site), 1))[0]
     assert {v.name for v in best.law.references()} == {"i"}
     assert best.law.form(best.start) == "motor.saturation"
 

@@ -68,6 +68,6 @@ def test_a_law_is_in_the_quantity_in_which_it_is_short(vessel: Path) -> None:
     locator = Locator(case, opened(case, told.amendment, case.library(), ["C", "k", "g"]), base)
     (site,) = [s for s in locator.ranked() if s.place is not None]
     assert [o.sites[0].label for o in site.place.other] == ["u"]
-    best = proposals(locator, site, locator.guided(site), 1)[0].law
+    best = next(proposals(locator, site, locator.guided(site), 1))[0].law
     assert best.site.place.label == best.site.location == "u"
     assert {v.name for v in best.references()} == {"u"}

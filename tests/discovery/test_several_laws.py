@@ -50,7 +50,7 @@ def test_a_law_is_screened_beside_an_effort_at_another_place(tmp_path: Path) -> 
     upper = next(place for place in pair if place.site.location == "upper")
     assert all({v.name for v in proposal.law.references()} == {"upper"} for proposal in upper.laws())
     alone = locator.ranked()[0]
-    assert "q" in {v.name for v in proposals(locator, alone, locator.guided(alone), 1)[0].law.references()}
+    assert "q" in {v.name for v in next(proposals(locator, alone, locator.guided(alone), 1))[0].law.references()}
 
 
 def test_a_slope_that_is_infinite_at_a_sample_is_that_beside_it() -> None:

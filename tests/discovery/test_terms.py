@@ -6,7 +6,9 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from lacuna.discovery.efforts.laws.terms import counts, groups, variables
+from lacuna.discovery.efforts.laws import screening
+from lacuna.discovery.efforts.laws.terms import counts, groups
+from lacuna.discovery.efforts.laws.variables import variables
 from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.sites import Site as Place
 from lacuna.discovery.law.empirical_law import free_of
@@ -72,3 +74,38 @@ def test_every_term_can_be_evaluated_and_is_counted_by_how_many_variables_it_has
     one, several = counts(kept, every)
     assert one + several == len({g.texts for g in every})
     assert several == len({g.texts for g in every if sum(f"{v.local}_ref" in g.texts[0] for v in kept) == 2})
+
+
+def test_a_stop_springs_and_damps_from_where_it_is_met_and_play_does_neither_within() -> None:
+    s, v, a = (0.08 * 2**n * np.sin(2 * TIME + n * np.pi / 2) + 0.02 * 3.1**n * np.sin(3.1 * TIME + n * np.pi / 2)
+               for n in range(3))  # fmt: skip
+    o, w, b = (0.05 * 1.3**n * np.sin(1.3 * TIME + n * np.pi / 2) for n in range(3))
+    values = {"s": s, "v": v, "o": o, "w": w} | {"der(s)": v, "der(o)": w, "der(v)": a, "der(w)": b}
+    units = {"s": "m", "o": "m", "v": "m/s", "w": "m/s"}
+    kept = variables(along(**values), "v", known(**units), list(units), frozenset({"der(v)"}))
+    paths = {v.local: v.course(values) for v in kept} | {"time": TIME}
+    sizes = {v.local: v.size for v in kept}
+    place = Site(Place("equation", "m*der(v) = F"), "v", "N", tuple(kept))
+    both = {v.local: (-1.0, 1.0) for v in kept}
+    offered = [g for g in groups(kept, both, 0.05, 10.0) if len(g.texts) == 2 and "sign" in g.texts[1]]
+    for reading, rate, form, within in (("s", "v", "end_stop", 0), ("(s - o)", "(v - w)", "backlash", 1)):
+        x, y = (next(v for v in kept if v.reading == r) for r in (reading, rate))
+        assert x.rate == y.local
+        q = 0.5 * x.size
+        inside = np.abs(x.course(values)) < q
+        spring = np.clip(x.course(values), -q, q) if within else x.course(values) - np.clip(x.course(values), -q, q)
+        effort = 3000 * spring + 20 * y.course(values) * (inside if within else ~inside)
+        near = [g for g in offered if x.local in g.texts[0] and g.shapes[0].start == 0.5]
+        left = [np.linalg.lstsq(np.column_stack(g.values(paths, sizes)), effort, rcond=None)[1].sum() for g in near]
+        group = near[int(np.argmin(left))]
+        assert min(left) < 1e-12
+        assert Law(place, (group,)).form({"q_1": 0.5}) == form
+
+
+def test_what_strains_beliefs_is_offered_by_itself_and_what_nobody_would_believe_is_not() -> None:
+    kinds = [Group((text,)) for text in ("near", "far", "absurd")]
+    regression = SimpleNamespace(
+        groups=kinds, scores=lambda chosen, every: [3.0 - g for g in every], strain=lambda c: (0.5, 1.5, 9.0)[c[0]]
+    )
+    assert screening._refined(regression, range(3)) == [(0,)]
+    assert screening._refined(regression, range(3), strained=True) == [(1,)]

@@ -11,6 +11,8 @@ import time
 import pytest
 
 from lacuna import written
+from lacuna.codegen.cache import Cache
+from lacuna.discovery.fit.kept.store import kept, remembered
 from lacuna.written import whole_file, whole_files, write_whole
 
 
@@ -94,3 +96,16 @@ def test_folders_are_taken_back_too(tmp_path: Path, monkeypatch: pytest.MonkeyPa
             (scratch / name).mkdir()
             (scratch / name / "file").write_text("new")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_only_a_cache_does_not_wait_for_the_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    synced: list[int] = []
+    monkeypatch.setattr(os, "fsync", synced.append)
+    Cache(str(tmp_path / "models")).build("0" * 64, "int nothing;\n")
+    with kept(tmp_path / "kept"):
+        remembered(lambda: ("question",), lambda: 42)
+    assert not synced
+    write_whole(tmp_path / "a", "result")
+    with whole_files(tmp_path) as scratch:
+        (scratch / "b").write_text("result")
+    assert len(synced) == 4  # two files, and twice the folder that holds their names

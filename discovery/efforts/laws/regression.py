@@ -19,7 +19,7 @@ from lacuna.discovery.law.law_terms import Group
 
 DISCREPANCIES = (0.3, 0.03)  # of the located effort's size, that a law may leave
 NEAR = 5.0  # believed sigmas, within which parameters are looked for
-FURTHER = 2.0  # times as far as beside an effort of any course, that a law may leave them
+FURTHER = 2.0  # times as far as beside an effort of any course, that a law may leave them; as that, where none else is
 DEPENDENT = 1e-6  # share of a column that is left beside the others, below which it is none of its own
 
 
@@ -80,12 +80,13 @@ class Regression:
     def _best_metric(self, chosen: tuple[int, ...]) -> _Metric:
         return min(self.metrics, key=lambda m: m.deviances(chosen[:-1], chosen[-1:])[0])
 
-    def plausible(self, chosen: tuple[int, ...]) -> bool:
-        """Whether the parameters stay near what is believed of them. To first order anything can be had by parameters
-        that no machine has: a term of the balance taken away whole, its inertia with it. Where an effort of any
-        course at this place leaves them further off (what else is missing drives them), a law may as well."""
-        metric = self._best_metric(chosen)
-        return bool(np.all(np.abs(metric.parameters(chosen)) < np.maximum(NEAR, FURTHER * self.driven)))
+    def strain(self, chosen: tuple[int, ...]) -> float:
+        """How far the parameters go from what is believed of them, in parts of how far they may. To first order
+        anything can be had by parameters that no machine has: a term of the balance taken away whole, its inertia with
+        it. Where an effort of any course at this place leaves them further off (what else is missing drives them), a
+        law may as well."""
+        moved = self._best_metric(chosen).parameters(chosen)
+        return float(np.max(np.abs(moved) / np.maximum(NEAR, FURTHER * self.driven), initial=0.0))
 
 
 class _Metric:

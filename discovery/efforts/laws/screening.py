@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 import numpy as np
 
-from lacuna.discovery.efforts.laws.regression import Regression
-from lacuna.discovery.efforts.laws.terms import counts, groups, saturating, variables
+from lacuna.discovery.efforts.laws.regression import FURTHER, Regression
+from lacuna.discovery.efforts.laws.terms import counts, groups, saturating
+from lacuna.discovery.efforts.laws.variables import variables
 from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.located import Guided, Locator, Site
 from lacuna.discovery.efforts.opened import Place
@@ -26,18 +27,26 @@ PAIRS = 6  # kinds of pairs whose shapes are refined
 SAME = 1e-3  # share of what a law explains, by which another one must differ to be tried beside it
 
 
-def proposals(locator: Locator, site: Site, guided: Guided, most: int) -> list[Proposal]:
-    """Laws of one and of two groups of terms at a place, `most` of each, the most telling first; in any of the
-    quantities in which an effort does the same there."""
-    single: list[Scored] = []
-    double: list[Scored] = []
-    for place in (site.place, *site.place.other):
-        regression, every = _offered(locator, place, guided)
-        ones = _refined(regression, every)
-        single += _scored(regression, _distinct(regression, ones, most))
-        double += _scored(regression, _distinct(regression, _doubled(regression, ones, every), most))
-    chosen = [laws for found in (single, double) for _, *laws in sorted(found, key=lambda f: f[0])[:most]]
-    return [_proposal(regression, groups) for regression, groups in chosen]
+def proposals(locator: Locator, site: Site, guided: Guided, most: int) -> Iterator[list[Proposal]]:
+    """Laws of one group of terms at a place, then such as parameters would have to leave their beliefs for, then of two
+    groups; `most` of each, the most telling first, each list found when it is asked for. In any of the quantities in
+    which an effort does the same there.
+
+    Along a run that an effort of a smooth course leads, a stiff contact is met too early or too late; to first order
+    parameters stand for that, and a fit puts them back.
+    """
+    offered = [_offered(locator, place, guided) for place in (site.place, *site.place.other)]
+    ones = [_refined(*quantity) for quantity in offered]
+    yield _best([(r, groups) for (r, _), groups in zip(offered, ones, strict=True)], most)
+    strained = [(r, _refined(r, every, strained=True)) for r, every in offered]
+    yield _best(strained, most)
+    yield _best([(r, _doubled(r, groups, every)) for (r, every), groups in zip(offered, ones, strict=True)], most)
+
+
+def _best(found: list[tuple[Regression, list[tuple[int, ...]]]], most: int) -> list[Proposal]:
+    """The best laws of several regressions, which explain different things in each."""
+    scored = [law for r, groups in found for law in _scored(r, _distinct(r, groups, most))]
+    return [_proposal(r, groups) for _, r, groups in sorted(scored, key=lambda f: f[0])[:most]]
 
 
 def _scored(regression: Regression, found: list[tuple[int, ...]]) -> list[Scored]:
@@ -78,14 +87,18 @@ def _reads_only(group: Group, found: list[Variable], told: set[str]) -> bool:
 
 
 def _distinct(regression: Regression, found: Iterable[tuple[int, ...]], most: int) -> list[tuple[int, ...]]:
-    """The first `most` that explain different things: |x| beside x, where x has one sign, is the same law again."""
+    """The first `most` that explain different things: |x| beside x, where x has one sign, is the same law again, and so
+    is what is late beside what is late by the same quantity, whatever it was before the start."""
     kept: list[tuple[int, ...]] = []
     courses: list[np.ndarray] = []
+    kinds: set[frozenset[str]] = set()
     for chosen in found:
+        kind = frozenset(text.replace("onset(", "delay(") for g in chosen for text in regression.groups[g].kind)
         course = regression.explained(chosen)
-        if all(np.sum((course - c) ** 2) > SAME * np.sum(c**2) for c in courses):
+        if kind not in kinds and all(np.sum((course - c) ** 2) > SAME * np.sum(c**2) for c in courses):
             kept.append(chosen)
             courses.append(course)
+            kinds.add(kind)
         if len(kept) == most:
             break
     return kept
@@ -98,13 +111,19 @@ def _answering(locator: Locator, along: Along, column: int) -> frozenset[str]:
     return frozenset(n for k, n in enumerate(names) if np.any(along.direct[:, k, column] != 0))
 
 
-def _refined(regression: Regression, every: range) -> list[tuple[int, ...]]:
-    """The best of each kind of term, its shape refined, best first."""
+def _refined(regression: Regression, every: range, strained: bool = False) -> list[tuple[int, ...]]:
+    """The best of each kind of term, its shape refined, best first; those that leave parameters where they are believed
+    to be, or of those that do not (`strained`)."""
+
+    def admitted(g: int) -> bool:
+        strain = regression.strain((g,))
+        return 1 <= strain < FURTHER if strained else strain < 1
+
     scored = dict(zip(every, regression.scores((), every), strict=True))
     best: dict[tuple[str, ...], int] = {}
     for g in sorted(scored, key=lambda g: scored[g]):
-        if regression.groups[g].texts not in best and regression.plausible((g,)):
-            best[regression.groups[g].texts] = g
+        if regression.groups[g].kind not in best and admitted(g):
+            best[regression.groups[g].kind] = g
     kinds = list(best.values())
     for zoom in range(ZOOMS):
         finer = [(g, n) for g in kinds[:FAMILIES] for n in _finer(regression.groups[g], zoom)]
@@ -114,7 +133,7 @@ def _refined(regression: Regression, every: range) -> list[tuple[int, ...]]:
         for (g, _), n, score in zip(finer, added, regression.scores((), added), strict=True):
             scored[n] = score
             k = next(k for k, old in enumerate(kinds) if regression.groups[old].texts == regression.groups[g].texts)
-            if scored[n] < scored[kinds[k]] and regression.plausible((n,)):
+            if scored[n] < scored[kinds[k]] and admitted(n):
                 kinds[k] = n
     kinds.sort(key=lambda g: scored[g])
     return [(g,) for g in kinds]
@@ -141,8 +160,8 @@ def _doubled(regression: Regression, single: list[tuple[int, ...]], every: range
             scored[(*first, other)] = score
     kinds: dict[frozenset, tuple[int, ...]] = {}
     for key in sorted(scored, key=lambda k: scored[k]):
-        kinds.setdefault(frozenset(regression.groups[g].texts for g in key), key)
-    kept = _distinct(regression, filter(regression.plausible, kinds.values()), PAIRS)
+        kinds.setdefault(frozenset(regression.groups[g].kind for g in key), key)
+    kept = _distinct(regression, (pair for pair in kinds.values() if regression.strain(pair) < 1), PAIRS)
     better = _refined_pairs(regression, [(key, scored[key]) for key in kept])
     return [pair for pair, _ in sorted(better, key=lambda b: b[1])]
 
@@ -161,7 +180,7 @@ def _refined_pairs(
                 best = int(np.argmin(scores))
                 if scores[best] < score:
                     trial = (own[best], pair[1]) if k == 0 else (pair[0], own[best])
-                    if regression.plausible(trial):
+                    if regression.strain(trial) < 1:
                         pairs[n] = trial, scores[best]
     return pairs
 

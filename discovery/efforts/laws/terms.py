@@ -7,23 +7,14 @@ function). Texts are Modelica.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from lacuna.codegen.units.inference import SECOND
 from lacuna.discovery.efforts.insertion import KEPT
-from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.law.law_terms import Group, Shape, Variable
-from lacuna.runtime.model import Variable as ModelVariable
-from lacuna.units import parse_unit
 
-MOST = 12  # variables at a place, the nearest first: their pairs are what a search costs
-APART = 6  # differences of variables at most: of three places with their surroundings all
-SAME = 1e-3  # of their largest value, within which a variable is a polynomial of another one
-DEGREE = 3  # of that polynomial
-MOVES = 1e-6  # share of its largest value that a variable must move by
 LEAST = 1.5  # cycles over the range: less of a wave is a bend, which powers say with fewer numbers
 CYCLES = 30  # of a wave along a variable, over the range that it has
 TURN = 1.6  # rad from one wave number to the next at the ends of the range: so that none is missed
@@ -32,94 +23,6 @@ BEYOND = (1.5, 2.0)  # powers of what is beyond a threshold: weirs, contacts
 EXPONENTS = (0.5, 1.5, 2.0, 3.0, 4.0)  # where powers start: flow through an orifice to radiation
 OCTAVES = 3.0  # from one time constant of a relaxation to the next: half a bandwidth either way
 _WHOLE = (1 / 3, 2 / 3, 1.0, 7 / 4, *EXPONENTS, 5.0)
-
-
-def variables(
-    along: Sequence[Along], location: str, known: Mapping[str, ModelVariable], states: list[str],
-    answering: frozenset[str], added: frozenset[str] = frozenset(),
-) -> list[Variable]:  # fmt: skip
-    """The variables of a law at `location`, the nearest first; those that follow from another one are left out, and
-    those of components that were `added` to the believed model: what is found there may yet be found anew.
-
-    `answering` are those that the effort changes at once: they are in the balance that says what the effort is, and a
-    sum of them is that balance again. Of them only rates of states serve, where something else multiplies them.
-    """
-    units = {n: v.unit for n, v in known.items()}
-    names = [n for n, v in along[0].values.items() if np.ndim(v) == 1 and (n in units or n.startswith("der("))]
-    names = [n for n in names if not n.startswith("probe") and (n not in answering or n.startswith("der("))]
-    names = [n for n in names if n.removeprefix("der(").partition(".")[0] not in added]
-    largest: dict[str, float] = {}
-    for n in names:
-        unit = units.get(n, n)
-        largest[unit] = max(largest.get(unit, 0.0), max(float(np.abs(a.values[n]).max()) for a in along))
-    order = {s: k for k, s in enumerate(states)}
-
-    def rank(name: str) -> tuple:
-        inner = name.removeprefix("der(").removesuffix(")")
-        near = inner == location or inner.rpartition(".")[0] == location
-        return name.startswith("der(") and not near, not near, inner not in order, name.startswith("der("), name
-
-    kept: list[Variable] = []
-    courses: list[np.ndarray] = []
-    for name in sorted(names, key=rank):
-        course = np.concatenate([a.values[name] for a in along])
-        size = float(np.abs(course).max(initial=0.0))
-        if not np.isfinite(size) or np.ptp(course) <= MOVES * largest[units.get(name, name)]:
-            continue
-        scaled = course / size
-        if any(_says_nothing_new(scaled, c) for c in courses):
-            continue
-        unit = units.get(name) or _rate(units.get(name.removeprefix("der(").removesuffix(")"), ""))
-        driven = name in known and known[name].kind == "input"
-        kind = "state" if name in order else "rate" if name in answering else "input" if driven else "other"
-        switch = name in known and known[name].type == "Boolean"
-        sticks = kind == "state" and f"der({name})" in answering
-        kept.append(Variable(f"x{len(kept) + 1}", name, unit, kind, float(f"{size:.2g}"), switch, sticks=sticks))
-        courses.append(scaled)
-        if len(kept) == MOST:
-            break
-    believed = {n: u for n, u in units.items() if n.partition(".")[0] not in added}
-    moving = [n for n in states if n in names and np.ptp(np.concatenate([a.values[n] for a in along])) > 0]
-    return [*kept, *_differences(along, kept, moving, believed, location)]
-
-
-def _differences(
-    along: Sequence[Along], kept: list[Variable], states: list[str], units: Mapping[str, str], location: str
-) -> list[Variable]:  # fmt: skip
-    """What drives a flow between two places: states less states, inputs and parameters of the same unit; those that are
-    no multiple of a variable that is there. The ones that hold the place's own state come first."""
-    fixed = {n for n, v in along[0].values.items() if np.ndim(v) == 0 and units.get(n) and v != 0}
-    states = [n for n in states if units.get(n)]
-    pairs = [(a, b) for k, a in enumerate(states) for b in states[k + 1 :] if units[a] == units[b]]
-    pairs += [(a, b.name) for a in states for b in kept if b.kind in ("other", "input") and units[a] == b.unit]
-    pairs += [(a, n) for a in states for n in sorted(fixed) if units[a] == units[n]]
-    pairs.sort(key=lambda pair: not any(n == location or n.rpartition(".")[0] == location for n in pair))
-    courses = [np.concatenate([v.course(a.values) for a in along]) for v in kept]
-    found: list[Variable] = []
-    for name, minus in pairs:
-        course = np.concatenate([a.values[name] - a.values[minus] for a in along])
-        size = float(np.abs(course).max(initial=0.0))
-        if not np.isfinite(size) or size <= MOVES * np.abs(np.concatenate([a.values[name] for a in along])).max():
-            continue
-        if any(abs(course @ c) > (1 - SAME**2) * np.linalg.norm(course) * np.linalg.norm(c) for c in courses):
-            continue
-        kind = "apart" if np.ndim(along[0].values[minus]) else "above"
-        number = len(kept) + len(found) + 1
-        found.append(Variable(f"x{number}", name, units[name], kind, float(f"{size:.2g}"), minus=minus))
-        courses.append(course)
-        if len(found) == APART:
-            break
-    return found
-
-
-def _says_nothing_new(course: np.ndarray, known: np.ndarray) -> bool:
-    """Whether a quantity is another one on another scale, or a power of it (an energy beside a speed)."""
-    basis = np.vander(known, DEGREE + 1)
-    return bool(np.abs(course - basis @ np.linalg.lstsq(basis, course, rcond=None)[0]).max() < SAME)
-
-
-def _rate(unit: str) -> str:
-    return str(parse_unit(unit) / SECOND) if unit else ""
 
 
 def groups(
@@ -136,6 +39,7 @@ def groups(
             result.append(Group((v.scaled,)))
         elif v.kind != "rate":
             result += _alone(v) if low < 0 < high else _of_one_sign(v, low > AWAY or high < -AWAY)
+        result += [g for rate in found if rate.local == v.rate for g in _contacts(v, rate, low < 0 < high)]
         if v.kind == "state":
             result += _waves(v, high - low) + _varying(v, interval, duration)
     plain = [v for v in found if v.kind not in ("apart", "above")]
@@ -149,8 +53,8 @@ def groups(
 
 def counts(found: Sequence[Variable], offered: Sequence[Group]) -> tuple[int, int]:
     """Kinds of groups of one variable and of several."""
-    kinds = {group.texts for group in offered}
-    several = sum(sum(any(f"{v.local}_ref" in text for text in texts) for v in found) > 1 for texts in kinds)
+    kinds = {group.kind for group in offered}
+    several = sum(sum(any(f"{v.local}_ref" in text for text in kind) for v in found) > 1 for kind in kinds)
     return len(kinds) - several, several
 
 
@@ -209,6 +113,23 @@ def _alone(v: Variable) -> list[Group]:
     stribeck = Group((v.dry, f"{v.dry}*exp(-abs{x}/{{q}})"), (Shape("q", "1", 0.1, 0.01, 1.0, (), 0.08),))
     plain = [Group((x,)), Group((f"abs{x}",)), Group((f"{x}^2",)), Group((v.dry,))]
     return [*plain, *power, *bend, *reach, *ends, stribeck]
+
+
+def _contacts(v: Variable, rate: Variable, both: bool) -> list[Group]:
+    """Stops that spring and damp, from where they are met, on one side or on `both`; and play, in which neither a
+    spring nor its damper acts."""
+    x, y = v.scaled, rate.scaled
+    pairs = [(f"(abs({s}{x} - {{q}}) + {s}{x} - {{q}})", f"{y}*(1 + sign({s}{x} - {{q}}))") for s in ("", "-")]
+    result = [Group(texts, (Shape("q", "1", q, -0.99, 0.99, (), 0.25),)) for texts in pairs for q in (-0.5, 0.0, 0.5)]
+    if not both:
+        return result
+    pairs = [
+        (f"({x} - 0.5*abs({x} + {{q}}) + 0.5*abs({x} - {{q}}))", f"{y}*(1 + sign(abs{x} - {{q}}))"),
+        (f"(abs({x} + {{q}}) - abs({x} - {{q}}))", f"{y}*(1 - sign(abs{x} - {{q}}))"),
+    ]
+    return result + [
+        Group(texts, (Shape("q", "1", q, 0.01, 0.99, (), 0.25),)) for texts in pairs for q in (0.25, 0.5, 0.75)
+    ]
 
 
 def _remembering(v: Variable, interval: float, duration: float) -> list[Group]:

@@ -56,7 +56,7 @@ def remembered(parts: Callable[[], tuple[Any, ...]], compute: Callable[[], Any])
     except (OSError, EOFError, ValueError, KeyError, TypeError, zipfile.BadZipFile):
         pass
     value = compute()
-    with whole_file(path) as partial:
+    with whole_file(path, lasting=False) as partial:
         save(partial, value)
     return value
 
