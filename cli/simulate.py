@@ -6,6 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+from rich.markup import escape
 from rich.table import Table
 import typer
 
@@ -108,7 +109,8 @@ def _run(model: lacuna.Model, **settings: Any) -> tuple[lacuna.Result, str]:
 
 def _data(result: lacuna.Result) -> dict[str, object]:
     return {
-        "model": result.model, "complete": result.complete, "seconds": result.seconds, "rows": len(result),
+        "model": result.model, "complete": result.complete, "terminated": result.terminated,
+        "seconds": result.seconds, "rows": len(result),
         "counters": result.counters, "last": {name: float(result[name][-1]) for name in ("time", *result)},
     }  # fmt: skip
 
@@ -117,6 +119,8 @@ def _table(result: lacuna.Result, solver: str) -> Table:
     table = Table(show_header=False)
     covered = float(result.time[-1] - result.time[0])
     table.add_row("time covered", f"{covered:g} s in {result.seconds:.3f} s of computing with {solver}")
+    if result.terminated is not None:
+        table.add_row("ended by the model", f"{escape(result.terminated)}, at time {float(result.time[-1]):g} s")
     for name, count in result.counters.items():
         table.add_row(name.replace("_", " "), f"{count}")
     return table

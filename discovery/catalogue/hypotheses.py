@@ -122,7 +122,7 @@ def _intervals(case: Case, effect: Effect, driven: bool) -> list[tuple[tuple[str
     """For an effect that samples: as the recordings do and, inside a loop, which closes between samples, finer too."""
     if not effect.interval:
         return [()]
-    return [((effect.interval, round(case.fit[0].interval / n, 9)),) for n in ((1,) if driven else (1, FINER))]
+    return [((effect.interval, float(f"{case.fit[0].interval / n:.9g}")),) for n in ((1,) if driven else (1, FINER))]
 
 
 def _stage_of(structure: Structure, source: str) -> str:
@@ -149,8 +149,9 @@ def _on_sensors(case: Case, structure: Structure, effect: Effect) -> list[Attach
     """On a device whose force is recorded, the force of an effect's twin is the very same signal: one name suffices."""
     forces = {d.variable for d in structure.devices} if effect.twin else set()
     return [
-        Attachment(effect, _component(effect, s.column), f"sensor:{s.column}", variable=s.variable)
+        Attachment(effect, _component(effect, s.column), f"sensor:{s.column}", variable=s.variable, values=values)
         for s in case.outputs if effect.unit in ("", s.si_unit) and s.variable not in forces
+        for values in _intervals(case, effect, driven=True)
     ]  # fmt: skip
 
 

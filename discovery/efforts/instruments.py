@@ -15,10 +15,11 @@ import numpy as np
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
+from lacuna.discovery.efforts.latent.evidence import evidence
 from lacuna.discovery.efforts.located import SIZES, TIMES, Locator, thinned_all
 from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.efforts.opened import opened
-from lacuna.discovery.efforts.smoother import Colour, Latent, Piece, evidence
 from lacuna.discovery.fit.evidence import INSTRUMENTS, may_be_coloured
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.naming.comparison import MIN_GAIN

@@ -41,23 +41,48 @@ class Along:
     direct: np.ndarray  # (n, u, b): du / dq, of derivatives first
     values: dict[str, np.ndarray]  # of every variable, (n,); of parameters a number
 
-    def response(self, columns: np.ndarray, courses: np.ndarray, hold: bool = False, every: int = 1) -> np.ndarray:
+    def response(self, columns: np.ndarray, courses: np.ndarray, hold: bool = False) -> np.ndarray:
         """(n, y, j): outputs to each of j courses (n, j), course i acting in column columns[i]; from rest.
 
-        Courses are linear between samples, or held; `every` keeps one sample in so many. A response that runs away is
-        no number from there on.
+        Courses are linear between samples, or held. A response that runs away is no number from there on.
         """
-        n, count = len(self.time), len(columns)
-        state = np.zeros((self.step.shape[1], count))
-        result = np.empty((-(-n // every), self.read.shape[1], count))
+        columns = columns[:1] if np.all(columns == columns[0]) else columns
+        state = np.zeros((self.step.shape[1], courses.shape[1]))
         with np.errstate(over="ignore", invalid="ignore"):
-            for k in range(n):
-                if k % every == 0:
-                    result[k // every] = self.read[k] @ state + self.feed[k][:, columns] * courses[k]
-                if k < n - 1:
-                    acting = courses[k] if hold else 0.5 * (courses[k] + courses[k + 1])
-                    state = self.step[k] @ state + self.drive[k][:, columns] * acting
+            result = self.feed[:, :, columns] * courses[:, None]
+            for k, (step, push, acting) in enumerate(
+                zip(self.step, self.drive[:, :, columns], _between(courses, hold), strict=False)
+            ):
+                state = step @ state + push * acting
+                result[k + 1] += self.read[k + 1] @ state
         return result
+
+    def answers(self, column: int, courses: np.ndarray, every: int) -> np.ndarray:
+        """(n/every, y, j): the response to many courses (n, j) in one column, at one sample in `every`.
+
+        What a stretch between two of these does is one product: (x, every) with the courses there.
+        """
+        kept = np.arange(0, len(self.time), every)
+        begins = kept[:-1]
+        with np.errstate(over="ignore", invalid="ignore"):
+            acting, drive = _between(courses, hold=False), self.drive[:, :, column]
+            step = np.broadcast_to(np.eye(self.step.shape[1]), (len(begins), *self.step.shape[1:]))
+            pushes = np.empty((*step.shape[:2], every))
+            for k in reversed(range(every)):
+                pushes[:, :, k] = (step @ drive[begins + k, :, None])[:, :, 0]
+                step = step @ self.step[begins + k]
+            state = np.zeros((step.shape[1], courses.shape[1]))
+            result = self.feed[kept][:, :, column, None] * courses[kept, None]
+            for k, sample in enumerate(kept):
+                result[k] += self.read[sample] @ state
+                if k < len(begins):
+                    state = step[k] @ state + pushes[k] @ acting[sample : sample + every]
+        return result
+
+
+def _between(courses: np.ndarray, hold: bool) -> np.ndarray:
+    """(n - 1, j): what courses (n, j) are on average from each sample to the next."""
+    return courses[:-1] if hold else 0.5 * (courses[:-1] + courses[1:])
 
 
 class Linear:

@@ -9,8 +9,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from lacuna.discovery.case.cases import Case, Recording
+from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
+from lacuna.discovery.efforts.latent.evidence import evidence
+from lacuna.discovery.efforts.latent.smoother import Whitener, acting, courses, thinned
 from lacuna.discovery.efforts.opened import Opened, Place
-from lacuna.discovery.efforts.smoother import Colour, Latent, Piece, Whitener, acting, course, evidence, thinned
 from lacuna.discovery.fit.evidence import SIGMAS
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.free import Free
@@ -134,7 +136,7 @@ class Locator:
         """Whether what the effort at this place leaves has no memory from one sample to the next."""
         latent, mean = self._chosen[id(site)]
         pieces = thinned_all(self.pieces)
-        left = [Whitener(p, latent).innovations(p.data[:, :, 0] + p.data[:, :, 1:] @ mean) for p in pieces]
+        left = Whitener(pieces, latent).innovations([p.data[:, :, 0] + p.data[:, :, 1:] @ mean for p in pieces])
         for sensor in range(len(self.noise)):
             rows = [x[:, sensor][np.isfinite(x[:, sensor])] for x in left]
             power, count = sum(r @ r for r in rows), sum(map(len, rows))
@@ -153,8 +155,8 @@ class Locator:
 
     def _led(self, point: dict[str, float], latent: Latent, pieces: list[Piece], mean: np.ndarray) -> list[Piece]:
         """The linear model about the runs from `point` with the efforts that these pieces say there are."""
-        runs = zip(self.case.fit, pieces, strict=True)
-        return [self.piece(point, recording, acting(p, latent, mean)) for recording, p in runs]
+        runs = zip(self.case.fit, acting(pieces, latent, mean), strict=True)
+        return [self.piece(point, recording, efforts) for recording, efforts in runs]
 
     def _followed(
         self, latent: Latent, pieces: list[Piece]
@@ -196,7 +198,7 @@ class Locator:
             led = [replace(p, noise=self.noise * level**share) for p in pieces]
             pieces = self._led(self.point, latent, led, held)
         point, pieces, mean = self._followed(latent, pieces)
-        efforts = [course(p, latent, mean) for p in pieces]
+        efforts = courses(pieces, latent, mean)
         site.effort = {
             r.name: (r.time, e, s) for r, (e, s) in zip(self.case.fit, efforts, strict=True)
         }  # fmt: skip

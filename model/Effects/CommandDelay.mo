@@ -1,8 +1,8 @@
 within Lacuna.Effects;
 model CommandDelay "Servo controller that learns of its command after a fixed time"
   extends Lacuna.Interfaces.PartialServoController;
-  parameter Types.Time T_d(final min=0, final max=0.06) = 1e-3 "Delay";
-  parameter Types.Time interval(final min=1e-6) = 1e-3 "Time between the samples of the command";
+  parameter Types.Time T_d(final min=0) = 1e-3 "Delay";
+  parameter Types.Time interval(final min=0) = 1e-3 "Time between the samples of the command";
   Types.AngularVelocity wref = servo.wref "Reference speed";
   Types.Angle xi = servo.xi "Integral of the speed error";
   Interfaces.SampledDelay bus(u(unit="rad"), T_d=T_d, interval=interval) "Bus that brings the command";

@@ -1,7 +1,7 @@
 within Lacuna.Effects;
 block SensorLag "Bandwidth of a sensor"
   extends Lacuna.Interfaces.SISO;
-  parameter Types.Time T(final min=1e-6) = 1e-3 "Time constant";
+  parameter Types.Time T(final min=0) = 1e-3 "Time constant";
   Real x "Reading";
 initial equation
   x = u;

@@ -145,13 +145,19 @@ rt_status rt_record_step(rt_session *s) {
   return event_rows_follow ? RT_OK : write_present(s, s->t, 0);
 }
 
-/* The last rows. What happened at the end stands in the row of the end, which the last step may have written. */
+/* The last rows. What happened at the end stands in the row of the end, which the last step may have written; an end
+ * that the model sets lies between two points of the grid and is a row of its own, unless the points were given. */
 rt_status rt_record_end(rt_session *s) {
   rt_result *r = s->result;
   rt_status status = record_grid(s, true);
-  if (status || !r->rows || s->sensitivities || !s->d->n_d) return status;
+  if (status || !r->rows) return status;
   size_t last = r->rows - 1;
-  if (r->time[last] < s->t - s->clock.tolerance) return status;
+  if (r->time[last] < s->t - s->clock.tolerance) {
+    if (!s->data.terminated || s->recorder.n_grid) return status;
+    rt_inputs_at(s, s->t);
+    return write_present(s, s->t, 0);
+  }
+  if (s->sensitivities || !s->d->n_d) return status;
   r->rows--;
   rt_inputs_at(s, s->t);
   return write_present(s, r->time[last], r->event[last]);

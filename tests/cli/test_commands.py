@@ -102,6 +102,15 @@ def test_compile_reports_the_passes_once(monkeypatch: pytest.MonkeyPatch, tmp_pa
     assert "unchanged" in lacuna("compile", SERVO).output
 
 
+def test_simulate_says_what_ended_a_run(tmp_path: Path) -> None:
+    Path("Ends.mo").write_text(
+        "model Ends\n  Real x(start=0, fixed=true);\nequation\n  der(x) = 1;\n"
+        '  when x > 0.3 then\n    terminate("[b]enough");\n  end when;\nend Ends;\n'
+    )
+    said = lacuna("simulate", "Ends.mo", "--stop", "1", "--interval", "0.25", "--out", "run").output
+    assert "ended by the model" in said and "[b]enough, at time 0.3 s" in said and "0.3 s in" in said
+
+
 def test_simulate_writes_csv_metadata_and_figure(tmp_path: Path) -> None:
     result = lacuna("simulate", SERVO, "--stop", "0.05", "-p", "U=6", "--signal", "w", "--plot", "--out", "run")
     assert result.exit_code == 0, result.output

@@ -15,11 +15,13 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as read_structure
+from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
+from lacuna.discovery.efforts.latent.evidence import evidence
+from lacuna.discovery.efforts.latent.smoother import Whitener, courses, thinned
 from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.efforts.sites import read
-from lacuna.discovery.efforts.smoother import Colour, Latent, Piece, Whitener, course, evidence, thinned
 from lacuna.discovery.explain import explain, judge_written, write_amended
 from lacuna.discovery.explanation import diagnosis
 from lacuna.discovery.fit.intervals import undetermined
@@ -111,9 +113,8 @@ def test_the_smoother_equals_one_dense_solve(latent: Latent) -> None:
     mean = answers.T @ np.linalg.solve(whole, residual)
     np.testing.assert_allclose(found.mean[0], mean, rtol=1e-9)
     at = 0
-    for p, (c, crossed) in zip(pieces, parts, strict=True):
+    for (effort, error), (c, crossed) in zip(courses(pieces, latent, mean), parts, strict=True):
         left = (residual - answers @ mean)[at : at + len(c)]
-        effort, error = course(p, latent, mean)
         np.testing.assert_allclose(effort, crossed @ np.linalg.solve(c, left), rtol=1e-8, atol=1e-10)
         variance = latent.size[0] ** 2 - np.sum(crossed * np.linalg.solve(c, crossed.T).T, axis=1)
         np.testing.assert_allclose(error**2, variance, rtol=1e-7)
@@ -124,7 +125,7 @@ def test_whitened_columns_make_the_dense_gram_matrix() -> None:
     p = piece(25, missing=5)
     cover, _ = dense(p, LATENT)
     rows = p.data[np.isfinite(p.data).all(axis=2)]
-    white = Whitener(p, LATENT)(p.data)
+    white = Whitener([p], LATENT)([p.data])
     np.testing.assert_allclose(white.T @ white, rows.T @ np.linalg.solve(cover, rows), rtol=1e-9)
 
 
@@ -136,7 +137,7 @@ def test_other_units_and_readings_at_other_rates_change_nothing() -> None:
     cover, _ = dense(sparse, LATENT)
     assert len(cover) == 40
     rows = sparse.data[np.isfinite(sparse.data).all(axis=2)]
-    white = Whitener(sparse, LATENT)(sparse.data)
+    white = Whitener([sparse], LATENT)([sparse.data])
     np.testing.assert_allclose(white.T @ white, rows.T @ np.linalg.solve(cover, rows), rtol=1e-9)
 
 

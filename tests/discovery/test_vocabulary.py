@@ -141,6 +141,41 @@ def test_a_delayed_command_is_the_command_recorded_later(
     assert delayed == pytest.approx(_surface("Benches.ScrewEma", later, {}), abs=1e-6 * float(np.ptp(delayed)))
 
 
+@pytest.mark.parametrize("delay", [0.0, 0.4e-3, 7.3e-3, 63e-3])
+def test_a_late_sensor_reads_what_was(
+    library: Library, effects: list[catalogue.Effect], delay: float, tmp_path: Path
+) -> None:
+    """Samples 1 ms apart of a sine of 30 rad/s: a straight line between two of them is off by (0.03)^2 / 8 = 1.1e-4."""
+    reading, true, time = _read(library, effects, delay, tmp_path)
+    was = np.interp(np.maximum(time - delay, 0.0), time, true)
+    assert reading == pytest.approx(was, abs=2 * 1.2e-4 * float(np.ptp(true)))
+
+
+def test_a_sensor_is_not_later_than_what_it_keeps(
+    library: Library, effects: list[catalogue.Effect], tmp_path: Path
+) -> None:
+    with pytest.raises(AssertionError, match="The delay is longer than what is kept"):
+        _read(library, effects, 64e-3, tmp_path)
+
+
+def _read(
+    library: Library, effects: list[catalogue.Effect], delay: float, tmp_path: Path
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """What a late sensor of the servo reads, what is there, and when (n,)."""
+    plain, attachments = _attachments(library, effects, "DcServo")
+    attachment = next(a for a in attachments if a.effect.name == "SensorDelay")
+    assert (attachment.effect.identifier, attachment.location) == ("sensor.lag", f"sensor:{attachment.variable}")
+    time = np.arange(501) * 1e-3
+    values = {attachment.full_name("T_d"): delay, attachment.full_name("interval"): 1e-3}
+    result = simulate(
+        Model(compile_model(str(_write(plain, attachment, tmp_path, 0))).path), solver="dopri5", parameters=values,
+        stop=0.5, output_times=time, inputs={"u": RecordedInput(time, 6 * np.sin(30 * time))}, events=False, rtol=1e-9,
+        outputs=[attachment.full_name("y"), attachment.variable],
+    )  # fmt: skip
+    assert result.complete, str(result.failure)
+    return np.array(result[attachment.full_name("y")]), np.array(result[attachment.variable]), time
+
+
 def _surface(model: str, command: RecordedInput, parameters: dict[str, float]) -> np.ndarray:
     """The surface of the servo (n,) as it follows a command, without load."""
     time = np.arange(301) * 1e-3

@@ -190,6 +190,10 @@ def test_assert_and_terminate_end_a_run(tmp_path: Path):
     result = runtime.simulate(ends, stop=1.0, solver="dopri5")
     assert result.complete and result.terminated == "enough"
     assert result.time[-1] == pytest.approx(0.3, abs=1e-9)
+    sampled = runtime.simulate(ends, stop=1.0, interval=0.25, events=False)
+    assert list(sampled.time) == pytest.approx([0, 0.25, 0.3]) and sampled["x"][-1] == pytest.approx(0.3)
+    on_grid = runtime.simulate(ends, stop=1.0, interval=0.1, events=False)
+    assert list(on_grid.time) == pytest.approx([0, 0.1, 0.2, 0.3])
     late = runtime.simulate(ends, stop=1.0, initial={"x": 0.45}, solver="rk4", step=0.01)
     assert late.failure.status == "assert" and "x is too large" in str(late.failure) and late.failure.line == 6
 

@@ -12,8 +12,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from lacuna.discovery.efforts.latent.chains import Latent, Piece
+from lacuna.discovery.efforts.latent.smoother import Whitener
 from lacuna.discovery.efforts.located import Guided, thinned_all
-from lacuna.discovery.efforts.smoother import Latent, Piece, Whitener
 from lacuna.discovery.law.law import Law, Site
 from lacuna.discovery.law.law_terms import Group
 
@@ -48,8 +49,7 @@ class Regression:
             with np.errstate(all="ignore"):
                 courses = np.column_stack([c for group in groups for c in group.values(path, self.place.sizes)])
             courses = np.nan_to_num(courses, nan=0.0, posinf=0.0, neginf=0.0)
-            columns = np.full(courses.shape[1], self.column)
-            answers.append(piece.along.response(columns, courses, every=self.every))
+            answers.append(piece.along.answers(self.column, courses, self.every))
         for metric in self.metrics:
             metric.add(answers, [len(group.texts) for group in groups])
         begin = len(self.groups)
@@ -94,14 +94,15 @@ class _Metric:
 
     def __init__(self, pieces: list[Piece], located: Latent, share: float) -> None:
         latent = replace(located, size=share * located.size)
-        self.whiteners = [Whitener(p, latent) for p in pieces]
-        self.logdet = sum(w.logdet for w in self.whiteners)
-        rows = np.concatenate([w(p.data) for w, p in zip(self.whiteners, pieces, strict=True)])
+        self.whitener = Whitener(pieces, latent)
+        self.logdet = self.whitener.logdet
+        rows = self.whitener([p.data for p in pieces])
         count = rows.shape[1] - 1
         self.basis, self.triangle = np.linalg.qr(np.vstack([-rows[:, 1:], np.eye(count)]))
         target, share = self._beside(rows[:, :1])
         self.target, self.target_share = target[:, 0], share[:, 0]
         self.columns: list[np.ndarray] = []  # (rows, terms) of each group
+        self.grams: list[np.ndarray] = []  # (terms, terms), their products
         self.shares: list[np.ndarray] = []  # (parameters, terms): what the parameters' basis has of each
 
     def _beside(self, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -123,45 +124,39 @@ class _Metric:
         return np.linalg.solve(self.triangle, self.target_share - taken)
 
     def add(self, answers: list[np.ndarray], terms: list[int]) -> None:
-        columns, shares = self._beside(np.concatenate([w(a) for w, a in zip(self.whiteners, answers, strict=True)]))
+        columns, shares = self._beside(self.whitener(answers))
         at = 0
         for count in terms:
-            self.columns.append(columns[:, at : at + count])
+            own = columns[:, at : at + count]
+            self.columns.append(own)
+            self.grams.append(own.T @ own)
             self.shares.append(shares[:, at : at + count])
             at += count
 
     def deviances(self, chosen: tuple[int, ...], others: Sequence[int]) -> np.ndarray:
         """(len(others),) of the chosen groups with each of the others."""
-        target, basis = self.target, None
+        target, basis = self.target, np.zeros((len(self.target), 0))
         if chosen:
             basis, _ = np.linalg.qr(np.column_stack([self.columns[g] for g in chosen]))
             target = target - basis @ (basis.T @ target)
-        taken = np.zeros(len(others))
-        plain = [k for k, g in enumerate(others) if self.columns[g].shape[1] == 1]
-        if plain:
-            taken[plain] = _taken_singly(target, basis, np.column_stack([self.columns[others[k]] for k in plain]))
-        for k, g in enumerate(others):
-            if self.columns[g].shape[1] > 1:
-                taken[k] = _taken(target, basis, self.columns[g])
+        terms = np.concatenate([self.columns[g] for g in others], axis=1)
+        right, crossed = terms.T @ target, (basis.T @ terms).T
+        counts = np.array([self.columns[g].shape[1] for g in others])
+        first, taken = np.cumsum(counts) - counts, np.zeros(len(others))
+        for count in np.unique(counts):
+            alike = np.flatnonzero(counts == count)
+            at = first[alike, None] + np.arange(count)
+            taken[alike] = _taken(np.stack([self.grams[others[k]] for k in alike]), right[at], crossed[at])
         return float(target @ target) + self.logdet - taken
 
 
-def _taken_singly(target: np.ndarray, basis: np.ndarray | None, columns: np.ndarray) -> np.ndarray:
-    """Square sums (j,) that each of the columns (rows, j) takes away alone beside `basis`."""
-    norms = np.einsum("ij,ij->j", columns, columns)
-    left = norms - (np.sum((basis.T @ columns) ** 2, axis=0) if basis is not None else 0.0)
-    return np.where(left > DEPENDENT * norms, (columns.T @ target) ** 2 / np.maximum(left, 1e-300), 0.0)
-
-
-def _taken(target: np.ndarray, basis: np.ndarray | None, block: np.ndarray) -> float:
-    """Square sum of `target` that the columns of `block` take away beside `basis`."""
-    gram, right = block.T @ block, block.T @ target
-    if basis is not None:
-        crossed = basis.T @ block
-        rest = gram - crossed.T @ crossed
-        if np.trace(rest) < DEPENDENT * np.trace(gram):
-            return 0.0
-        gram = rest
-    size = np.sqrt(np.maximum(np.diag(gram), 1e-300))
-    solved = np.linalg.lstsq(gram / np.outer(size, size), right / size, rcond=1e-9)[0]
-    return float(right @ (solved / size))
+def _taken(gram: np.ndarray, right: np.ndarray, crossed: np.ndarray) -> np.ndarray:
+    """Square sums (k,) that k blocks of j columns each take away beside a basis of c columns: from their products with
+    themselves (k, j, j), with the target (k, j), and with the basis (k, j, c)."""
+    rest = gram - crossed @ np.swapaxes(crossed, 1, 2)
+    own = np.trace(rest, axis1=1, axis2=2) > DEPENDENT * np.trace(gram, axis1=1, axis2=2)  # not where one runs away
+    rest, right = np.where(own[:, None, None], rest, np.eye(gram.shape[1])), np.where(own[:, None], right, 0.0)
+    size = np.sqrt(np.maximum(np.diagonal(rest, axis1=1, axis2=2), 1e-300))
+    inverse = np.linalg.pinv(rest / (size[:, :, None] * size[:, None]), rcond=1e-9, hermitian=True)
+    right = right / size
+    return np.sum(right * (inverse @ right[:, :, None])[:, :, 0], axis=1)

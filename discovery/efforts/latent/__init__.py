@@ -1,0 +1,1 @@
+"""An unknown effort as a latent force: its Markov chain, its evidence, its course."""
