@@ -171,12 +171,13 @@ def _finer(group: Group, zoom: int) -> list[Group]:
 def _doubled(regression: Regression, single: list[tuple[int, ...]], every: range) -> list[tuple[int, ...]]:
     """The best two groups together, best first, a kind of pair once."""
     scored: dict[tuple[int, ...], float] = {}
-    others = [*every, *(g for (g,) in single if g not in every)]
+    finer = [g for (g,) in single if g not in every]
     level = next((g,) for g in every if regression.groups[g].texts == ("1",))
     beside = [] if _is_coefficient(regression.place.place) else single[:FIRST]
     for first in dict.fromkeys([level, *beside]):
-        for other, score in zip(others, regression.scores(first, others), strict=True):
-            scored[(*first, other)] = score
+        for others in (every, finer):
+            for other, score in zip(others, regression.scores(first, others), strict=True):
+                scored[(*first, other)] = score
     kinds: dict[frozenset, tuple[int, ...]] = {}
     for key in sorted(scored, key=lambda k: scored[k]):
         kinds.setdefault(frozenset(regression.groups[g].kind for g in key), key)
