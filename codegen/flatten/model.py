@@ -12,6 +12,7 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.instance import ArrayNode, Instance, Node
 from lacuna.codegen.flatten.classes.leaf import Leaf
 from lacuna.codegen.flatten.connections.balance import check_balance
+from lacuna.codegen.flatten.connections.by_annotation import check_annotations
 from lacuna.codegen.flatten.connections.connections import connection_equations
 from lacuna.codegen.flatten.connections.expandable import expand
 from lacuna.codegen.flatten.connections.local_balance import check_components
@@ -76,7 +77,7 @@ def flatten(
     stream_variables(model, context)
     derivative_variables(model, context)
     context.finish()
-    check_components(leaves, buses, body, context)
+    _check_connections(leaves, buses, body, context)
     model.whens, model.algorithms, model.initial_equations = body.whens, body.algorithms, initial.equations
     model.asserts = body.asserts + initial.asserts
     model.functions, model.derivatives = context.functions, context.derivatives
@@ -93,6 +94,12 @@ def flatten(
     model.foreign = context.table(flat.ForeignCode)
     context.finish()
     return model
+
+
+def _check_connections(leaves: list[Leaf], buses: list[Instance], body: Collected, context: Context) -> None:
+    """What holds of components once everything is connected."""
+    check_components(leaves, buses, body, context)
+    check_annotations(leaves, context)
 
 
 def _check_units(model: flat.FlatModel, context: Context, mode: str) -> flat.FlatModel:

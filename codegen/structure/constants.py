@@ -18,10 +18,19 @@ from lacuna.codegen.symbolic.rewrite import Rewriter
 def evaluate_constants(model: flat.FlatModel) -> flat.FlatModel:
     """Replace every constant, evaluated parameter and final parameter that has a literal value by that value, and so
     every parameter that depends on such alone."""
-    values = _literal_values(model)
+    try:
+        values = _literal_values(model)
+    except Diagnostic:  # a circle that may not be there once structural parameters have their values (4.4.3)
+        known = {n: v.binding for n, v in model.variables.items() if v.evaluated and _is_literal(v.binding)}
+        model = Rewriter(lambda n: known.get(n.value) if n.op == "var" else None).model(model)
+        values = _literal_values(model)
     model = Rewriter(lambda n: values.get(n.value) if n.op == "var" else None).model(model)
     fixed = {n: replace(v, evaluated=True) for n in values if not (v := model.variables[n]).final}
     return replace(model, variables=model.variables | fixed)
+
+
+def _is_literal(e: Expr | None) -> bool:
+    return e is not None and e.op == "const"
 
 
 def _literal_values(model: flat.FlatModel) -> dict[str, Expr]:

@@ -8,6 +8,8 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.cursor import Cursor
 
+_REDUCTIONS = ("sum", "product", "min", "max", "array")  # what takes `e for i in r` (10.3.4.1)
+
 
 class ArgumentParser(Cursor):
     @abstractmethod
@@ -40,11 +42,21 @@ class ArgumentParser(Cursor):
             elif self.kind == "function":
                 call.args.append(self._partial_function())
             else:
-                call.args.append(self.maybe_comprehension())
+                call.args.append(self._by_position(call))
             if self.accept(")"):
                 return
             if not self.accept(","):
                 raise self.unexpected("')' or ','")
+
+    def _by_position(self, call: ast.Call) -> ast.Expression:
+        """One argument by position; e for i in r is one of reductions, alone."""
+        braces = self.kind == "{"
+        found = self.maybe_comprehension()
+        plain = str(call.function).removeprefix(".") in _REDUCTIONS and not call.args
+        if isinstance(found, ast.Comprehension) and not braces and not plain:
+            hint = "put it in braces: {e for i in r}"
+            raise Diagnostic("P017", f"{call.function} takes no iterators", found.span, hint)
+        return found
 
     def _named_argument(self, named: dict[str, ast.Expression]) -> None:
         name, span = self.word, self.span()

@@ -45,8 +45,7 @@ std::vector<double> transition(const lacuna_linear_model &m, const lacuna_latent
   for (size_t i = 0; i < x; ++i) {
     std::copy_n(m.step + (k * x + i) * x, x, &result[i * w]);
     for (size_t j = 0; j < c.forces; ++j)
-      if (c.column[j] >= 0)
-        result[i * w + x + j] = m.drive[(k * x + i) * m.inputs + static_cast<size_t>(c.column[j])];
+      if (c.column[j] >= 0) result[i * w + x + j] = m.drive[(k * x + i) * m.inputs + static_cast<size_t>(c.column[j])];
   }
   for (size_t j = 0; j < c.forces; ++j)
     result[(x + j) * w + x + j] = std::exp(-(m.time[k + 1] - m.time[k]) / c.time[j]);

@@ -121,6 +121,11 @@ class Inheritance:
             if name not in self.elements:
                 hint = did_you_mean(name, self.elements, f"{base.name} has {', '.join(list(self.elements)[:10])}")
                 raise Diagnostic("R032", f"{base.path} has no component {name} to leave out", item.span, hint)
+            declared = self.elements[name]
+            found = find_class(self._context.library, declared.cls, declared.declaration.type)
+            if str(declared.declaration.type) in PRIMITIVES or (found is not None and found.kind in ("record", "type")):
+                hint = "models, blocks and connectors are left out"
+                raise Diagnostic("R032", f"{name} is a {declared.declaration.type} (7.4)", item.span, hint)
             del self.elements[name]
 
         def kept(item: ast.Item) -> bool:
@@ -216,6 +221,9 @@ def _redeclared(element: Element, present: Element | None) -> Element:
         raise Diagnostic("R032", f"{new.name} redeclares nothing", new.span, hint)
     old = present.declaration
     refuse_redeclaration(new, old, new.span)
+    if new.condition is not None:
+        hint = "the condition of the inherited declaration holds"
+        raise Diagnostic("R032", f"{new.name} is redeclared with a condition (4.4.5)", new.span, hint)
     if old.protected != new.protected:
         hint = "declare both public, or both protected"
         raise Diagnostic("R037", f"{new.name} and what it redeclares differ in visibility", new.span, hint)

@@ -67,6 +67,10 @@ class Leaf:
             if name not in ATTRIBUTES[self.primitive]:
                 hint = did_you_mean(name, ATTRIBUTES[self.primitive], "see the attributes in docs/language.md")
                 raise Diagnostic("R035", f"{self.primitive} has no attribute {name}", child.span, hint)
+        fixed = self.modifier.children.get("fixed")
+        if self.variability == "constant" and self._is_false(fixed):
+            hint = "declare it as a parameter, or leave fixed out"
+            raise Diagnostic("R035", f"the constant {self.name} has fixed = false (8.6)", fixed.span, hint)
 
     @property
     def is_structural(self) -> bool:

@@ -102,6 +102,9 @@ def check_component(holder: ast.Class, declaration: ast.Component, found: Type, 
     cls = found.cls
     if holder.kind == "record":
         _refuse_in_record(declaration, cls)
+    if holder.kind == "connector" and cls.kind in ("model", "block"):
+        hint = "an element of a connector is of a connector, a record or a type"
+        raise Diagnostic("R070", f"{declaration.name} is a {cls.kind} in a connector (4.7)", declaration.span, hint)
     if cls.kind in ("package", "function"):
         hint = "components are of a model, block, connector, record or type"
         raise Diagnostic("R014", f"{cls.name} is a {cls.kind}, not a component class", declaration.span, hint)

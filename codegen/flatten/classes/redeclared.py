@@ -32,6 +32,10 @@ def redeclaration(
     for made in reversed(modifier.replaced):
         bound = _narrowed(made.redeclare, made.redeclared_in, bound, elements)
     require_subtype(chosen, bound, own.context, elements, f"{new.type} for {old.name}", new.span)
+    had, has = (len(d.dimensions) + len(t.dimensions) for d, t in ((old, bound), (new, chosen)))
+    if new.dimensions and had != has:
+        message = f"{old.name} has {had} dimensions and is redeclared with {has} (7.3)"
+        raise Diagnostic("R034", message, new.span, "keep the number of dimensions")
     _narrowed(new, scope, bound, elements)
     return inheriting(new, old), scope
 

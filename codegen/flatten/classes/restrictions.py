@@ -73,6 +73,9 @@ def _findings(cls: ast.Class) -> Iterator[Diagnostic]:
         if operator and cls.kind != "package" and not (cls.operator and cls.kind == "record"):
             hint = "declare it in an operator record"
             yield Diagnostic("R070", f"the operator {nested.name} in a {cls.kind}", nested.span, hint)
+        elif operator and cls.kind == "record" and not nested.encapsulated:
+            hint = "write encapsulated before it, and import what it uses"
+            yield Diagnostic("R070", f"the operator {nested.name} is not encapsulated (14.2)", nested.span, hint)
 
 
 def _names(cls: ast.Class) -> Iterator[Diagnostic]:
@@ -100,9 +103,10 @@ def _names(cls: ast.Class) -> Iterator[Diagnostic]:
             yield Diagnostic("R074", message, component.span, hint)
     seen: set[str] = set()
     for literal, _ in cls.literals or ():
-        if literal in _ATTRIBUTES_OF_ENUMERATIONS:
+        if literal in _ATTRIBUTES_OF_ENUMERATIONS or literal in PRIMITIVES:
             hint = "choose another name"
-            yield Diagnostic("R074", f"{literal} is an attribute and cannot be a literal", cls.span, hint)
+            what = "a predefined type" if literal in PRIMITIVES else "an attribute"
+            yield Diagnostic("R074", f"{literal} is {what} and cannot be a literal", cls.span, hint)
         if literal in seen:
             yield Diagnostic("R074", f"the literal {literal} is given twice", cls.span, "remove one of them")
         seen.add(literal)
@@ -146,6 +150,9 @@ def _component(cls: ast.Class, component: ast.Component) -> Iterator[Diagnostic]
         yield Diagnostic(
             "R070", f"{component.name}: an element of a record is not input, output, flow or stream", span, hint
         )
+    if kind == "type" and not cls.extends:  # of one that extends, R071 says it
+        hint = "declare a record, or a type that extends a predefined one"
+        yield Diagnostic("R070", f"{component.name}: a type has no components", span, hint)
     if kind == "package" and component.variability != "constant":
         yield Diagnostic(
             "R070", f"{component.name}: a package holds classes and constants", span, "declare it constant"
@@ -168,6 +175,9 @@ def _check_bases(cls: ast.Class, context: Context) -> None:
         base = base_class(context.library, cls, reference, tree)
         if base is not None and cls.alias is None:
             _check_operators(cls, base, reference)
+        if base is not None and cls.kind == base.kind == "function" and base.impure and not (cls.impure or cls.alias):
+            hint = f"write impure before function {cls.name}"
+            raise Diagnostic("R082", f"{cls.name} extends the impure function {base.name} (12.3)", cls.span, hint)
         if base is None or base.kind in (*allowed, "class"):
             continue
         if cls.kind == "function" and base.kind == "class":

@@ -44,10 +44,25 @@ def mismatch(chosen: Type, bound: Type, context: Context, elements: ElementsOf, 
         if offered[name].declaration.protected:
             return f"{name} is protected in {chosen.cls.name}"
         inner = [_type_of(e, context) for e in (offered[name], element)]
-        reason = mismatch(inner[0], inner[1], context, elements, depth + 1)
+        reason = _other_prefixes(offered[name].declaration, element.declaration, inner)
+        reason = reason or mismatch(inner[0], inner[1], context, elements, depth + 1)
         if reason:
             return f"{name}: {reason}"
     return ""
+
+
+_VARIABILITIES = ("constant", "parameter", "discrete", "")  # from the narrowest
+
+
+def _other_prefixes(offered: ast.Component, needed: ast.Component, types: list[Type]) -> str:
+    """Why the prefixes of one element do not fit those of the other; "" where they do (6.4)."""
+    if _VARIABILITIES.index(offered.variability) > _VARIABILITIES.index(needed.variability):
+        return f"it varies, where it is a {needed.variability}"
+    for prefix in ("flow", "stream"):
+        if getattr(offered, prefix) != getattr(needed, prefix):
+            return f"only one is {prefix}"
+    directions = [d.causality or t.causality for d, t in zip((offered, needed), types, strict=True)]
+    return f"{directions[0] or 'no direction'} where it is {directions[1] or 'none'}" if len({*directions}) > 1 else ""
 
 
 def _type_of(element: Element, context: Context) -> Type:

@@ -15,12 +15,15 @@ from lacuna.codegen.syntax import ast
 
 EXTERNAL = "ExternalObject"
 ATTRIBUTES = {
-    "Real": ("value", "quantity", "unit", "displayUnit", "min", "max", "start", "fixed", "nominal", "stateSelect"),
+    "Real": (
+        "value", "quantity", "unit", "displayUnit", "min", "max", "start", "fixed", "nominal", "unbounded",
+        "stateSelect",
+    ),
     "Integer": ("quantity", "min", "max", "start", "fixed"),
     "Boolean": ("quantity", "start", "fixed"),
     "String": ("quantity", "start", "fixed"),
     EXTERNAL: (),
-}
+}  # fmt: skip
 
 
 @dataclass

@@ -39,6 +39,16 @@ class ConnectionSets:
         else:
             self.outside.update((origin, p.end.name) for p in (a, b) if p.end.outside)
 
+    def members(self, end: End) -> list[End]:
+        """The ends connected with `end`, itself among them."""
+        root = self.ends.find(end)
+        return [e for e in self.kind if self.ends.find(e) == root]
+
+    def sources_of(self, key: Hashable) -> list[Hashable]:
+        """The causal scalars connected with `key` in one model, itself among them."""
+        root = self.sources.find(key)
+        return [k for k in self.causal if self.sources.find(k) == root]
+
     def check_sources(self) -> None:
         """Raises R077 where two outputs drive one signal (9.3), or none a signal of a bus (9.1.3)."""
         for group in self.sources.groups():

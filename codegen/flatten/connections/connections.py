@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from lacuna.codegen import flat
-from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.connections.connection_sets import ConnectionSets
 from lacuna.codegen.flatten.connections.connectors import End, Part, connectors, is_outside, parts
 from lacuna.codegen.flatten.connections.overconstrained import constraint_values
@@ -32,6 +32,8 @@ def connection_equations(connections: Connections, context: Context) -> list[fla
         root = sets.ends.find(group[0])
         span, origin = sets.span[root], sets.origin[root]
         names = list(dict.fromkeys(e.name for e in group))
+        with context.attempt():
+            _require_one_quantity(names, span, context)
         kind = sets.kind[group[0]]
         if kind == "flow":
             total = _sum([(ex.var(end.name), end.outside) for end in group])
@@ -41,6 +43,20 @@ def connection_equations(connections: Connections, context: Context) -> list[fla
                 a, b = _variable(names[0], context), _variable(name, context)
                 equations.append(flat.Equation(a, b, span, origin, f"connected: {names[0]} = {name}"))
     return equations + _unconnected(sets, context) + stream_equations(sets, context)
+
+
+def _require_one_quantity(names: list[str], span: Span, context: Context) -> None:
+    """Connected variables that name a quantity name the same (9.3). Raises R060."""
+    named: dict[str, str] = {}
+    for name in names:
+        leaf, position = context.scalars[name]
+        found = leaf.element(leaf.attribute("quantity"), position) if "quantity" in leaf.modifier.children else None
+        if isinstance(found, str) and found:
+            named.setdefault(found, name)
+    if len(named) > 1:
+        (one, first), (other, second) = list(named.items())[:2]
+        message = f"{first} is of the quantity {one}, {second} of {other}"
+        raise Diagnostic("R060", message, span, "connect what is of one quantity")
 
 
 def _shortened(names: list[str]) -> str:

@@ -119,10 +119,10 @@ def _check_before(equations: list[flat.Equation], assigned: set[str], context: C
     """Outside of when-clauses there is no value before of what varies continuously, and what is set at events only has
     no derivative (3.7.4.2, 3.7.5). Raises R052, R054."""
     for e in equations:
-        for n in (n for side in (e.lhs, e.rhs) for n in walk(side) if n.op in ("der", "pre")):
+        for n in (n for side in (e.lhs, e.rhs) for n in walk(side) if n.op in ("der", "pre", "change")):
             name = n.args[0].value
             continuous = n.args[0].op == "var" and variability(n.args[0], context) == "continuous"
-            if n.op == "pre" and continuous and name not in assigned:
+            if n.op in ("pre", "change") and continuous and name not in assigned:
                 hint = "use it inside of when, or keep the value in a discrete variable"
                 raise Diagnostic("R052", f"{to_text(n)}: {name} varies continuously", e.span, hint)
             if n.op == "der" and name in assigned:

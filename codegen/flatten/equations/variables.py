@@ -104,6 +104,8 @@ def _variable(leaf: Leaf, name: str, attributes: dict[str, Expr | str]) -> flat.
     for key in ("unit", "quantity"):
         if key in attributes:
             setattr(result, key, _text(attributes[key], key, leaf))
+    if "unbounded" in attributes:
+        _check_unbounded(leaf, _of_type(attributes["unbounded"], BOOLEAN, f"unbounded of {name}", span))
     if "stateSelect" in attributes:
         result.state_select = _state_select(attributes["stateSelect"], leaf)
     result.enumeration = leaf.type.literals
@@ -111,6 +113,15 @@ def _variable(leaf: Leaf, name: str, attributes: dict[str, Expr | str]) -> flat.
     if leaf.instance.parent is None and leaf.instance.name == "" and leaf.causality and not given_here:
         result.causality = leaf.causality
     return result
+
+
+def _check_unbounded(leaf: Leaf, value: Expr) -> None:
+    """A variable with unbounded = true is to be exact in absolute terms (4.9.6): solvers here bound its relative error,
+    too, and a warning says so."""
+    context, place = leaf.instance.context, leaf.modifier.children["unbounded"].span
+    if evaluate(value, context, place, f"unbounded of {leaf.name}").value:
+        message = f"{leaf.name} is unbounded: its error grows with it, as that of all variables"
+        context.warnings.append(Diagnostic("W010", message, place, "lower the relative tolerance", severity="warning"))
 
 
 def _is_evaluated(annotation: ast.Modification | None) -> bool:

@@ -9,7 +9,7 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.equations.asserts import lower_assert
 from lacuna.codegen.flatten.equations.effects import effect
 from lacuna.codegen.flatten.equations.equations import check_target, check_types, equalities, origin_of, unroll
-from lacuna.codegen.flatten.expressions.constants import is_known
+from lacuna.codegen.flatten.expressions.constants import is_known, variability
 from lacuna.codegen.flatten.expressions.lower import lower, lower_scalar
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import scalars, shape_of, shape_text
@@ -51,6 +51,9 @@ def when_conditions(written: ast.Expression, scope: Scope) -> list[Expr]:
         if not isinstance(condition, Expr) or condition.type != BOOLEAN:
             hint = "use a comparison, sample(...), or a Boolean variable"
             raise Diagnostic("R020", "the condition of when is not a Boolean", written.span, hint)
+        if variability(condition, scope.context) == "continuous":
+            hint = "conditions change at events: leave noEvent out, or give a function's result GenerateEvents"
+            raise Diagnostic("R063", "the condition of when varies between events (8.3.5)", written.span, hint)
     return conditions
 
 

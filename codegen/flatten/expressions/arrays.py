@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import prod
+from sys import float_info
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.expressions.constants import known
-from lacuna.codegen.flatten.expressions.lower import Handler, lower, need_numbers
+from lacuna.codegen.flatten.expressions.enumerations import enumeration_of, index_type
+from lacuna.codegen.flatten.expressions.lower import Handler, lower, lower_scalar, need_numbers
+from lacuna.codegen.flatten.names.index_types import literals_of
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import (  # fmt: skip
     Array,
@@ -25,7 +28,7 @@ from lacuna.codegen.flatten.names.values import (  # fmt: skip
     transpose,
 )
 from lacuna.codegen.symbolic import expr as ex
-from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, Expr
+from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
 from lacuna.codegen.syntax import ast
 
 
@@ -127,11 +130,42 @@ def _reduction(join: Callable[[Expr, Expr], Expr], empty: Expr | None) -> Callab
             return fold(ex.logical_and if str(e.function) == "min" else ex.logical_or, list(values.items))
         need_numbers(values, e.span, str(e.function))
         items = list(values.items)
+        if not items and empty is None and isinstance(e.args[0], ast.Comprehension):
+            return _extreme(e.args[0], str(e.function) == "min", scope)
         if not items and empty is None:
             raise Diagnostic("R051", f"{e.function} of an empty array", e.span, "it needs at least one element")
         return fold(join, items) if items else empty
 
     return build
+
+
+_GREATEST = {INTEGER: 2**31 - 1, REAL: float_info.max}
+
+
+def _extreme(e: ast.Comprehension, greatest: bool, scope: Scope) -> Expr:
+    """min or max of `e for i in r` over nothing: the greatest, or the least, value of the type of e (10.3.4.1)."""
+    first = {i.name: _first_of(i.range, scope) for i in e.iterators}
+    try:
+        body = lower_scalar(e.body, scope.with_locals(**first))
+    except Diagnostic as error:
+        if error.code != "R045":
+            raise
+        body = ex.const(0.0)  # an element of an array that has none: a Real, where nothing else is said
+    if body.type == BOOLEAN:
+        return ex.const(greatest)
+    kind = enumeration_of(body, scope.context)
+    if kind and body.op == "const":
+        return ex.const(type(body.value)(len(literals_of(kind, scope)) if greatest else 1))
+    value = _GREATEST[body.type]
+    return ex.const(value if greatest else -value)
+
+
+def _first_of(written: ast.Expression | None, scope: Scope) -> Value:
+    """A value of the type that an iterator over `written` has."""
+    if isinstance(written, ast.Range):
+        return lower(written.first, scope)
+    kind = index_type(written, scope) if written is not None else None
+    return kind[0] if kind else ex.const(1)
 
 
 def _transpose(e: ast.Call, scope: Scope) -> Value:

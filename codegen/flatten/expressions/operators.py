@@ -86,8 +86,14 @@ def _smooth(e: ast.Call, scope: Scope) -> Value:
     order, written = _take(e, 2)
     degree = lower_scalar(order, scope, INTEGER)
     degree = known(degree, scope, order.span, "the order of smooth")
+    if degree.value < 0:
+        raise Diagnostic("R053", f"smooth of order {degree.value}", order.span, "the order is 0 or above (3.7.4)")
     value = lower(written, scope)
-    return elementwise(lambda x: ex.special("smooth", degree, x, type=x.type), [value], e.span, "smooth")
+    for item in scalars(value):
+        if not isinstance(item, Expr) or item.type not in (REAL, INTEGER):
+            found = item.type if isinstance(item, Expr) else "String"
+            raise Diagnostic("R021", f"smooth is applied to a {found}; it needs Real", written.span, "leave it out")
+    return elementwise(lambda x: ex.special("smooth", degree, x, type=REAL), [value], e.span, "smooth")
 
 
 def _by_name(e: ast.Call, names: tuple[str, ...]) -> list[ast.Expression]:
@@ -148,6 +154,9 @@ def _delay(e: ast.Call, scope: Scope) -> Value:
 
     if seconds.op == "const" and seconds.value < 0:
         raise Diagnostic("R053", f"a delay of {ex.to_text(seconds)} s", e.args[1].span, "a model knows what has passed")
+    if seconds.op == longest[0].op == "const" and seconds.value > longest[0].value:
+        message = f"a delay of {ex.to_text(seconds)} s where the longest is {ex.to_text(longest[0])} s"
+        raise Diagnostic("R053", message, e.args[1].span, "delayMax is not below delayTime (3.7.4.1)")
 
     def build(x: Expr) -> Expr:
         passes = x.op == "const" or is_parameter(x, scope.context) or ex.is_const(seconds, 0)

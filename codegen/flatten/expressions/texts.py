@@ -17,7 +17,8 @@ from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, INTEGER, REAL, TRUE, Expr
 from lacuna.codegen.syntax import ast
 
-_FORMAT = re.compile(r"([-+ #0]*)(\d*)(?:\.(\d+))?([diuoxXeEfFgG])$")
+_FORMAT = re.compile(r"([-+ #0]*)(\d*)(?:\.(\d+))?([diuoxXceEfgG])$")
+_WHOLE = "diuoxXc"  # conversions of Integers
 _OPTIONS = {"minimumLength": INTEGER, "leftJustified": BOOLEAN, "significantDigits": INTEGER}
 
 
@@ -72,11 +73,15 @@ def _chosen(value: Expr, kind: str, options: dict[str, object], scope: Scope, sp
 
 
 def _options(e: ast.Call, value: Expr, scope: Scope) -> dict[str, object]:
-    names = ["significantDigits"] if value.type == REAL and len(e.args) > 1 else []
-    names += ["minimumLength", "leftJustified"]
-    written = dict(zip(names, e.args[1:], strict=False)) | e.named
+    """The named arguments; what stands in place of all others is `format` (3.7.1)."""
+    if len(e.args) > 1:
+        hint = "give it by its name: String(x, significantDigits = 4)"
+        raise Diagnostic("R050", "String takes one value, and options by their names", e.args[1].span, hint)
+    if "format" in e.named and len(e.named) > 1:
+        hint = "the format says all: width, digits, kind"
+        raise Diagnostic("R050", "format stands beside another option of String", e.named["format"].span, hint)
     options: dict[str, object] = {}
-    for name, option in written.items():
+    for name, option in e.named.items():
         if name == "format":
             options[name] = lower(option, scope)
         elif name in _OPTIONS and not (name == "significantDigits" and value.type != REAL):
@@ -102,8 +107,8 @@ def _written(value: Expr, options: dict[str, object], kind: str, scope: Scope, s
 
 
 def _formatted(value: Expr, form: str, span: Span) -> str:
-    """C's printf with one conversion, written without its %."""
+    """C's printf with one conversion, written without its %; a Real is rounded for those of Integers."""
     match = _FORMAT.match(form)
-    if match is None or (match[4] in "diuoxX") != (value.type != REAL):
+    if match is None or value.type not in (INTEGER, REAL):
         raise Diagnostic("R050", f"{form!r} is no format of a {value.type}", span, 'such as "6.3f" or "5d"')
-    return f"%{form}" % value.value
+    return f"%{form}" % (round(value.value) if match[4] in _WHOLE else value.value)

@@ -133,7 +133,8 @@ def _annotation(entry: ast.Argument, signature: Signature, context: Context) -> 
     inputs = {i.name for i in signature.inputs}
     for option in entry.modification.arguments:
         value = option.modification.value
-        if option.name == "order" and isinstance(value, ast.Literal) and isinstance(value.value, int):
+        whole = isinstance(value, ast.Literal) and type(value.value) is int
+        if option.name == "order" and whole and value.value >= 1:
             order = value.value
         elif option.name in excluded and isinstance(value, ast.Ref) and str(value) in inputs:
             excluded[option.name].add(str(value))

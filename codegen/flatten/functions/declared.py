@@ -276,8 +276,12 @@ def _without_events(value: Value) -> Value:
 def _makes_events(cls: ast.Class) -> bool:
     """annotation(GenerateEvents = true): relations of the function are as those of the model (12.8.3, 18.3)."""
     arguments = cls.annotation.arguments if cls.annotation else ()
-    values = [a.modification.value for a in arguments if a.name == "GenerateEvents"]
-    return any(isinstance(v, ast.Literal) and v.value is True for v in values)
+    said = {a.name: a.modification.value for a in arguments if a.name in ("GenerateEvents", "Inline")}
+    said = {name: v.value for name, v in said.items() if isinstance(v, ast.Literal)}
+    if said.get("GenerateEvents") is True and said.get("Inline") is False:
+        hint = "remove one of them"
+        raise Diagnostic("R066", f"{cls.name} has GenerateEvents = true and Inline = false (12.8.3)", cls.span, hint)
+    return said.get("GenerateEvents") is True
 
 
 def _is_small(results: list[Value], arguments: dict[str, Value]) -> bool:

@@ -27,6 +27,7 @@ from lacuna.codegen.syntax import ast
 
 _OF_ARRAYS = ("+", "-", ".+", ".-", ".*", "./", ".^")  # element by element, whatever the elements are (10.6)
 CONSTRUCTOR, TEXT = "'constructor'", "'String'"
+_OPERANDS = {"'not'": (1,), "'-'": (1, 2), "'0'": (0,), TEXT: (1,)}  # other operators have two (14.5, 14.6)
 
 
 def operator_record(value: Value) -> ast.Class | None:
@@ -162,6 +163,7 @@ def _call_one(
     """The result of the one function of operator `name` that fits; None where there is none. Raises R079 for two."""
     fitting: list[tuple[ast.Class, dict[str, Value]]] = []
     for f in _functions(name, classes, scope):
+        _check_inputs(name, f, classes[0], span, scope)
         bound = _bound(signature_of(f, scope.context).inputs, values, named or {}, scope)
         if bound is not None and all((f.origin or f) is not (g.origin or g) for g, _ in fitting):
             fitting.append((f, bound))
@@ -190,6 +192,37 @@ def _functions(name: str, classes: Sequence[ast.Class], scope: Scope) -> Iterato
             found = own_or_inherited(library, operator, inner)
             if found is not None and found.kind == "function":
                 yield found
+
+
+def _check_inputs(name: str, function: ast.Class, cls: ast.Class, span: Span, scope: Scope) -> None:
+    """Operands have no default value, what comes after them has one (14.5, 14.6); a constructor has any inputs, but
+    two records are not made of each other (14.3)."""
+    inputs = signature_of(function, scope.context).inputs
+    open_ended = [i.declaration.modification.value is None for i in inputs]
+    operands = open_ended.index(False) if False in open_ended else len(open_ended)
+    if name == CONSTRUCTOR:
+        if open_ended.count(True) == 1:
+            _refuse_both_ways(function, inputs[open_ended.index(True)], cls, span, scope)
+        return
+    if operands not in _OPERANDS.get(name, (2,)) or True in open_ended[operands:]:
+        wanted = " or ".join(map(str, _OPERANDS.get(name, (2,))))
+        hint = f"the operator {name} has {wanted} inputs without default, and further ones with"
+        message = f"{function.name} of the operator {name} of {cls.name} has {operands} operands"
+        raise Diagnostic("R079", message, function.span, hint)
+
+
+def _refuse_both_ways(function: ast.Class, given: Local, cls: ast.Class, span: Span, scope: Scope) -> None:
+    """Raises R079 where the record that `function` makes a `cls` of can be made of a `cls`, too."""
+    other = given.type.cls
+    if other is None or not (other.origin or other).operator or _declared(other, scope) is _declared(cls, scope):
+        return
+    for back in _functions(CONSTRUCTOR, [other], scope):
+        inputs = [i for i in signature_of(back, scope.context).inputs if i.declaration.modification.value is None]
+        if len(inputs) == 1 and _declared(inputs[0].type.cls, scope) is _declared(cls, scope):
+            message = f"{cls.name} is made of {other.name}, and {other.name} of {cls.name}"
+            error = Diagnostic("R079", message, function.span, "remove one of the two constructors (14.3)")
+            error.notes.append((back.span, "the other one"))
+            raise error
 
 
 def _check_results(name: str, function: ast.Class, cls: ast.Class, span: Span, scope: Scope) -> None:

@@ -115,6 +115,8 @@ def _named_base(library: Library, cls: ast.Class, ref: ast.Ref) -> ast.Class | N
     library.resolving.add(id(cls))
     try:
         if cls.alias is not None and cls.parent is not None:
+            if cls.encapsulated and not ref.absolute:
+                return PREDEFINED.get(ref.names[0])  # nothing outside is seen (4.5.2)
             return find_class(library, cls.parent, ref)
         return find_class(library, cls, ref, of_base=True)
     finally:
@@ -251,6 +253,9 @@ def class_inside(library: Library, cls: ast.Class, name: str, ref: ast.Ref) -> a
         error = Diagnostic("R017", f"{name} is protected in {cls.name}", ref.span, "make it public to use it here")
         error.notes.append((found.span, "declared here"))
         raise error
+    if cls.partial:
+        hint = f"name it in a class that extends {cls.name}"
+        raise Diagnostic("R075", f"{cls.name} is partial, {name} cannot be named in it (5.3.2)", ref.span, hint)
     if not found.encapsulated and not is_package_like(library, cls):
         hint = f"declare {name} in a package, or write 'encapsulated' before it"
         raise Diagnostic("R075", f"{cls.name} is no package, {name} cannot be named from outside", ref.span, hint)

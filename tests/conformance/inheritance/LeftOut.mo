@@ -1,13 +1,19 @@
 // section: 7.4
-// value: b.x = 1
+// value: b.x = 1, b.p.y = 3
 model LeftOut
+  model P
+    Real y = 2;
+  end P;
+  model Q
+    Real y = 3;
+  end Q;
   model A
     Real x = 1;
-    Real y = 2;
+    P p;
   end A;
   model B
-    extends A(break y);
-    Real y = 3;
+    extends A(break p);
+    Q p;
   end B;
   B b;
 end LeftOut;

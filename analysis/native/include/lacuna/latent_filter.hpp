@@ -41,8 +41,8 @@ public:
       }
   }
 
-  /// Take in an output that `look` looked at, `data` [columns]; false: its variance is no positive number. Joseph's form,
-  /// in which what rounding has left of the gain's share is taken out again.
+  /// Take in an output that `look` looked at, `data` [columns]; false: its variance is no positive number. Joseph's
+  /// form, in which what rounding has left of the gain's share is taken out again.
   bool read(std::size_t o, const double *data) {
     const double power = m.noise[o] * m.noise[o];
     reading(cover, w, crossed);
@@ -101,7 +101,8 @@ public:
   const lacuna_latent &c;
   const std::size_t x, w, columns;
   std::vector<std::size_t> lanes; // [L] where the forces of each begin
-  std::vector<double> state, cover, moved, drive, keep, reads, crossed, innovation, variance; // the last index is a lane
+  std::vector<double> state, cover, moved, drive, keep, reads, crossed, innovation,
+      variance; // the last index is a lane
 
 private:
   const double *near = nullptr; // [x] how the output that is looked at reads the model's states
