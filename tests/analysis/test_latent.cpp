@@ -71,9 +71,9 @@ TEST(Latent, ForceIsItsMeanGivenTheReadings) {
   const lacuna_latent latent = hypotheses.latent();
   std::array<double, 2> mean{}, deviation{};
   pair.seen = {0, 1}; // the first from what is read later
-  ASSERT_EQ(lacuna_latent_smooth(&pair.model, &latent, pair.readings.data(), pair.seen.data(), mean.data(),
-                                 deviation.data()),
-            0);
+  ASSERT_EQ(
+      lacuna_latent_smooth(&pair.model, &latent, pair.readings.data(), pair.seen.data(), mean.data(), deviation.data()),
+      0);
   const double a = Pair::own(1), b = Pair::shared(1, 1);
   EXPECT_NEAR(mean[0], b / a * -0.2, 1e-14);
   EXPECT_NEAR(deviation[0], std::sqrt(1 - b * b / a), 1e-14);
@@ -91,16 +91,16 @@ TEST(Latent, AVarianceThatIsNoNumberIsSaid) {
   double gram = 0, log = 0;
   EXPECT_EQ(lacuna_latent_evidence(&pair.model, &latent, readings.data(), pair.seen.data(), 1, &gram, &log), 1);
   EXPECT_EQ(lacuna_latent_whiten(&pair.model, &latent, readings.data(), pair.seen.data(), 1), 1);
-  EXPECT_EQ(lacuna_latent_smooth(&pair.model, &latent, readings.data(), pair.seen.data(), mean.data(), deviation.data()),
-            1);
+  EXPECT_EQ(
+      lacuna_latent_smooth(&pair.model, &latent, readings.data(), pair.seen.data(), mean.data(), deviation.data()), 1);
 }
 
 TEST(LinearResponse, IsTheRecursionWrittenOut) {
   // x -> x / 2 + q, y = x + 2 q, from rest
   const std::array<double, 4> time{0, 1, 2, 3}, read{1, 1, 1, 1}, feed{2, 2, 2, 2};
   const std::array<double, 3> step{0.5, 0.5, 0.5}, drive{1, 1, 1};
-  const lacuna_linear_model model{4,           1,           1,           1,       time.data(), step.data(),
-                                  drive.data(), read.data(), feed.data(), nullptr, nullptr};
+  const lacuna_linear_model model{4,           1,           1,       1,      time.data(), step.data(), drive.data(),
+                                  read.data(), feed.data(), nullptr, nullptr};
   const std::array<int, 2> columns{0, 0};
   const std::array<double, 8> courses{1, 0, 1, 2, 1, 0, 1, 0}; // a step, and one sample of two
   std::array<double, 8> held{};
