@@ -24,8 +24,9 @@ from lacuna.codegen.units.inference import UnitInference, of_variable
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.insertion import probe
+from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws.variables import MOST
-from lacuna.discovery.efforts.linear import Along, Linear
+from lacuna.discovery.efforts.linear import Linear
 from lacuna.discovery.efforts.sites import Site, exchanges, read, varying
 from lacuna.discovery.fit.machine import Machine, write_source
 from lacuna.units import Unit

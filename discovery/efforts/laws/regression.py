@@ -51,7 +51,7 @@ class Regression:
             with np.errstate(all="ignore"):
                 courses = np.column_stack([c for group in groups for c in group.values(path, self.place.sizes)])
             courses = np.nan_to_num(courses, nan=0.0, posinf=0.0, neginf=0.0)
-            answers.append(piece.along.answers(self.column, courses, self.every))
+            answers.append(piece.along.response(self.column, courses, every=self.every))
         for metric in self.metrics:
             metric.add(answers, [len(group.texts) for group in groups])
         begin = len(self.groups)

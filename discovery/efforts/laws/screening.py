@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 
 from lacuna.discovery.efforts import sites
+from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws.regression import FURTHER, Regression
 from lacuna.discovery.efforts.laws.terms import counts, groups, saturating
 from lacuna.discovery.efforts.laws.variables import variables
-from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.located import Guided, Locator, Site
 from lacuna.discovery.efforts.opened import Place
 from lacuna.discovery.law.law import Law
