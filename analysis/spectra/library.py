@@ -11,6 +11,7 @@ from lacuna.native import native_library
 
 MESSAGE_SIZE = 500
 DOUBLES = ctypes.POINTER(ctypes.c_double)
+INTEGERS = ctypes.POINTER(ctypes.c_int)
 
 
 class CSettings(ctypes.Structure):
@@ -70,6 +71,21 @@ class CTests(ctypes.Structure):
     _fields_ = [*((name, DOUBLES) for name in ("use", "value", "below", "above")), ("valid", ctypes.c_void_p)]
 
 
+class CLinearModel(ctypes.Structure):
+    _fields_ = [
+        *((name, ctypes.c_size_t) for name in ("samples", "states", "outputs", "inputs")),
+        *((name, DOUBLES) for name in ("time", "step", "drive", "read", "feed", "noise", "start")),
+    ]
+
+
+class CLatent(ctypes.Structure):
+    _fields_ = [
+        *((name, ctypes.c_size_t) for name in ("hypotheses", "forces")),
+        *((name, INTEGERS) for name in ("column", "sensor")),
+        *((name, DOUBLES) for name in ("size", "time")),
+    ]
+
+
 def library_path() -> Path:
     """Where liblacuna_analysis.so is (`lacuna.native`)."""
     return native_library("lacuna_analysis")
@@ -78,6 +94,7 @@ def library_path() -> Path:
 # Name: (result, arguments).
 _ADDRESS, _SIZE, _TEXT = ctypes.c_void_p, ctypes.c_size_t, ctypes.c_char_p
 _MESSAGE = [_TEXT, _SIZE]
+_LATENT = [ctypes.POINTER(CLinearModel), ctypes.POINTER(CLatent)]
 _FUNCTIONS = {
     "lacuna_chain_new": (_ADDRESS, [ctypes.POINTER(CSettings), *_MESSAGE]),
     "lacuna_chain_free": (None, [_ADDRESS]),
@@ -105,6 +122,13 @@ _FUNCTIONS = {
         ],
     ),
     "lacuna_lognormals_reached": (None, [*[DOUBLES] * 3, _SIZE, _SIZE, DOUBLES, _SIZE, DOUBLES]),
+    "lacuna_latent_evidence": (ctypes.c_int, [*_LATENT, DOUBLES, _ADDRESS, _SIZE, DOUBLES, DOUBLES]),
+    "lacuna_latent_whiten": (ctypes.c_int, [*_LATENT, DOUBLES, _ADDRESS, _SIZE]),
+    "lacuna_latent_smooth": (ctypes.c_int, [*_LATENT, DOUBLES, _ADDRESS, DOUBLES, DOUBLES]),
+    "lacuna_linear_response": (
+        None,
+        [ctypes.POINTER(CLinearModel), INTEGERS, DOUBLES, _SIZE, ctypes.c_int, _SIZE, DOUBLES],
+    ),
     "lacuna_table_new": (_ADDRESS, [_TEXT, _SIZE, *_MESSAGE]),
     "lacuna_table_free": (None, [_ADDRESS]),
     "lacuna_table_channels": (_SIZE, [_ADDRESS]),

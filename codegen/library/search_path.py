@@ -90,9 +90,11 @@ def package_in(folder: Path, name: str) -> Path | None:
 
 def names_in(folder: Path) -> list[str]:
     """Names of the packages and classes that lie in `folder`, by their folders and files."""
-    entries = sorted(folder.iterdir())
-    packages = [_plain(p.name) for p in entries if (p / PACKAGE_FILE).is_file()]
-    return packages + [p.stem for p in entries if p.suffix == ".mo" and p.name != PACKAGE_FILE and p.is_file()]
+    with os.scandir(folder) as found:  # which knows files from folders without a look at each
+        entries = sorted(found, key=lambda e: e.name)
+    packages = [_plain(e.name) for e in entries if e.is_dir() and Path(e.path, PACKAGE_FILE).is_file()]
+    files = [Path(e.name) for e in entries if e.name.endswith(".mo") and e.name != PACKAGE_FILE and e.is_file()]
+    return packages + [file.stem for file in files if file.suffix]
 
 
 def _plain(folder_name: str) -> str:

@@ -8,7 +8,6 @@ evaluated at all samples of a trajectory at once; nothing is differenced.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import expm
@@ -18,71 +17,13 @@ from lacuna.codegen.compile import translate
 from lacuna.codegen.symbolic.differentiate import Differentiator, partial
 from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, var
 from lacuna.discovery.case.cases import Recording
+from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.numeric import Evaluator, NotNumeric, Value, table
 from lacuna.discovery.fit.machine import Machine
 from lacuna.runtime import RecordedInput
 
 ROUNDING = 1e-9  # of the terms of a sum that cancels: far above what double precision leaves, far below any answer
 NEWTON = 4  # rounds at most; the trajectory solves the equations, only the derivatives are to be found
-
-
-@dataclass
-class Along:
-    """The linear model along one recording, n samples, x states, y outputs, b columns (inputs, then parameters).
-
-    From sample k to the next, x -> step[k] x + drive[k] q with q held; y = read[k] x + feed[k] q.
-    """
-
-    time: np.ndarray  # (n,)
-    step: np.ndarray  # (n - 1, x, x)
-    drive: np.ndarray  # (n - 1, x, b)
-    read: np.ndarray  # (n, y, x)
-    feed: np.ndarray  # (n, y, b)
-    direct: np.ndarray  # (n, u, b): du / dq, of derivatives first
-    values: dict[str, np.ndarray]  # of every variable, (n,); of parameters a number
-
-    def response(self, columns: np.ndarray, courses: np.ndarray, hold: bool = False) -> np.ndarray:
-        """(n, y, j): outputs to each of j courses (n, j), course i acting in column columns[i]; from rest.
-
-        Courses are linear between samples, or held. A response that runs away is no number from there on.
-        """
-        columns = columns[:1] if np.all(columns == columns[0]) else columns
-        state = np.zeros((self.step.shape[1], courses.shape[1]))
-        with np.errstate(over="ignore", invalid="ignore"):
-            result = self.feed[:, :, columns] * courses[:, None]
-            for k, (step, push, acting) in enumerate(
-                zip(self.step, self.drive[:, :, columns], _between(courses, hold), strict=False)
-            ):
-                state = step @ state + push * acting
-                result[k + 1] += self.read[k + 1] @ state
-        return result
-
-    def answers(self, column: int, courses: np.ndarray, every: int) -> np.ndarray:
-        """(n/every, y, j): the response to many courses (n, j) in one column, at one sample in `every`.
-
-        What a stretch between two of these does is one product: (x, every) with the courses there.
-        """
-        kept = np.arange(0, len(self.time), every)
-        begins = kept[:-1]
-        with np.errstate(over="ignore", invalid="ignore"):
-            acting, drive = _between(courses, hold=False), self.drive[:, :, column]
-            step = np.broadcast_to(np.eye(self.step.shape[1]), (len(begins), *self.step.shape[1:]))
-            pushes = np.empty((*step.shape[:2], every))
-            for k in reversed(range(every)):
-                pushes[:, :, k] = (step @ drive[begins + k, :, None])[:, :, 0]
-                step = step @ self.step[begins + k]
-            state = np.zeros((step.shape[1], courses.shape[1]))
-            result = self.feed[kept][:, :, column, None] * courses[kept, None]
-            for k, sample in enumerate(kept):
-                result[k] += self.read[sample] @ state
-                if k < len(begins):
-                    state = step[k] @ state + pushes[k] @ acting[sample : sample + every]
-        return result
-
-
-def _between(courses: np.ndarray, hold: bool) -> np.ndarray:
-    """(n - 1, j): what courses (n, j) are on average from each sample to the next."""
-    return courses[:-1] if hold else 0.5 * (courses[:-1] + courses[1:])
 
 
 class Linear:

@@ -136,9 +136,11 @@ class Locator:
         """Whether what the effort at this place leaves has no memory from one sample to the next."""
         latent, mean = self._chosen[id(site)]
         pieces = thinned_all(self.pieces)
-        left = Whitener(pieces, latent).innovations([p.data[:, :, 0] + p.data[:, :, 1:] @ mean for p in pieces])
+        left = Whitener(pieces, latent).innovations(
+            [p.data[:, :, :1] + p.data[:, :, 1:] @ mean[:, None] for p in pieces]
+        )
         for sensor in range(len(self.noise)):
-            rows = [x[:, sensor][np.isfinite(x[:, sensor])] for x in left]
+            rows = [x[:, sensor, 0][np.isfinite(x[:, sensor, 0])] for x in left]
             power, count = sum(r @ r for r in rows), sum(map(len, rows))
             if abs(sum(r[1:] @ r[:-1] for r in rows)) > SIGMAS * power / np.sqrt(count):
                 return False

@@ -24,8 +24,9 @@ from lacuna.codegen.units.inference import UnitInference, of_variable
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.insertion import probe
+from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws.variables import MOST
-from lacuna.discovery.efforts.linear import Along, Linear
+from lacuna.discovery.efforts.linear import Linear
 from lacuna.discovery.efforts.sites import Site, exchanges, read, varying
 from lacuna.discovery.fit.machine import Machine, write_source
 from lacuna.units import Unit
@@ -61,17 +62,20 @@ class Opened:
     linear: Linear
     sites: list[Site]
     closed: list[tuple[str, str]]
+    believed: Prepared  # without inputs, whose equations are as they were written
 
     def places(self, along: Along) -> list[Place]:
-        """Places that have an effect, those alike put together."""
+        """Places that have an effect, those alike put together: by what they do where both do something (what varies as
+        a coefficient of a force that is off does nothing)."""
         effect = self._effect(along)
-        size = np.sqrt(np.mean(np.sum(effect**2, axis=1), axis=0))
-        unit = effect / np.maximum(np.sqrt(np.sum(effect**2, axis=1, keepdims=True)), 1e-300)
+        strength = np.sqrt(np.sum(effect**2, axis=1))
+        unit = effect / np.maximum(strength[:, None], 1e-300)
         groups: list[list[int]] = []
-        for k in np.flatnonzero(size > 0):
+        for k in np.flatnonzero(strength.max(axis=0) > 0):
             for group in groups:
-                cosine = np.abs(np.sum(unit[:, :, k] * unit[:, :, group[0]], axis=1))
-                if np.mean(1.0 - cosine) < ALIKE:
+                both = (strength[:, k] > 0) & (strength[:, group[0]] > 0)
+                cosine = np.abs(np.sum(unit[both, :, k] * unit[both, :, group[0]], axis=1))
+                if both.any() and np.mean(1.0 - cosine) < ALIKE:
                     group.append(k)
                     break
             else:
@@ -119,7 +123,7 @@ class Opened:
             return variables[f"probe{number}.b.{site.port.flow}"].unit
         if site.kind == "edge":
             return variables[f"probe{number}.a.{site.port.potential}"].unit
-        return unit_of(site, self.linear.prepared)
+        return unit_of(site, self.believed)
 
 
 def unit_of(site: Site, prepared: Prepared) -> str:
@@ -181,7 +185,7 @@ def opened(case: Case, amendment: Amendment, library: Library, parameters: list[
     sites = _openable(case, amendment, [*found.places, *between, *vary, *acting], closed)
     whole = _with_probes(amendment, sites)
     machine = Machine(case, whole)
-    return Opened(machine, Linear(machine, list(whole.inputs), parameters), sites, closed)
+    return Opened(machine, Linear(machine, list(whole.inputs), parameters), sites, closed, believed)
 
 
 def _scalars(believed: Prepared) -> list[str]:

@@ -3,7 +3,7 @@
 A *node* is a set of connected ports: something may flow in. An *edge* is a connection: something may be lost across it.
 A *branch* goes past a component of two ports: something may flow beside it. An *equation* written in the class is a
 balance: a term may be missing. An *exchange* joins two such balances: what one of them gains the other one loses. A
-*parameter* that stands in several equations may vary, in all of them at once, and an *input* may act otherwise than it
+*parameter* may vary, in all equations in which it stands at once, and an *input* may act otherwise than it
 was commanded, wherever it is read. Ports are any connectors of one flow and one potential; which is which the
 declaration says. Nothing is known here of domains, classes or names.
 """
@@ -112,12 +112,10 @@ def exchanges(places: Iterable[Site], unit: Callable[[Site], str], most: int) ->
 
 
 def varying(places: Iterable[Site], names: Mapping[str, int], kind: str = "parameter") -> list[Site]:
-    """Parameters that stand in several equations, all of them open; `names` says in how many. One that stands in a
-    single equation varies there, in terms of that equation. Inputs that stand in any number of such equations."""
+    """Parameters, or inputs, that stand in equations which are all open; `names` says in how many."""
     equations = [site for site in places if site.kind == "equation" and not site.instance]
     found = [(name, [e for e in equations if re.search(_alone(name), e.label)]) for name in names]
-    least = 1 if kind == "input" else 2
-    return [Site(kind, name, parts=tuple(parts)) for name, parts in found if least <= len(parts) == names[name]]
+    return [Site(kind, name, parts=tuple(parts)) for name, parts in found if 1 <= len(parts) == names[name]]
 
 
 def _alone(name: str) -> str:

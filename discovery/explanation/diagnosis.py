@@ -74,6 +74,8 @@ def _finding(result: Explanation, finding: Finding, errors: dict[str, float]) ->
     law = {"law": law_text(result, finding)} if attachment.expression else {}
     if form := _form(result, finding):
         law["form"] = form
+    if added := _coefficient(finding):
+        law["coefficient"] = added
     return {
         "effect": attachment.effect.identifier,
         "location": attachment.location,
@@ -103,6 +105,13 @@ def law_text(result: Explanation, finding: Finding) -> str:
 def _form(result: Explanation, finding: Finding) -> str:
     """The name of a law that has the form of a known one; "" where it has none."""
     return form_at(finding.ranked.attachment, result.final.point)
+
+
+def _coefficient(finding: Finding) -> str:
+    """The parameter that a law is added to, where that is not the place itself; "" where it is added to a balance."""
+    site = finding.ranked.attachment.site
+    varies = site is not None and site.kind == "parameter" and site.label != finding.ranked.attachment.location
+    return site.label if varies else ""
 
 
 def _positive_phase(parameters: dict[str, dict], name: str) -> None:
@@ -238,7 +247,8 @@ def _named(result: Explanation, finding: Finding) -> str:
     if a.expression is not None:
         form = _form(result, finding)
         named = f" (the form of {form})" if form else ""
-        return f"a term {law_text(result, finding)} at {a.location}{named}{or_else}"
+        added = f" added to {_coefficient(finding)}," if _coefficient(finding) else ""
+        return f"a term {law_text(result, finding)}{added} at {a.location}{named}{or_else}"
     return f"{a.effect.title[0].lower()}{a.effect.title[1:]} at {a.location}{or_else}"
 
 

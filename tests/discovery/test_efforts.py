@@ -15,10 +15,10 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as read_structure
+from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
 from lacuna.discovery.efforts.latent.evidence import evidence
 from lacuna.discovery.efforts.latent.smoother import Whitener, courses, thinned
-from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.efforts.sites import read

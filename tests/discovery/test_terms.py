@@ -6,10 +6,10 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws import screening
 from lacuna.discovery.efforts.laws.terms import counts, groups
 from lacuna.discovery.efforts.laws.variables import variables
-from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.sites import Site as Place
 from lacuna.discovery.law.empirical_law import free_of
 from lacuna.discovery.law.law import Law, Site, attach

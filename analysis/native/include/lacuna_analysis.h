@@ -119,6 +119,48 @@ void lacuna_hypotheses_test(const lacuna_hypotheses *hypotheses, const lacuna_te
 void lacuna_lognormals_reached(const double *mean, const double *sd, const double *weight, size_t histories,
                                size_t lognormals, const double *log_use, size_t points, double *reached);
 
+/* A linear model along a recording of `samples`. From sample k to the next x -> step[k] x + drive[k] q with q held, and
+ * y = read[k] x + feed[k] q. */
+typedef struct {
+  size_t samples, states, outputs, inputs;
+  const double *time;  /* [samples] s, rising */
+  const double *step;  /* [samples - 1][states][states] */
+  const double *drive; /* [samples - 1][states][inputs] */
+  const double *read;  /* [samples][outputs][states] */
+  const double *feed;  /* [samples][outputs][inputs] */
+  const double *noise; /* [outputs] standard deviations; NULL for a response */
+  const double *start; /* [states] standard deviations at the first sample; NULL for a response */
+} lacuna_linear_model;
+
+/* Hypotheses about unknown forces, Ornstein-Uhlenbeck processes: arrays [hypotheses][forces]. */
+typedef struct {
+  size_t hypotheses, forces;
+  const int *column;         /* of the inputs, in which the force acts; -1: in none */
+  const int *sensor;         /* output to whose reading it is added; -1: to none */
+  const double *size, *time; /* standard deviation; time constant, s */
+} lacuna_latent;
+
+/* Columns of readings `data` [samples][outputs][columns], where `seen` [samples][outputs], whitened by the filter of
+ * each hypothesis: adds their products to `gram` [hypotheses][columns][columns], and the logarithm of the determinant
+ * of the innovations' covariance, in units of the noise, to `log_determinant` [hypotheses]. Not zero: a variance is no
+ * positive number. */
+int lacuna_latent_evidence(const lacuna_linear_model *model, const lacuna_latent *latent, const double *data,
+                           const unsigned char *seen, size_t columns, double *gram, double *log_determinant);
+
+/* The same of the first hypothesis, the whitened columns in the place of `data`. */
+int lacuna_latent_whiten(const lacuna_linear_model *model, const lacuna_latent *latent, double *data,
+                         const unsigned char *seen, size_t columns);
+
+/* Mean and standard deviation [forces][samples] of the forces of the first hypothesis, given `readings`
+ * [samples][outputs]. */
+int lacuna_latent_smooth(const lacuna_linear_model *model, const lacuna_latent *latent, const double *readings,
+                         const unsigned char *seen, double *mean, double *deviation);
+
+/* Outputs [samples / every, rounded up][outputs][count], at one sample in `every`, from rest to each of `courses`
+ * [samples][count] in input `columns` [count], held from sample to sample or linear between them. */
+void lacuna_linear_response(const lacuna_linear_model *model, const int *columns, const double *courses, size_t count,
+                            int hold, size_t every, double *outputs);
+
 /* The implementation of the Fourier transform that this library was built with: "FFTW" or "Eigen". */
 const char *lacuna_transform_name(void);
 

@@ -40,6 +40,8 @@ class Regression:
         self.metrics = [_Metric(self.thin, guided.latent, share) for share in DISCREPANCIES]
         self.rows = len(self.metrics[0].target)
         self.driven = np.abs(guided.mean)
+        self.alone = np.zeros((len(self.metrics), 0))  # (metrics, groups) deviances of each group alone
+        self._strains: dict[tuple[int, ...], float] = {}
 
     def add(self, groups: list[Group]) -> range:
         """Take groups in; their numbers."""
@@ -49,18 +51,26 @@ class Regression:
             with np.errstate(all="ignore"):
                 courses = np.column_stack([c for group in groups for c in group.values(path, self.place.sizes)])
             courses = np.nan_to_num(courses, nan=0.0, posinf=0.0, neginf=0.0)
-            answers.append(piece.along.answers(self.column, courses, self.every))
+            answers.append(piece.along.response(self.column, courses, every=self.every))
         for metric in self.metrics:
             metric.add(answers, [len(group.texts) for group in groups])
         begin = len(self.groups)
         self.groups += groups
-        return range(begin, len(self.groups))
+        added = range(begin, len(self.groups))
+        self.alone = np.hstack([self.alone, [metric.deviances((), added) for metric in self.metrics]])
+        return added
+
+    def _deviances(self, chosen: tuple[int, ...], others: Sequence[int]) -> np.ndarray:
+        """(metrics, others) of the chosen groups with each of the others."""
+        if not chosen:
+            return self.alone[:, list(others)]
+        return np.array([metric.deviances(chosen, others) for metric in self.metrics])
 
     def scores(self, chosen: tuple[int, ...], others: Sequence[int]) -> list[float]:
         """Deviance of the chosen groups with each of `others`, and their prices: ln(rows) for each number in them, and
         for having been picked among many."""
         base = sum(map(self._price, chosen))
-        best = np.min([metric.deviances(chosen, others) for metric in self.metrics], axis=0)
+        best = np.min(self._deviances(chosen, others), axis=0)
         return [float(d) + base + self._price(g) for d, g in zip(best, others, strict=True)]
 
     def _price(self, number: int) -> float:
@@ -78,15 +88,17 @@ class Regression:
         return np.column_stack([metric.columns[g] for g in chosen]) @ metric.coefficients(chosen)
 
     def _best_metric(self, chosen: tuple[int, ...]) -> _Metric:
-        return min(self.metrics, key=lambda m: m.deviances(chosen[:-1], chosen[-1:])[0])
+        return self.metrics[int(np.argmin(self._deviances(chosen[:-1], chosen[-1:])))]
 
     def strain(self, chosen: tuple[int, ...]) -> float:
         """How far the parameters go from what is believed of them, in parts of how far they may. To first order
         anything can be had by parameters that no machine has: a term of the balance taken away whole, its inertia with
         it. Where an effort of any course at this place leaves them further off (what else is missing drives them), a
         law may as well."""
-        moved = self._best_metric(chosen).parameters(chosen)
-        return float(np.max(np.abs(moved) / np.maximum(NEAR, FURTHER * self.driven), initial=0.0))
+        if chosen not in self._strains:
+            moved = np.abs(self._best_metric(chosen).parameters(chosen))
+            self._strains[chosen] = float(np.max(moved / np.maximum(NEAR, FURTHER * self.driven), initial=0.0))
+        return self._strains[chosen]
 
 
 class _Metric:
@@ -102,6 +114,7 @@ class _Metric:
         target, share = self._beside(rows[:, :1])
         self.target, self.target_share = target[:, 0], share[:, 0]
         self.columns: list[np.ndarray] = []  # (rows, terms) of each group
+        self.together: dict[range, np.ndarray] = {}  # (rows, terms) of groups that were added together
         self.grams: list[np.ndarray] = []  # (terms, terms), their products
         self.shares: list[np.ndarray] = []  # (parameters, terms): what the parameters' basis has of each
 
@@ -125,6 +138,7 @@ class _Metric:
 
     def add(self, answers: list[np.ndarray], terms: list[int]) -> None:
         columns, shares = self._beside(self.whitener(answers))
+        self.together[range(len(self.columns), len(self.columns) + len(terms))] = columns
         at = 0
         for count in terms:
             own = columns[:, at : at + count]
@@ -135,11 +149,14 @@ class _Metric:
 
     def deviances(self, chosen: tuple[int, ...], others: Sequence[int]) -> np.ndarray:
         """(len(others),) of the chosen groups with each of the others."""
+        if not others:
+            return np.zeros(0)
         target, basis = self.target, np.zeros((len(self.target), 0))
         if chosen:
             basis, _ = np.linalg.qr(np.column_stack([self.columns[g] for g in chosen]))
             target = target - basis @ (basis.T @ target)
-        terms = np.concatenate([self.columns[g] for g in others], axis=1)
+        terms = self.together.get(others) if isinstance(others, range) else None
+        terms = np.concatenate([self.columns[g] for g in others], axis=1) if terms is None else terms
         right, crossed = terms.T @ target, (basis.T @ terms).T
         counts = np.array([self.columns[g].shape[1] for g in others])
         first, taken = np.cumsum(counts) - counts, np.zeros(len(others))

@@ -7,10 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from lacuna.discovery.efforts import sites
+from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws.regression import FURTHER, Regression
 from lacuna.discovery.efforts.laws.terms import counts, groups, saturating
 from lacuna.discovery.efforts.laws.variables import variables
-from lacuna.discovery.efforts.linear import Along
 from lacuna.discovery.efforts.located import Guided, Locator, Site
 from lacuna.discovery.efforts.opened import Place
 from lacuna.discovery.law.law import Law
@@ -38,15 +39,20 @@ def proposals(locator: Locator, site: Site, guided: Guided, most: int) -> Iterat
     offered = [_offered(locator, place, guided) for place in (site.place, *site.place.other)]
     ones = [_refined(*quantity) for quantity in offered]
     yield _best([(r, groups) for (r, _), groups in zip(offered, ones, strict=True)], most)
-    strained = [(r, _refined(r, every, strained=True)) for r, every in offered]
-    yield _best(strained, most)
+    yield _best([(r, _refined(r, every, strained=True)) for r, every in offered], most)
     yield _best([(r, _doubled(r, groups, every)) for (r, every), groups in zip(offered, ones, strict=True)], most)
 
 
+def _is_coefficient(site: sites.Site) -> bool:
+    """Whether it is a parameter of one equation, all laws of which are laws in that balance: those are told of it that
+    are shorter so, functions of one variable and a level beside them."""
+    return site.kind == "parameter" and len(site.parts) == 1
+
+
 def _best(found: list[tuple[Regression, list[tuple[int, ...]]]], most: int) -> list[Proposal]:
-    """The best laws of several regressions, which explain different things in each."""
-    scored = [law for r, groups in found for law in _scored(r, _distinct(r, groups, most))]
-    return [_proposal(r, groups) for _, r, groups in sorted(scored, key=lambda f: f[0])[:most]]
+    """The best laws in all quantities, which explain different things."""
+    scored = sorted((law for r, groups in found for law in _scored(r, groups)), key=lambda law: law[0])
+    return [_proposal(r, groups) for _, r, groups in _distinct(scored, most)]
 
 
 def _scored(regression: Regression, found: list[tuple[int, ...]]) -> list[Scored]:
@@ -71,7 +77,12 @@ def _offered(locator: Locator, place: Place, guided: Guided) -> tuple[Regression
     varies = place.sites[0].kind in ("parameter", "input")
     if varies:  # it holds nothing at rest
         found = [replace(v, sticks=False) for v in found]
+    coefficient = _is_coefficient(place.sites[0])
+    if coefficient:  # no command, that may be late
+        found = [replace(v, kind="other") if v.kind == "input" else v for v in found]
     terms = groups(found, ranges, interval, duration)
+    if coefficient:
+        terms = [g for g in terms if len(_read(g, found)) < 2 and len(g.texts) == 1]
     if varies:
         terms += [saturating(v) for v in found if v.kind != "rate"]
     terms = [g for g in terms if not _reads_only(g, found, told)]
@@ -82,21 +93,28 @@ def _offered(locator: Locator, place: Place, guided: Guided) -> tuple[Regression
 
 def _reads_only(group: Group, found: list[Variable], told: set[str]) -> bool:
     """Whether a group has one variable, which is one of inputs that laws are `told` of instead of the balance."""
-    read = {v.reading for v in found if any(f"{v.local}_ref" in text for text in group.texts)}
+    read = _read(group, found)
     return len(read) == 1 and read <= told
 
 
-def _distinct(regression: Regression, found: Iterable[tuple[int, ...]], most: int) -> list[tuple[int, ...]]:
+def _read(group: Group, found: list[Variable]) -> set[str]:
+    """What a group reads of the model."""
+    return {v.reading for v in found if any(f"{v.local}_ref" in text for text in group.texts)}
+
+
+def _distinct(found: Iterable[Scored], most: int) -> list[Scored]:
     """The first `most` that explain different things: |x| beside x, where x has one sign, is the same law again, and so
     is what is late beside what is late by the same quantity, whatever it was before the start."""
-    kept: list[tuple[int, ...]] = []
+    kept: list[Scored] = []
     courses: list[np.ndarray] = []
-    kinds: set[frozenset[str]] = set()
-    for chosen in found:
-        kind = frozenset(text.replace("onset(", "delay(") for g in chosen for text in regression.groups[g].kind)
+    kinds: set[tuple[int, frozenset[str]]] = set()
+    for law in found:
+        _, regression, chosen = law
+        texts = (text for g in chosen for text in regression.groups[g].kind)
+        kind = regression.column, frozenset(text.replace("onset(", "delay(") for text in texts)
         course = regression.explained(chosen)
         if kind not in kinds and all(np.sum((course - c) ** 2) > SAME * np.sum(c**2) for c in courses):
-            kept.append(chosen)
+            kept.append(law)
             courses.append(course)
             kinds.add(kind)
         if len(kept) == most:
@@ -153,16 +171,18 @@ def _finer(group: Group, zoom: int) -> list[Group]:
 def _doubled(regression: Regression, single: list[tuple[int, ...]], every: range) -> list[tuple[int, ...]]:
     """The best two groups together, best first, a kind of pair once."""
     scored: dict[tuple[int, ...], float] = {}
-    others = [*every, *(g for (g,) in single if g not in every)]
+    finer = [g for (g,) in single if g not in every]
     level = next((g,) for g in every if regression.groups[g].texts == ("1",))
-    for first in dict.fromkeys([level, *single[:FIRST]]):
-        for other, score in zip(others, regression.scores(first, others), strict=True):
-            scored[(*first, other)] = score
+    beside = [] if _is_coefficient(regression.place.place) else single[:FIRST]
+    for first in dict.fromkeys([level, *beside]):
+        for others in (every, finer):
+            for other, score in zip(others, regression.scores(first, others), strict=True):
+                scored[(*first, other)] = score
     kinds: dict[frozenset, tuple[int, ...]] = {}
     for key in sorted(scored, key=lambda k: scored[k]):
         kinds.setdefault(frozenset(regression.groups[g].kind for g in key), key)
-    kept = _distinct(regression, (pair for pair in kinds.values() if regression.strain(pair) < 1), PAIRS)
-    better = _refined_pairs(regression, [(key, scored[key]) for key in kept])
+    likely = ((scored[pair], regression, pair) for pair in kinds.values() if regression.strain(pair) < 1)
+    better = _refined_pairs(regression, [(pair, score) for score, _, pair in _distinct(likely, PAIRS)])
     return [pair for pair, _ in sorted(better, key=lambda b: b[1])]
 
 

@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from lacuna.codegen.units.inference import SECOND
-from lacuna.discovery.efforts.linear import Along
+from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.law.law_terms import Variable
 from lacuna.runtime.model import Variable as ModelVariable
 from lacuna.units import parse_unit

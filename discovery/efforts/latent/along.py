@@ -1,0 +1,50 @@
+"""The linear model along one recording, and how its outputs answer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from lacuna.analysis.spectra.library import INTEGERS, CLinearModel, library, pointer
+
+
+@dataclass
+class Along:
+    """The linear model along one recording, n samples, x states, y outputs, b columns (inputs, then parameters).
+
+    From sample k to the next, x -> step[k] x + drive[k] q with q held; y = read[k] x + feed[k] q.
+    """
+
+    time: np.ndarray  # (n,)
+    step: np.ndarray  # (n - 1, x, x)
+    drive: np.ndarray  # (n - 1, x, b)
+    read: np.ndarray  # (n, y, x)
+    feed: np.ndarray  # (n, y, b)
+    direct: np.ndarray  # (n, u, b): du / dq, of derivatives first
+    values: dict[str, np.ndarray]  # of every variable, (n,); of parameters a number
+
+    def model(self, *statistics: np.ndarray) -> tuple[CLinearModel, list[np.ndarray]]:
+        """The same for the library's filters, with the standard deviations of noise (y,) and first states (x,) where
+        they are wanted; and the arrays that have to last as long."""
+        arrays = (self.time, self.step, self.drive, self.read, self.feed, *statistics)
+        kept = [np.ascontiguousarray(a, dtype=float) for a in arrays]
+        samples, outputs, states = self.read.shape
+        return CLinearModel(samples, states, outputs, self.feed.shape[2], *map(pointer, kept)), kept
+
+    def response(
+        self, columns: np.ndarray | int, courses: np.ndarray, hold: bool = False, every: int = 1
+    ) -> np.ndarray:
+        """(n/every, y, j): outputs, at one sample in `every`, to each of j courses (n, j), course i acting in column
+        columns[i], or all in one; from rest.
+
+        Courses are linear between samples, or held. A response that runs away is no number from there on.
+        """
+        columns = np.broadcast_to(columns, courses.shape[1:]).astype(np.intc)
+        courses = np.ascontiguousarray(courses, dtype=float)
+        result = np.empty((-(-len(self.time) // every), self.read.shape[1], len(columns)))
+        model, _kept = self.model()
+        library().lacuna_linear_response(
+            model, columns.ctypes.data_as(INTEGERS), pointer(courses), len(columns), hold, every, pointer(result)
+        )
+        return result
