@@ -169,7 +169,9 @@ def page(pairs: dict[str, tuple[str, str]], seconds: tuple[float, float]) -> str
         for name, _, why in CLASSES
         if members[name] or not why.startswith("Below")
     ]
-    more = [f"- {name}: {', '.join(differences(*pairs[name]))}. {WHY.get(name, '')}".rstrip() for name in members["more"]]
+    more = [
+        f"- {name}: {', '.join(differences(*pairs[name]))}. {WHY.get(name, '')}".rstrip() for name in members["more"]
+    ]
     text = [
         "# Our own models, unchanged", "",
         f"Written by `make unchanged`: the C of the {len(pairs)} models of `model/` that translate alone, by the code "

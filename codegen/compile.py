@@ -16,10 +16,10 @@ from lacuna.codegen.dae import events, hybrid
 from lacuna.codegen.dae.discrete_starts import discrete_starts
 from lacuna.codegen.dae.divisions import divisions
 from lacuna.codegen.dae.free_parameters import free_parameters
-from lacuna.codegen.dae.held_inputs import hold_inputs
 from lacuna.codegen.dae.guards import guard_shapes
 from lacuna.codegen.dae.initial import initial_system
 from lacuna.codegen.dae.operators import delays, homotopy, transports
+from lacuna.codegen.dae.operators.held_inputs import hold_inputs
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.relations import Relation
 from lacuna.codegen.dae.storage import Storage
