@@ -161,6 +161,8 @@ def _conclude_from_findings(result: Explanation) -> None:
         result.experiment = experiment_for(first.ranked, rivals)
     else:
         result.verdict = "missing_physics"
+        turning = dict.fromkeys(v for f in result.findings if (v := f.ranked.attachment.alike[1]))
+        result.experiment = f"record a motion in which {' and '.join(turning)} turns" if turning else ""
 
 
 def _efforts(result: Explanation) -> list[float]:

@@ -33,6 +33,7 @@ class Attachment:
     definition: str = ""  # source of the effect's class where it is in no library
     expression: Callable[[dict[str, float]], str] | None = None  # of an empirical law, in variables of the model
     form: Callable[[dict[str, float]], str] | None = None  # its name, where it has the form of a known one
+    alike: tuple[str, str] = ("", "")  # the name of what it is not told from, and the variable that never turns
 
     @property
     def label(self) -> str:

@@ -62,7 +62,9 @@ def _excess(fit: Fit) -> float:
 def tie(finding: Finding) -> list[dict[str, str]]:
     """A finding and what the data does not tell from it."""
     identities = [finding.ranked.identity, *dict.fromkeys(r.identity for r in finding.naming.rivals(finding.ranked))]
-    return [{"effect": effect, "location": location} for effect, location in identities]
+    alike, _ = finding.ranked.attachment.alike
+    others = [{"effect": alike, "location": finding.ranked.attachment.location}] if alike else []
+    return [{"effect": effect, "location": location} for effect, location in identities] + others
 
 
 def alternatives(finding: Finding, share: float) -> list[dict[str, Any]]:

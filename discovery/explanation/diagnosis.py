@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from lacuna.discovery.catalogue.amend import Attachment
 from lacuna.discovery.experiment.files import described
 from lacuna.discovery.explanation.confidence import alternatives, certainty, confidence, explained, odds, tie
 from lacuna.discovery.explanation.explanation import Explanation
@@ -37,7 +38,7 @@ def build(result: Explanation, amended: Path | None) -> dict[str, Any]:
         }
         diagnosis["parameters"] = _parameters(result, errors)
     diagnosis["explained"] = explained(result) if result.findings else 0.0
-    diagnosis["ties"] = [tie(f) for f in result.findings if f.naming.rivals(f.ranked)]
+    diagnosis["ties"] = [t for f in result.findings if len(t := tie(f)) > 1]
     diagnosis["places"] = _places(result)
     if amended is not None:
         diagnosis["amended_model"] = amended.name
@@ -248,8 +249,14 @@ def _named(result: Explanation, finding: Finding) -> str:
         form = _form(result, finding)
         named = f" (the form of {form})" if form else ""
         added = f" added to {_coefficient(finding)}," if _coefficient(finding) else ""
-        return f"a term {law_text(result, finding)}{added} at {a.location}{named}{or_else}"
+        return f"a term {law_text(result, finding)}{added} at {a.location}{named}{_as_well(a)}{or_else}"
     return f"{a.effect.title[0].lower()}{a.effect.title[1:]} at {a.location}{or_else}"
+
+
+def _as_well(attachment: Attachment) -> str:
+    """What else a law may be, since something does not turn in the recordings."""
+    name, variable = attachment.alike
+    return f" (or {name}, since {variable} never turns: the data does not tell)" if name else ""
 
 
 def left_over(result: Explanation) -> list[str]:

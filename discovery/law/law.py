@@ -77,6 +77,15 @@ class Law:
             return 0.0
         return sum(picked(g.texts, self.site.variables, self.site.unit, self.site.offered) for g in self.groups)
 
+    def alike(self) -> tuple[str, str]:
+        """What a law is not told from, by its name, and the variable to blame: dry friction of a speed that never turns
+        is a level."""
+        if not any(group.texts == ("1",) for group in self.groups):
+            return "", ""
+        steady = [v for v in self.site.variables if v.sticks and not v.turns]
+        names = [(form_of([(v.dry, {})], [v], self.site.unit, {}), v.name) for v in steady]
+        return next((pair for pair in names if pair[0]), ("", ""))
+
     def form(self, values: dict[str, float]) -> str:
         """The name of a known form that the law has; "" where it has none."""
         terms = [(text, shapes) for _, text, shapes in self.numbered()]
@@ -127,7 +136,7 @@ def attach(law: Law) -> Attachment:
         device=place if isinstance(place, Device) else None,
         site=place if isinstance(place, sites.Site) else None,
         signals=signals, definition=_source(law, signals), expression=law.expression,
-        form=law.form,
+        form=law.form, alike=law.alike(),
     )  # fmt: skip
 
 

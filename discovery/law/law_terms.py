@@ -41,6 +41,7 @@ class Variable:
     minus: str = ""
     sticks: bool = False  # an effort at the place acts on its rate at once: dry friction there holds it at rest
     rate: str = ""  # the variable here that is its rate: what a stop's damper follows
+    turns: bool = True  # whether it goes both ways in the recordings
 
     @property
     def dry(self) -> str:

@@ -80,3 +80,15 @@ def test_a_law_pays_for_having_been_picked_and_a_known_form_pays_least() -> None
     assert pick("abs(x1/x1_ref)^5") == pytest.approx(np.log(3 * 60))
     assert pick("(x1/x1_ref)*(x2/x2_ref)") == pytest.approx(np.log(3 * 40))
     assert pick("abs(x1/x1_ref)^5", "(x1/x1_ref)*(x2/x2_ref)") == pytest.approx(np.log(3 * 60) + np.log(3 * 40))
+
+
+@pytest.mark.parametrize(("gives", "of", "turns", "alike"), [
+    ("N", "m/s", False, ("friction.coulomb", "body.x")), ("N", "m/s", True, ("", "")), ("W", "K", False, ("", "")),
+])  # fmt: skip
+def test_a_level_is_not_told_from_dry_friction_of_what_never_turns(
+    gives: str, of: str, turns: bool, alike: tuple[str, str]
+) -> None:
+    speed = Variable("x1", "body.x", of, "state", 2.0, sticks=True, turns=turns)
+    place = Site(Place("equation", "a = b"), "body", gives, (speed,))
+    assert attach(Law(place, (Group(("1",)),))).alike == alike
+    assert attach(Law(place, (Group((speed.scaled,)),))).alike == ("", "")

@@ -36,11 +36,20 @@ def proposals(locator: Locator, site: Site, guided: Guided, most: int) -> Iterat
     Along a run that an effort of a smooth course leads, a stiff contact is met too early or too late; to first order
     parameters stand for that, and a fit puts them back.
     """
-    offered = [_offered(locator, place, guided) for place in (site.place, *site.place.other)]
-    ones = [_refined(*quantity) for quantity in offered]
+    quantities = (site.place, *site.place.other)
+    offered = [_offered(locator, place, guided) for place in quantities]
+    ones = [_told_here(place, r, _refined(r, every)) for place, (r, every) in zip(quantities, offered, strict=True)]
     yield _best([(r, groups) for (r, _), groups in zip(offered, ones, strict=True)], most)
     yield _best([(r, _refined(r, every, strained=True)) for r, every in offered], most)
     yield _best([(r, _doubled(r, groups, every)) for (r, every), groups in zip(offered, ones, strict=True)], most)
+
+
+def _told_here(place: Place, regression: Regression, laws: list[tuple[int, ...]]) -> list[tuple[int, ...]]:
+    """Laws without a level by itself where that is told otherwise: of a proportional input in the balance, of a
+    coefficient as its value."""
+    if not place.only and not _is_coefficient(place.sites[0]):
+        return laws
+    return [law for law in laws if any(regression.groups[g].texts != ("1",) for g in law)]
 
 
 def _is_coefficient(site: sites.Site) -> bool:
@@ -69,6 +78,7 @@ def _offered(locator: Locator, place: Place, guided: Guided) -> tuple[Regression
     )
     courses = {v.local: np.concatenate([v.course(a.values) for a in along]) / v.size for v in found}
     ranges = {local: (float(c.min()), float(c.max())) for local, c in courses.items()}
+    found = [replace(v, turns=ranges[v.local][0] < 0 < ranges[v.local][1]) for v in found]
     if place.only:
         found = [v for v in found if v.name == place.only and not v.minus]
     told = {o.only for o in place.other} - {""}

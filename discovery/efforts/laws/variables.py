@@ -102,13 +102,13 @@ def _differences(
 
 
 def _with_rates(along: Sequence[Along], found: list[Variable], states: list[str]) -> list[Variable]:
-    """The variables, each with the one that is its rate; what is made of states changes as these do."""
+    """The variables, each with the one that is its rate, where either is made of states: something moves."""
     known = [n for n in states if np.ndim(along[0].values.get(f"der({n})", 0.0))]
     if not known:
         return found
     basis = np.column_stack([*(_joined(along, n) for n in known), np.ones(len(_joined(along, known[0])))])
     rates = np.column_stack([_joined(along, f"der({n})") for n in known])
-    plain = [v for v in found if v.kind != "rate"]
+    plain = [v for v in found if v.kind in ("state", "apart")]
     courses = np.column_stack([np.concatenate([v.course(a.values) for a in along]) for v in plain])
     made = np.linalg.lstsq(basis, courses, rcond=None)[0]
     exact = np.abs(courses - basis @ made).max(axis=0) <= SAME * np.abs(courses).max(axis=0)
