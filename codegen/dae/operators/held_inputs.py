@@ -19,7 +19,7 @@ _ASKING = ("pre", "edge", "change")
 
 
 def hold_inputs(model: flat.FlatModel) -> flat.FlatModel:
-    """The model with a variable for each discrete input of which `pre`, `edge` or `change` asks; itself if none does."""
+    """The model with a variable for each discrete input of which `pre`, `edge` or `change` asks; itself where none."""
     inputs = {n for n, v in model.variables.items() if v.causality == "input" and v.variability == flat.DISCRETE}
     asked = {str(n.args[0].value) for n in _asking(model) if n.args[0].op == "var"} & inputs if inputs else set()
     if not asked:
