@@ -47,6 +47,8 @@ class Machine:
         self._sessions: dict[tuple[str, bool], queue.SimpleQueue[Session]] = {}
         self._inputs: dict[str, dict[str, RecordedInput]] = {}
         self._initial: dict[str, dict[str, float]] = {}
+        for name in {n for r in (*case.fit, *case.validate) for n in self._starts(r)}:
+            self._start(name, 0.0)  # no run may find that a hypothesis has other states
         self._lock = threading.Lock()
         probes = [*(probe_name(k) for k in range(len(amendment.probes))), *amendment.inputs]
         self._silent = {name: RecordedInput([0.0], [0.0], "hold") for name in probes}
@@ -119,8 +121,8 @@ class Machine:
             return {first[index]: None for index in sorted(first)}
         said = self._starts(recording)
         noisy = [name for name, value in said.items() if value == "recorded" and self.recorded(name)]
-        unknown = {name: None for name, value in said.items() if value == "unknown"}
-        return {name: self._first_sample(recording, name) for name in noisy} | unknown
+        unknown = dict.fromkeys(n for n, v in said.items() if v == "unknown")
+        return {n: self._first_sample(recording, n) for n in noisy} | unknown
 
     def simulate(
         self, parameters: Mapping[str, float], recording: Recording, efforts: Mapping[str, RecordedInput] | None = None,
@@ -223,8 +225,7 @@ class Machine:
         return self.case.initial | (own.initial if own else {})
 
     def _initial_of(self, recording: Recording) -> dict[str, float]:
-        found = self._initial.get(recording.name)
-        if found is None:
+        if (found := self._initial.get(recording.name)) is None:
             found = {}
             for name, value in ({} if recording.after_gap else self._starts(recording)).items():
                 if value == "recorded":
@@ -239,8 +240,7 @@ class Machine:
         effect."""
         suffix = start_name("", recording).removeprefix("start:")
         named = {n.removesuffix(suffix): v for n, v in parameters.items() if is_start(n) and n.endswith(suffix)}
-        starts = [self._start(n.removeprefix("start:"), v) for n, v in named.items()]
-        return {state: value for start in starts for state, value in start.items()}
+        return {state: x for n, v in named.items() for state, x in self._start(n.removeprefix("start:"), v).items()}
 
     def unfitted_states(self, parameters: Mapping[str, float], recording: Recording) -> dict[str, float | None]:
         """Those of the uncertain states of a recording that the parameters do not give."""
@@ -256,9 +256,9 @@ class Machine:
 
     def _start(self, name: str, value: float) -> dict[str, float]:
         """A state's start value under the first of its names, whose sign may be another."""
-        variable = self.model.variables.get(name)
-        if variable is None or variable.kind != "state":
-            raise CaseError(f"{self.case.folder / 'case.toml'}: [initial] {name} is no state of {self.case.model}")
+        if (variable := self.model.variables.get(name)) is None or variable.kind != "state":
+            known = ", ".join({v.index: n for n, v in reversed(self.model.states.items())}.values())
+            raise CaseError(f"{self.case.label}: [initial] {name} is no state of {self.case.model}, which has {known}")
         first = next(v for v in self.model.states.values() if v.index == variable.index)
         return {first.name: value * variable.sign * first.sign}
 
@@ -296,5 +296,5 @@ def try_machine(case: Case, amendment: Amendment, base: Machine) -> tuple[Machin
     limits = {name: STEPS_GROWTH * max(steps, 1000, samples.get(name, 0)) for name, steps in base.steps.items()}
     try:
         return Machine(case, amendment, base.solver, step_limits=limits, rtol=base.rtol), ""
-    except (Diagnostic, CompilerError, SimulationError) as error:
+    except (Diagnostic, CompilerError, SimulationError, CaseError) as error:
         return None, str(error)

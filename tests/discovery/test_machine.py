@@ -14,7 +14,7 @@ from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.fit.fit import believed
-from lacuna.discovery.fit.machine import LEAST_RTOL, RTOL, Machine
+from lacuna.discovery.fit.machine import LEAST_RTOL, RTOL, Machine, try_machine
 from lacuna.discovery.fit.objective import noise_of
 
 
@@ -50,3 +50,11 @@ def test_no_noise_asks_for_more_than_the_solver_can_give(machine: Machine) -> No
     least = machine.precise(values, quieter(noise_of(machine.case), 1e-12))
     assert least.rtol == pytest.approx(LEAST_RTOL)
     assert least.amended(Amendment(machine.amendment.structure)).rtol == least.rtol
+
+
+def test_a_hypothesis_in_which_a_first_value_is_of_no_state_does_not_fit(machine: Machine) -> None:
+    """An effect may change which variables of a mechanism are states: that ends the hypothesis, and not the search."""
+    other = replace(machine.case, initial={"R": 1.0})
+    found, why = try_machine(other, machine.amendment, machine)
+    assert found is None
+    assert "R is no state" in why
