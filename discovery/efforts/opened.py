@@ -23,13 +23,14 @@ from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.units.inference import UnitInference, of_variable
 from lacuna.discovery.case.cases import Case, CaseError
 from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.searched import write_source
 from lacuna.discovery.efforts.insertion import probe
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws.variables import MOST
 from lacuna.discovery.efforts.linear import Linear
 from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.efforts.sites import Site, exchanges, read, varying
-from lacuna.discovery.fit.machine import Machine, write_source
+from lacuna.discovery.fit.machine import Machine
 from lacuna.units import Unit
 
 ALIKE = 1e-5  # of a direction, by which two places may differ: rounding of the linearisation

@@ -3,25 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-import hashlib
 from pathlib import Path
 import queue
 import threading
 
 import numpy as np
 
-from lacuna.codegen.cache import Cache, CompilerError
+from lacuna.codegen.cache import CompilerError
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.errors import Diagnostic
 from lacuna.discovery.case.cases import Case, CaseError, Recording, Signal
 from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.case.values import is_start, start_name, values_in
 from lacuna.discovery.catalogue.amend import Amendment, probe_name, tracker_name
+from lacuna.discovery.catalogue.searched import believed_name, write_source
 from lacuna.discovery.fit.tracking import Motion, recorded_column, recorded_motion
 from lacuna.recorded_units import same_unit
 from lacuna.runtime import Model, RecordedInput, Session, SimulationError
 from lacuna.suggest import did_you_mean
-from lacuna.written import write_whole
 
 RTOL, LEAST_RTOL, FINER = 1e-6, 1e-9, 0.1  # of the solver: usual, least, and the step from one to the next finer one
 NEGLIGIBLE = 1e-3  # RMS of the solver's errors, in units of noise; friction that is added makes ten times as much of it
@@ -256,11 +255,14 @@ class Machine:
 
     def _start(self, name: str, value: float) -> dict[str, float]:
         """A state's start value under the first of its names, whose sign may be another."""
-        if (variable := self.model.variables.get(name)) is None or variable.kind != "state":
-            known = ", ".join({v.index: n for n, v in reversed(self.model.states.items())}.values())
-            raise CaseError(f"{self.case.label}: [initial] {name} is no state of {self.case.model}, which has {known}")
+        variable, sense = self.model.states.get(name), 1
+        if variable is None and name in self.model.variables:
+            known, sense = believed_name(name, self.amendment, self.case.search_path)
+            variable = self.model.states.get(known)
+        if variable is None:
+            raise CaseError(f"{self.case.folder / 'case.toml'}: [initial] {name} is no state of {self.case.model}")
         first = next(v for v in self.model.states.values() if v.index == variable.index)
-        return {first.name: value * variable.sign * first.sign}
+        return {first.name: value * sense * variable.sign * first.sign}
 
 
 def _differ(
@@ -277,17 +279,6 @@ def _recorded(signal: Signal, recording: Recording) -> RecordedInput:
     if good.all():  # the samples themselves: every model of a case shares them
         return RecordedInput(recording.time, values, signal.interpolation)
     return RecordedInput(recording.time[good], values[good], signal.interpolation)
-
-
-def write_source(amendment: Amendment) -> Path:
-    """The search model as a file in the cache, named by its content, so equal hypotheses share one compiled model."""
-    text = amendment.text("Candidate")
-    folder = Cache().private() / "candidates"
-    name = "Candidate_" + hashlib.sha256(text.encode()).hexdigest()[:16]
-    path, named = folder / f"{name}.mo", text.replace("Candidate", name)
-    if not path.exists() or path.read_bytes() != named.encode("utf-8"):  # a damaged one would be no hypothesis
-        write_whole(path, named, lasting=False)
-    return path
 
 
 def try_machine(case: Case, amendment: Amendment, base: Machine) -> tuple[Machine | None, str]:

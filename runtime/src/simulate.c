@@ -171,6 +171,7 @@ static rt_status finish(rt_session *s, rt_status status) {
   if (s->data.terminated) s->result->terminated = s->d->messages[s->data.terminated - 1];
   if (!status) {
     s->data.terminal = 1;
+    memset(s->flip, 1, (size_t)s->d->n_rel); /* what has come to rest at zero, and crossed nothing, stays as it was */
     status = rt_iterate_event(s);
   }
   if (!status) status = rt_record_end(s);

@@ -1,4 +1,4 @@
-"""How precisely a machine is simulated."""
+"""How precisely a machine is simulated, and from where."""
 
 from __future__ import annotations
 
@@ -13,9 +13,12 @@ from lacuna.discovery.case.cases import load
 from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
+from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.fit.fit import believed
 from lacuna.discovery.fit.machine import LEAST_RTOL, RTOL, Machine, try_machine
 from lacuna.discovery.fit.objective import noise_of
+
+from .test_efforts import BELIEVED, cascade
 
 
 @pytest.fixture(scope="module")
@@ -58,3 +61,20 @@ def test_a_hypothesis_in_which_a_first_value_is_of_no_state_does_not_fit(machine
     found, why = try_machine(other, machine.amendment, machine)
     assert found is None
     assert "R is no state" in why
+
+
+def test_a_start_recorded_by_another_name_of_its_state(tmp_path: Path) -> None:
+    """`level = upper` is an equation, in which an effort is tried: then the names are of two variables, and the state's
+    start is still what is recorded of the level."""
+    folder = cascade(tmp_path, BELIEVED)
+    model, toml = folder / "Cascade.mo", folder / "case.toml"
+    text = model.read_text().replace("equation\n", '  Real level(unit="m");\nequation\n  level = upper;\n')
+    model.write_text(text)
+    named = toml.read_text().replace("[signals.upper]", '[signals.upper]\nvariable = "level"')
+    toml.write_text(named + '[initial]\nlevel = "recorded"\n')
+    case = load(folder)
+    door = opened(case, Amendment(read(case.library(), case.base)), case.library(), ["k"])
+    assert any(s.label.startswith("level = upper") for s in door.sites)
+    first = case.fit[0]
+    run = door.machine.trajectory({"A": 0.01, "B": 0.02, "k": 3e-4}, first, ["upper", "level"])
+    assert run["upper"][0] == run["level"][0] == first.columns["upper"][0]

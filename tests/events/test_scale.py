@@ -212,3 +212,20 @@ def test_a_threshold_beside_the_potential_of_a_rail_is_no_size() -> None:
     prepared, _ = translate("Lacuna.Benches.BldcDrive")
     winding, turn = prepared.nominals[var("bridge.leg_a.i")], prepared.nominals[var("shaft.w")]
     assert winding.value == pytest.approx(turn.value * 0.12476 / 2.13)
+
+
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rodas4"])
+def test_the_end_of_a_run_decides_nothing_anew(solver: str, tmp_path: Path) -> None:
+    """An error that dies away until rounding leaves exactly zero crosses nothing, so that its sign stays: it was
+    another one in the last row alone."""
+    path = tmp_path / "Rest.mo"
+    path.write_text(
+        "model Rest\n  Real i(start=0, fixed=true), x(start=0, fixed=true), y;\n"
+        "  Boolean over(start=false, fixed=true);\n"
+        "equation\n  der(i) = 1000*(1 - i);\n  der(x) = 1;\n  y = if 1 - i > 0 then 1 else -1;\n"
+        "  when terminal() then\n    over = true;\n  end when;\nend Rest;\n"
+    )
+    rest = runtime.Model(compile_model(str(path)).path)
+    result = runtime.simulate(rest, solver=solver, stop=1.0, interval=0.1, events=False)
+    assert result.complete and list(result["over"]) == [0] * 10 + [1]
+    assert result["y"][-1] == result["y"][-2]

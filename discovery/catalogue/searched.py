@@ -1,0 +1,31 @@
+"""The models that a search tries, as files."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import hashlib
+from pathlib import Path
+
+from lacuna.codegen.cache import Cache
+from lacuna.codegen.compile import translate
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.written import write_whole
+
+
+def write_source(amendment: Amendment) -> Path:
+    """The search model as a file in the cache, named by its content, so equal hypotheses share one compiled model."""
+    text = amendment.text("Candidate")
+    folder = Cache().private() / "candidates"
+    name = "Candidate_" + hashlib.sha256(text.encode()).hexdigest()[:16]
+    path, named = folder / f"{name}.mo", text.replace("Candidate", name)
+    if not path.exists() or path.read_bytes() != named.encode("utf-8"):  # a damaged one would be no hypothesis
+        write_whole(path, named, lasting=False)
+    return path
+
+
+def believed_name(name: str, amendment: Amendment, search_path: Sequence[str] | None) -> tuple[str, int]:
+    """(variable, sign) that a name is another one for in the model as believed: what an amended model adds to an
+    equation such as T = Th may make two of them."""
+    believed, _ = translate(str(write_source(Amendment(amendment.structure))), search_path=search_path)
+    kept, sign = believed.aliases.get(name, (name, 1))
+    return kept, sign
