@@ -86,6 +86,12 @@ CLASSES = (
 )
 
 
+WHY = {
+    "Lacuna.Components.Drives.DeadTime": "`change(u)` of its own input compared u with what the output had been. A "
+    "variable keeps now what u was before the event.",
+}  # of models that are in no class
+
+
 def translations(tree: Path, models: Path) -> dict[str, tuple[str, float]]:
     """(C or refusal, processor seconds) of every complete model, by the code of `tree`."""
     with tempfile.NamedTemporaryFile(suffix=".json") as out:
@@ -163,7 +169,9 @@ def page(pairs: dict[str, tuple[str, str]], seconds: tuple[float, float]) -> str
         for name, _, why in CLASSES
         if members[name] or not why.startswith("Below")
     ]
-    more = [f"- {name}: {', '.join(differences(*pairs[name]))}" for name in members["more"]]
+    more = [
+        f"- {name}: {', '.join(differences(*pairs[name]))}. {WHY.get(name, '')}".rstrip() for name in members["more"]
+    ]
     text = [
         "# Our own models, unchanged", "",
         f"Written by `make unchanged`: the C of the {len(pairs)} models of `model/` that translate alone, by the code "

@@ -19,6 +19,7 @@ from lacuna.codegen.dae.free_parameters import free_parameters
 from lacuna.codegen.dae.guards import guard_shapes
 from lacuna.codegen.dae.initial import initial_system
 from lacuna.codegen.dae.operators import delays, homotopy, transports
+from lacuna.codegen.dae.operators.held_inputs import hold_inputs
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.relations import Relation
 from lacuna.codegen.dae.storage import Storage
@@ -83,7 +84,7 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     """The structural passes, in order."""
     sys.setrecursionlimit(max(sys.getrecursionlimit(), 20000))
     declared = report.run("initial system", free_parameters, declared)
-    aliases = report.run("aliases", eliminate_aliases, declared)
+    aliases = report.run("aliases", eliminate_aliases, hold_inputs(declared))
     split = report.run("initial system", homotopy.split, aliases.model)
     split, delayed = report.run("hybrid", delays.split, split)
     split, carried = report.run("hybrid", transports.split, split)

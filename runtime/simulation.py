@@ -126,17 +126,19 @@ class Session:
         self._check(self._lib.rt_session_sensitivities(self._handle, len(rows), (ctypes.c_int * len(rows))(*rows)))
 
     def set_inputs(self, inputs: Mapping[str, RecordedInput | float]) -> None:
-        """Drive inputs by recordings or constants; inputs not named keep what they had (at first their start value)."""
+        """Drive inputs by recordings or constants; inputs not named keep what they had (at first their start value).
+        Integers and Booleans are held between samples, whatever the recording says: nothing lies between them."""
         for name, given in inputs.items():
             if self._inputs.get(name) is given:
                 continue
             variable = self.model.variable(name, "input", self.model.inputs)
             recorded = given if isinstance(given, RecordedInput) else RecordedInput([0.0], [given], "hold")
+            held = recorded.interpolation == "hold" or variable.type != "Real"
             self._inputs[name] = recorded  # keeps the arrays alive that the session borrows
             self._check(
                 self._lib.rt_session_input(
                     self._handle, variable.row, recorded.time.size, recorded.time.ctypes.data,
-                    recorded.values.ctypes.data, recorded.interpolation == "hold",
+                    recorded.values.ctypes.data, held,
                 )
             )  # fmt: skip
 

@@ -84,7 +84,7 @@ def _converted(variables: dict[str, flat.Variable], initial: list[flat.Equation]
             "S023", f"no initial equation gives the parameter {name}, which has fixed=false, by itself", v.span,
             f"write an initial equation {name} = ..., or give it a value",
         )  # fmt: skip
-    variables[name] = replace(v, variability=flat.CONTINUOUS)
+    variables[name] = replace(v, variability=flat.CONTINUOUS, free=True)
     text = f"der({name}) = 0"
     return [flat.Equation(der(var(name)), ZERO, v.span, "", text)]
 

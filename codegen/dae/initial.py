@@ -117,7 +117,8 @@ def _assume_starts(
     assumed = []
     if len(rows) < len(unknowns):
         states = [*(n for n in system.states if n not in system.dynamic), *system.preferred]
-        given = sorted(states, key=lambda n: system.model.variables[n].start is None)
+        variables = system.model.variables
+        given = sorted(states, key=lambda n: (variables[n].free, variables[n].start is None))
         for name in dict.fromkeys((*given, *system.algebraics)):
             if len(rows) < len(unknowns) and matching.add_row([column[var(name)]]):
                 rows.append(_start_row(system, name))
@@ -126,7 +127,14 @@ def _assume_starts(
 
 
 def _warnings(system: System, assumed: list[str]) -> list[Diagnostic]:
+    """One for each start value that is used. Raises S023 where it is that of a parameter, which has to follow from
+    equations (8.6)."""
     variables = system.model.variables
+    open_ended = next((name for name in assumed if variables[name].free), "")
+    if open_ended:
+        message = f"no initial equation determines the parameter {open_ended}, which has fixed=false"
+        hint = f"write an initial equation for it, or give it a value: {open_ended} = ..."
+        raise Diagnostic("S023", message, variables[open_ended].span, hint)
     return [
         Diagnostic(
             "S021", f"the initial value of {name} is not fixed; its start value {variables[name].start or 0.0} is used",

@@ -39,6 +39,7 @@ class Variable:
     description: str = ""
     enumeration: tuple[str, ...] = ()  # literal names, where the type is an enumeration (values from 1)
     final: bool = False
+    free: bool = False  # a parameter that the initial system is to find: it stands still after the start
     evaluated: bool = False  # a structural parameter: its value is part of the structure, not changeable
 
 

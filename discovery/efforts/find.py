@@ -24,7 +24,7 @@ from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.efforts.sites import SEVERAL
 from lacuna.discovery.fit.evidence import nearly_noise, settled
 from lacuna.discovery.fit.fit import Fit
-from lacuna.discovery.law.empirical_law import fitted_law, simplified
+from lacuna.discovery.law.empirical_law import race, simplified, unfitted
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.naming.comparison import score
 from lacuna.discovery.naming.screen import Candidate
@@ -133,8 +133,10 @@ def _law_at(
     for tried, guided in _offered(locator, site, progress):
         for proposal in tried:
             progress(f"fitting a law at {site.location}: {proposal.law.text()}")
-            proposal.candidate = fitted_law(case, amendment, base, proposal.law, proposal.start, guided.point)
-        best = _best([p for p in (best, *tried) if p is not None and p.candidate is not None], base)
+            proposal.candidate = unfitted(case, amendment, base, proposal.law, proposal.start, guided.point)
+        race(case, base, [p.candidate for p in tried if p.candidate is not None], best and best.candidate)
+        tried = [p for p in tried if p.candidate is not None and p.candidate.fit is not None]
+        best = _best([p for p in (best, *tried) if p is not None], base)
         single = best if best is None or len(best.law.groups) == 1 else single
         if best is not None and settled(best.candidate.fit):
             break

@@ -21,13 +21,14 @@ from lacuna.codegen.library.classes import Library
 from lacuna.codegen.symbolic.expr import var
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.units.inference import UnitInference, of_variable
-from lacuna.discovery.case.cases import Case
+from lacuna.discovery.case.cases import Case, CaseError
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.searched import write_source
 from lacuna.discovery.efforts.insertion import probe
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws.variables import MOST
 from lacuna.discovery.efforts.linear import Linear
+from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.efforts.sites import Site, exchanges, read, varying
 from lacuna.discovery.fit.machine import Machine
 from lacuna.units import Unit
@@ -185,7 +186,10 @@ def opened(case: Case, amendment: Amendment, library: Library, parameters: list[
     closed += [(n, "it is read elsewhere than in equations of the class") for n in sorted(elsewhere)]
     sites = _openable(case, amendment, [*found.places, *between, *vary, *acting], closed)
     whole = _with_probes(amendment, sites)
-    machine = Machine(case, whole)
+    try:
+        machine = Machine(case, whole)
+    except CaseError as reason:  # it has other states than those whose first values are known
+        raise NotNumeric(str(reason)) from reason
     return Opened(machine, Linear(machine, list(whole.inputs), parameters), sites, closed, believed)
 
 

@@ -46,6 +46,8 @@ class Machine:
         self._sessions: dict[tuple[str, bool], queue.SimpleQueue[Session]] = {}
         self._inputs: dict[str, dict[str, RecordedInput]] = {}
         self._initial: dict[str, dict[str, float]] = {}
+        for name in {n for r in (*case.fit, *case.validate) for n in self._starts(r)}:
+            self._start(name, 0.0)  # no run may find that a hypothesis has other states
         self._lock = threading.Lock()
         probes = [*(probe_name(k) for k in range(len(amendment.probes))), *amendment.inputs]
         self._silent = {name: RecordedInput([0.0], [0.0], "hold") for name in probes}
@@ -118,8 +120,8 @@ class Machine:
             return {first[index]: None for index in sorted(first)}
         said = self._starts(recording)
         noisy = [name for name, value in said.items() if value == "recorded" and self.recorded(name)]
-        unknown = {name: None for name, value in said.items() if value == "unknown"}
-        return {name: self._first_sample(recording, name) for name in noisy} | unknown
+        unknown = dict.fromkeys(n for n, v in said.items() if v == "unknown")
+        return {n: self._first_sample(recording, n) for n in noisy} | unknown
 
     def simulate(
         self, parameters: Mapping[str, float], recording: Recording, efforts: Mapping[str, RecordedInput] | None = None,
@@ -222,8 +224,7 @@ class Machine:
         return self.case.initial | (own.initial if own else {})
 
     def _initial_of(self, recording: Recording) -> dict[str, float]:
-        found = self._initial.get(recording.name)
-        if found is None:
+        if (found := self._initial.get(recording.name)) is None:
             found = {}
             for name, value in ({} if recording.after_gap else self._starts(recording)).items():
                 if value == "recorded":
@@ -238,8 +239,7 @@ class Machine:
         effect."""
         suffix = start_name("", recording).removeprefix("start:")
         named = {n.removesuffix(suffix): v for n, v in parameters.items() if is_start(n) and n.endswith(suffix)}
-        starts = [self._start(n.removeprefix("start:"), v) for n, v in named.items()]
-        return {state: value for start in starts for state, value in start.items()}
+        return {state: x for n, v in named.items() for state, x in self._start(n.removeprefix("start:"), v).items()}
 
     def unfitted_states(self, parameters: Mapping[str, float], recording: Recording) -> dict[str, float | None]:
         """Those of the uncertain states of a recording that the parameters do not give."""
@@ -287,5 +287,5 @@ def try_machine(case: Case, amendment: Amendment, base: Machine) -> tuple[Machin
     limits = {name: STEPS_GROWTH * max(steps, 1000, samples.get(name, 0)) for name, steps in base.steps.items()}
     try:
         return Machine(case, amendment, base.solver, step_limits=limits, rtol=base.rtol), ""
-    except (Diagnostic, CompilerError, SimulationError) as error:
+    except (Diagnostic, CompilerError, SimulationError, CaseError) as error:
         return None, str(error)

@@ -8,7 +8,9 @@ like any effect; groups are added while they pay for their parameters and for ha
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -18,10 +20,12 @@ from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit, fit
 from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.solver.free import Free
+from lacuna.discovery.fit.solver.least_squares import WORKERS
 from lacuna.discovery.law.law import Law, attach, component_of
 from lacuna.discovery.law.law_screen import Effort, Proposal, screened, sites
 from lacuna.discovery.law.law_terms import Group, Variable
-from lacuna.discovery.naming.comparison import score
+from lacuna.discovery.naming.comparison import best_correlation, score
+from lacuna.discovery.naming.race import ROUNDS, still_in
 from lacuna.discovery.naming.screen import Candidate
 
 GROUPS = 3  # that a law may be the sum of
@@ -69,14 +73,53 @@ def fitted_law(
     believed: dict[str, float] | None = None,
 ) -> Candidate | None:
     """The law as a component of the amended model, fitted together with the believed parameters."""
+    candidate = unfitted(case, amendment, base, law, start, believed)
+    if candidate is None:
+        return None
+    candidate.fit = _fit(case, base, *ROUNDS[-1][:2], candidate)
+    return None if candidate.fit is None else candidate
+
+
+def unfitted(
+    case: Case, amendment: Amendment, base: Fit, law: Law, start: dict[str, float], believed: dict[str, float] | None
+) -> Candidate | None:  # fmt: skip
+    """The law as a component of the amended model, where its fit begins; None where there is no such model."""
     attachment = attach(law)
     machine, _ = try_machine(case, replace(amendment, attachments=[*amendment.attachments, attachment]), base.machine)
-    if machine is None:
-        return None
-    free = free_of(law, attachment, start)
     first = (believed or base.point) | {attachment.full_name(n): v for n, v in start.items()}
-    found = fit(machine, case.fit, base.noise, [*base.estimate.free, *free], base.fixed, start=first)
-    return None if found is None else Candidate(attachment, machine, free, start=first, fit=found, pick=law.pick())
+    free = free_of(law, attachment, start)
+    return None if machine is None else Candidate(attachment, machine, free, start=first, pick=law.pick())
+
+
+def race(case: Case, base: Fit, pool: list[Candidate], leader: Candidate | None) -> None:
+    """Fit laws side by side, in rounds; one that can no longer win, against the others or the `leader`, is left where
+    it is, as an effect of the catalogue would be. Those that cannot be simulated are left without a fit."""
+    before: dict[int, float] = {}
+    for stages, iterations, _ in (*ROUNDS[:2], ROUNDS[-1]):
+        with ThreadPoolExecutor(WORKERS) as workers:
+            fits = workers.map(partial(_fit, case, base, stages, iterations), pool)
+            for candidate, found in zip(pool, fits, strict=True):
+                better = candidate.fit is None or (found is not None and found.deviance() < candidate.fit.deviance())
+                candidate.fit = found if better else candidate.fit
+        pool = [c for c in pool if c.fit is not None]
+        if not pool:
+            return
+        every = [*pool, *([leader] if leader else [])]
+        correlation = best_correlation(every)
+        scored = partial(score, base=base, correlation=correlation)
+        first, scores = min(every, key=scored), {id(c): scored(c) for c in pool}
+        pool = still_in(pool, scores, before, first.fit, scored(first), base, correlation)
+        before = scores
+
+
+def _fit(case: Case, base: Fit, stages: int, iterations: int, law: Candidate) -> Fit | None:
+    """The law fitted together with the believed parameters, from where it was; what has settled stays."""
+    if law.fit is not None and law.fit.settled:
+        return law.fit
+    start, known = (law.start, None) if law.fit is None else (law.fit.point, law.fit.sensitivities())
+    free = [*base.estimate.free, *law.free]
+    return fit(law.machine, case.fit, base.noise, free, base.fixed, start=start, stages=stages, iterations=iterations,
+               known=known)  # fmt: skip
 
 
 def free_of(law: Law, attachment: Attachment, start: dict[str, float]) -> list[Free]:

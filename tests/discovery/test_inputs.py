@@ -11,7 +11,7 @@ from lacuna.discovery.case.cases import Case, load
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.opened import opened
-from lacuna.discovery.law.empirical_law import fitted_law
+from lacuna.discovery.law.empirical_law import fitted_law, race, unfitted
 from lacuna.discovery.steps import fitted
 
 from .recorded import record, truth
@@ -70,7 +70,14 @@ def test_a_late_input_is_told_as_one(plate: Case) -> None:
     best, *others = next(proposals(locator, site, guided, 3))
     assert not any("delay(" in p.law.text() or "onset(" in p.law.text() for p in others)
     assert best.law.site.location == "P"
-    found = fitted_law(plate, told.amendment, told.base, best.law, best.start, guided.point)
+    found, *outdone = laws = [
+        unfitted(plate, told.amendment, told.base, p.law, p.start, guided.point) for p in (best, *others)
+    ]
+    race(plate, told.base, laws, None)
+    for proposal, law in zip(others, outdone, strict=True):  # left where they were: they could not win any more
+        whole = fitted_law(plate, told.amendment, told.base, proposal.law, proposal.start, guided.point)
+        assert law.fit.simulations < whole.fit.simulations / 2
+        assert law.fit.deviance() == pytest.approx(whole.fit.deviance(), rel=0.01)
     values = {n.rpartition(".")[2]: v for n, v in found.fit.point.items()}
     assert best.law.form(values) == "drive.delay"
     assert values["t_1"] == pytest.approx(LATE, abs=0.3)

@@ -15,7 +15,7 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.fit.fit import believed
-from lacuna.discovery.fit.machine import LEAST_RTOL, RTOL, Machine
+from lacuna.discovery.fit.machine import LEAST_RTOL, RTOL, Machine, try_machine
 from lacuna.discovery.fit.objective import noise_of
 
 from .test_efforts import BELIEVED, cascade
@@ -53,6 +53,14 @@ def test_no_noise_asks_for_more_than_the_solver_can_give(machine: Machine) -> No
     least = machine.precise(values, quieter(noise_of(machine.case), 1e-12))
     assert least.rtol == pytest.approx(LEAST_RTOL)
     assert least.amended(Amendment(machine.amendment.structure)).rtol == least.rtol
+
+
+def test_a_hypothesis_in_which_a_first_value_is_of_no_state_does_not_fit(machine: Machine) -> None:
+    """An effect may change which variables of a mechanism are states: that ends the hypothesis, and not the search."""
+    other = replace(machine.case, initial={"R": 1.0})
+    found, why = try_machine(other, machine.amendment, machine)
+    assert found is None
+    assert "R is no state" in why
 
 
 def test_a_start_recorded_by_another_name_of_its_state(tmp_path: Path) -> None:

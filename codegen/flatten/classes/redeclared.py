@@ -118,12 +118,20 @@ def _in_place(new: ast.Class, old: ast.Class | None, context: Context, elements:
     if old is None:
         return
     constrain(context.library, new, old, by_element=False)
+    if _kind(new) != _kind(old) and "class" not in (new.kind, old.kind):
+        message = f"the {old.kind} {old.name} is redeclared as a {new.kind} (6.4)"
+        raise Diagnostic("R034", message, new.span, f"write redeclare {old.kind} {old.name}")
     while old.constraint is None and old.stands_for is not None:
         old = old.stands_for
     bound: Type = type_of(old, context)
     if old.constraint is not None and old.parent is not None:
         bound = resolve_type(old.constraint.base, Scope(context, old.parent))
     require_subtype(type_of(new, context), bound, context, elements, f"{new.name} for {old.name}", new.span)
+
+
+def _kind(cls: ast.Class) -> str:
+    """What kinds of class stand for each other: models and blocks, records and types."""
+    return {"block": "model", "type": "record"}.get(cls.kind, cls.kind)
 
 
 def seen(cls: ast.Class, modifier: Modifier | None, context: Context) -> ast.Class:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.imports import check_imports
 from lacuna.codegen.flatten.names.context import Context
-from lacuna.codegen.flatten.names.scope import PRIMITIVES, base_class, base_clauses, own_or_inherited
+from lacuna.codegen.flatten.names.scope import PRIMITIVES, base_class, base_classes, base_clauses, own_or_inherited
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.alike import alike
 
@@ -26,6 +26,10 @@ MAY_EXTEND = {
     "model": ("record", "block", "model"),
     "class": ("package", "operator", "function", "type", "record", "connector", "block", "model"),
 }
+OPERATORS = (
+    "'constructor'", "'0'", "'String'", "'+'", "'-'", "'*'", "'/'", "'^'", "'=='", "'<>'", "'<'", "'<='", "'>'", "'>='",
+    "'and'", "'or'", "'not'",
+)  # fmt: skip  # 14.1
 _ATTRIBUTES_OF_ENUMERATIONS = ("quantity", "min", "max", "start", "fixed")  # 4.9.5
 _WITHOUT_SECTIONS = ("connector", "record", "package", "type")
 _ALL_PUBLIC = ("connector", "record")
@@ -73,6 +77,9 @@ def _findings(cls: ast.Class) -> Iterator[Diagnostic]:
         if operator and cls.kind != "package" and not (cls.operator and cls.kind == "record"):
             hint = "declare it in an operator record"
             yield Diagnostic("R070", f"the operator {nested.name} in a {cls.kind}", nested.span, hint)
+        elif operator and cls.kind == "record" and nested.name not in OPERATORS:
+            hint = f"an operator is one of {', '.join(OPERATORS)}"
+            yield Diagnostic("R070", f"there is no operator {nested.name} to declare (14.1)", nested.span, hint)
         elif operator and cls.kind == "record" and not nested.encapsulated:
             hint = "write encapsulated before it, and import what it uses"
             yield Diagnostic("R070", f"the operator {nested.name} is not encapsulated (14.2)", nested.span, hint)
@@ -223,6 +230,7 @@ def _check_replaceable_bases(cls: ast.Class, context: Context) -> None:
 
 def _check_hidden(cls: ast.Class, context: Context) -> None:
     """A class of the name of an inherited one is the same, or redeclares it (7.1)."""
+    _check_one_kind(cls, context)
     own = [c for c in cls.classes.values() if not c.redeclares and c.extends_same is None]
     for nested in own if cls.extends else ():
         for reference, tree in base_clauses(cls):
@@ -233,6 +241,18 @@ def _check_hidden(cls: ast.Class, context: Context) -> None:
                 error = Diagnostic("R010", f"{nested.name} is inherited from {base.name}, too", nested.span, hint)
                 error.notes.append((old.span, "the inherited one"))
                 raise error
+
+
+def _check_one_kind(cls: ast.Class, context: Context) -> None:
+    """A name is of a component or of a class, inherited or not (4.3). Raises R010."""
+    bases = base_classes(context.library, cls) if cls.extends else []
+    for component, base in ((c, b) for c in cls.components for b in bases):
+        old = own_or_inherited(context.library, base, component.name)
+        if old is not None:
+            hint = "rename it"
+            error = Diagnostic("R010", f"{component.name} is a class inherited from {base.name}", component.span, hint)
+            error.notes.append((old.span, "the inherited one"))
+            raise error
 
 
 def _same(one: ast.Class, other: ast.Class) -> bool:

@@ -45,6 +45,10 @@ def mismatch(chosen: Type, bound: Type, context: Context, elements: ElementsOf, 
             return f"{name} is protected in {chosen.cls.name}"
         inner = [_type_of(e, context) for e in (offered[name], element)]
         reason = _other_prefixes(offered[name].declaration, element.declaration, inner)
+        have = offered[name]
+        fixed = have.declaration.final or (have.modifier is not None and have.modifier.final)
+        if element.declaration.final and not fixed:
+            reason = "it is not final, where it is final"
         reason = reason or mismatch(inner[0], inner[1], context, elements, depth + 1)
         if reason:
             return f"{name}: {reason}"
@@ -58,6 +62,8 @@ def _other_prefixes(offered: ast.Component, needed: ast.Component, types: list[T
     """Why the prefixes of one element do not fit those of the other; "" where they do (6.4)."""
     if _VARIABILITIES.index(offered.variability) > _VARIABILITIES.index(needed.variability):
         return f"it varies, where it is a {needed.variability}"
+    if (offered.condition is None) != (needed.condition is None):
+        return "only one has a condition"
     for prefix in ("flow", "stream"):
         if getattr(offered, prefix) != getattr(needed, prefix):
             return f"only one is {prefix}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.connections.connection_sets import ConnectionSets
-from lacuna.codegen.flatten.connections.connectors import End, Part, connectors, is_outside, parts
+from lacuna.codegen.flatten.connections.connectors import End, Part, connectors, is_outside, parts, refuse_element
 from lacuna.codegen.flatten.connections.overconstrained import constraint_values
 from lacuna.codegen.flatten.connections.streams import stream_equations
 from lacuna.codegen.flatten.expressions.constants import evaluate
@@ -94,7 +94,10 @@ def _connect(item: ast.Connect, scope: Scope, sets: ConnectionSets, equations: l
     sides = []
     for ref in (item.left, item.right):
         outside = is_outside(ref, scope)
-        sides.append([(node, parts(node, outside)) for node in connectors(ref, scope)])
+        found = connectors(ref, scope)
+        for node in found:
+            refuse_element(node, ref)
+        sides.append([(node, parts(node, outside)) for node in found])
     left, right = sides
     if not (left and right):
         return  # a component that a condition removed

@@ -89,6 +89,16 @@ def is_connector(node: Node) -> bool:
     return isinstance(node, Instance) and (node.cls.kind == "connector" or node.in_connector)
 
 
+def refuse_element(node: Connector, ref: ast.Ref) -> None:
+    """Raises R061 for a plain element of a connector, such as c.p of a pin c, which is no connector by itself (9.1)."""
+    leaf = node[0] if isinstance(node, tuple) else node
+    if not isinstance(leaf, Leaf) or leaf.causality or leaf.open_ended or not leaf.instance.in_connector:
+        return
+    if leaf.type.named is None or leaf.type.named.kind != "connector":
+        hint = f"connect the whole connector {leaf.instance.name}"
+        raise Diagnostic("R061", f"{ref} is an element of a connector, not one itself", ref.span, hint)
+
+
 def pick(
     node: Node, subscripts: tuple[ast.Expression, ...] | None, ref: ast.Ref, at: int, scope: Scope
 ) -> list[Connector]:

@@ -15,6 +15,7 @@ from lacuna.codegen.flatten.connections.structure import Structure, structural_i
 from lacuna.codegen.flatten.expressions.constants import evaluate
 from lacuna.codegen.flatten.expressions.lower import lower_scalar
 from lacuna.codegen.flatten.functions.declared import call_function
+from lacuna.codegen.flatten.functions.locals import signature_of
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope, own_or_inherited
 from lacuna.codegen.flatten.names.values import Array, Record, Value, items_of, stack
@@ -204,7 +205,10 @@ def constraint_values(a: Connector, b: Connector, item: ast.Connect, scope: Scop
     for path, node, function in overdetermined(a, scope.context):
         if path in other and (node.name, other[path].name) in graph_of(scope.context).broken:
             call = ast.Call(item.span, ast.Ref(item.span, (function.name,), (None,)), [], {})
-            names = [c.name for c in function.components if c.causality == "input"]
+            names = [i.name for i in signature_of(function, scope.context).inputs]
+            if len(names) != 2:
+                hint = "it takes two of its type and gives their residues (9.4.1)"
+                raise Diagnostic("R080", f"equalityConstraint has {len(names)} inputs", function.span, hint)
             given = dict(zip(names, (_value(node), _value(other[path])), strict=True))
             residues[path] = tuple(items_of(call_function(function, call, scope, given)[0]))
     return residues

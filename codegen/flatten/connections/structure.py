@@ -86,6 +86,9 @@ def cardinality(e: ast.Call, scope: Scope) -> Value:
     """How many connections name a connector (Modelica 3.6, 3.7.4.3; deprecated)."""
     if len(e.args) != 1 or not isinstance(e.args[0], ast.Ref):
         raise Diagnostic("R050", "cardinality takes a connector", e.span, "write cardinality(port)")
+    if len(connectors(e.args[0], scope)) > 1:
+        hint = "ask for each element: cardinality(port[1])"
+        raise Diagnostic("R050", f"cardinality of the array {e.args[0]}", e.span, hint)
     counts = scope.context.table(Structure).count(scope.context)
     return ex.const(max((counts[name] for name in _scalars(e.args[0], scope)), default=0))
 

@@ -101,9 +101,11 @@ def _variable(leaf: Leaf, name: str, attributes: dict[str, Expr | str]) -> flat.
         result.fixed = _of_type(attributes["fixed"], BOOLEAN, f"fixed of {name}", place)
         if not is_parameter(result.fixed, context):
             raise Diagnostic("R055", f"fixed of {name} varies in time", place, "use parameters and constants")
-    for key in ("unit", "quantity"):
+    for key in ("unit", "quantity", "displayUnit"):
         if key in attributes:
-            setattr(result, key, _text(attributes[key], key, leaf))
+            text = _text(attributes[key], key, leaf)
+            if key != "displayUnit":  # which is for a user's eyes
+                setattr(result, key, text)
     if "unbounded" in attributes:
         _check_unbounded(leaf, _of_type(attributes["unbounded"], BOOLEAN, f"unbounded of {name}", span))
     if "stateSelect" in attributes:

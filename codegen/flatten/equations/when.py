@@ -47,6 +47,9 @@ def when_conditions(written: ast.Expression, scope: Scope) -> list[Expr]:
     if len(parts) == len(conditions):
         pairs = zip(conditions, parts, strict=True)
         conditions = [FALSE if isinstance(c, Expr) and c.op == "initial" and not _asks(w) else c for c, w in pairs]
+    if len(shape_of(value)) > 1:
+        hint = "write one vector: when {a, b} then"
+        raise Diagnostic("R020", f"the condition of when is {shape_text(shape_of(value))}", written.span, hint)
     for condition in conditions:
         if not isinstance(condition, Expr) or condition.type != BOOLEAN:
             hint = "use a comparison, sample(...), or a Boolean variable"

@@ -51,7 +51,7 @@ def interpret(signature: Signature, arguments: dict[str, Value], context: Contex
     run = _Run(signature.cls, context, dict(arguments), span)
     run.inputs = frozenset(arguments)
     run.kinds = {local.name: local.type.primitive for local in signature.locals}
-    for local in signature.locals:
+    for local in signature.in_order:
         if local.declaration.causality == "input":
             continue
         scope = replace(local.scope, locals=run.locals)

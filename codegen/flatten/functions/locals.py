@@ -18,6 +18,7 @@ from lacuna.codegen.flatten.names.values import (
     Value,
 )
 from lacuna.codegen.syntax import ast
+from lacuna.codegen.syntax.references import references
 from lacuna.units import parse_unit
 
 
@@ -89,6 +90,29 @@ class Signature:
                 used |= _values_in(local.declaration.modification.value)
         return frozenset(used & names)
 
+    @cached_property
+    def in_order(self) -> list[Local]:
+        """Everything declared, each after what its value and its sizes use, in order of declaration else (12.4.4)."""
+        used = {d.name: self._uses(d) for d in self.locals}
+        waiting, order = list(self.locals), []
+        while waiting:
+            open_ended = {d.name for d in waiting}
+            ready = next((d for d in waiting if not used[d.name] & open_ended), None)
+            if ready is None:
+                names = ", ".join(d.name for d in waiting)
+                span = waiting[0].declaration.span
+                raise Diagnostic("F022", f"the values of {names} depend on each other", span, "break the circle")
+            waiting.remove(ready)
+            order.append(ready)
+        return order
+
+    def _uses(self, local: Local) -> set[str]:
+        """Names of what else is declared here that the value or the sizes of `local`, no input, are made of."""
+        if local.declaration.causality == "input":
+            return set()
+        parts = [local.declaration.modification.value, *local.declaration.dimensions]
+        return {r.names[0] for r in references(parts)} & {d.name for d in self.locals} - {local.name}
+
     @property
     def outputs(self) -> list[Local]:
         return [d for d in self.locals if d.declaration.causality == "output"]
@@ -140,7 +164,8 @@ def signature_of(cls: ast.Class, context: Context) -> Signature:
             _check_function(cls, instance, declared)
             _check_components(cls, declared)
         body = tuple(item for section, _ in instance.sections for item in section.items)
-        _check_iterators(body)
+        fixed = {d.name: f"the {d.declaration.variability}" for d in declared if d.declaration.variability in FIXED}
+        _check_targets(body, fixed if cls.kind == "function" else {})
         external = next((c for c in instance.classes if c.external is not None), None)
         found = signatures[id(cls)] = Signature(cls, tuple(declared), body, external)
     return found
@@ -160,27 +185,42 @@ def _check_function(cls: ast.Class, instance: Instance, declared: list[Local]) -
             raise Diagnostic("R066", f"{name} of the function {cls.name} is public", d.span, hint)
         if d.causality and d.protected:
             raise Diagnostic("R066", f"the {d.causality} {name} of {cls.name} is protected", d.span, "make it public")
+        _check_constant(cls, d, declared)
         if d.inner or d.outer:
             what = "inner" if d.inner else "outer"
             raise Diagnostic("R066", f"{what} {name} in the function {cls.name}", d.span, "hand it on as an input")
 
 
-def _check_iterators(items: Iterable[ast.Item], iterators: frozenset[str] = frozenset()) -> None:
-    """The variable of a loop is not assigned inside it (11.2.2). Raises R058."""
+def _check_constant(cls: ast.Class, d: ast.Component, declared: list[Local]) -> None:
+    """A constant of a function does not follow its inputs (3.8), and nothing assigns it, or a parameter (11.2.1)."""
+    if d.variability != "constant" or d.modification.value is None:
+        return
+    varies = {x.name for x in declared if x.declaration.variability != "constant"}
+    used = next((r for r in references(d.modification.value) if r.names[0] in varies), None)
+    if used is not None:
+        message = f"the constant {d.name} of {cls.name} depends on what varies: {used}"
+        raise Diagnostic("R055", message, used.span, "declare it without 'constant'")
+
+
+FIXED = ("constant", "parameter")
+
+
+def _check_targets(items: Iterable[ast.Item], fixed: dict[str, str]) -> None:
+    """Constants, parameters, and the variable of a loop inside it are not assigned (11.2.1, 11.2.2). Raises R058."""
     for item in items:
         if isinstance(item, ast.For):
-            _check_iterators(item.body, iterators | {i.name for i in item.iterators})
+            _check_targets(item.body, fixed | {i.name: "the loop variable" for i in item.iterators})
         elif isinstance(item, ast.If | ast.When):
             for _, body in item.branches:
-                _check_iterators(body, iterators)
+                _check_targets(body, fixed)
         elif isinstance(item, ast.While):
-            _check_iterators(item.body, iterators)
+            _check_targets(item.body, fixed)
         elif isinstance(item, ast.Assignment):
             targets = item.target.items if isinstance(item.target, ast.Tuple) else [item.target]
-            wrong = next((t for t in targets if t is not None and t.names[0] in iterators), None)
+            wrong = next((t for t in targets if t is not None and t.names[0] in fixed), None)
             if wrong is not None:
                 hint = "copy it to a variable of the function"
-                raise Diagnostic("R058", f"the loop variable {wrong} is assigned", wrong.span, hint)
+                raise Diagnostic("R058", f"{fixed[wrong.names[0]]} {wrong} is assigned", wrong.span, hint)
 
 
 def _check_components(cls: ast.Class, declared: list[Local]) -> None:

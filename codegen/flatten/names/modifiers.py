@@ -130,7 +130,11 @@ def narrow(modifier: Modifier | None, index: tuple[tuple[int, int], ...]) -> Mod
 
 
 def within_array(modifier: Modifier) -> Modifier:
-    """A modifier of an array of components, all its parts marked as such."""
+    """A modifier of an array of components, all its parts marked as such. Raises R038 for a redeclaration that would be
+    split among the elements (7.2.5)."""
+    for name, child in modifier.children.items():
+        if child.redeclare is not None and not child.each and not modifier.each:
+            raise Diagnostic("R038", f"{name} is redeclared in an array", child.span, "write: redeclare each ...")
     marked = modifier.copy()
     marked.in_array = True
     marked.children = {name: within_array(child) for name, child in modifier.children.items()}

@@ -41,6 +41,7 @@ def _implied(iterator: ast.Iterator, scope: Scope, body: object) -> tuple[Value,
         for at, subscripts in enumerate(reference.subscripts):
             for position, subscript in enumerate(subscripts or ()):
                 if isinstance(subscript, ast.Ref) and subscript.names == (iterator.name,):
+                    _refuse_whole(reference, at, body)
                     indexed = _index_set(reference, at, position, scope)
                     if found is not None and found != indexed:
                         message = f"{iterator.name} indexes dimensions of different size, or of different type"
@@ -50,6 +51,17 @@ def _implied(iterator: ast.Iterator, scope: Scope, body: object) -> tuple[Value,
         message = f"{iterator.name} has no range and indexes nothing"
         raise Diagnostic("R047", message, iterator.span, f"say what it runs over: {iterator.name} in 1:n")
     return found
+
+
+def _refuse_whole(reference: ast.Ref, at: int, body: object) -> None:
+    """What a loop takes its range from is not assigned as a whole inside it (11.2.2.1). Raises R058."""
+    name = reference.names[: at + 1]
+    for item in body if isinstance(body, list) else ():
+        if isinstance(item, ast.Assignment) and isinstance(item.target, ast.Ref):
+            target = item.target
+            if target.names == name and not any(target.subscripts):
+                hint = "assign its elements, or say what the loop runs over"
+                raise Diagnostic("R058", f"{target} is assigned in the loop that runs over it", target.span, hint)
 
 
 def _index_set(reference: ast.Ref, at: int, position: int, scope: Scope) -> tuple[Value, ...]:

@@ -185,7 +185,7 @@ def _emit(
     source = context.table(Sources)[name] = Source(signature, inputs, fixed, [])
     writer = Writer(function, Scope(context, cls, None, dict(fixed), in_function=True, pure=not cls.impure))
     try:
-        for local in (x for x in signature.locals if x.name not in fixed):
+        for local in (x for x in signature.in_order if x.name not in fixed):
             number = _settled(local, signature, writer.scope)
             if number is None:
                 writer.declare_local(local, inputs)
