@@ -20,7 +20,7 @@ from lacuna.discovery.catalogue.searched import believed_name, write_source
 from lacuna.discovery.fit.tracking import Motion, recorded_column, recorded_motion
 from lacuna.recorded_units import same_unit
 from lacuna.runtime import Model, RecordedInput, Session, SimulationError
-from lacuna.suggest import did_you_mean
+from lacuna.suggest import did_you_mean, suggestion
 
 RTOL, LEAST_RTOL, FINER = 1e-6, 1e-9, 0.1  # of the solver: usual, least, and the step from one to the next finer one
 NEGLIGIBLE = 1e-3  # RMS of the solver's errors, in units of noise; friction that is added makes ten times as much of it
@@ -260,7 +260,8 @@ class Machine:
             known, sense = believed_name(name, self.amendment, self.case.search_path)
             variable = self.model.states.get(known)
         if variable is None:
-            raise CaseError(f"{self.case.folder / 'case.toml'}: [initial] {name} is no state of {self.case.model}")
+            where = f"{self.case.folder / 'case.toml'}: [initial]"
+            raise CaseError(f"{where} {name} is no state of {self.case.model}{suggestion(name, self.model.states)}")
         first = next(v for v in self.model.states.values() if v.index == variable.index)
         return {first.name: value * sense * variable.sign * first.sign}
 
