@@ -146,7 +146,7 @@ def test_a_late_sensor_reads_what_was(
     library: Library, effects: list[catalogue.Effect], delay: float, tmp_path: Path
 ) -> None:
     """Samples 1 ms apart of a sine of 30 rad/s: a straight line between two of them is off by (0.03)^2 / 8 = 1.1e-4."""
-    reading, true, time = _read(library, effects, delay, tmp_path)
+    reading, true, time = _read(library, effects, "SensorDelay", {"T_d": delay, "interval": 1e-3}, tmp_path)
     was = np.interp(np.maximum(time - delay, 0.0), time, true)
     assert reading == pytest.approx(was, abs=2 * 1.2e-4 * float(np.ptp(true)))
 
@@ -155,18 +155,27 @@ def test_a_sensor_is_not_later_than_what_it_keeps(
     library: Library, effects: list[catalogue.Effect], tmp_path: Path
 ) -> None:
     with pytest.raises(AssertionError, match="The delay is longer than what is kept"):
-        _read(library, effects, 64e-3, tmp_path)
+        _read(library, effects, "SensorDelay", {"T_d": 64e-3, "interval": 1e-3}, tmp_path)
+
+
+def test_a_sensor_may_be_off_in_scale_and_zero(
+    library: Library, effects: list[catalogue.Effect], tmp_path: Path
+) -> None:
+    """As one of a temperature that is right at 25 degC alone."""
+    values = {"gain": 0.88, "offset": 0.12 * 298}
+    reading, true, _ = _read(library, effects, "SensorCalibration", values, tmp_path)
+    assert reading == pytest.approx(298 + 0.88 * (true - 298), rel=1e-12)
 
 
 def _read(
-    library: Library, effects: list[catalogue.Effect], delay: float, tmp_path: Path
+    library: Library, effects: list[catalogue.Effect], name: str, values: dict[str, float], tmp_path: Path
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """What a late sensor of the servo reads, what is there, and when (n,)."""
+    """What a sensor of the servo reads with an error, what is there, and when (n,)."""
     plain, attachments = _attachments(library, effects, "DcServo")
-    attachment = next(a for a in attachments if a.effect.name == "SensorDelay")
-    assert (attachment.effect.identifier, attachment.location) == ("sensor.lag", f"sensor:{attachment.variable}")
+    attachment = next(a for a in attachments if a.effect.name == name)
+    assert attachment.location == f"sensor:{attachment.variable}"
     time = np.arange(501) * 1e-3
-    values = {attachment.full_name("T_d"): delay, attachment.full_name("interval"): 1e-3}
+    values = {attachment.full_name(n): v for n, v in values.items()}
     result = simulate(
         Model(compile_model(str(_write(plain, attachment, tmp_path, 0))).path), solver="dopri5", parameters=values,
         stop=0.5, output_times=time, inputs={"u": RecordedInput(time, 6 * np.sin(30 * time))}, events=False, rtol=1e-9,
