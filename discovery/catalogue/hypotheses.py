@@ -113,16 +113,17 @@ def _instead_of_part(case: Case, structure: Structure, effect: Effect) -> list[A
             location = _stage_of(structure, part.name) if effect.identifier.startswith("drive.") else part.name
             if effect.location:
                 location = part.name + effect.location[k % len(effect.location)]
-            for interval in _intervals(case, effect, part.name in structure.driven):
+            for interval in _intervals(case, effect, part.name not in structure.driven):
                 result.append(Attachment(effect, part.name, location, part=part, values=(*values, *interval)))
     return result
 
 
-def _intervals(case: Case, effect: Effect, driven: bool) -> list[tuple[tuple[str, float], ...]]:
-    """For an effect that samples: as the recordings do and, inside a loop, which closes between samples, finer too."""
+def _intervals(case: Case, effect: Effect, finer: bool) -> list[tuple[tuple[str, float], ...]]:
+    """For an effect that samples: as the recordings do and, where asked for, `finer` too: inside a loop, which closes
+    between samples."""
     if not effect.interval:
         return [()]
-    return [((effect.interval, float(f"{case.fit[0].interval / n:.9g}")),) for n in ((1,) if driven else (1, FINER))]
+    return [((effect.interval, float(f"{case.fit[0].interval / n:.9g}")),) for n in ((1, FINER) if finer else (1,))]
 
 
 def _stage_of(structure: Structure, source: str) -> str:
@@ -151,7 +152,7 @@ def _on_sensors(case: Case, structure: Structure, effect: Effect) -> list[Attach
     return [
         Attachment(effect, _component(effect, s.column), f"sensor:{s.column}", variable=s.variable, values=values)
         for s in case.outputs if effect.unit in ("", s.si_unit) and s.variable not in forces
-        for values in _intervals(case, effect, driven=True)
+        for values in _intervals(case, effect, finer=False)
     ]  # fmt: skip
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 import hashlib
 from pathlib import Path
 
@@ -23,9 +23,8 @@ def write_source(amendment: Amendment) -> Path:
     return path
 
 
-def believed_name(name: str, amendment: Amendment, search_path: Sequence[str] | None) -> tuple[str, int]:
-    """(variable, sign) that a name is another one for in the model as believed: what an amended model adds to an
+def believed_aliases(amendment: Amendment, search_path: Sequence[str] | None) -> Mapping[str, tuple[str, int]]:
+    """(variable, sign) that each name is another one for in the model as believed: what an amended model adds to an
     equation such as T = Th may make two of them."""
     believed, _ = translate(str(write_source(Amendment(amendment.structure))), search_path=search_path)
-    kept, sign = believed.aliases.get(name, (name, 1))
-    return kept, sign
+    return believed.aliases

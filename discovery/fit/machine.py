@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 from pathlib import Path
 import queue
 import threading
@@ -16,7 +17,7 @@ from lacuna.discovery.case.cases import Case, CaseError, Recording, Signal
 from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.case.values import is_start, start_name, values_in
 from lacuna.discovery.catalogue.amend import Amendment, probe_name, tracker_name
-from lacuna.discovery.catalogue.searched import believed_name, write_source
+from lacuna.discovery.catalogue.searched import believed_aliases, write_source
 from lacuna.discovery.fit.tracking import Motion, recorded_column, recorded_motion
 from lacuna.recorded_units import same_unit
 from lacuna.runtime import Model, RecordedInput, Session, SimulationError
@@ -253,11 +254,15 @@ class Machine:
                 return float(values[np.flatnonzero(np.isfinite(values))[0]])
         raise CaseError(f'{self.case.folder / "case.toml"}: [initial] {name} = "recorded", but no column records it')
 
+    @cached_property
+    def _believed_aliases(self) -> Mapping[str, tuple[str, int]]:
+        return believed_aliases(self.amendment, self.case.search_path)
+
     def _start(self, name: str, value: float) -> dict[str, float]:
         """A state's start value under the first of its names, whose sign may be another."""
         variable, sense = self.model.states.get(name), 1
         if variable is None and name in self.model.variables:
-            known, sense = believed_name(name, self.amendment, self.case.search_path)
+            known, sense = self._believed_aliases.get(name, (name, 1))
             variable = self.model.states.get(known)
         if variable is None:
             where = f"{self.case.folder / 'case.toml'}: [initial]"

@@ -8,7 +8,6 @@ like any effect; groups are added while they pay for their parameters and for ha
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
 
@@ -20,12 +19,11 @@ from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit, fit
 from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.solver.free import Free
-from lacuna.discovery.fit.solver.least_squares import WORKERS
 from lacuna.discovery.law.law import Law, attach, component_of
 from lacuna.discovery.law.law_screen import Effort, Proposal, screened, sites
 from lacuna.discovery.law.law_terms import Group, Variable
 from lacuna.discovery.naming.comparison import best_correlation, score
-from lacuna.discovery.naming.race import ROUNDS, still_in
+from lacuna.discovery.naming.race import ROUNDS, run_round, still_in
 from lacuna.discovery.naming.screen import Candidate
 
 GROUPS = 3  # that a law may be the sum of
@@ -96,12 +94,7 @@ def race(case: Case, base: Fit, pool: list[Candidate], leader: Candidate | None)
     it is, as an effect of the catalogue would be. Those that cannot be simulated are left without a fit."""
     before: dict[int, float] = {}
     for stages, iterations, _ in (*ROUNDS[:2], ROUNDS[-1]):
-        with ThreadPoolExecutor(WORKERS) as workers:
-            fits = workers.map(partial(_fit, case, base, stages, iterations), pool)
-            for candidate, found in zip(pool, fits, strict=True):
-                better = candidate.fit is None or (found is not None and found.deviance() < candidate.fit.deviance())
-                candidate.fit = found if better else candidate.fit
-        pool = [c for c in pool if c.fit is not None]
+        pool = run_round(pool, partial(_fit, case, base, stages, iterations))
         if not pool:
             return
         every = [*pool, *([leader] if leader else [])]

@@ -47,7 +47,7 @@ class Place:
     def laws(self) -> list[Proposal]:
         """Laws of one group of terms, the most telling first, then of two; started where the efforts at both lead."""
         guided = self.locator.guided(self.site)
-        ones, _, twos = proposals(self.locator, self.site, guided, LAWS)
+        ones, twos = proposals(self.locator, self.site, guided, LAWS, strained=False)
         offered = [*ones, *twos]
         for proposal in offered:
             proposal.point = guided.point

@@ -38,6 +38,7 @@ from lacuna.discovery.naming.race import (
     leading,
     outdone,
     relatives,
+    run_round,
     stands_out,
     still_in,
 )
@@ -253,12 +254,7 @@ def _halve(
     before: dict[int, float] = {}
     for k, (stages, iterations, keep) in enumerate(ROUNDS):
         pool = (pool if k <= SEVERAL_STARTS else best_starts(pool))[:keep]
-        with ThreadPoolExecutor(WORKERS) as workers:
-            fits = workers.map(partial(fit_candidate, case, base, stages, iterations, progress), pool)
-            for candidate, found in zip(pool, fits, strict=True):
-                better = candidate.fit is None or (found is not None and found.deviance() < candidate.fit.deviance())
-                candidate.fit = found if better else candidate.fit
-        pool = [c for c in pool if c.fit is not None]
+        pool = run_round(pool, partial(fit_candidate, case, base, stages, iterations, progress))
         if not pool:
             return
         correlation = best_correlation([*fitted.values(), *pool])

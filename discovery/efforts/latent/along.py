@@ -24,13 +24,16 @@ class Along:
     direct: np.ndarray  # (n, u, b): du / dq, of derivatives first
     values: dict[str, np.ndarray]  # of every variable, (n,); of parameters a number
 
-    def model(self, *statistics: np.ndarray) -> tuple[CLinearModel, list[np.ndarray]]:
+    def __post_init__(self) -> None:
+        for name in ("time", "step", "drive", "read", "feed"):  # as the library reads them
+            setattr(self, name, np.ascontiguousarray(getattr(self, name), dtype=float))
+
+    def model(self, *statistics: np.ndarray) -> CLinearModel:
         """The same for the library's filters, with the standard deviations of noise (y,) and first states (x,) where
-        they are wanted; and the arrays that have to last as long."""
-        arrays = (self.time, self.step, self.drive, self.read, self.feed, *statistics)
-        kept = [np.ascontiguousarray(a, dtype=float) for a in arrays]
+        they are wanted. It borrows these arrays."""
         samples, outputs, states = self.read.shape
-        return CLinearModel(samples, states, outputs, self.feed.shape[2], *map(pointer, kept)), kept
+        arrays = (self.time, self.step, self.drive, self.read, self.feed, *statistics)
+        return CLinearModel(samples, states, outputs, self.feed.shape[2], *map(pointer, arrays))
 
     def response(
         self, columns: np.ndarray | int, courses: np.ndarray, hold: bool = False, every: int = 1
@@ -43,8 +46,7 @@ class Along:
         columns = np.broadcast_to(columns, courses.shape[1:]).astype(np.intc)
         courses = np.ascontiguousarray(courses, dtype=float)
         result = np.empty((-(-len(self.time) // every), self.read.shape[1], len(columns)))
-        model, _kept = self.model()
         library().lacuna_linear_response(
-            model, columns.ctypes.data_as(INTEGERS), pointer(courses), len(columns), hold, every, pointer(result)
+            self.model(), columns.ctypes.data_as(INTEGERS), pointer(courses), len(columns), hold, every, pointer(result)
         )
         return result

@@ -40,7 +40,7 @@ def products(pieces: Sequence[Piece], latent: Latent) -> tuple[np.ndarray, np.nd
     gram, logdet = np.zeros((len(latent.size), columns, columns)), np.zeros(len(latent.size))
     forces, _forces = latent.of_library()
     for piece in pieces:
-        model, _arrays = piece.along.model(piece.noise, piece.start)
+        model = piece.along.model(piece.noise, piece.start)
         data, seen = np.ascontiguousarray(piece.data), np.ascontiguousarray(piece.seen)
         if library().lacuna_latent_evidence(
             model, forces, pointer(data), seen.ctypes.data, columns, pointer(gram), pointer(logdet)

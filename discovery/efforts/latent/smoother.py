@@ -39,7 +39,7 @@ class Whitener:
         for piece, part in zip(self.pieces, columns, strict=True):
             seen = np.ascontiguousarray(piece.seen)
             white = np.where(seen[:, :, None], part, np.nan)
-            model, _arrays = piece.along.model(piece.noise, piece.start)
+            model = piece.along.model(piece.noise, piece.start)
             _checked(library().lacuna_latent_whiten(model, forces, pointer(white), seen.ctypes.data, white.shape[2]))
             result.append(white)
         return result
@@ -70,7 +70,7 @@ def _smoothed(pieces: Sequence[Piece], latent: Latent, mean: np.ndarray) -> list
     for piece, left in zip(pieces, _left(pieces, mean), strict=True):
         seen, readings = np.ascontiguousarray(piece.seen), np.ascontiguousarray(left)
         means, deviations = np.empty((2, forces.forces, len(left)))
-        model, _arrays = piece.along.model(piece.noise, piece.start)
+        model = piece.along.model(piece.noise, piece.start)
         _checked(
             library().lacuna_latent_smooth(
                 model, forces, pointer(readings), seen.ctypes.data, pointer(means), pointer(deviations)

@@ -28,10 +28,12 @@ PAIRS = 6  # kinds of pairs whose shapes are refined
 SAME = 1e-3  # share of what a law explains, by which another one must differ to be tried beside it
 
 
-def proposals(locator: Locator, site: Site, guided: Guided, most: int) -> Iterator[list[Proposal]]:
-    """Laws of one group of terms at a place, then such as parameters would have to leave their beliefs for, then of two
-    groups; `most` of each, the most telling first, each list found when it is asked for. In any of the quantities in
-    which an effort does the same there.
+def proposals(
+    locator: Locator, site: Site, guided: Guided, most: int, strained: bool = True
+) -> Iterator[list[Proposal]]:
+    """Laws of one group of terms at a place, then, where `strained` ones are wanted, such as parameters would have to
+    leave their beliefs for, then of two groups; `most` of each, the most telling first, each list found when it is
+    asked for. In any of the quantities in which an effort does the same there.
 
     Along a run that an effort of a smooth course leads, a stiff contact is met too early or too late; to first order
     parameters stand for that, and a fit puts them back.
@@ -40,7 +42,8 @@ def proposals(locator: Locator, site: Site, guided: Guided, most: int) -> Iterat
     offered = [_offered(locator, place, guided) for place in quantities]
     ones = [_told_here(place, r, _refined(r, every)) for place, (r, every) in zip(quantities, offered, strict=True)]
     yield _best([(r, groups) for (r, _), groups in zip(offered, ones, strict=True)], most)
-    yield _best([(r, _refined(r, every, strained=True)) for r, every in offered], most)
+    if strained:
+        yield _best([(r, _refined(r, every, strained=True)) for r, every in offered], most)
     yield _best([(r, _doubled(r, groups, every)) for (r, every), groups in zip(offered, ones, strict=True)], most)
 
 
