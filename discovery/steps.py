@@ -262,7 +262,7 @@ def fit_believed(case: Case, machine: Machine) -> tuple[Fit, Lead]:
         best = _better(best, other)
     if best is None:
         said = f"{case.model} cannot be simulated with the recorded inputs of {case.label} at the believed values"
-        raise CaseError(f"{said}: look at [parameters] and [initial] of case.toml, and at the units of the inputs")
+        raise CaseError(f"{said}: look at [parameters] and [initial] of case.toml, and at the units of time and inputs")
     return _nearer_belief(best), lead
 
 
