@@ -26,6 +26,7 @@ from lacuna.suggest import did_you_mean, suggestion
 RTOL, LEAST_RTOL, FINER = 1e-6, 1e-9, 0.1  # of the solver: usual, least, and the step from one to the next finer one
 NEGLIGIBLE = 1e-3  # RMS of the solver's errors, in units of noise; friction that is added makes ten times as much of it
 STEPS_PER_SAMPLE, STEPS_PER_SECOND = 40, 8000  # a run that needs more is given up: its parameters are absurd
+MOST_STEPS = 1_000_000  # some seconds; a fit makes a hundred runs, and a search has ten minutes
 STEPS_GROWTH = 10  # so is a hypothesis that needs so many times the steps of the model it amends
 
 
@@ -205,7 +206,7 @@ class Machine:
     def _step_limit(self, recording: Recording) -> int:
         duration = float(recording.time[-1] - recording.time[0])
         largest = int(max(STEPS_PER_SAMPLE * len(recording.time), STEPS_PER_SECOND * duration))
-        return min(largest, self.step_limits.get(recording.name, largest))
+        return min(largest, MOST_STEPS, self.step_limits.get(recording.name, largest))
 
     def _inputs_of(self, recording: Recording) -> dict[str, RecordedInput]:
         with self._lock:
