@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lacuna.discovery.catalogue.amend import Amendment
-from lacuna.discovery.efforts.find import LAWS, PLACES, Found, simplest
+from lacuna.discovery.efforts.find import TRIED, Found, simplest
 from lacuna.discovery.efforts.instruments import NATS
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
@@ -51,7 +51,7 @@ class Place:
     def _screened(self) -> Iterator[list[Proposal]]:
         """Laws of one group of terms, the most telling first, then of two; started where the efforts at both lead."""
         guided = self.locator.guided(self.site)
-        for offered in proposals(self.locator, self.site, guided, LAWS, strained=False):
+        for offered in proposals(self.locator, self.site, guided, TRIED, strained=False):
             for proposal in offered:
                 proposal.point = guided.point
             yield offered
@@ -60,7 +60,7 @@ class Place:
         """Places at which an effort leaves hardly more than at this one: of two that are coupled stiffly a smooth
         effort, which takes no edge as sharply as a law does, may tell the wrong one by any number of nats."""
         left = LEFT**2 * (1.0 - self.site.explains)
-        near = [s for s in self.sites[:PLACES] if s is not self.site and s.location != other.location]
+        near = [s for s in self.sites[:TRIED] if s is not self.site and s.location != other.location]
         return [Place(self.locator, s, self.sites) for s in near if 1.0 - s.explains <= left]
 
 
