@@ -19,12 +19,12 @@ from lacuna.discovery.explanation.contenders import contenders
 from lacuna.discovery.explanation.explanation import Clock, Explanation
 from lacuna.discovery.fit.evidence import (
     astray,
-    holds,
     is_noise,
     like_noise,
     nearly_noise,
     outside_belief,
     pays,
+    repeats,
     settled,
     whiteness,
     within_instruments,
@@ -118,12 +118,12 @@ def _is_colour(result: Explanation) -> bool:
 
 def _holds(result: Explanation) -> bool:
     """Whether the fitted model tells unseen recordings as well as its noise lets it, or its uncertain parameters."""
-    attained, noise = _attained(result), result.final.noise
-    if holds(result.after.validate, attained, noise):
+    attained, samples = _attained(result), sum(len(r.time) for r in result.case.validate)
+    if repeats(result.after.validate, attained, result.final, samples):
         return True
     spread = foretold(result.final, result.case.validate)
     within = {c: float(np.hypot(attained[c], spread[c])) for c in attained}
-    return holds(result.after.validate, within, noise)
+    return repeats(result.after.validate, within, result.final, samples)
 
 
 def _attained(result: Explanation) -> dict[str, float]:
