@@ -132,7 +132,7 @@ def _at_most(noise: Noise) -> float:
 
 def repeats(unseen: Mapping[str, float], attained: Mapping[str, float], fit: Fit, samples: int) -> bool:
     """Whether NRMSE on `samples` unseen ones are those that a fit attains on what it was fitted to, where the
-    noise's level, as estimated, is in `attained`: up to what the mean squares of so few independent samples scatter by."""
+    noise's level, as estimated, is in `attained`: up to what mean squares of so few independent samples scatter by."""
     counts, correlation = fit.counts(), fit.correlation()
     return all(
         unseen[c]
