@@ -15,7 +15,10 @@ from lacuna.discovery.catalogue import catalogue, places
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.find import places_of
+from lacuna.discovery.efforts.latent.switches import placed
+from lacuna.discovery.efforts.linear import NEWTON
 from lacuna.discovery.efforts.moved import sensor_instead
+from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import astray, is_noise, nearly_noise, outside_belief
 from lacuna.discovery.fit.fit import Fit, believed, carried, falling_bandwidths, fit, linearised
@@ -32,7 +35,8 @@ from lacuna.discovery.naming.dips import explored, is_smooth
 from lacuna.discovery.naming.judge import judge, noise_floor, try_judge
 from lacuna.discovery.naming.name import rank
 from lacuna.discovery.naming.search import Search
-from lacuna.discovery.semantic_check import check_against_model
+from lacuna.discovery.semantic_check import slips
+from lacuna.runtime import SimulationError
 
 Progress = Callable[[str], None]
 
@@ -46,24 +50,8 @@ def opened(case: Case, library: Library) -> tuple[Explanation, Machine | None]:
         return result, None
     result.case = case = without_gaps(case)
     machine = _believed_machine(case, places.read(library, case.base))
-    result.problems += _slips(machine)
+    result.problems += slips(machine)
     return result, machine if _trusted(result, "the recordings contradict themselves") else None
-
-
-def _slips(machine: Machine) -> list[Problem]:
-    """What contradicts the model: at its believed values and, of a shift in time, as fitted to the recordings, too.
-
-    A machine that is faster or slower than believed looks shifted until its parameters are fitted; they cannot take a
-    slip away."""
-    case, (free, fixed) = machine.case, believed(machine.case, machine)
-    found = check_against_model(machine, (free, fixed))
-    if not found or any(p.kind != "shift" for p in found):
-        return found
-    fitted = fit(machine, case.fit, noise_of(case), free, fixed)
-    if fitted is None or astray(fitted):
-        return found
-    there = [replace(f, centre=fitted.point[f.name]) for f in free]
-    return [p for p in check_against_model(machine, (there, fixed)) if p.kind == "shift"]
 
 
 def _trusted(result: Explanation, otherwise: str) -> bool:
@@ -86,9 +74,33 @@ def add_fit(result: Explanation, machine: Machine, progress: Progress) -> None:
     progress("fitting the believed model")
     case = result.case
     result.base, result.lead = fit_believed(case, machine)
+    if not is_noise(result.base):
+        _place_switches(result, progress)
+    case, machine = result.case, result.base.machine
     result.amendment, result.final = machine.amendment, result.base
     result.before = result.after = judge(machine, result.base.point)
     result.floor = noise_floor(case, case.validate, result.base.noise)
+
+
+def _place_switches(result: Explanation, progress: Progress) -> None:
+    """Held inputs that switch between samples, where that is all that the believed model lacks."""
+    base = result.base
+    for _ in range(NEWTON):
+        try:
+            case = placed(base)
+        except (NotNumeric, SimulationError, np.linalg.LinAlgError):
+            return
+        if case is None:
+            return
+        progress("looking for when the inputs switched between samples")
+        machine = base.machine.amended(base.machine.amendment, case)
+        base, lead = fit_believed(case, machine)
+        if is_noise(base):
+            result.case, result.base, result.lead = case, base, lead
+            early = {c for r in case.fit for c in r.held}
+            text = "it switches between samples: where the outputs tell when, it was taken to"
+            result.problems += [Problem("switches", case.fit[0].name, c, None, text, False) for c in sorted(early)]
+            return
 
 
 def add_location(result: Explanation, progress: Progress) -> None:

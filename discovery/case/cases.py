@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 import math
 from pathlib import Path
+import re
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from lacuna.analysis.recording.formats import read_recorded
 from lacuna.codegen.flatten.model import flatten
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.case_keys import KeyProblem, check, with_dots
-from lacuna.discovery.case.case_model import CaseModel, case_model
+from lacuna.discovery.case.case_model import CaseModel, case_model, written_values
 from lacuna.given import toml_of
 from lacuna.recorded_units import ZERO_CELSIUS, UnitError, to_si
 
@@ -47,7 +48,7 @@ class Recording:
     """A file, or a part of one between gaps: `time` (n,) in s and each signal's samples (n,) in SI, NaN where missing.
 
     `file` and `piece` stay where a first share of it is taken (whose name says which). Of what comes `after_gap` no
-    state is known at the first sample.
+    state is known at the first sample. `held` has times (n,) from which samples of inputs hold, where those differ.
     """
 
     name: str
@@ -56,9 +57,14 @@ class Recording:
     file: str = ""
     piece: str = ""
     after_gap: bool = False
+    held: dict[str, np.ndarray] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.file, self.piece = self.file or self.name, self.piece or self.name
+
+    def switched(self, column: str) -> np.ndarray:
+        """Times (n,), in s, from which the samples of an input hold."""
+        return self.held.get(column, self.time)
 
     @property
     def interval(self) -> float:
@@ -116,6 +122,16 @@ class Case:
 
     def library(self) -> Library:
         return self.found.library() if self.found else Library()
+
+    def is_uncertain(self, parameter: str) -> bool:
+        """Whether a parameter has a belief: the model's own, those whose numbers it writes, what case.toml names."""
+        plain = re.sub(r"\[[^]]*\]", "", parameter)
+        named = parameter in self.parameters or parameter in self.uncertainty
+        return (
+            named
+            or (parameter == plain and "." not in plain)
+            or plain in written_values(self.library().find(self.base))
+        )
 
     @property
     def inputs(self) -> list[Signal]:

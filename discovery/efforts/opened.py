@@ -30,7 +30,7 @@ from lacuna.discovery.efforts.laws.variables import MOST
 from lacuna.discovery.efforts.linear import Linear
 from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.efforts.sites import Site, exchanges, read, varying
-from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.machine import Machine, richer
 from lacuna.units import Unit
 
 ALIKE = 1e-5  # of a direction, by which two places may differ: rounding of the linearisation
@@ -173,8 +173,10 @@ def _touches(site: Site, location: str) -> bool:
     return any(end.rpartition(".")[0] == location for end in site.ends)
 
 
-def opened(case: Case, amendment: Amendment, library: Library, parameters: list[str]) -> Opened:
-    """The amended model with an input at every site where one can act."""
+def opened(
+    case: Case, amendment: Amendment, library: Library, parameters: list[str], base: Machine | None = None
+) -> Opened:
+    """The amended model, simulated as `base` is, with an input at every site where one can act."""
     found = read(library, amendment.structure.model)
     closed = list(found.closed)
     believed, _ = translate(str(write_source(amendment)), search_path=case.search_path)
@@ -187,7 +189,7 @@ def opened(case: Case, amendment: Amendment, library: Library, parameters: list[
     sites = _openable(case, amendment, [*found.places, *between, *vary, *acting], closed)
     whole = _with_probes(amendment, sites)
     try:
-        machine = Machine(case, whole)
+        machine = richer(case, whole, base) if base else Machine(case, whole)
     except CaseError as reason:  # it has other states than those whose first values are known
         raise NotNumeric(str(reason)) from reason
     return Opened(machine, Linear(machine, list(whole.inputs), parameters), sites, closed, believed)

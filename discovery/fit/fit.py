@@ -111,9 +111,8 @@ class Fit:
 def believed(case: Case, machine: Machine) -> tuple[list[Free], dict[str, float]]:
     """(free parameters, exact ones) of the believed model: what case.toml names and the model's own defaults."""
     free, fixed = [], {}
-    named = set(case.parameters) | set(case.uncertainty)
     for name, variable in machine.model.parameters.items():
-        if (("." in name or "[" in name) and name not in named) or variable.type != "Real":
+        if variable.type != "Real" or not case.is_uncertain(name):
             continue
         value = case.parameters.get(name, variable.start)
         _believe(name, value, case.sigma(name, value), variable, free, fixed)

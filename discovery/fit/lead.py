@@ -114,7 +114,9 @@ def cut(case: Case, share: float) -> Case:
 def _first(recording: Recording, share: float) -> Recording:
     count = max(int(len(recording.time) * share), 16)
     columns = {n: v[:count] for n, v in recording.columns.items()}
-    return replace(recording, name=f"{recording.name}@{share:g}", time=recording.time[:count], columns=columns)
+    held = {c: t[:count] for c, t in recording.held.items()}
+    name = f"{recording.name}@{share:g}"
+    return replace(recording, name=name, time=recording.time[:count], columns=columns, held=held)
 
 
 def _share(case: Case) -> float:

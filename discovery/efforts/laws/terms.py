@@ -104,11 +104,11 @@ def _alone(v: Variable) -> list[Group]:
     ]  # fmt: skip
     ends += [
         Group((f"({x} - 0.5*abs({x} + {{q}}) + 0.5*abs({x} - {{q}}))",), (Shape("q", "1", q, 0.01, 0.99, (), 0.25),))
-        for q in (0.25, 0.5, 0.75)
+        for q in (1 / 16, 0.25, 0.5, 0.75)
     ]  # both ways
     ends += [
         Group((f"(abs({x} + {{q}}) - abs({x} - {{q}}))",), (Shape("q", "1", q, 0.01, 0.99, (), 0.25),))
-        for q in (0.25, 0.5, 0.75)
+        for q in (1 / 16, 0.25, 0.5, 0.75)
     ]  # up to a limit either way
     stribeck = Group((v.dry, f"{v.dry}*exp(-abs{x}/{{q}})"), (Shape("q", "1", 0.1, 0.01, 1.0, (), 0.08),))
     plain = [Group((x,)), Group((f"abs{x}",)), Group((f"{x}^2",)), Group((v.dry,))]
