@@ -29,10 +29,11 @@ from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws.variables import MOST
 from lacuna.discovery.efforts.linear import Linear
 from lacuna.discovery.efforts.numeric import NotNumeric
-from lacuna.discovery.efforts.sites import Site, exchanges, read, varying
+from lacuna.discovery.efforts.sites import Site, exchanges, read, renames, varying
 from lacuna.discovery.fit.machine import Machine, richer
 from lacuna.units import Unit
 
+RENAMES = "it only gives a name to what is recorded: an error there is its sensor's"
 ALIKE = 1e-5  # of a direction, by which two places may differ: rounding of the linearisation
 _ORDER = {"node": 0, "equation": 1, "branch": 2, "edge": 3, "exchange": 4, "parameter": 5, "input": 6}
 
@@ -73,7 +74,13 @@ class Opened:
         strength = np.sqrt(np.sum(effect**2, axis=1))
         unit = effect / np.maximum(strength[:, None], 1e-300)
         groups: list[list[int]] = []
-        for k in np.flatnonzero(strength.max(axis=0) > 0):
+        acting = strength.max(axis=0) > 0
+        read = effect[:, : len(self.linear.states)].any(axis=(0, 1))
+        for k in np.flatnonzero(acting & ~read):
+            if renames(self.sites[k]):
+                acting[k] = False
+                self.closed.append((self.sites[k].label, RENAMES))
+        for k in np.flatnonzero(acting):
             for group in groups:
                 both = (strength[:, k] > 0) & (strength[:, group[0]] > 0)
                 cosine = np.abs(np.sum(unit[both, :, k] * unit[both, :, group[0]], axis=1))

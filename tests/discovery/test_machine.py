@@ -14,7 +14,7 @@ from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.case.values import is_start
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
-from lacuna.discovery.efforts.opened import opened
+from lacuna.discovery.efforts.opened import RENAMES, opened
 from lacuna.discovery.fit.fit import believed
 from lacuna.discovery.fit.machine import LEAST_RTOL, RTOL, Machine, try_machine
 from lacuna.discovery.fit.objective import noise_of
@@ -78,8 +78,10 @@ def test_a_start_recorded_by_another_name_of_its_state(tmp_path: Path) -> None:
     known = Machine(case, Amendment(read(case.library(), case.base)))
     door = opened(case, known.amendment, case.library(), ["k"])
     assert any(s.label.startswith("level = upper") for s in door.sites)
-    first = case.fit[0]
-    run = door.machine.trajectory({"A": 0.01, "B": 0.02, "k": 3e-4}, first, ["upper", "level"])
+    point, first = {"A": 0.01, "B": 0.02, "k": 3e-4}, case.fit[0]
+    tried = [s.label for place in door.places(door.linear.along(point, first)) for s in place.sites]
+    assert "level = upper" not in tried and dict(door.closed)["level = upper"] == RENAMES  # nothing else reads it
+    run = door.machine.trajectory(point, first, ["upper", "level"])
     assert run["upper"][0] == run["level"][0] == first.columns["upper"][0]
     starts = [f for f in believed(case, known)[0] if is_start(f.name)]
     assert starts and all(f.sigma for f in starts)
