@@ -49,6 +49,8 @@ class Found:
     locator: Locator | None = None
     null: float = 0.0  # log evidence of nothing missing anywhere, over which places have their gain
     reason: str = ""  # why nothing could be located
+    tried: int = 0  # places at which laws were looked for
+    short: bool = False  # whether the best law is of one term
 
 
 def find(
@@ -60,27 +62,39 @@ def find(
     admitted: Callable[[Site], bool] = lambda site: True,
 ) -> Found:
     """Locate what `base`, the fit of `amendment`, lacks, and fit laws there: at places that are `admitted`."""
-    progress("locating among all places of the equations")
-    found = places_of(case, amendment, base, library)
-    if found.locator is None:
-        return found
-    locator = found.locator
-    efforts = simplest([s for s in found.sites if s.place is not None and s.gain > 0 and admitted(s)])
-    short = False
-    for site in efforts[:PLACES]:
-        enough = short and nearly_noise(found.laws[0].fit)
-        if efforts[0].gain - site.gain > INDIFFERENT and (enough or site.gain < WORTH * efforts[0].gain):
-            break
-        proposal, single = _law_at(case, amendment, base, locator, site, progress)
-        _put(found.laws, proposal and proposal.candidate, base)
-        _put(found.single, single, base)
-        if proposal is not None and found.laws[0] is proposal.candidate:
-            short = _terms(proposal) == 1
+    found = places_of(case, amendment, base, library, progress)
+    add_laws(found, case, amendment, base, progress, admitted)
     return found
 
 
-def places_of(case: Case, amendment: Amendment, base: Fit, library: Library) -> Found:
+def add_laws(
+    found: Found,
+    case: Case,
+    amendment: Amendment,
+    base: Fit,
+    progress: Progress,
+    admitted: Callable[[Site], bool] = lambda site: True,
+    most: int = PLACES,
+) -> None:
+    """Laws at the best places that are `admitted`, up to the `most`-th: those where none has been looked for yet."""
+    efforts = simplest([s for s in found.sites if s.place is not None and s.gain > 0 and admitted(s)])
+    for site in efforts[found.tried : most]:
+        enough = found.short and nearly_noise(found.laws[0].fit)
+        if efforts[0].gain - site.gain > INDIFFERENT and (enough or site.gain < WORTH * efforts[0].gain):
+            break
+        found.tried += 1
+        proposal, single = _law_at(case, amendment, base, found.locator, site, progress)
+        _put(found.laws, proposal and proposal.candidate, base)
+        _put(found.single, single, base)
+        if proposal is not None and found.laws[0] is proposal.candidate:
+            found.short = _terms(proposal) == 1
+
+
+def places_of(
+    case: Case, amendment: Amendment, base: Fit, library: Library, progress: Progress = lambda text: None
+) -> Found:
     """The places of the amended model, ranked; no laws."""
+    progress("locating among all places of the equations")
     try:
         locator = located(case, amendment, base, library)
         return Found(_ranked(locator, base), locator.opened.closed, locator=locator, null=locator.null)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+import re
 
 import numpy as np
 
@@ -89,7 +90,7 @@ class Opened:
                     break
             else:
                 groups.append([k])
-        return [self._place(group, effect) for group in groups]
+        return _apart([self._place(group, effect) for group in groups])
 
     def _effect(self, along: Along) -> np.ndarray:
         """(n, x + y, sites): rates of the states and outputs, each in its own size, that an effort causes at once."""
@@ -133,6 +134,30 @@ class Opened:
         if site.kind == "edge":
             return variables[f"probe{number}.a.{site.port.potential}"].unit
         return unit_of(site, self.believed)
+
+
+def _apart(places: list[Place]) -> list[Place]:
+    """The places, those that one state would name told apart: where it is no state of a place's own (a twist and the
+    speed of a shaft, for either end of it), by the component that has most ports there, or by what its equation says.
+    Two of one name could not both be what is missing."""
+    names = [p.location for p in places]
+    return [_renamed(p, _own_name(p, names)) if names.count(p.location) > 1 else p for p in places]
+
+
+def _own_name(place: Place, taken: list[str]) -> str:
+    site = place.sites[0]
+    if site.kind == "node":
+        owners = [e.rpartition(".")[0] for s in place.sites if s.kind == "node" for e in s.ends]
+        name = max(dict.fromkeys(owners), key=owners.count)
+    else:
+        name = site.label.removeprefix(f"{site.instance}: ").partition("=")[0].strip()
+    plain = site.kind in ("node", "equation") and name and not re.search(r"[^\w.\[\]]", name)
+    return name if plain and name not in taken else place.location
+
+
+def _renamed(place: Place, name: str) -> Place:
+    others = (replace(o, location=name) if o.location == place.location else o for o in place.other)
+    return replace(place, location=name, other=tuple(others))
 
 
 def unit_of(site: Site, prepared: Prepared) -> str:

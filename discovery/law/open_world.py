@@ -8,11 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
+
 from lacuna.codegen.library.classes import Library
-from lacuna.discovery.efforts.find import Found, find
-from lacuna.discovery.fit.evidence import like_noise, nearly_noise, settled, within_instruments
+from lacuna.discovery.efforts.find import WORTH, Found, add_laws, places_of
+from lacuna.discovery.efforts.numeric import NotNumeric
+from lacuna.discovery.fit.evidence import like_noise, nearly_noise, within_instruments
 from lacuna.discovery.law.beyond import MARGIN
-from lacuna.discovery.law.pairs import is_short, two_places
+from lacuna.discovery.law.pairs import Place, is_short, paired, two_places
 from lacuna.discovery.law.several import apart, go_on, take_if_less
 from lacuna.discovery.naming.comparison import (
     MIN_GAIN,
@@ -28,6 +31,7 @@ from lacuna.discovery.naming.judge import try_judge
 from lacuna.discovery.naming.name import Finding, Naming
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.discovery.naming.search import Search
+from lacuna.runtime import SimulationError
 
 Progress = Callable[[str], None]
 
@@ -44,14 +48,19 @@ def explain_open(search: Search, unbegun: Search, library: Library, progress: Pr
     explained = search.settled() or within_instruments(search.fit)
     if explained and any(not f.ranked.attachment.variable for f in search.findings):
         return None
-    found = find(search.case, unbegun.amendment, unbegun.fit, library, progress)
+    found = places_of(search.case, unbegun.amendment, unbegun.fit, library, progress)
+    add_laws(found, search.case, unbegun.amendment, unbegun.fit, progress, most=1)
+    pair = _pair(search, found, progress)
+    two = two_places(unbegun, pair, progress) if pair and pair[1].site.explains > WORTH else None
+    short = two is not None and within_instruments(two.fit) and all(map(is_short, two.findings))
+    if short and take_if_less(search, two, unbegun.fit):
+        return found
+    add_laws(found, search.case, unbegun.amendment, unbegun.fit, progress)
     taken = bool(found.laws) and _take(search, unbegun, found, progress)
     physics = any(not f.ranked.attachment.variable for f in search.findings) and not search.amendment.trackers
     whole = bool(search.findings) and within_instruments(search.fit) and not (taken and found.single)
-    two = None if whole else two_places(unbegun, found, progress)
-    short = two is not None and settled(two.fit) and all(map(is_short, two.findings))
-    if short and take_if_less(search, two, unbegun.fit):
-        return found
+    if pair and two is None and not whole:
+        two = two_places(unbegun, pair, progress)
     if taken or physics:
         go_on(search, library, progress)
     if taken and found.single:
@@ -59,6 +68,18 @@ def explain_open(search: Search, unbegun: Search, library: Library, progress: Pr
     if two is not None:
         take_if_less(search, two, unbegun.fit)
     return found
+
+
+def _pair(search: Search, found: Found, progress: Progress) -> tuple[Place, Place] | None:
+    """The two places whose efforts tell more than one does, unless a short law at the best one leaves noise, or what
+    the search has found does."""
+    short = bool(found.laws) and not found.single and within_instruments(found.laws[0].fit)
+    if found.locator is None or short or within_instruments(search.fit):
+        return None
+    try:
+        return paired(found, progress)
+    except (NotNumeric, SimulationError, np.linalg.LinAlgError):
+        return None
 
 
 def _take(search: Search, unbegun: Search, found: Found, progress: Progress) -> bool:

@@ -8,29 +8,29 @@ until none moves: the evidence of the two rises with every turn.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
-from lacuna.discovery.efforts.find import LAWS, Found, simplest
+from lacuna.discovery.efforts.find import LAWS, PLACES, Found, simplest
 from lacuna.discovery.efforts.instruments import NATS
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.numeric import NotNumeric
-from lacuna.discovery.fit.evidence import nearly_noise, pays, settled, within_instruments
+from lacuna.discovery.fit.evidence import LEFT, nearly_noise, pays
 from lacuna.discovery.fit.fit import Fit, linearised
 from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.law.empirical_law import fitted_law, free_of, simplified
 from lacuna.discovery.law.law import attach, component_of
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.law.several import finding, paid
-from lacuna.discovery.naming.comparison import MIN_GAIN
+from lacuna.discovery.naming.comparison import MIN_GAIN, price, told_by_data
 from lacuna.discovery.naming.judge import try_judge
 from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Finding
+from lacuna.discovery.naming.screen import Candidate
 from lacuna.discovery.naming.search import Search
 from lacuna.runtime import SimulationError
 
@@ -39,33 +39,50 @@ Progress = Callable[[str], None]
 
 @dataclass
 class Place:
-    """A place with the locator in which it was the best beside the other one."""
+    """A place with the locator in which it was the best beside the other one; `sites` are all those of that locator."""
 
     locator: Locator
     site: Site
+    sites: list[Site]
 
-    def laws(self) -> list[Proposal]:
+    def __post_init__(self) -> None:
+        self.offered = self._screened()
+
+    def _screened(self) -> Iterator[list[Proposal]]:
         """Laws of one group of terms, the most telling first, then of two; started where the efforts at both lead."""
         guided = self.locator.guided(self.site)
-        ones, twos = proposals(self.locator, self.site, guided, LAWS, strained=False)
-        offered = [*ones, *twos]
-        for proposal in offered:
-            proposal.point = guided.point
-        return offered
+        for offered in proposals(self.locator, self.site, guided, LAWS, strained=False):
+            for proposal in offered:
+                proposal.point = guided.point
+            yield offered
+
+    def alike(self, other: Site) -> list[Place]:
+        """Places at which an effort leaves hardly more than at this one: of two that are coupled stiffly a smooth
+        effort, which takes no edge as sharply as a law does, may tell the wrong one by any number of nats."""
+        left = LEFT**2 * (1.0 - self.site.explains)
+        near = [s for s in self.sites[:PLACES] if s is not self.site and s.location != other.location]
+        return [Place(self.locator, s, self.sites) for s in near if 1.0 - s.explains <= left]
 
 
-def two_places(unbegun: Search, found: Found, progress: Progress) -> Search | None:
-    """A search that has found two laws at two places, where an effort at a second place tells clearly more than one at
-    the best place alone does; None where they leave more than noise or do not pay."""
-    if found.locator is None or within_instruments(unbegun.fit):
-        return None
+@dataclass
+class Both:
+    """Two laws as they were fitted together; the candidate of either is the model with both."""
+
+    one: Proposal
+    two: Proposal
+    fit: Fit
+
+
+def two_places(unbegun: Search, pair: tuple[Place, Place], progress: Progress) -> Search | None:
+    """A search that has found two laws at two places; None where they leave more than noise or do not pay."""
+    joining = Joining(unbegun, progress)
     try:
-        pair = paired(found, progress)
-        offered = [place.laws() for place in pair] if pair else []
+        best = joining.laws(pair)
+        best = joining.elsewhere(best, pair) if best is not None else None
     except (NotNumeric, SimulationError, np.linalg.LinAlgError):
         return None
-    trial = _trial(unbegun, offered, progress) if offered and all(offered) else None
-    if trial is None or not nearly_noise(trial.fit):
+    trial = best and joining.found(best)
+    if trial is None:
         return None
     base, correlation = unbegun.fit, trial.fit.correlation()
     if paid(trial, base, correlation) > base.deviance(correlation) - MIN_GAIN:
@@ -81,10 +98,10 @@ def is_short(finding: Finding) -> bool:
 
 def paired(found: Found, progress: Progress) -> tuple[Place, Place] | None:
     """The two places whose efforts together have the most evidence; None where one has as much."""
-    efforts = simplest([s for s in found.sites if s.place is not None and s.gain > 0])
-    if not efforts:
+    sites = _efforts(found.sites)
+    if not sites:
         return None
-    one = Place(found.locator, efforts[0])
+    one = Place(found.locator, sites[0], sites)
     known: set[str] = set()
     while True:
         progress(f"locating beside {one.site.location}")
@@ -100,88 +117,126 @@ def paired(found: Found, progress: Progress) -> tuple[Place, Place] | None:
 def _beside(locator: Locator, place: Place) -> Place | None:
     """The best place beside an effort at another one."""
     there = locator.beside(place.locator, place.site)
-    sites = [s for s in there.ranked() if s.place is not None and s.location != place.site.location]
-    sites = simplest([s for s in sites if s.gain > 0])
-    return Place(there, sites[0]) if sites else None
+    sites = _efforts([s for s in there.ranked() if s.location != place.site.location])
+    return Place(there, sites[0], sites) if sites else None
 
 
-def _trial(unbegun: Search, offered: list[list[Proposal]], progress: Progress) -> Search | None:
-    """A search that has found the best law of each list, fitted together."""
-    case, amendment, base = unbegun.case, unbegun.amendment, unbegun.fit
-    ones, twos = offered
-    first, best = ones[0], None
-    for two in twos:
-        best = _better(best, _joint(case, amendment, base, first, two, progress))
-        if best is not None and settled(best.candidate.fit):
-            break
-    for other in ones[1:]:
-        if best is not None and settled(best.candidate.fit):
-            break
-        trial = _joint(case, amendment, base, other, best or twos[0], progress)
-        if trial is not None and _better(best, trial) is trial:
-            first, best = other, trial
-    if best is None:
+def _efforts(sites: list[Site]) -> list[Site]:
+    return simplest([s for s in sites if s.place is not None and s.gain > 0])
+
+
+class Joining:
+    """Laws at two places, fitted together on top of what a search that has found nothing has fitted."""
+
+    def __init__(self, unbegun: Search, progress: Progress) -> None:
+        self.unbegun, self.progress = unbegun, progress
+        self.case, self.amendment, self.base = unbegun.case, unbegun.amendment, unbegun.fit
+
+    def laws(self, pair: tuple[Place, Place]) -> Both | None:
+        """The best two laws, of one group of terms each; of two where these leave more than noise. Simplified, each
+        beside the other; None where they leave more than noise, too."""
+        best: Both | None = None
+        for ones, twos in zip(pair[0].offered, pair[1].offered, strict=False):
+            best = self._best(ones, twos, best)
+            if best is not None and nearly_noise(best.fit):
+                return self._simplified(best)
         return None
-    return _found(unbegun, first, best)
+
+    def elsewhere(self, best: Both, pair: tuple[Place, Place]) -> Both:
+        """The same laws' best at places alike, one law after the other."""
+        for place, other in (pair, pair[::-1]):
+            for alike in place.alike(other.site):
+                kept = best.two if place is pair[0] else best.one
+                for law in next(alike.offered, []):
+                    moved = self._joint(kept, law)
+                    if moved is not None:
+                        moved = moved if place is pair[1] else Both(moved.two, moved.one, moved.fit)
+                        best = self._simplified(moved) if self._better(best, moved) is moved else best
+        return best
+
+    def _best(self, ones: list[Proposal], twos: list[Proposal], best: Both | None) -> Both | None:
+        """The best of what was the best and of these: each second law beside the first one, each first one beside the
+        best second one."""
+        if not ones or not twos:
+            return best
+        for two in twos:
+            best = self._better(best, self._joint(best.one if best else ones[0], two))
+        for one in ones if best is None or best.one is not ones[0] else ones[1:]:
+            best = self._better(best, self._joint(one, best.two if best else twos[0]))
+        return best
+
+    def _better(self, one: Both | None, other: Both | None) -> Both | None:
+        """The one with less deviance and price."""
+        if one is None or other is None:
+            return one or other
+        correlation = min(one.fit, other.fit, key=lambda f: f.deviance()).correlation()
+        return min((one, other), key=lambda both: self._paid(both, correlation))
+
+    def _paid(self, both: Both, correlation: dict[str, float]) -> float:
+        added = len(both.fit.estimate.free) - len(self.base.estimate.free)
+        picks = both.one.law.pick() + both.two.law.pick()
+        return both.fit.deviance(correlation) + price(added, self.base, correlation) + 2 * picks
+
+    def _joint(self, one: Proposal, two: Proposal) -> Both | None:
+        """The second law fitted together with the first."""
+        sides = [f"{p.law.text()} at {p.law.site.location}" for p in (one, two)]
+        self.progress(f"fitting {' and '.join(sides)}")
+        beside = self._with(one)
+        fitted = beside and fitted_law(self.case, *beside, two.law, two.start, (two.point or {}) | beside[1].point)
+        return Both(one, replace(two, candidate=fitted), fitted.fit) if fitted else None
+
+    def _with(self, law: Proposal) -> tuple[Amendment, Fit] | None:
+        """(the model with a law where that starts, as a fit that does not move); None where it cannot be simulated."""
+        attachment, base = attach(law.law), self.base
+        own = replace(self.amendment, attachments=[*self.amendment.attachments, attachment])
+        machine, _ = try_machine(self.case, own, base.machine)
+        if machine is None:
+            return None
+        free = [*base.estimate.free, *free_of(law.law, attachment, law.start)]
+        point = (law.point or base.point) | {attachment.full_name(n): v for n, v in law.start.items()}
+        there = linearised(machine, self.case.fit, base.noise, free, base.fixed, point)
+        return None if there is None else (own, there)
+
+    def _simplified(self, both: Both) -> Both:
+        """Both laws without what they do not need, each beside the other."""
+        one, two, fit = both.one, both.two, both.fit
+        for _ in range(2):
+            one, two, fit = self._simpler(_at(two, fit), _at(one, fit)) or (two, one, fit)
+        return Both(one, two, fit)
+
+    def _simpler(self, one: Proposal, two: Proposal) -> tuple[Proposal, Proposal, Fit] | None:
+        """(the first law, the second without what it does not need beside it, their fit)."""
+        both, beside = self._joint(one, two), self._with(one)
+        if both is None or beside is None:
+            return None
+        two = simplified(self.case, *beside, both.two)
+        return one, two, two.candidate.fit
+
+    def found(self, both: Both) -> Search | None:
+        """A search that has found both; None where either alone says as much as the recordings have to say: what the
+        other one then stands for is a parameter that has left its belief."""
+        one, two, base, unbegun = both.one, both.two, self.base, self.unbegun
+        joint = self._joint(_at(two, both.fit), _at(one, both.fit))
+        after = joint and try_judge(joint.two.candidate.machine, joint.fit.point)
+        if after is None:
+            return None
+        own, other = joint.two.candidate, replace(both.two.candidate, fit=joint.fit)
+        alone, rest = (fitted_law(self.case, self.amendment, base, p.law, p.start, p.point) for p in (one, two))
+        if not all(_is_needed(c, beside) for c, beside in ((other, alone), (own, rest))):
+            return None
+        between = (alone and try_judge(alone.machine, alone.fit.point)) or unbegun.judgement
+        findings = [
+            finding(own, base, unbegun.judgement, between),
+            finding(other, alone.fit if alone else base, between, after),
+        ]
+        trial = replace(unbegun, findings=findings, namings=[])
+        trial.take([other.attachment, own.attachment], joint.fit, after)
+        return trial
 
 
-def _better(one: Proposal | None, other: Proposal | None) -> Proposal | None:
-    if one is None or (other is not None and other.candidate.fit.deviance() < one.candidate.fit.deviance()):
-        return other
-    return one
-
-
-def _joint(
-    case: Case, amendment: Amendment, base: Fit, one: Proposal, two: Proposal, progress: Progress
-) -> Proposal | None:  # fmt: skip
-    """The second law fitted together with the first."""
-    progress(f"fitting {one.law.text()} at {one.law.site.location} and {two.law.text()} at {two.law.site.location}")
-    with_one = _with(case, amendment, base, one)
-    if with_one is None:
-        return None
-    candidate = fitted_law(case, *with_one, two.law, two.start, two.point | with_one[1].point)
-    return None if candidate is None else replace(two, candidate=candidate)
-
-
-def _with(case: Case, amendment: Amendment, base: Fit, law: Proposal) -> tuple[Amendment, Fit] | None:
-    """(the model with a law where that starts, as a fit that does not move); None where it cannot be simulated."""
-    attachment = attach(law.law)
-    own = replace(amendment, attachments=[*amendment.attachments, attachment])
-    machine, _ = try_machine(case, own, base.machine)
-    if machine is None:
-        return None
-    free = [*base.estimate.free, *free_of(law.law, attachment, law.start)]
-    point = (law.point or base.point) | {attachment.full_name(n): v for n, v in law.start.items()}
-    there = linearised(machine, case.fit, base.noise, free, base.fixed, point)
-    return None if there is None else (own, there)
-
-
-def _found(unbegun: Search, one: Proposal, two: Proposal) -> Search | None:
-    """Both laws simplified, each beside the other, and judged."""
-    case, amendment, base = unbegun.case, unbegun.amendment, unbegun.fit
-    two = _simpler(case, amendment, base, one, two)
-    one = two and _simpler(case, amendment, base, _at(two, two.candidate.fit), _at(one, two.candidate.fit))
-    alone = one and fitted_law(case, amendment, base, one.law, one.start, one.point)
-    after = one and try_judge(one.candidate.machine, one.candidate.fit.point)
-    if after is None:
-        return None
-    between = (alone and try_judge(alone.machine, alone.fit.point)) or unbegun.judgement
-    findings = [
-        finding(one.candidate, base, unbegun.judgement, between),
-        finding(replace(two.candidate, fit=one.candidate.fit), alone.fit if alone else base, between, after),
-    ]
-    trial = replace(unbegun, findings=findings, namings=[])
-    trial.take([two.candidate.attachment, one.candidate.attachment], one.candidate.fit, after)
-    return trial
-
-
-def _simpler(case: Case, amendment: Amendment, base: Fit, one: Proposal, two: Proposal) -> Proposal | None:
-    """The second law, fitted with the first, without what it does not need."""
-    with_one = _with(case, amendment, base, one)
-    if with_one is None:
-        return None
-    candidate = fitted_law(case, *with_one, two.law, two.start, two.point | with_one[1].point)
-    return None if candidate is None else simplified(case, *with_one, replace(two, candidate=candidate))
+def _is_needed(law: Candidate, beside: Candidate | None) -> bool:
+    """Whether a law says more of the recordings than the other one alone, `beside`, does."""
+    return beside is None or told_by_data(law, beside.fit, law.fit.correlation()) < -MIN_GAIN
 
 
 def _at(proposal: Proposal, fit: Fit) -> Proposal:

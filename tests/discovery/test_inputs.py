@@ -77,7 +77,7 @@ def test_a_late_input_is_told_as_one(plate: Case) -> None:
     for proposal, law in zip(others, outdone, strict=True):  # left where they were: they could not win any more
         whole = fitted_law(plate, told.amendment, told.base, proposal.law, proposal.start, guided.point)
         assert law.fit.simulations < whole.fit.simulations / 2
-        assert law.fit.deviance() == pytest.approx(whole.fit.deviance(), rel=0.01)
+        assert whole.fit.deviance() > 2 * found.fit.deviance()
     values = {n.rpartition(".")[2]: v for n, v in found.fit.point.items()}
     assert best.law.form(values) == "drive.delay"
     assert values["t_1"] == pytest.approx(LATE, abs=0.3)

@@ -15,14 +15,14 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as read_structure
 from lacuna.discovery.efforts.find import Found
 from lacuna.discovery.efforts.laws.screening import proposals
-from lacuna.discovery.efforts.located import Locator
+from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.numeric import Evaluator, NotNumeric, table
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.explain import explain
 from lacuna.discovery.fit.fit import believed, fit
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import noise_of
-from lacuna.discovery.law.pairs import paired
+from lacuna.discovery.law.pairs import Place, paired
 from lacuna.discovery.law.several import without
 from lacuna.discovery.naming.foretold import DRAWS, foretold
 from lacuna.discovery.steps import fitted
@@ -48,9 +48,21 @@ def test_a_law_is_screened_beside_an_effort_at_another_place(tmp_path: Path) -> 
     pair = paired(Found(locator.ranked(), locator=locator), lambda text: None)
     assert {place.site.location for place in pair} == {"upper", "lower"}
     upper = next(place for place in pair if place.site.location == "upper")
-    assert all({v.name for v in proposal.law.references()} == {"upper"} for proposal in upper.laws())
+    assert all({v.name for v in proposal.law.references()} == {"upper"} for proposal in next(upper.offered))
     alone = locator.ranked()[0]
-    assert "q" in {v.name for v in next(proposals(locator, alone, locator.guided(alone), 1))[0].law.references()}
+    ones = [{v.name for v in p.law.references()} for p in next(proposals(locator, alone, locator.guided(alone), 3))]
+    assert "q" in ones[0] and {"upper"} in ones  # that of the state whose balance it is goes to the fits, too
+
+
+def test_places_that_leave_as_little_are_tried_beside_the_best_one() -> None:
+    def site(location: str, explains: float) -> Site:
+        return Site(location, "effort", 1e4 * explains, explains)
+
+    car, *_ = others = [site("car", 0.9), site("weight", 0.99), site("sheave", 0.988), site("rope", 0.97)]
+    ranked = sorted(others[1:], key=lambda s: -s.gain)
+    near = Place(None, ranked[0], ranked).alike(car)
+    assert [p.site.location for p in near] == ["sheave"]
+    assert Place(None, ranked[0], ranked).alike(ranked[1]) == []
 
 
 def test_a_slope_that_is_infinite_at_a_sample_is_that_beside_it() -> None:

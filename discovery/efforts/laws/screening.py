@@ -62,9 +62,23 @@ def _is_coefficient(site: sites.Site) -> bool:
 
 
 def _best(found: list[tuple[Regression, list[tuple[int, ...]]]], most: int) -> list[Proposal]:
-    """The best laws in all quantities, which explain different things."""
+    """The best laws in all quantities, which explain different things; the last of them of the state alone whose
+    balance it is, where none is: along a run that a smooth effort leads, speeds on both ends of a stiff rope change
+    their sign as one, and which of them rubs only fits tell."""
     scored = sorted((law for r, groups in found for law in _scored(r, groups)), key=lambda law: law[0])
-    return [_proposal(r, groups) for _, r, groups in _distinct(scored, most)]
+    best = _distinct(scored, most)
+    own = next((law for law in scored if _is_own(law)), None)
+    if own is not None and len(best) == most > 1 and not any(map(_is_own, best)):
+        best[-1] = own
+    return [_proposal(r, groups) for _, r, groups in best]
+
+
+def _is_own(law: Scored) -> bool:
+    """Whether a law is of one group, in the state alone whose rate the effort changes at once."""
+    _, regression, chosen = law
+    found = list(regression.place.variables)
+    read = _read(regression.groups[chosen[0]], found)
+    return len(chosen) == 1 and bool(read) and read <= {v.reading for v in found if v.sticks}
 
 
 def _scored(regression: Regression, found: list[tuple[int, ...]]) -> list[Scored]:
