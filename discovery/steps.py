@@ -11,6 +11,7 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case, CaseError
 from lacuna.discovery.case.gaps import without_gaps
 from lacuna.discovery.case.recordings_check import Problem, check_case
+from lacuna.discovery.case.thinning import said_of, thinned
 from lacuna.discovery.catalogue import catalogue, places
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
@@ -48,7 +49,8 @@ def opened(case: Case, library: Library) -> tuple[Explanation, Machine | None]:
     result = Explanation(case, check_case(case))
     if not _trusted(result, "the recordings cannot be trusted"):
         return result, None
-    result.case = case = without_gaps(case)
+    result.case = case = thinned(without_gaps(case))
+    result.problems += said_of(case)
     machine = _believed_machine(case, places.read(library, case.base))
     result.problems += slips(machine)
     return result, machine if _trusted(result, "the recordings contradict themselves") else None
@@ -97,7 +99,7 @@ def _place_switches(result: Explanation, progress: Progress) -> None:
         base, lead = fit_believed(case, machine)
         if is_noise(base):
             result.case, result.base, result.lead = case, base, lead
-            early = {c for r in case.fit for c in r.held}
+            early = {c for r in case.fit for c in r.drives}
             text = "it switches between samples: where the outputs tell when, it was taken to"
             result.problems += [Problem("switches", case.fit[0].name, c, None, text, False) for c in sorted(early)]
             return

@@ -16,6 +16,7 @@ from lacuna.codegen.flatten.model import flatten
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.case_keys import KeyProblem, check, with_dots
 from lacuna.discovery.case.case_model import CaseModel, case_model, written_values
+from lacuna.discovery.case.noise import Noise
 from lacuna.given import toml_of
 from lacuna.recorded_units import ZERO_CELSIUS, UnitError, to_si
 
@@ -48,7 +49,8 @@ class Recording:
     """A file, or a part of one between gaps: `time` (n,) in s and each signal's samples (n,) in SI, NaN where missing.
 
     `file` and `piece` stay where a first share of it is taken (whose name says which). Of what comes `after_gap` no
-    state is known at the first sample. `held` has times (n,) from which samples of inputs hold, where those differ.
+    state is known at the first sample. `drives` has the times and samples
+    (m,) of inputs by which a run is driven, where they are others than those of their columns.
     """
 
     name: str
@@ -57,14 +59,14 @@ class Recording:
     file: str = ""
     piece: str = ""
     after_gap: bool = False
-    held: dict[str, np.ndarray] = field(default_factory=dict)
+    drives: dict[str, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.file, self.piece = self.file or self.name, self.piece or self.name
 
-    def switched(self, column: str) -> np.ndarray:
-        """Times (n,), in s, from which the samples of an input hold."""
-        return self.held.get(column, self.time)
+    def drive(self, column: str) -> tuple[np.ndarray, np.ndarray]:
+        """Times (m,), in s, and samples (m,) of an input by which a run is driven."""
+        return self.drives.get(column, (self.time, self.columns[column]))
 
     @property
     def interval(self) -> float:
@@ -108,6 +110,7 @@ class Case:
     found: CaseModel | None = None  # where the class `model` is
     own: dict[str, Own] = field(default_factory=dict)  # what holds in one recording only, by its file
     limits: dict[str, Limit] = field(default_factory=dict)  # of inputs, for a proposed experiment
+    noise: dict[str, Noise] = field(default_factory=dict)  # of outputs, where it is known from more than the recordings
     files: tuple[Path, ...] = ()  # what was read: case.toml, the user's model, the recordings
 
     @property

@@ -22,7 +22,6 @@ from lacuna.runtime import RecordedInput, SimulationError
 SIZES = 10.0 ** np.arange(-1.0, 2.1, 0.5)  # of the effort that would explain the misfit by itself: half decades
 TIMES = (1 / 300, 1 / 50, 1 / 8)  # of the longest recording: shorter is noise, longer is a constant
 SAMPLES = 1500  # of all recordings together, that hypotheses are weighed on: locating needs no more
-LEADING = 0.5  # from one power of the misfit, that noise is taken to have when the model is led, to the next
 
 
 @dataclass
@@ -162,11 +161,12 @@ class Locator:
         return [self.piece(point, recording, efforts) for recording, efforts in runs]
 
     def _nearer(self, latent: Latent) -> list[Piece]:
-        """The linear models about runs that the effort leads ever nearer to the data, while it does."""
+        """The linear models about runs that the effort leads ever nearer to the data, from coarse to fine: noise is
+        taken to be a power of the misfit, from 1 to a half, in steps halved where a run ends further from the data."""
         held = np.array([self.point[f.name] - f.centre for f in self.free]) / self.sigma
-        pieces, level, power, step = self.pieces, self._level(), 1.0 + LEADING, LEADING
+        pieces, level, power, step = self.pieces, self._level(), 1.5, 0.5
         missed = self._size([p.data[:, :, 0] for p in pieces])
-        while power > LEADING and step > LEADING**6:  # in halves where a run ends further from the data
+        while power > 0.5 and step > 0.01:
             coarse = [replace(p, noise=self.noise * level ** (power - step)) for p in pieces]
             efforts = acting(coarse, latent, held)
             try:

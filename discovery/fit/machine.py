@@ -278,7 +278,7 @@ def _differ(
 
 
 def _recorded(signal: Signal, recording: Recording) -> RecordedInput:
-    values, time = recording.columns[signal.column], recording.switched(signal.column)
+    time, values = recording.drive(signal.column)
     good = np.isfinite(values)
     if good.all():  # the samples themselves: every model of a case shares them
         return RecordedInput(time, values, signal.interpolation)

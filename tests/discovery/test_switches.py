@@ -53,10 +53,10 @@ def test_switches_are_placed_where_the_outputs_tell_them(heater: tuple[Path, flo
     folder, share = heater
     found = fitted(load(folder), lambda text: None)
     assert is_noise(found.base)
-    assert all(bool(r.held) == bool(share) for r in (*found.case.fit, *found.case.validate))
+    assert all(bool(r.drives) == bool(share) for r in (*found.case.fit, *found.case.validate))
     assert any(p.kind == "switches" for p in found.problems) == bool(share)
     for r in found.case.fit if share else ():
-        early = (r.time - r.held["P"]) / 5.0
+        early = (r.time - r.drives["P"][0]) / 5.0
         assert np.count_nonzero(early) <= 9
         large = np.abs(np.diff(r.columns["P"]))[39::40] > 60.0  # W: a tenth of a kelvin for each, a third is noise
         assert early[40::40][large] == pytest.approx(share, abs=0.1)

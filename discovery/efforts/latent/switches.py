@@ -38,10 +38,12 @@ def switches(case: Case, recording: Recording) -> list[Switch]:
     found: list[Switch] = []
     for number, signal in enumerate(case.inputs):
         steps, time = np.diff(recording.columns[signal.column]), recording.time
-        at = np.flatnonzero(steps != 0) + 1
+        at, since = np.flatnonzero(steps != 0) + 1, recording.drive(signal.column)[0]
         if signal.interpolation != "hold" or not np.isfinite(steps).all() or len(at) ** 2 > len(steps):
             continue
-        share = (time[at] - recording.switched(signal.column)[at]) / (time[at] - time[at - 1])
+        if len(since) != len(time):  # known from more samples than the outputs are compared at
+            continue
+        share = (time[at] - since[at]) / (time[at] - time[at - 1])
         found += [Switch(number, signal.column, *s) for s in zip(at, steps[at - 1], share, strict=True)]
     return found
 
@@ -110,9 +112,8 @@ def _answers(
 
 def _earlier(recording: Recording, shares: list[tuple[Switch, float]]) -> Recording:
     """The recording with each switch that share of its interval before the sample that first shows it."""
-    held = {switch.column: recording.time.copy() for switch, _ in shares}
+    since = {switch.column: recording.drive(switch.column)[0].copy() for switch, _ in shares}
     for switch, share in shares:
-        since = np.nextafter(recording.time[switch.at - 1], np.inf)  # times of samples rise
-        there = recording.time[switch.at] - share * (recording.time[switch.at] - recording.time[switch.at - 1])
-        held[switch.column][switch.at] = max(there, since)
-    return replace(recording, held=recording.held | held)
+        first, last = recording.time[switch.at - 1], recording.time[switch.at]
+        since[switch.column][switch.at] = max(last - share * (last - first), np.nextafter(first, np.inf))
+    return replace(recording, drives=recording.drives | {c: (t, recording.columns[c]) for c, t in since.items()})
