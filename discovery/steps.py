@@ -16,10 +16,9 @@ from lacuna.discovery.catalogue import catalogue, places
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.find import places_of
-from lacuna.discovery.efforts.latent.switches import placed
+from lacuna.discovery.efforts.latent.switches import switched
 from lacuna.discovery.efforts.linear import NEWTON
 from lacuna.discovery.efforts.moved import sensor_instead
-from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import astray, is_noise, nearly_noise, outside_belief
 from lacuna.discovery.fit.fit import Fit, believed, carried, falling_bandwidths, fit, linearised
@@ -37,7 +36,6 @@ from lacuna.discovery.naming.judge import judge, noise_floor, try_judge
 from lacuna.discovery.naming.name import rank
 from lacuna.discovery.naming.search import Search
 from lacuna.discovery.semantic_check import slips
-from lacuna.runtime import SimulationError
 
 Progress = Callable[[str], None]
 
@@ -85,24 +83,20 @@ def add_fit(result: Explanation, machine: Machine, progress: Progress) -> None:
 
 
 def _place_switches(result: Explanation, progress: Progress) -> None:
-    """Held inputs that switch between samples, where that is all that the believed model lacks."""
-    base = result.base
+    """Held inputs that switch between samples, as the outputs tell beside what else the believed model lacks."""
+    if result.base.machine.amendment.trackers or not result.lead.direct:
+        return
+    progress("looking for when the inputs switched between samples")
+    before = {c for r in result.case.fit for c in r.drives}
     for _ in range(NEWTON):
-        try:
-            case = placed(base)
-        except (NotNumeric, SimulationError, np.linalg.LinAlgError):
-            return
+        case = switched(result.base)
         if case is None:
-            return
-        progress("looking for when the inputs switched between samples")
-        machine = base.machine.amended(base.machine.amendment, case)
-        base, lead = fit_believed(case, machine)
-        if is_noise(base):
-            result.case, result.base, result.lead = case, base, lead
-            early = {c for r in case.fit for c in r.drives}
-            text = "it switches between samples: where the outputs tell when, it was taken to"
-            result.problems += [Problem("switches", case.fit[0].name, c, None, text, False) for c in sorted(early)]
-            return
+            break
+        machine = result.base.machine.amended(result.base.machine.amendment, case)
+        result.case, (result.base, result.lead) = case, fit_believed(case, machine)
+    for column in sorted({c for r in result.case.fit for c in r.drives} - before):
+        text = "it switches between samples: it was taken to where the outputs tell when"
+        result.problems.append(Problem("switches", result.case.fit[0].name, column, None, text, False))
 
 
 def add_location(result: Explanation, progress: Progress) -> None:

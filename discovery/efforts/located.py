@@ -111,6 +111,10 @@ class Locator:
             result.append(site)
         return sorted(result, key=lambda s: -s.gain)
 
+    def latent(self, site: Site) -> Latent:
+        """The effort, or the error of a sensor, that explains most at a place that was ranked."""
+        return self._chosen[id(site)][0]
+
     _chosen: dict[int, tuple[Latent, np.ndarray]]
 
     def hypotheses(self) -> tuple[Latent, list[tuple[str, int]]]:
@@ -198,7 +202,7 @@ class Locator:
 
     def beside(self, locator: Locator, site: Site) -> Locator:
         """Itself, where efforts are looked for beside the one that `locator` found at a place."""
-        latent, _ = locator._chosen[id(site)]
+        latent = locator.latent(site)
         none = Colour(np.zeros(0, dtype=int), np.zeros((1, 0)), np.zeros((1, 0)))
         there = copy(self)
         there.colour = (self.colour or none).with_effort(
@@ -213,7 +217,7 @@ class Locator:
         them, since an effort that jumps costs by its prior what an inertia that jumps with it does not; what is then
         left for a law is the effort beside a wrong machine. They follow while the evidence about the runs so led rises.
         """
-        latent, _ = self._chosen[id(site)]
+        latent = self.latent(site)
         point, pieces, mean = self._followed(latent, self._nearer(latent))
         efforts = courses(pieces, latent, mean)
         site.effort = {

@@ -2,7 +2,8 @@
 
 A logger that is not driven by the clock of what it records sees every switch late, by up to an interval. A switch that
 came the share s of an interval earlier acts on the outputs, to first order, as its step over that share of the interval
-before: the shares are told by bounded least squares beside the parameters, which have their beliefs.
+before. The shares are told by bounded least squares beside the parameters, which have their beliefs, and beside what
+else is missing, an effort of any course: what it leaves is white (Whitener).
 """
 
 from __future__ import annotations
@@ -11,14 +12,18 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import block_diag
 
 from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.case.values import is_parameter
+from lacuna.discovery.efforts.latent.chains import Latent, Piece
+from lacuna.discovery.efforts.latent.smoother import Whitener
 from lacuna.discovery.efforts.linear import Linear
-from lacuna.discovery.fit.evidence import LEFT
+from lacuna.discovery.efforts.located import Locator
+from lacuna.discovery.efforts.numeric import NotNumeric
+from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.least_squares import bounded_linear
+from lacuna.runtime import SimulationError
 
 
 @dataclass(frozen=True)
@@ -48,72 +53,90 @@ def switches(case: Case, recording: Recording) -> list[Switch]:
     return found
 
 
-def placed(base: Fit) -> Case | None:
-    """The case of a fit with its switches where the outputs say they were; None where there are none, or where these
-    leave more than noise. Raises NotNumeric, SimulationError where the model cannot be linearised."""
-    case = base.machine.case
-    if base.machine.amendment.trackers or not any(switches(case, r) for r in case.fit):
+def switched(base: Fit) -> Case | None:
+    """The case of a fit with its switches where the outputs say they were, beside the effort that explains most; None
+    where they say nothing of them, or where the model cannot be linearised."""
+    machine = base.machine
+    if not any(switches(machine.case, r) for r in machine.case.fit):
         return None
     names = [f.name for f in base.estimate.free if is_parameter(f.name)]
-    linear = Linear(base.machine, [s.variable for s in case.inputs], names)
-    together, left = _placed(linear, base, names, case.fit)
-    if left > LEFT:
+    try:
+        door = opened(machine.case, machine.amendment, machine.case.library(), names, machine)
+        locator = Locator(machine.case, door, base)
+        return placed(locator, locator.latent(locator.ranked()[0]))
+    except (NotNumeric, SimulationError, np.linalg.LinAlgError):
         return None
-    return replace(case, fit=together, validate=[_placed(linear, base, [], [r])[0][0] for r in case.validate])
 
 
-def _placed(
-    linear: Linear, base: Fit, names: list[str], recordings: Sequence[Recording]
-) -> tuple[list[Recording], float]:
-    """Recordings with their switches placed, beside parameters that all of them have; and the largest RMS of what that
-    leaves of an output, in units of its noise."""
-    case = base.machine.case
-    found = [switches(case, r) for r in recordings]
-    if not any(found):
-        return list(recordings), np.inf
-    free = {f.name: f for f in base.estimate.free}
-    believed = [(free[n].centre - base.point[n]) / (free[n].sigma or free[n].scale) for n in names]
-    parts = [_answers(linear, base, names, r, own) for r, own in zip(recordings, found, strict=True)]
-    steady = np.concatenate([*(answers[:, : len(names)] for _, answers in parts), np.eye(len(names))])
-    apart = block_diag(*(answers[:, len(names) :] for _, answers in parts), np.zeros((len(names), 0)))
-    matrix, target = np.hstack([steady, apart]), np.concatenate([*(left for left, _ in parts), believed])
-    bounds = [(-np.inf, np.inf)] * len(names) + [(-s.share, 1.0 - s.share) for own in found for s in own]
-    solved = bounded_linear(matrix, target, np.array(bounds))
-    shares = iter(solved[len(names) :])
-    moved = [_earlier(r, [(s, s.share + float(next(shares))) for s in own])
-             for r, own in zip(recordings, found, strict=True)]  # fmt: skip
-    level = np.array([base.level[c] for c in base.machine.columns])
-    rest = (target - matrix @ solved)[: len(target) - len(names)].reshape(-1, len(level)) * level
-    return moved, float(np.sqrt(np.mean(rest**2, axis=0)).max())
+def placed(locator: Locator, beside: Latent) -> Case | None:
+    """The case of a locator with its switches where the outputs say they were, `beside` an effort of any course; None
+    where there are none, or where they explain no more than so many numbers have to."""
+    case, found = locator.case, [switches(locator.case, r) for r in locator.case.fit]
+    count = sum(map(len, found))
+    if not count:
+        return None
+    rows = _rows(locator, beside, list(zip(case.fit, locator.pieces, found, strict=True)))
+    target, steady, apart = rows[:, 0], rows[:, 1 : rows.shape[1] - count], rows[:, rows.shape[1] - count :]
+    believed = len(steady.T)
+    steady = np.vstack([steady, np.eye(believed)])
+    target, apart = np.append(target, np.zeros(believed)), np.vstack([apart, np.zeros((believed, count))])
+    without = target - steady @ np.linalg.lstsq(steady, target, rcond=None)[0]
+    matrix = np.hstack([steady, apart])
+    solved = bounded_linear(matrix, target, np.array([(-np.inf, np.inf)] * believed + _bounds(found)))
+    left = target - matrix @ solved
+    if 0.5 * (without @ without - left @ left) < 0.5 * count * np.log(len(rows)):
+        return None
+    shares = iter(solved[believed:])
+    fit = [_earlier(r, own, [next(shares) for _ in own]) for r, own in zip(case.fit, found, strict=True)]
+    return replace(case, fit=fit, validate=[_alone(locator, beside, r, solved[:believed]) for r in case.validate])
 
 
-def _answers(
-    linear: Linear, base: Fit, names: list[str], recording: Recording, own: list[Switch]
-) -> tuple[np.ndarray, np.ndarray]:
-    """(residual (n y,), answers (n y, parameters and switches)) in units of what each output leaves, zero where it has
-    no sample; parameters in units of belief."""
-    along, columns = linear.along(base.point, recording), base.machine.columns
-    scale = np.array([base.noise[c].std * base.level[c] for c in columns])
-    left = np.stack([recording.columns[c] - linear.of(v, along) for c, v in columns.items()], axis=1)
-    samples, first = len(along.time), len(linear.inputs)
-    sigma = {f.name: f.sigma or f.scale for f in base.estimate.free}
-    steady = along.response(first + np.arange(len(names)), np.ones((samples, len(names))))
-    steady = steady * np.array([sigma[n] for n in names])
-    pulses = np.zeros((samples, len(own)))
+def _alone(locator: Locator, beside: Latent, recording: Recording, parameters: np.ndarray) -> Recording:
+    """A recording that only judges, its switches placed with the parameters as they are."""
+    own = switches(locator.case, recording)
+    if not own:
+        return recording
+    rows = _rows(locator, beside, [(recording, locator.piece(locator.point, recording), own)])
+    target = rows[:, 0] - rows[:, 1 : 1 + len(parameters)] @ parameters
+    return _earlier(recording, own, bounded_linear(rows[:, -len(own) :], target, np.array(_bounds([own]))))
+
+
+def _bounds(found: Sequence[list[Switch]]) -> list[tuple[float, float]]:
+    return [(-s.share, 1.0 - s.share) for own in found for s in own]
+
+
+def _rows(
+    locator: Locator, beside: Latent, recordings: Sequence[tuple[Recording, Piece, list[Switch]]]
+) -> np.ndarray:  # fmt: skip
+    """(rows, 1 + parameters + switches) residuals and answers, whitened; parameters in units of belief."""
+    linear = Linear(locator.base.machine, [s.variable for s in locator.case.inputs], [])
+    answers = [_pulses(linear, locator.point, r, own) for r, _, own in recordings]
+    count, before, columns = sum(len(own) for *_, own in recordings), 0, []
+    for (_, piece, own), answer in zip(recordings, answers, strict=True):
+        apart = np.zeros((*answer.shape[:2], count))
+        apart[:, :, before : before + len(own)] = answer
+        columns.append(np.concatenate([piece.data[:, :, :1], -piece.data[:, :, 1:], apart], axis=2))
+        before += len(own)
+    return Whitener([piece for _, piece, _ in recordings], beside)(columns)
+
+
+def _pulses(linear: Linear, point: dict[str, float], recording: Recording, own: list[Switch]) -> np.ndarray:
+    """(n, y, switches) outputs to each step over the whole interval before the sample that first shows it."""
+    along = linear.along(point, recording)
+    courses = np.zeros((len(along.time), len(own)))
     for k, switch in enumerate(own):
-        pulses[switch.at - 1, k] = switch.step
-    answers = along.response(np.array([s.number for s in own], dtype=int), pulses, hold=True)
+        courses[switch.at - 1, k] = switch.step
+    result = along.response(np.array([s.number for s in own], dtype=int), courses, hold=True)
     for k, switch in enumerate(own):  # at that sample itself the input is still the old one
-        answers[switch.at - 1, :, k] -= along.feed[switch.at - 1, :, switch.number] * switch.step
-    both = np.concatenate([steady, answers], axis=2) / scale[:, None]
-    seen = np.isfinite(left)
-    return np.where(seen, left / scale, 0.0).ravel(), np.where(seen[:, :, None], both, 0.0).reshape(left.size, -1)
+        result[switch.at - 1, :, k] -= along.feed[switch.at - 1, :, switch.number] * switch.step
+    return result
 
 
-def _earlier(recording: Recording, shares: list[tuple[Switch, float]]) -> Recording:
-    """The recording with each switch that share of its interval before the sample that first shows it."""
-    since = {switch.column: recording.drive(switch.column)[0].copy() for switch, _ in shares}
-    for switch, share in shares:
+def _earlier(recording: Recording, own: list[Switch], shares: Sequence[float]) -> Recording:
+    """The recording with each switch by a share of its interval earlier than it was."""
+    since = {switch.column: recording.drive(switch.column)[0].copy() for switch in own}
+    for switch, more in zip(own, shares, strict=True):
         first, last = recording.time[switch.at - 1], recording.time[switch.at]
-        since[switch.column][switch.at] = max(last - share * (last - first), np.nextafter(first, np.inf))
+        there = last - (switch.share + float(more)) * (last - first)
+        since[switch.column][switch.at] = max(there, np.nextafter(first, np.inf))
     return replace(recording, drives=recording.drives | {c: (t, recording.columns[c]) for c, t in since.items()})
