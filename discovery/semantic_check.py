@@ -203,7 +203,7 @@ def _is_smoothed(measured: np.ndarray, simulated: np.ndarray, lag: int) -> bool:
     """Whether a first-order lag of its sensor does better than that `measured` is `lag` samples late."""
     from scipy.signal import lfilter  # a second to import, and seldom needed
 
-    span = CHANGES[-1]
+    span = _spans(measured)[-1]
     changes, model = filled(measured)[span:] - filled(measured)[:-span], simulated[span:] - simulated[:-span]
     pole = [np.exp(-1.0 / (share * lag)) for share in TIME_CONSTANTS]
     smoothed = [lfilter([1.0 - p], [1.0, -p], model, zi=[p * model[0]])[0] for p in pole]
@@ -213,7 +213,12 @@ def _is_smoothed(measured: np.ndarray, simulated: np.ndarray, lag: int) -> bool:
 
 def _lag(measured: np.ndarray, simulated: np.ndarray) -> tuple[int, float]:
     """(lag, gain) of the span of changes in which a shift shows most."""
-    return max((_lag_of_changes(measured, simulated, span) for span in CHANGES), key=lambda found: found[1])
+    return max((_lag_of_changes(measured, simulated, span) for span in _spans(measured)), key=lambda found: found[1])
+
+
+def _spans(measured: np.ndarray) -> list[int]:
+    """Those over which there are at least as many changes as samples in one."""
+    return [span for span in CHANGES if len(measured) >= 2 * span]
 
 
 def _lag_of_changes(measured: np.ndarray, simulated: np.ndarray, span: int, reach: int = 400) -> tuple[int, float]:

@@ -269,7 +269,8 @@ def fit_believed(case: Case, machine: Machine) -> tuple[Fit, Lead]:
         other = fit(machine, case.fit, noise, free, fixed, start=start)
         best = _better(best, other)
     if best is None:
-        raise RuntimeError(f"{case.model} cannot be simulated with the recorded inputs of {case.label}")
+        said = f"{case.model} cannot be simulated with the recorded inputs of {case.label} at the believed values"
+        raise CaseError(f"{said}: look at [parameters] and [initial] of case.toml, and at the units of time and inputs")
     return _nearer_belief(best), lead
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import tomllib
 from typing import Any
 
+MOST_DIGITS = 18  # of a whole number in 64 bits, as TOML has them
 LARGEST = 1 << 30  # bytes of a file that is read: a hundred signals for a quarter of an hour at 1 kHz as text
 
 
@@ -32,7 +33,7 @@ def text_of(path: Path, error: type[Exception], encoding: str = "utf-8") -> str:
 def json_of(path: Path, error: type[Exception]) -> Any:
     """Raises `error` where `path` holds no JSON."""
     try:
-        return json.loads(text_of(path, error))
+        return json.loads(text_of(path, error), parse_int=_whole)
     except (ValueError, RecursionError) as refused:
         raise error(f"{path}: no JSON: {refused}") from refused
 
@@ -44,6 +45,22 @@ def toml_of(path: Path, error: type[Exception]) -> dict[str, Any]:
 
 def parsed_toml(text: str, path: Path, error: type[Exception]) -> dict[str, Any]:
     try:
-        return tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as refused:
+        found = tomllib.loads(text)
+        _require_numbers(found)
+        return found
+    except (ValueError, RecursionError) as refused:
         raise error(f"{path}: {refused}") from refused
+
+
+def _whole(text: str) -> int:
+    if len(text) > MOST_DIGITS:
+        raise ValueError(f"a whole number of {len(text)} digits")
+    return int(text)
+
+
+def _require_numbers(value: Any) -> None:
+    """Raises ValueError for a whole number that no machine number holds, wherever it stands."""
+    if isinstance(value, int) and abs(value) >= 10**MOST_DIGITS:
+        raise ValueError(f"a whole number of more than {MOST_DIGITS} digits")
+    for inner in value.values() if isinstance(value, dict) else value if isinstance(value, list) else ():
+        _require_numbers(inner)

@@ -252,7 +252,7 @@ class Model:
 
         Raises UserError or SimulationError for what cannot be used, IncompleteRun (with its rows) where it ends early.
         """
-        model = self.with_parameters(parameters or {})
+        model, outputs = self.with_parameters(parameters or {}), outputs and list(dict.fromkeys(outputs))
         begin, end = model._span(start, stop)
         model._refuse_parameters(inputs or {})
         _refuse_step(step, solver)

@@ -134,13 +134,13 @@ class Session:
             variable = self.model.variable(name, "input", self.model.inputs)
             recorded = given if isinstance(given, RecordedInput) else RecordedInput([0.0], [given], "hold")
             held = recorded.interpolation == "hold" or variable.type != "Real"
-            self._inputs[name] = recorded  # keeps the arrays alive that the session borrows
             self._check(
                 self._lib.rt_session_input(
                     self._handle, variable.row, recorded.time.size, recorded.time.ctypes.data,
                     recorded.values.ctypes.data, held,
                 )
             )  # fmt: skip
+            self._inputs[name] = recorded  # keeps the arrays alive that the session borrows, once it does
 
     def _assign(self, function, values: Mapping[str, float], what: str, among) -> None:
         n = len(values)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -35,12 +36,18 @@ class Channel:
 
 @dataclass(frozen=True)
 class Recorded:
-    """The channels of one file, and what was assumed in reading it."""
+    """The channels of one file, and what was assumed in reading it. Raises RecordingError where two have one name."""
 
     path: Path
     channels: tuple[Channel, ...]
     notes: tuple[str, ...] = ()
     time: str = "time"  # what the file calls the column of time
+
+    def __post_init__(self) -> None:
+        twice = {name for name, count in Counter(c.head.text for c in self.channels).items() if count > 1}
+        if twice:
+            names = ", ".join(sorted(twice))
+            raise RecordingError(f"{self.path}: {names} occurs more than once; export one group of channels")
 
     def __getitem__(self, name: str) -> Channel:
         """The channel called `name`, by its whole head or without its unit. Raises KeyError."""

@@ -34,13 +34,22 @@ def read_recorded(path: Path | str) -> Recorded:
     """The channels of a file. Raises RecordingError for what is no recording, MissingPackage for want of its reader."""
     path = Path(path)
     require_file(path, RecordingError)
-    return _reader(path)(path)
+    try:
+        return _reader(path)(path)
+    except (RecordingError, OSError, ImportError, MemoryError):
+        raise
+    except Exception as error:  # a damaged file may trip a library, or what is made of its content, anywhere
+        said = f"{type(error).__name__}: {error}"
+        raise RecordingError(f"{path}: damaged, or laid out as no recording is ({said})") from error
 
 
 @names_missing_packages
 def write_recorded(recorded: Recorded, path: Path) -> None:
-    """Write the channels in the format of the path's suffix, whole or not at all. Raises RecordingError for others."""
+    """Write the channels in the format of the path's suffix, whole or not at all. Raises RecordingError for others, and
+    for a channel that would stand in the file as a second time."""
     kind = _kind(path)
+    if second := [c.name for c in recorded.channels if c.name.lower() == "time"]:
+        raise RecordingError(f"{path}: would have two columns called time: rename the channel {second[0]}")
     with whole_file(path) as partial:
         try:
             import_module(f"lacuna.analysis.recording.{kind}").write(recorded, partial)

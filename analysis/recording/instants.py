@@ -6,6 +6,7 @@ A day is written first by years or with dots, day first; with strokes it may be 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from datetime import date
 import re
 
@@ -25,19 +26,35 @@ _WITH_COMMA = _instant(".,")  # where commas separate no fields
 _PER_SECOND = 10**9
 
 
-def counted(lines: Sequence[str], sample: int) -> list[str] | None:
-    """The lines with each instant as a whole number of ns, which no mark of decimals changes, since that of the last
-    line that has one (which is of the table, whatever stands above it). None where the first `sample` lines have none.
-    Raises ValueError, with the number of the line, for an instant that does not exist."""
+@dataclass(frozen=True)
+class Counted:
+    """`lines` with each instant as a whole number of ns, which no mark of decimals changes, since that of the last line
+    that has one (which is of the table, whatever stands above it); `kinds` says of each line what its instant is."""
+
+    lines: list[str]
+    kinds: list[str]  # "" where there is none
+
+
+def counted(lines: Sequence[str], sample: int) -> Counted:
+    """Looks for instants where the first `sample` lines have one. Raises ValueError, with the number of the line, for
+    one that does not exist."""
     if not any(_find(line) for line in lines[:sample]):
-        return None
+        return Counted(list(lines), [""] * len(lines))
     found = [_find(line) for line in lines]
     whole = [None if match is None else _nanoseconds(match, number) for number, match in enumerate(found, 1)]
     last = next(ns for ns in reversed(whole) if ns is not None)
-    return [
+    changed = [
         line if match is None or ns is None else f"{line[: match.start()]}{ns - last}{line[match.end() :]}"
         for line, match, ns in zip(lines, found, whole, strict=True)
     ]
+    return Counted(changed, [_kind(match) for match in found])
+
+
+def _kind(match: re.Match[str] | None) -> str:
+    if match is None:
+        return ""
+    day, zone = match["year"] or match["y"], match["zone"]
+    return f"{'a day and ' if day else ''}a time{' with its zone' if zone else ''}"
 
 
 def first_of(line: str) -> str:

@@ -39,9 +39,6 @@ def read(path: Path) -> Recorded:
     if not signals:
         raise RecordingError(f"{path}: holds no channels of numbers")
     heads = [read_head(s.name, s.unit or "") for s in signals]
-    twice = {s.name for s in signals if sum(other.name == s.name for other in signals) > 1}
-    if twice:
-        raise RecordingError(f"{path}: {', '.join(sorted(twice))} occurs more than once; export one group of channels")
     physical = [_physical(s) for s in signals]
     bent = [s.name for s, values in zip(signals, physical, strict=True) if values is None]
     if bent:

@@ -39,7 +39,7 @@ def read(path: Path) -> Recorded:
     if all("wf_increment" in c.properties for c in found):
         names = distinct(heads)
         return Recorded(path, tuple(
-            Channel(name, head.unit or "", _waveform_time(c), np.asarray(c.data, float), head)
+            Channel(name, head.unit or "", _waveform_time(path, c), np.asarray(c.data, float), head)
             for name, head, c in zip(names, heads, found, strict=True)
         ), tuple(notes))  # fmt: skip
     lengths = {c.name: len(c) for c in found}
@@ -61,9 +61,14 @@ def read(path: Path) -> Recorded:
     return from_table(path, names, units, np.array(columns), notes)
 
 
-def _waveform_time(channel: Any) -> np.ndarray:
-    said = channel.properties
-    return float(said.get("wf_start_offset", 0.0)) + float(said["wf_increment"]) * np.arange(len(channel))
+def _waveform_time(path: Path, channel: Any) -> np.ndarray:
+    """In s. Raises RecordingError where the waveform's start and increment are no numbers that time can have."""
+    start, step = (channel.properties.get(name, 0.0) for name in ("wf_start_offset", "wf_increment"))
+    numbers = all(isinstance(n, int | float | np.number) and np.isfinite(n) for n in (start, step))
+    if not numbers or step <= 0:
+        said = f"wf_start_offset = {start}, wf_increment = {step}"
+        raise RecordingError(f"{path}: channel {channel.name} has no waveform time: {said}")
+    return float(start) + float(step) * np.arange(len(channel))
 
 
 def write(recorded: Recorded, path: Path) -> None:

@@ -86,7 +86,8 @@ def read_text(path: Path) -> TextTable:
     """The table in a text file. Raises RecordingError, which names file and line."""
     text, encoding = _decoded(path)
     written = text.splitlines()
-    lines = _without_instants(path, written)
+    instants_of = _instants(path, written)
+    lines = instants_of.lines
     separator, decimal = _marks(path, lines)
     first = _first_row_of_numbers(lines, separator, decimal)
     above = [_fields(line, separator) for line in written[:first]]
@@ -99,8 +100,10 @@ def read_text(path: Path) -> TextTable:
     if any(_NO_NAME.fullmatch(name) for name in (*header, *(unit for unit in units or () if unit != "1"))):
         raise RecordingError(f"{path}:{first}: numbers where names of columns or units should be")
     skipped, header, units = above.index(header), list(header), list(units or [""] * width)
+    _refuse_rows_above(path, written[:first], above, width, skipped)
     values = _numbers(path, lines, first, Dialect(separator, decimal, encoding), width)
-    begun = _seconds_of_instants(written[first], lines[first], separator, header, units, values)
+    column = _column_of_instants(path, written, instants_of, first, separator)
+    begun = _seconds_of_instants(column, written[first], header, units, values)
     kept, notes = named_columns(path, header, values)
     return TextTable(
         path,
@@ -113,23 +116,49 @@ def read_text(path: Path) -> TextTable:
     )
 
 
-def _without_instants(path: Path, lines: list[str]) -> list[str]:
+def _refuse_rows_above(path: Path, written: list[str], above: list[list[str]], width: int, header: int) -> None:
+    """Between the header and the first row of numbers a line with digits may be a row, and would be lost unseen."""
+    for number in range(header + 1, len(above)):
+        if len(above[number]) != width and re.search(r"\d", written[number]):
+            fault = f"{len(above[number])} fields where the header has {width}"
+            raise RecordingError(f"{path}:{number + 1}: {fault}: a row of numbers, or a line to take out?")
+
+
+def _instants(path: Path, lines: list[str]) -> instants.Counted:
     try:
-        return instants.counted(lines, _SAMPLE) or lines
+        return instants.counted(lines, _SAMPLE)
     except ValueError as error:
         raise RecordingError(f"{path}:{error}") from None
 
 
+def _column_of_instants(
+    path: Path, written: list[str], found: instants.Counted, first: int, separator: str
+) -> int | None:
+    """The column that holds instants, in every row or nowhere, and of one kind: a number of seconds among them, or one
+    of them among numbers, would be read as something else."""
+    if not any(found.kinds[first:]):
+        return None
+    fields = zip(_fields(written[first], separator), _fields(found.lines[first], separator), strict=False)
+    column = next((k for k, (one, other) in enumerate(fields) if one != other), None)
+    for row in range(first, len(written)):
+        if written[row].strip() and found.kinds[row] != found.kinds[first]:
+            here, there = found.kinds[row] or "no instant", found.kinds[first] or "no instant"
+            raise RecordingError(f"{path}:{row + 1}: {here}, where the first row, line {first + 1}, has {there}")
+    for row in range(first, len(written)) if column is not None else ():
+        one, other = (_fields(lines[row], separator) for lines in (written, found.lines))
+        if one[column : column + 1] == other[column : column + 1] != []:
+            raise RecordingError(f"{path}:{row + 1}: its instant is not in column {column + 1}, as in the first row")
+    return column
+
+
 def _seconds_of_instants(
-    written: str, line: str, separator: str, header: list[str], units: list[str], values: np.ndarray
+    column: int | None, written: str, header: list[str], units: list[str], values: np.ndarray
 ) -> list[str]:
-    """Make a column of instants, if the first row has one, one of seconds since its own; and say so."""
-    if written == line:
+    """Make a column of instants one of seconds since its own first; and say so."""
+    if column is None:
         return []
-    fields = zip(_fields(written, separator), _fields(line, separator), strict=False)
-    k = next(k for k, (one, other) in enumerate(fields) if one != other)
-    header[k], units[k] = clock_name(header[k], header), "s"
-    values[k] = (values[k] - values[k, 0]) * 1e-9
+    header[column], units[column] = clock_name(header[column], header), "s"
+    values[column] = (values[column] - values[column, 0]) * 1e-9
     return [f"time begins at 0, which is {instants.first_of(written)}"]
 
 

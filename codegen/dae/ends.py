@@ -14,12 +14,12 @@ a branch. So
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.symbolic.expr import ZERO, Expr, maximum, minimum, neg, node, rebuild, sub, transform, walk
-from lacuna.codegen.symbolic.leaves import leaves
+from lacuna.codegen.symbolic.leaves import leaves, parts
 
 _FUNCTIONS = ("sqrt", "log", "log10", "asin", "acos")
 _STRICT = (">", "<", ">=", "<=")
@@ -45,21 +45,13 @@ def arguments(equations: list[flat.Equation]) -> set[Expr]:
 def without_corner(product: Expr, is_algebraic: Callable[[Expr], bool]) -> Expr | None:
     """sign(x) beside a factor such as sqrt(abs(x)), and abs(x) beside an algebraic x, without an event; None where the
     product is no such law."""
-    factors = list(_factors(product))
+    factors = parts(product, ("*", "/", "neg"))
     rooted = {inner.args[0] for f in factors if ends(f) for inner in walk(f.args[0]) if is_call(inner, "abs")}
     signs = {f: node("noEvent", (f,)) for f in factors if is_call(f, "sign") and f.args[0] in rooted}
     if product.op == "*":
         own = {f for f in factors if is_algebraic(f)}
         signs |= {f: node("noEvent", (f,)) for f in factors if is_call(f, "abs") and f.args[0] in own}
     return transform(product, signs.get, {}) if signs else None
-
-
-def _factors(e: Expr) -> Iterator[Expr]:
-    if e.op in ("*", "/", "neg"):
-        for a in e.args:
-            yield from _factors(a)
-    else:
-        yield e
 
 
 def keep_promises(equations: list[flat.Equation]) -> list[flat.Equation]:

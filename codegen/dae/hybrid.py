@@ -103,6 +103,8 @@ class _Freezer:
         self.generating = True  # False: relations known already are frozen, others are evaluated where they stand
         self._source = flat.Equation(ZERO, ZERO, model.span)
         self._memo: dict[Expr, Expr] = {}
+        self._memo_under_root: dict[Expr, Expr] = {}  # a root in a root in a root is looked at once,
+        self._memo_bare: dict[Expr, Expr] = {}  # and so is a noEvent in a noEvent
         self._numbers: dict[tuple[Expr, Expr], int] = {}
         self._ticks: dict[Expr, int] = {}
         self._floors: dict[Expr, Expr] = {}
@@ -115,10 +117,8 @@ class _Freezer:
     def equation(self, e: flat.Equation) -> flat.Equation:
         self._source = e
         start = (self.freeze(e.start[0]), self.freeze(e.start[1])) if e.start else None
-        if e.lhs in self._arguments or e.rhs in self._arguments:  # a name for what stands under a root
-            lhs, rhs = (transform(side, self._under_root, {}) for side in (e.lhs, e.rhs))
-        else:
-            lhs, rhs = self.freeze(e.lhs), self.freeze(e.rhs)
+        named = e.lhs in self._arguments or e.rhs in self._arguments  # a name for what stands under a root
+        lhs, rhs = map(self._without_corners if named else self.freeze, (e.lhs, e.rhs))
         return replace(e, lhs=lhs, rhs=rhs, start=start)
 
     def _condition(self, e: Expr, span: flat.Span, origin: str) -> Expr:
@@ -133,12 +133,8 @@ class _Freezer:
         """Conditions of when clauses and everything outside them generate events."""
         outside = Rewriter(self._rule)
         self._source = flat.Equation(ZERO, ZERO, a.span, a.origin, "algorithm")
-        return replace(
-            a,
-            statements=[
-                self.when(s, a.origin) if isinstance(s, flat.When) else outside.statement(s) for s in a.statements
-            ],
-        )
+        steps = [self.when(s, a.origin) if isinstance(s, flat.When) else outside.statement(s) for s in a.statements]
+        return replace(a, statements=steps)
 
     def body(self, s: flat.Statement) -> flat.Statement:
         if isinstance(s, flat.When):
@@ -168,7 +164,7 @@ class _Freezer:
 
     def bare(self, e: Expr) -> Expr:
         """`e` without noEvent and smooth: its relations are evaluated where they stand."""
-        return transform(e, self._bare_rule, {})
+        return transform(e, self._bare_rule, self._memo_bare)
 
     def _bare_rule(self, n: Expr) -> Expr | None:
         if n.op in ("noEvent", "smooth"):
@@ -204,7 +200,7 @@ class _Freezer:
             left, right = self.freeze(left), self.freeze(right)
             return self._relation(left, right, positive, str(n) if positive else str(complement(n)))
         if ends(n):
-            return rebuild(n, tuple(transform(a, self._under_root, {}) for a in n.args))
+            return rebuild(n, tuple(map(self._without_corners, n.args)))
         if n.op in ("*", "/") and (law := without_corner(n, self._is_algebraic)) is not None:
             return self.freeze(law)
         if n.op in ("min", "max") and self._continuous(n):
@@ -216,6 +212,9 @@ class _Freezer:
             self._written = n
             return _LOWER[str(n.value)](self, *arguments)
         return None
+
+    def _without_corners(self, e: Expr) -> Expr:
+        return transform(e, self._under_root, self._memo_under_root)
 
     def _under_root(self, n: Expr) -> Expr | None:
         return None if n.op in ("min", "max") or is_call(n, "abs") else self._rule(n)

@@ -28,9 +28,8 @@ from lacuna.codegen.flatten.equations.variables import (
     mark_discrete,
     mark_evaluated,
 )
-from lacuna.codegen.flatten.expressions.constants import evaluate
+from lacuna.codegen.flatten.experiment import experiment_of
 from lacuna.codegen.flatten.expressions.derivative import derivative_variables
-from lacuna.codegen.flatten.expressions.lower import lower_scalar
 from lacuna.codegen.flatten.language import LOWERING
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier
@@ -88,7 +87,7 @@ def flatten(
     mark_discrete(model, at_events)
     add_used_constants(model, context, list(_all_expressions(model)))
     mark_evaluated(model, context.evaluated)
-    model.experiment = _experiment(top)
+    model.experiment = experiment_of(top)
     model = _check_units(model, context, units)
     model.files, model.warnings = {**library.files, **context.files}, context.warnings
     model.foreign = context.table(flat.ForeignCode)
@@ -218,21 +217,3 @@ def _all_expressions(model: flat.FlatModel) -> Iterator[Expr]:
         yield from f.defaults.values()
         yield from expressions(f.body)
     yield from (r.value for rules in model.derivatives.values() for r in rules if isinstance(r.value, Expr))
-
-
-def _experiment(top: Instance) -> flat.Experiment:
-    """annotation(experiment(...)) of the model, or of the nearest base class that has one."""
-    result = flat.Experiment()
-    fields = {"StartTime": "start_time", "StopTime": "stop_time", "Tolerance": "tolerance", "Interval": "interval"}
-    for cls in top.classes:
-        for argument in cls.annotation.arguments if cls.annotation else ():
-            if argument.name != "experiment":
-                continue
-            scope = Scope(top.context, cls, top)
-            for entry in argument.modification.arguments:
-                if entry.name in fields and entry.modification.value is not None:
-                    value = lower_scalar(entry.modification.value, scope, ex.REAL)
-                    number = evaluate(value, top.context, entry.span, entry.name).value
-                    setattr(result, fields[entry.name], float(number))
-            return result
-    return result

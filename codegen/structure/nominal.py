@@ -21,14 +21,14 @@ quantity. It is an expression in the parameters, computed for the values of each
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from functools import reduce
 
 from lacuna.codegen import flat
 from lacuna.codegen.structure.sizes import Size, combined, largest, named, raised, sized
 from lacuna.codegen.structure.system import DeclaredValues, System
 from lacuna.codegen.symbolic.expr import BOOLEAN, ONE, ZERO, Expr, add, call, const, der, is_const, var, walk
-from lacuna.codegen.symbolic.leaves import leaves
+from lacuna.codegen.symbolic.leaves import leaves, parts
 
 BOUNDED = frozenset(("sin", "cos", "tanh", "sign", "asin", "acos", "atan", "atan2"))
 ANGLES = frozenset(("sin", "cos", "tan", "tanh", "exp"))  # their argument is of size 1 where they bend
@@ -274,9 +274,5 @@ class _Inference:
         return bool(found)
 
 
-def _terms(e: Expr) -> Iterator[Expr]:
-    if e.op in _SUMS or e.op == "neg":
-        for a in e.args:
-            yield from _terms(a)
-    elif e.op != "const" or e.value != 0:
-        yield e
+def _terms(e: Expr) -> list[Expr]:
+    return [t for t in parts(e, (*_SUMS, "neg")) if t.op != "const" or t.value != 0]

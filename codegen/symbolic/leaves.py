@@ -18,8 +18,8 @@ def leaves(e: Expr) -> frozenset[Expr]:
         if e.op in LEAF_OPS:
             found = frozenset((e,))
         else:
-            parts = [leaves(a) for a in (e.args[:1] if e.op == "annotated" else e.args)]
-            found = parts[0] if len(parts) == 1 else frozenset().union(*parts)
+            below = [leaves(a) for a in (e.args[:1] if e.op == "annotated" else e.args)]
+            found = below[0] if len(below) == 1 else frozenset().union(*below)
         memo[e] = found
     return found
 
@@ -31,3 +31,20 @@ def with_leaves(e: Expr, values: dict[Expr, Expr]) -> Expr:
 
 def depends(e: Expr, leaf: Expr) -> bool:
     return leaf in leaves(e)
+
+
+def parts(e: Expr, operators: tuple[str, ...]) -> list[Expr]:
+    """What `e` is made of by these operators, each once, from left to right. What stands in many places is one node and
+    is looked at once: doubled n times, it stands in 2^n."""
+    found: list[Expr] = []
+    seen: set[Expr] = set()
+    stack = [e]
+    while stack:
+        n = stack.pop()
+        if n not in seen:
+            seen.add(n)
+            if n.op in operators:
+                stack.extend(reversed(n.args))
+            else:
+                found.append(n)
+    return found

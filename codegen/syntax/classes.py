@@ -35,6 +35,7 @@ class ClassParser(EquationParser):
                 found = self.class_definition()
                 self.semicolon()
                 found.within = within
+                self._refuse_twice(found, {c.name: c for c in classes})
                 classes.append(found)
             except Diagnostic as error:
                 if error in self.errors:
@@ -242,11 +243,15 @@ class ClassParser(EquationParser):
             nested.description = nested.description or self.description()
             if self.kind == "annotation":
                 self.annotation()
-        if nested.name in cls.classes:
-            error = Diagnostic("R010", f"{nested.name} is declared twice", nested.span, "rename one of them")
-            error.notes.append((cls.classes[nested.name].span, "the other declaration"))
-            raise error
+        self._refuse_twice(nested, cls.classes)
         cls.classes[nested.name] = nested
+
+    @staticmethod
+    def _refuse_twice(found: ast.Class, others: dict[str, ast.Class]) -> None:
+        if found.name in others:
+            error = Diagnostic("R010", f"{found.name} is declared twice", found.span, "rename one of them")
+            error.notes.append((others[found.name].span, "the other declaration"))
+            raise error
 
     def _import(self) -> list[ast.Import]:
         """import A.B; import C = A.B; import A.*; import A.{B, C};"""

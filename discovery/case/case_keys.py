@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-import math
 from typing import Any
 
 from lacuna.suggest import did_you_mean
@@ -17,8 +16,11 @@ class KeyProblem(Exception):
     """An entry that case.toml may not have: the message names it and says what was expected."""
 
 
+GREATEST = 1e150  # whose square is a machine number, too: fits weigh squares; so is that of its reciprocal
+
+
 def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= GREATEST
 
 
 def _is_names(value: Any) -> bool:
@@ -34,12 +36,13 @@ class Kind:
 
 
 TEXT = Kind("a text", lambda v: isinstance(v, str))
-NUMBER = Kind("a finite number", _is_number)
-NOT_NEGATIVE = Kind("a finite number of at least 0", lambda v: _is_number(v) and v >= 0)
-POSITIVE = Kind("a positive number", lambda v: _is_number(v) and v > 0)
+NUMBER = Kind("a finite number of at most 1e150", _is_number)
+NOT_NEGATIVE = Kind("a finite number of at least 0 and at most 1e150", lambda v: _is_number(v) and v >= 0)
+POSITIVE = Kind("a positive number from 1e-150 to 1e150", lambda v: _is_number(v) and v >= 1 / GREATEST)
 NAMES = Kind("a list of texts", _is_names)
 FILES = Kind("a list of at least one file", lambda v: _is_names(v) and bool(v))
-START = Kind('a finite number, "recorded" or "unknown"', lambda v: _is_number(v) or v in ("recorded", "unknown"))
+_KNOWN = ("recorded", "unknown")
+START = Kind('a finite number of at most 1e150, "recorded" or "unknown"', lambda v: _is_number(v) or v in _KNOWN)
 
 
 def one_of(*choices: str) -> Kind:

@@ -14,7 +14,7 @@ from lacuna.analysis.recording.channel import RecordingError, on_one_time
 from lacuna.analysis.recording.formats import read_recorded
 from lacuna.codegen.flatten.model import flatten
 from lacuna.codegen.library.classes import Library
-from lacuna.discovery.case.case_keys import KeyProblem, check, with_dots
+from lacuna.discovery.case.case_keys import GREATEST, KeyProblem, check, with_dots
 from lacuna.discovery.case.case_model import CaseModel, case_model, written_values
 from lacuna.discovery.case.noise import Noise
 from lacuna.given import toml_of
@@ -198,11 +198,16 @@ def _read(path: Path) -> dict:
 
 
 def _distinct(path: Path, files: list[str]) -> None:
-    """Recordings are told apart by their names, also those of other folders."""
+    """Recordings are told apart by their names, also those of other folders; none counts twice, or judges what was
+    fitted to it."""
     first: dict[str, str] = {}
     for file in files:
-        if (other := first.setdefault(Path(file).name, file)) != file:
+        other = first.setdefault(Path(file).name, "")
+        if other == file:
+            raise CaseError(f"{path}: {file} is named twice in [recordings]; none judges what was fitted to it")
+        if other:
             raise CaseError(f"{path}: {other} and {file} have the same name; give one of the two another")
+        first[Path(file).name] = file
 
 
 def _floats(values: dict) -> dict[str, float]:
@@ -271,4 +276,7 @@ def read_recording(path: Path, signals: dict[str, Signal]) -> Recording:
         name: values * signal.scale + signal.offset
         for (name, signal), values in zip(signals.items(), columns, strict=True)
     }
+    for name, values in scaled.items():
+        if np.any(np.abs(values) > GREATEST):
+            raise CaseError(f"{path}: column `{name}` has a value beyond {GREATEST:g}: no quantity is so large")
     return Recording(path.name, time.copy(), scaled)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lacuna.discovery.case.cases import Case, Recording
+from lacuna.discovery.case.cases import Case, CaseError, Recording
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.fit.fit import nrmse, residuals_of
 from lacuna.discovery.fit.machine import Machine
@@ -25,10 +25,12 @@ class Judgement:
 
 
 def judge(machine: Machine, values: Mapping[str, float]) -> Judgement:
-    """Simulate all recordings of the machine's case at these values. Raises RuntimeError where a run fails."""
+    """Simulate all recordings of the machine's case at these values. Raises CaseError where a run fails."""
     judged = try_judge(machine, values)
     if judged is None:
-        raise RuntimeError(f"{machine.path}: a simulation failed on the recordings of {machine.case.label}")
+        raise CaseError(
+            f"{machine.path}: a simulation failed on the recordings of {machine.case.label}: look at its parameters"
+        )
     return judged
 
 

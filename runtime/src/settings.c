@@ -21,6 +21,13 @@ void rt_session_declared(rt_session *s) {
     s->p_run[i] = s->d->p_start[i];
 }
 
+/* A value that v, which is no Real, does not take. */
+static rt_status refuse_type(rt_session *s, int row, double t, const char *what, double value) {
+  const mdl_variable *v = &s->d->variables[row];
+  return rt_fail(s, RT_ARGUMENT, t, row, NULL, "%s %s cannot be %.17g: it is %s", what, v->name, value,
+                 v->type == MDL_BOOLEAN ? "Boolean (0 or 1)" : "of whole numbers up to 2^53");
+}
+
 rt_status rt_session_parameters(rt_session *s, int n, const int *variables, const double *values) {
   rt_session_declared(s);
   for (int i = 0; i < n; i++) {
@@ -28,9 +35,7 @@ rt_status rt_session_parameters(rt_session *s, int n, const int *variables, cons
     if (!v || v->storage != MDL_PARAMETER || !v->settable) return refuse(s, "not a parameter that may be set");
     if (!(values[i] >= v->min && values[i] <= v->max))
       return rt_fail_bound(s, 0, variables[i], values[i], v->min, v->max);
-    if (!rt_has_type(v, values[i]))
-      return rt_fail(s, RT_ARGUMENT, 0, variables[i], NULL, "parameter %s cannot be %.17g: it is %s", v->name,
-                     values[i], v->type == MDL_BOOLEAN ? "Boolean (0 or 1)" : "of whole numbers up to 2^53");
+    if (!rt_has_type(v, values[i])) return refuse_type(s, variables[i], 0, "parameter", values[i]);
     s->p_run[v->index] = v->sign * values[i];
   }
   return RT_OK;
@@ -60,6 +65,7 @@ rt_status rt_session_input(rt_session *s, int row, int n, const double *time, co
     if (!isfinite(time[k]) || !isfinite(values[k]))
       return rt_fail(s, RT_ARGUMENT, time[k], row, NULL, "samples of input %s: not a finite number at %.9g s", v->name,
                      time[k]);
+    if (!rt_has_type(v, values[k])) return refuse_type(s, row, time[k], "input", values[k]);
   }
   s->inputs[v->index] = (rt_input){.time = time, .values = values, .n = n, .interpolation = interpolation};
   return RT_OK;

@@ -129,6 +129,12 @@ def test_a_spreadsheet_of_another_kind_is_not_written_under_its_name(tmp_path: P
     assert not (tmp_path / "a.ods").exists()
 
 
+def test_a_file_has_one_time(tmp_path: Path) -> None:
+    (tmp_path / "two.csv").write_text("time,time_s,u\n0,5,1\n1,6,2\n", encoding="utf-8")
+    with pytest.raises(RecordingError, match="two columns called time"):
+        write_recorded(read_recorded(tmp_path / "two.csv"), tmp_path / "out.csv")
+
+
 @pytest.mark.parametrize("name", FORMATS)
 def test_a_damaged_file_is_refused_by_name(name: str, tmp_path: Path) -> None:
     path = FORMATS[name](tmp_path / name)

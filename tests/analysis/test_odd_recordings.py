@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import numpy as np
@@ -73,6 +74,17 @@ def test_a_column_that_counts_the_rows_is_left_out_with_a_word(tmp_path: Path) -
         ("time;n;i;u\n0,0;1.234,5;1,5;2,5\n", "line 2 `1.234,5` is none"),
         ("time,u\n2024/01/02 00:00:00,1\n", "line 2 `2024/01/02 00:00:00` is none"),
         ("time,u\n2024-13-01T00:00:00,1\n", ":2: `2024-13-01T00:00:00` is no instant: month must be in 1..12"),
+        ("time,u\n0,1\n0.1,00:00:01\n", ":3: a time, where the first row, line 2, has no instant"),
+        ("time,u\n0,1\n00:00:01,2\n", ":3: a time, where the first row, line 2, has no instant"),
+        ("time,u\n10:00:00,1\n1,2\n", ":3: no instant, where the first row, line 2, has a time"),
+        (
+            "time,u\n2024-01-01 10:00:00,1\n10:00:01,2\n",
+            ":3: a time, where the first row, line 2, has a day and a time",
+        ),
+        ("time,u\n10:00:00,1\n10:00:01Z,2\n", ":3: a time with its zone, where the first row, line 2, has a time"),
+        ("time,u\n10:00:00,1\n1,10:00:01\n", ":3: its instant is not in column 1, as in the first row"),
+        ('time,u\n0,"1\n1,2\n2,3\n', ":2: 1 fields where the header has 2"),
+        ("time,u\n0;1\n1,2\n2,3\n", ":2: 1 fields where the header has 2"),
         ("time,u\n24:00:01,1\n", ":2: `24:00:01` is no instant"),
         ("time,on\n0,true\n", "line 2 `true` is none"),
         (",time,u\n7,0.0,1\n8,0.1,2\n", "column 1 has no name"),
@@ -154,3 +166,20 @@ def test_no_row_of_a_spreadsheet_is_lost(tmp_path: Path) -> None:
     pandas.DataFrame({"time": TIME, "u": TIME, "remark": ["begin", *[None] * 4]}).to_excel(path, index=False)
     with pytest.raises(RecordingError, match="column 3 of its row 2"):
         read_recorded(path)
+
+
+@pytest.mark.parametrize("step", ["x", 0.0, -0.1, math.nan])
+def test_a_waveform_that_has_no_time_is_refused(tmp_path: Path, step: str | float) -> None:
+    nptdms = pytest.importorskip("nptdms")
+    with nptdms.TdmsWriter(tmp_path / "w.tdms") as file:
+        file.write_segment([nptdms.ChannelObject("g", "u", TIME, properties={"wf_increment": step})])
+    with pytest.raises(RecordingError, match=f"channel u has no waveform time: .*{step}"):
+        read_recorded(tmp_path / "w.tdms")
+
+
+def test_a_name_in_two_groups_is_refused(tmp_path: Path) -> None:
+    nptdms = pytest.importorskip("nptdms")
+    with nptdms.TdmsWriter(tmp_path / "w.tdms") as file:
+        file.write_segment([nptdms.ChannelObject(g, "u", TIME, properties={"wf_increment": 0.1}) for g in "ab"])
+    with pytest.raises(RecordingError, match="u occurs more than once"):
+        read_recorded(tmp_path / "w.tdms")

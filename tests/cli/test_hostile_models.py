@@ -85,6 +85,29 @@ def test_a_parameter_takes_values_of_its_type_only(tmp_path: Path, kind: str, va
     assert simulated(tmp_path, text)[0] == 0
 
 
+@pytest.mark.parametrize(
+    ("kind", "given", "said"),
+    [
+        ("Integer", "1.5", "whole numbers"),
+        ("Integer", "1e30", "whole numbers"),
+        ("Boolean", "2", "Boolean (0 or 1)"),
+        ("Boolean", "{}/u.csv:u", "Boolean (0 or 1)"),
+    ],
+)
+def test_an_input_takes_values_of_its_type_only(tmp_path: Path, kind: str, given: str, said: str) -> None:
+    """1.5 went into an Integer, and 2 into a Boolean, as if they were Reals."""
+    (tmp_path / "u.csv").write_text("time,u\n0,1\n0.5,0.5\n", encoding="utf-8")
+    text = f"model M input {kind} u; Real x = if u == u then time else 0; end M;"
+    status, found = simulated(tmp_path, text, "-u", "u=" + given.format(tmp_path))
+    assert (status, "input u cannot be" in found and said in found) == (1, True), found
+    assert simulated(tmp_path, text, "-u", "u=1")[0] == 0
+
+
+def test_a_signal_that_is_named_twice_is_one_column(tmp_path: Path) -> None:
+    assert simulated(tmp_path, "model M Real x = time, y = 2*x; end M;", *["--signal", "x", "--signal", "x"])[0] == 0
+    assert (tmp_path / "out" / "M.csv").read_text().splitlines()[0] == "time,x"
+
+
 @pytest.mark.parametrize("option", ["--rtol", "--atol"])
 def test_a_tolerance_that_keeps_no_digit_is_refused(option: str, tmp_path: Path) -> None:
     """With --atol 1000 the explicit method ended at 1.2 where exp(-5) is the answer, and called the run complete."""

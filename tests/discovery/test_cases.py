@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
+import re
+import shutil
 
 import numpy as np
 import pytest
 
 from lacuna.discovery.case.cases import CaseError, load
+from lacuna.discovery.steps import fitted
 from lacuna.recorded_units import UnitError, to_si
 
 
@@ -49,6 +52,25 @@ def test_slips_in_the_description_are_named(
             (tmp_path / file.name).write_text(text.replace(old, new, 1) if file.suffix == ".toml" else text)
     with pytest.raises(CaseError, match=message):
         load(tmp_path)
+
+
+def test_a_value_that_no_quantity_has_is_refused(consistent_case: Path, tmp_path: Path) -> None:
+    """Its square is infinite, and what was made of it, an overflow."""
+    shutil.copytree(consistent_case, tmp_path / "case")
+    file = next((tmp_path / "case").glob("*.csv"))
+    head, first, *rows = file.read_text().splitlines()
+    fields = ["1e200" if name == "i" else value for name, value in zip(head.split(","), first.split(","), strict=True)]
+    file.write_text("\n".join([head, ",".join(fields), *rows]) + "\n")
+    with pytest.raises(CaseError, match="column `i` has a value beyond 1e"):
+        load(tmp_path / "case")
+
+
+def test_a_model_that_does_not_run_with_what_is_believed_is_said(consistent_case: Path, tmp_path: Path) -> None:
+    shutil.copytree(consistent_case, tmp_path / "case")
+    file = tmp_path / "case" / "case.toml"
+    file.write_text(re.sub(r"(?<=\nR = )\S+", "1e140", file.read_text(), count=1))
+    with pytest.raises(CaseError, match=r"cannot be simulated .* look at \[parameters\]"):
+        fitted(load(tmp_path / "case"), lambda _: None)
 
 
 def test_degrees_celsius_are_read_as_the_kelvin_of_the_variable(tmp_path: Path) -> None:

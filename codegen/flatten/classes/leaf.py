@@ -8,7 +8,7 @@ from math import prod
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.types import ATTRIBUTES, EXTERNAL, Type
-from lacuna.codegen.flatten.expressions.enumerations import IndexType
+from lacuna.codegen.flatten.expressions.enumerations import IndexType, literal
 from lacuna.codegen.flatten.expressions.lower import modifier_value
 from lacuna.codegen.flatten.names.component import Component
 from lacuna.codegen.flatten.names.context import Context
@@ -118,11 +118,29 @@ class Leaf:
             self._lowering = True
             try:
                 if self.modifier.value is not None:
-                    self._binding = self._fit(modifier_value(self._holding()), self.modifier, "the binding")
+                    self._binding = self._fit(
+                        self._meant(modifier_value(self._holding())), self.modifier, "the binding"
+                    )
             finally:
                 self._lowering = False
             self._bound = True
         return self._binding
+
+    def _meant(self, value: Value) -> Value:
+        """A number that is given from outside, where there are numbers only, as what it means for this type: 0 and 1
+        are false and true, 1 to n the literals of an enumeration. Raises R024 for any other number."""
+        outside = self.modifier.scope is None and isinstance(value, Expr) and value.op == "const"
+        if not outside or not (self.primitive == ex.BOOLEAN or self.type.literals):
+            return value
+        meanings = [literal(self.type.cls, n + 1) for n in range(len(self.type.literals))] or [ex.FALSE, ex.TRUE]
+        for meaning in meanings:
+            if float(meaning.value) == float(value.value):
+                return meaning
+        kind = f"{self.primitive}, and {value.value:g} is neither 0 nor 1"
+        if self.type.literals:
+            kind = f"of an enumeration of {len(meanings)} literals, and {value.value:g} is the number of none"
+        hint = ", ".join(f"{n} is {name}" for n, name in enumerate(self.type.literals, 1)) or "0 is false, 1 is true"
+        raise Diagnostic("R024", f"{self.name} is {kind}", self.span, hint)
 
     def _holding(self) -> Modifier:
         """The modifier whose value holds at all times where this is no parameter."""

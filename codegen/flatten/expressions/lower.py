@@ -203,8 +203,9 @@ def _power(a: Value, b: Value, span: Span) -> Value:
         raise Diagnostic("R042", "a power of an array", span, hint)
     size = range(a.shape[0])
     result: Value = Array(a.shape, tuple(ex.const(float(i == j)) for i in size for j in size))
-    for _ in range(b.value):
-        result = multiply(result, a, span)
+    for digit in f"{int(b.value):b}":  # by squares: as many products as b has binary digits, twice at most
+        result = multiply(result, result, span)
+        result = multiply(result, a, span) if digit == "1" else result
     return result
 
 

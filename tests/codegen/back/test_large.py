@@ -105,6 +105,43 @@ def test_costs_grow_with_the_model_and_no_faster(name: str, monkeypatch: pytest.
     assert small["entries"] <= 4 * 150
 
 
+SHARED = """model M
+  function f
+    input Real x;
+    output Real y;
+  algorithm
+    y := {body};
+  end f;
+  Real y = {call};
+  Real A[2, 2] = [time, 1; -1, 2]^{power};
+end M;
+"""
+
+
+@pytest.mark.parametrize("body", ["x + x", "x*x", "x^x", "max(x, -x)*x"])
+def test_what_stands_in_many_places_is_looked_at_once(body: str, tmp_path: Path) -> None:
+    """Each call of f doubles the places in which time stands: 2^20 were walked through, and 2^40 without end."""
+
+    def calls(depth: int) -> int:
+        counted = 0
+
+        def count(_frame: object, event: str, _argument: object) -> None:
+            nonlocal counted
+            counted += event == "call"
+
+        call = "f(" * depth + "time" + ")" * depth
+        text = SHARED.format(body=body, call=call, power=2**depth)
+        with own_table():
+            path = write_model(tmp_path, text)
+            sys.setprofile(count)
+            generate(translate(path)[0])
+            sys.setprofile(None)
+        return counted
+
+    few, twice = calls(9), calls(18)
+    assert twice <= 2.5 * few
+
+
 @pytest.mark.parametrize("name", ["Ladder", "Chain"])
 def test_large_models_are_right(name: str, tmp_path: Path) -> None:
     """Against the equations written out with NumPy, at a random point."""

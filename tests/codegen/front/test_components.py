@@ -137,6 +137,24 @@ def test_structural_parameters_can_be_set_from_outside(tmp_path: Path) -> None:
     assert sum(name.startswith("part.x") for name in model.variables) == 3
 
 
+def test_numbers_from_outside_set_conditions_and_enumerations(tmp_path: Path) -> None:
+    text = """model M
+      type Kind = enumeration(none, dry, wet);
+      model Part Real x = time; end Part;
+      parameter Kind kind = Kind.none;
+      parameter Boolean heated = false;
+      Part wet if kind == Kind.wet;
+      Part heater if heated;
+    end M;"""
+    for given, found in (({}, set()), ({"heated": 1.0}, {"heater.x"}), ({"kind": 3.0}, {"wet.x"})):
+        model = flatten_text(tmp_path, text, modifications=given)
+        assert {name for name in model.variables if name.endswith(".x")} == found
+    for given, hint in (({"heated": 2.0}, "0 is false, 1 is true"), ({"kind": 4.0}, "1 is none, 2 is dry, 3 is wet")):
+        with pytest.raises(Diagnostic) as caught:
+            flatten_text(tmp_path, text, modifications=given)
+        assert (caught.value.code, caught.value.hint) == ("R024", hint)
+
+
 def test_records_are_bound_whole_and_by_field(tmp_path: Path) -> None:
     text = """
     record Data parameter Real R = 1; parameter Real L = 2; end Data;

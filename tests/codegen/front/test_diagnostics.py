@@ -83,3 +83,9 @@ def test_flattening_is_fast(tmp_path: Path) -> None:
         best = min(best, time.perf_counter() - start)
     assert len(model.equations) >= 300
     assert best < 1.0
+
+
+def test_a_file_declares_a_class_once(tmp_path: Path) -> None:
+    with pytest.raises(Diagnostic) as caught:
+        flatten_text(tmp_path, "model M Real x = 1; end M;\nmodel M Real y = 1; end M;")
+    assert (caught.value.code, caught.value.span.line, len(caught.value.notes)) == ("R010", 2, 1)

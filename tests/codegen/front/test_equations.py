@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flat.text import dump_flat, equation_text
 from lacuna.codegen.flatten import flatten
 from lacuna.codegen.library.classes import Library
@@ -199,6 +200,22 @@ def test_experiment_is_read_and_inherited(tmp_path: Path) -> None:
     model M extends Base; end M;"""
     experiment = flatten_text(tmp_path, text).experiment
     assert (experiment.stop_time, experiment.tolerance, experiment.interval) == (3.0, 1e-8, None)
+
+
+@pytest.mark.parametrize(
+    ("entries", "said"),
+    [
+        ("experiment(StopTime = 1, StopTime = 2)", "R030 StopTime is modified twice"),
+        ("experiment(StopTime = 1), experiment(StopTime = 2)", "R030 StopTime is modified twice"),
+        ("experiment(Tolerance = 0)", "R020 Tolerance of the experiment is 0"),
+        ("experiment(Tolerance = 2)", "R020 Tolerance of the experiment is 2"),
+        ("experiment(Interval = -1)", "R020 Interval of the experiment is -1"),
+    ],
+)
+def test_an_experiment_says_each_thing_once_and_what_a_run_can_have(tmp_path: Path, entries: str, said: str) -> None:
+    with pytest.raises(Diagnostic) as caught:
+        flatten_text(tmp_path, f"model M Real x = time; annotation({entries}); end M;")
+    assert f"{caught.value.code} {caught.value.message}" == said
 
 
 def test_benchmarks_are_accepted_unchanged(shared: Path) -> None:

@@ -1,0 +1,40 @@
+"""annotation(experiment(...)): what a run does when nothing else is said (18.4)."""
+
+from __future__ import annotations
+
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.flatten.classes.instance import Instance
+from lacuna.codegen.flatten.expressions.constants import evaluate
+from lacuna.codegen.flatten.expressions.lower import lower_scalar
+from lacuna.codegen.flatten.names.modifiers import Modifier, from_tree
+from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.symbolic import expr as ex
+from lacuna.codegen.syntax import ast
+
+_FIELDS = {"StartTime": "start_time", "StopTime": "stop_time", "Tolerance": "tolerance", "Interval": "interval"}
+_END = {"Tolerance": (1.0, "above 0 and below 1"), "Interval": (float("inf"), "above 0")}  # what it stays below
+
+
+def experiment_of(top: Instance) -> flat.Experiment:
+    """Of the model, or of the nearest base class that has one. Raises R030 for an entry that is given twice, R020 for a
+    tolerance or an interval that no run can have."""
+    result = flat.Experiment()
+    for cls in top.classes:
+        found = [a for a in cls.annotation.arguments if a.name == "experiment"] if cls.annotation else []
+        if found:
+            entries = from_tree(ast.Modification(found[0].span, arguments=found), Scope(top.context, cls, top))
+            for name, entry in entries.children["experiment"].children.items():
+                if name in _FIELDS and entry.value is not None:
+                    setattr(result, _FIELDS[name], _number(name, entry, top))
+            return result
+    return result
+
+
+def _number(name: str, entry: Modifier, top: Instance) -> float:
+    value = lower_scalar(entry.value, entry.scope, ex.REAL)
+    number = float(evaluate(value, top.context, entry.span, name).value)
+    end, bounds = _END.get(name, (0.0, ""))
+    if bounds and not 0 < number < end:
+        raise Diagnostic("R020", f"{name} of the experiment is {number:g}", entry.span, f"it is {bounds}")
+    return number
