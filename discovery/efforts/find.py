@@ -30,8 +30,7 @@ from lacuna.discovery.naming.comparison import score
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.runtime import SimulationError
 
-PLACES = 3  # at most, at which laws are fitted
-LAWS = 3  # of one group of terms, and as many of two, that are fitted at a place
+TRIED = 3  # places at most at which laws are fitted, and laws of one group of terms there, and of two
 INDIFFERENT = 5.0  # nats, below which two places are told as one
 WORTH = 0.3  # of the best place's gain, that another one must have to be tried where the best one's law leaves too much
 
@@ -74,7 +73,7 @@ def add_laws(
     base: Fit,
     progress: Progress,
     admitted: Callable[[Site], bool] = lambda site: True,
-    most: int = PLACES,
+    most: int = TRIED,
 ) -> None:
     """Laws at the best places that are `admitted`, up to the `most`-th: those where none has been looked for yet."""
     efforts = simplest([s for s in found.sites if s.place is not None and s.gain > 0 and admitted(s)])
@@ -166,7 +165,7 @@ def _offered(locator: Locator, site: Site, progress: Progress) -> Iterator[tuple
     try:
         guided = locator.guided(site)
         progress(f"screening laws at {site.location}")
-        for offered in proposals(locator, site, guided, LAWS):
+        for offered in proposals(locator, site, guided, TRIED):
             yield offered, guided
     except (NotNumeric, SimulationError, np.linalg.LinAlgError):
         return

@@ -137,22 +137,27 @@ class Opened:
 
 
 def _apart(places: list[Place]) -> list[Place]:
-    """The places, those that one state would name told apart: where it is no state of a place's own (a twist and the
-    speed of a shaft, for either end of it), by the component that has most ports there, or by what its equation says.
-    Two of one name could not both be what is missing."""
+    """The places, those that one state would name told apart: it names the only node or balance of its own. Others are
+    named by the component that has most ports there (either end of a shaft whose twist is a state) or by what their
+    equation says. Two of one name could not both be what is missing."""
     names = [p.location for p in places]
-    return [_renamed(p, _own_name(p, names)) if names.count(p.location) > 1 else p for p in places]
+    return [_renamed(p, _own_name(p, names)) if _is_second(p, places) else p for p in places]
+
+
+def _is_second(place: Place, places: list[Place]) -> bool:
+    """Whether another place has as good a right to its name."""
+    own = _ORDER[place.sites[0].kind]
+    return any(_ORDER[p.sites[0].kind] <= own for p in places if p.location == place.location and p is not place)
 
 
 def _own_name(place: Place, taken: list[str]) -> str:
-    site = place.sites[0]
+    site, name = place.sites[0], ""
     if site.kind == "node":
         owners = [e.rpartition(".")[0] for s in place.sites if s.kind == "node" for e in s.ends]
         name = max(dict.fromkeys(owners), key=owners.count)
-    else:
+    elif site.kind == "equation":
         name = site.label.removeprefix(f"{site.instance}: ").partition("=")[0].strip()
-    plain = site.kind in ("node", "equation") and name and not re.search(r"[^\w.\[\]]", name)
-    return name if plain and name not in taken else place.location
+    return name if re.fullmatch(r"[\w.\[\]]+", name) and name not in taken else place.location
 
 
 def _renamed(place: Place, name: str) -> Place:

@@ -51,23 +51,36 @@ def explain_open(search: Search, unbegun: Search, library: Library, progress: Pr
     found = places_of(search.case, unbegun.amendment, unbegun.fit, library, progress)
     add_laws(found, search.case, unbegun.amendment, unbegun.fit, progress, most=1)
     pair = _pair(search, found, progress)
-    two = two_places(unbegun, pair, progress) if pair and pair[1].site.explains > WORTH else None
+    told = pair is not None and pair[1].site.explains > WORTH
+    two = _two(unbegun, found, pair, progress) if told else None
     short = two is not None and within_instruments(two.fit) and all(map(is_short, two.findings))
-    if short and take_if_less(search, two, unbegun.fit):
-        return found
+    if not (short and take_if_less(search, two, unbegun.fit)):
+        _one_by_one(search, unbegun, found, None if told else pair, library, progress)
+        if two is not None:
+            take_if_less(search, two, unbegun.fit)
+    return found
+
+
+def _one_by_one(
+    search: Search, unbegun: Search, found: Found, pair: tuple[Place, Place] | None, library: Library,
+    progress: Progress,
+) -> None:  # fmt: skip
+    """A law at one place, then others beside it; and two at once where a `pair` of little evidence is left to try."""
     add_laws(found, search.case, unbegun.amendment, unbegun.fit, progress)
     taken = bool(found.laws) and _take(search, unbegun, found, progress)
     physics = any(not f.ranked.attachment.variable for f in search.findings) and not search.amendment.trackers
     whole = bool(search.findings) and within_instruments(search.fit) and not (taken and found.single)
-    if pair and two is None and not whole:
-        two = two_places(unbegun, pair, progress)
+    two = None if whole or pair is None else _two(unbegun, found, pair, progress)
     if taken or physics:
         go_on(search, library, progress)
     if taken and found.single:
         apart(search, unbegun, found.single[0], library, progress)
     if two is not None:
         take_if_less(search, two, unbegun.fit)
-    return found
+
+
+def _two(unbegun: Search, found: Found, pair: tuple[Place, Place], progress: Progress) -> Search | None:
+    return two_places(unbegun, pair, next(iter(found.laws), None), progress)
 
 
 def _pair(search: Search, found: Found, progress: Progress) -> tuple[Place, Place] | None:

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lacuna.discovery.catalogue.amend import Amendment
-from lacuna.discovery.efforts.find import LAWS, PLACES, Found, simplest
+from lacuna.discovery.efforts.find import TRIED, Found, simplest
 from lacuna.discovery.efforts.instruments import NATS
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
@@ -26,7 +26,7 @@ from lacuna.discovery.law.empirical_law import fitted_law, free_of, simplified
 from lacuna.discovery.law.law import attach, component_of
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.law.several import finding, paid
-from lacuna.discovery.naming.comparison import MIN_GAIN, price, told_by_data
+from lacuna.discovery.naming.comparison import MIN_GAIN, price, score, told_by_data
 from lacuna.discovery.naming.judge import try_judge
 from lacuna.discovery.naming.left_out import left_out
 from lacuna.discovery.naming.name import Finding
@@ -51,7 +51,7 @@ class Place:
     def _screened(self) -> Iterator[list[Proposal]]:
         """Laws of one group of terms, the most telling first, then of two; started where the efforts at both lead."""
         guided = self.locator.guided(self.site)
-        for offered in proposals(self.locator, self.site, guided, LAWS, strained=False):
+        for offered in proposals(self.locator, self.site, guided, TRIED, strained=False):
             for proposal in offered:
                 proposal.point = guided.point
             yield offered
@@ -60,7 +60,7 @@ class Place:
         """Places at which an effort leaves hardly more than at this one: of two that are coupled stiffly a smooth
         effort, which takes no edge as sharply as a law does, may tell the wrong one by any number of nats."""
         left = LEFT**2 * (1.0 - self.site.explains)
-        near = [s for s in self.sites[:PLACES] if s is not self.site and s.location != other.location]
+        near = [s for s in self.sites[:TRIED] if s is not self.site and s.location != other.location]
         return [Place(self.locator, s, self.sites) for s in near if 1.0 - s.explains <= left]
 
 
@@ -73,11 +73,14 @@ class Both:
     fit: Fit
 
 
-def two_places(unbegun: Search, pair: tuple[Place, Place], progress: Progress) -> Search | None:
-    """A search that has found two laws at two places; None where they leave more than noise or do not pay."""
+def two_places(
+    unbegun: Search, pair: tuple[Place, Place], single: Candidate | None, progress: Progress
+) -> Search | None:
+    """A search that has found two laws at two places; None where they leave more than noise or do not pay. `single` is
+    the best law at one place."""
     joining = Joining(unbegun, progress)
     try:
-        best = joining.laws(pair)
+        best = joining.laws(pair, single)
         best = joining.elsewhere(best, pair) if best is not None else None
     except (NotNumeric, SimulationError, np.linalg.LinAlgError):
         return None
@@ -132,15 +135,21 @@ class Joining:
         self.unbegun, self.progress = unbegun, progress
         self.case, self.amendment, self.base = unbegun.case, unbegun.amendment, unbegun.fit
 
-    def laws(self, pair: tuple[Place, Place]) -> Both | None:
-        """The best two laws, of one group of terms each; of two where these leave more than noise. Simplified, each
-        beside the other; None where they leave more than noise, too."""
+    def laws(self, pair: tuple[Place, Place], single: Candidate | None) -> Both | None:
+        """The best two laws, of one group of terms each; of two where these leave more than noise, and yet less than a
+        `single` one at one place does. Simplified, each beside the other; None where all leave more than noise."""
         best: Both | None = None
         for ones, twos in zip(pair[0].offered, pair[1].offered, strict=False):
             best = self._best(ones, twos, best)
             if best is not None and nearly_noise(best.fit):
                 return self._simplified(best)
+            if best is None or (single and self._is_less(single, best)):
+                return None
         return None
+
+    def _is_less(self, single: Candidate, both: Both) -> bool:
+        correlation = min(single.fit, both.fit, key=lambda f: f.deviance()).correlation()
+        return score(single, self.base, correlation) < self._paid(both, correlation) - self.base.deviance(correlation)
 
     def elsewhere(self, best: Both, pair: tuple[Place, Place]) -> Both:
         """The same laws' best at places alike, one law after the other."""

@@ -21,9 +21,8 @@ from lacuna.discovery.law.law_terms import Group, Variable
 
 Scored = tuple[float, Regression, tuple[int, ...]]  # deviance and prices, groups of a regression
 
-FAMILIES = 12  # kinds of terms whose shapes are refined
+FAMILIES = 12  # kinds of terms whose shapes are refined, and beside which, and a constant, a second one is looked for
 ZOOMS, FINE = 3, 9  # times that a shape is refined, and values each time; each is a quarter of the last one's spacing
-FIRST = 12  # terms that a second one is looked for beside, and a constant: zero of a temperature is anywhere
 PAIRS = 6  # kinds of pairs whose shapes are refined
 SAME = 1e-3  # share of what a law explains, by which another one must differ to be tried beside it
 
@@ -200,7 +199,7 @@ def _doubled(regression: Regression, single: list[tuple[int, ...]], every: range
     scored: dict[tuple[int, ...], float] = {}
     finer = [g for (g,) in single if g not in every]
     level = next((g,) for g in every if regression.groups[g].texts == ("1",))
-    beside = [] if _is_coefficient(regression.place.place) else single[:FIRST]
+    beside = [] if _is_coefficient(regression.place.place) else single[:FAMILIES]
     for first in dict.fromkeys([level, *beside]):
         for others in (every, finer):
             for other, score in zip(others, regression.scores(first, others), strict=True):
