@@ -83,11 +83,18 @@ def _fit_records(local: Local, value: Value, scope: Scope, span: Span) -> Value:
 
 
 def _require_fields(cls: ast.Class, value: Record, name: str, context: Context, span: Span) -> None:
-    """A record that stands for one of `cls` has its fields, of their types and dimensions (6.4). Raises R062."""
+    """A record that stands for one of `cls` has its fields and no others, of their types and dimensions (6.7, 12.4.1).
+    Raises R062."""
     own = value.cls
     if isinstance(own, ast.Class) and (own.origin or own) is (cls.origin or cls):
         return
-    for field in signature_of(cls, context).locals:
+    fields = signature_of(cls, context).locals
+    known = {field.name for field in fields}
+    if more := [field for field in value.fields if field not in known]:
+        other = own.name if isinstance(own, ast.Class) else value.name
+        message = f"{name} is a {cls.name}, given a {other} with {', '.join(more)} as well"
+        raise Diagnostic("R062", message, span, f"make one of it: {cls.name}(...) takes the fields that it has")
+    for field in fields:
         found = value.fields.get(field.name)
         what = f"{name}.{field.name}"
         if found is None:
