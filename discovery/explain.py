@@ -19,12 +19,12 @@ from lacuna.discovery.explanation.contenders import contenders
 from lacuna.discovery.explanation.explanation import Clock, Explanation
 from lacuna.discovery.fit.evidence import (
     astray,
-    holds,
     is_noise,
     like_noise,
     nearly_noise,
     outside_belief,
     pays,
+    repeats,
     settled,
     whiteness,
     within_instruments,
@@ -38,7 +38,7 @@ from lacuna.discovery.naming.screen import Candidate
 from lacuna.discovery.steps import add_effort, add_findings, add_fit, add_location, add_scatter, opened
 from lacuna.written import write_whole
 
-LEAST_TAKEN = 0.2  # of the NRMSE on unseen recordings, that findings which leave far more than noise must take away
+LEAST_TAKEN = 0.2  # of the NRMSE above noise on unseen recordings, that findings must take away
 
 Progress = Callable[[str], None]
 
@@ -118,12 +118,12 @@ def _is_colour(result: Explanation) -> bool:
 
 def _holds(result: Explanation) -> bool:
     """Whether the fitted model tells unseen recordings as well as its noise lets it, or its uncertain parameters."""
-    attained, noise = _attained(result), result.final.noise
-    if holds(result.after.validate, attained, noise):
+    attained, samples = _attained(result), sum(len(r.time) for r in result.case.validate)
+    if repeats(result.after.validate, attained, result.final, samples):
         return True
     spread = foretold(result.final, result.case.validate)
     within = {c: float(np.hypot(attained[c], spread[c])) for c in attained}
-    return holds(result.after.validate, within, noise)
+    return repeats(result.after.validate, within, result.final, samples)
 
 
 def _attained(result: Explanation) -> dict[str, float]:
@@ -145,12 +145,11 @@ def _conclude_from_findings(result: Explanation) -> None:
         )
         result.experiment = experiment_for(first.ranked, first.naming.ranked[1:])
         return
-    taken = 1.0 - result.after.validate[""] / result.before.validate[""]
-    if taken < LEAST_TAKEN and astray(result.final):
+    if (taken := _taken(result)) < LEAST_TAKEN:
         result.verdict = "undetermined"
         result.reason = (
             f"{first.ranked.attachment.label} fits best, but takes only {taken:.0%} of the error on unseen recordings "
-            "away, and what is left is far from noise: what is missing is something else"
+            "that is above noise away: what is missing is something else"
         )
         result.experiment = experiment_for(first.ranked, first.naming.ranked[1:])
     elif all(f.tied for f in result.findings):
@@ -163,6 +162,12 @@ def _conclude_from_findings(result: Explanation) -> None:
         result.verdict = "missing_physics"
         turning = dict.fromkeys(v for f in result.findings if (v := f.ranked.attachment.alike[1]))
         result.experiment = f"record a motion in which {' and '.join(turning)} turns" if turning else ""
+
+
+def _taken(result: Explanation) -> float:
+    """Share of the NRMSE above noise, on unseen recordings, that the findings take away."""
+    before, noise = result.before.validate[""], float(np.sqrt(np.mean([f**2 for f in result.floor.values()])))
+    return (before - result.after.validate[""]) / (before - noise) if before > noise else 0.0
 
 
 def _efforts(result: Explanation) -> list[float]:

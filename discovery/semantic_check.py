@@ -8,13 +8,17 @@ nothing; then the size from window to window is compared, and what the model's o
 
 from __future__ import annotations
 
+from dataclasses import replace
 import math
 
 import numpy as np
 
 from lacuna.discovery.case.cases import Recording
 from lacuna.discovery.case.recordings_check import Problem, longest_run
+from lacuna.discovery.fit.evidence import astray
+from lacuna.discovery.fit.fit import believed, fit
 from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.fit.objective import noise_of
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.fit.tracking import filled
 
@@ -37,6 +41,22 @@ OBEYED, BROKEN = 1e-6, 0.3  # residual of a relation between outputs over its la
 AS_GOOD = 0.1  # part of what moving the signal takes away that the least of several moves may leave
 TIME_CONSTANTS = np.linspace(0.5, 2.0, 16)  # of a sensor, in units of the lag that moving its signal takes for it
 CHANGES = (10, 100)  # samples over which changes are compared when looking for a shift: fast ones, and beyond noise
+
+
+def slips(machine: Machine) -> list[Problem]:
+    """What contradicts the model: at its believed values and, of a shift in time, as fitted to the recordings, too.
+
+    A machine that is faster or slower than believed looks shifted until its parameters are fitted; they cannot take a
+    slip away."""
+    case, (free, fixed) = machine.case, believed(machine.case, machine)
+    found = check_against_model(machine, (free, fixed))
+    if not found or any(p.kind != "shift" for p in found):
+        return found
+    fitted = fit(machine, case.fit, noise_of(case), free, fixed)
+    if fitted is None or astray(fitted):
+        return found
+    there = [replace(f, centre=fitted.point[f.name]) for f in free]
+    return [p for p in check_against_model(machine, (there, fixed)) if p.kind == "shift"]
 
 
 def check_against_model(machine: Machine, start: tuple[list[Free], dict[str, float]]) -> list[Problem]:

@@ -11,10 +11,13 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case, CaseError
 from lacuna.discovery.case.gaps import without_gaps
 from lacuna.discovery.case.recordings_check import Problem, check_case
+from lacuna.discovery.case.thinning import said_of, thinned
 from lacuna.discovery.catalogue import catalogue, places
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.find import places_of
+from lacuna.discovery.efforts.latent.switches import switched
+from lacuna.discovery.efforts.linear import NEWTON
 from lacuna.discovery.efforts.moved import sensor_instead
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import astray, is_noise, nearly_noise, outside_belief
@@ -32,7 +35,7 @@ from lacuna.discovery.naming.dips import explored, is_smooth
 from lacuna.discovery.naming.judge import judge, noise_floor, try_judge
 from lacuna.discovery.naming.name import rank
 from lacuna.discovery.naming.search import Search
-from lacuna.discovery.semantic_check import check_against_model
+from lacuna.discovery.semantic_check import slips
 
 Progress = Callable[[str], None]
 
@@ -44,26 +47,11 @@ def opened(case: Case, library: Library) -> tuple[Explanation, Machine | None]:
     result = Explanation(case, check_case(case))
     if not _trusted(result, "the recordings cannot be trusted"):
         return result, None
-    result.case = case = without_gaps(case)
+    result.case = case = thinned(without_gaps(case))
+    result.problems += said_of(case)
     machine = _believed_machine(case, places.read(library, case.base))
-    result.problems += _slips(machine)
+    result.problems += slips(machine)
     return result, machine if _trusted(result, "the recordings contradict themselves") else None
-
-
-def _slips(machine: Machine) -> list[Problem]:
-    """What contradicts the model: at its believed values and, of a shift in time, as fitted to the recordings, too.
-
-    A machine that is faster or slower than believed looks shifted until its parameters are fitted; they cannot take a
-    slip away."""
-    case, (free, fixed) = machine.case, believed(machine.case, machine)
-    found = check_against_model(machine, (free, fixed))
-    if not found or any(p.kind != "shift" for p in found):
-        return found
-    fitted = fit(machine, case.fit, noise_of(case), free, fixed)
-    if fitted is None or astray(fitted):
-        return found
-    there = [replace(f, centre=fitted.point[f.name]) for f in free]
-    return [p for p in check_against_model(machine, (there, fixed)) if p.kind == "shift"]
 
 
 def _trusted(result: Explanation, otherwise: str) -> bool:
@@ -86,9 +74,29 @@ def add_fit(result: Explanation, machine: Machine, progress: Progress) -> None:
     progress("fitting the believed model")
     case = result.case
     result.base, result.lead = fit_believed(case, machine)
+    if not is_noise(result.base):
+        _place_switches(result, progress)
+    case, machine = result.case, result.base.machine
     result.amendment, result.final = machine.amendment, result.base
     result.before = result.after = judge(machine, result.base.point)
     result.floor = noise_floor(case, case.validate, result.base.noise)
+
+
+def _place_switches(result: Explanation, progress: Progress) -> None:
+    """Held inputs that switch between samples, as the outputs tell beside what else the believed model lacks."""
+    if result.base.machine.amendment.trackers or not result.lead.direct:
+        return
+    progress("looking for when the inputs switched between samples")
+    before = {c for r in result.case.fit for c in r.drives}
+    for _ in range(NEWTON):
+        case = switched(result.base)
+        if case is None:
+            break
+        machine = result.base.machine.amended(result.base.machine.amendment, case)
+        result.case, (result.base, result.lead) = case, fit_believed(case, machine)
+    for column in sorted({c for r in result.case.fit for c in r.drives} - before):
+        text = "it switches between samples: it was taken to where the outputs tell when"
+        result.problems.append(Problem("switches", result.case.fit[0].name, column, None, text, False))
 
 
 def add_location(result: Explanation, progress: Progress) -> None:

@@ -74,7 +74,8 @@ _PARAMETERS = Table(
 )  # fmt: skip
 _UNCERTAINTY = Table(
     "believed relative standard deviations of parameters; 0 is exact",
-    each=Key(NOT_NEGATIVE, "relative standard deviation", "0.05"), entry="parameter",
+    each=Key(NOT_NEGATIVE, "relative standard deviation", "0.05, and 0 for what only a component's class says"),
+    entry="parameter",
 )  # fmt: skip
 _INITIAL = Table(
     "states at the first sample", entry="state", each=Key(

@@ -6,13 +6,15 @@ a search tries, the amended model, the judge) sees the same places.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.library.search_path import outermost, search_path
+from lacuna.codegen.syntax import ast
+from lacuna.codegen.syntax.references import references
 
 
 @dataclass(frozen=True)
@@ -46,3 +48,18 @@ def case_model(folder: Path, model: str, libraries: Sequence[str | Path]) -> Cas
         message = f"the class {cls.path} is also in {other.span.file}, which comes first"
         raise Diagnostic("F004", message, cls.span, "give one of the two another name")
     return found
+
+
+def written_values(cls: ast.Class) -> set[str]:
+    """Of components' parameters those whose numbers stand in the class, `shaft.J` of `Inertia shaft(J=2e-4)`: they are
+    believed as its own are. What a component's class says by itself is no statement about this machine."""
+    components = (value for c in cls.components for value in _written(c.modification.arguments, c.name))
+    return {*components, *(value for e in cls.extends for value in _written(e.modification.arguments, ""))}
+
+
+def _written(arguments: Sequence[ast.Argument], owner: str) -> Iterator[str]:
+    for argument in arguments:
+        name = f"{owner}.{argument.name}" if owner else argument.name
+        if argument.modification.value is not None and not any(references(argument.modification.value)):
+            yield name
+        yield from _written(argument.modification.arguments, name)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 import math
 from pathlib import Path
+import re
 
 import numpy as np
 
@@ -14,7 +15,8 @@ from lacuna.analysis.recording.formats import read_recorded
 from lacuna.codegen.flatten.model import flatten
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.case_keys import GREATEST, KeyProblem, check, with_dots
-from lacuna.discovery.case.case_model import CaseModel, case_model
+from lacuna.discovery.case.case_model import CaseModel, case_model, written_values
+from lacuna.discovery.case.noise import Noise
 from lacuna.given import toml_of
 from lacuna.recorded_units import ZERO_CELSIUS, UnitError, to_si
 
@@ -47,7 +49,8 @@ class Recording:
     """A file, or a part of one between gaps: `time` (n,) in s and each signal's samples (n,) in SI, NaN where missing.
 
     `file` and `piece` stay where a first share of it is taken (whose name says which). Of what comes `after_gap` no
-    state is known at the first sample.
+    state is known at the first sample. `drives` has the times and samples
+    (m,) of inputs by which a run is driven, where they are others than those of their columns.
     """
 
     name: str
@@ -56,9 +59,14 @@ class Recording:
     file: str = ""
     piece: str = ""
     after_gap: bool = False
+    drives: dict[str, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.file, self.piece = self.file or self.name, self.piece or self.name
+
+    def drive(self, column: str) -> tuple[np.ndarray, np.ndarray]:
+        """Times (m,), in s, and samples (m,) of an input by which a run is driven."""
+        return self.drives.get(column, (self.time, self.columns[column]))
 
     @property
     def interval(self) -> float:
@@ -102,6 +110,7 @@ class Case:
     found: CaseModel | None = None  # where the class `model` is
     own: dict[str, Own] = field(default_factory=dict)  # what holds in one recording only, by its file
     limits: dict[str, Limit] = field(default_factory=dict)  # of inputs, for a proposed experiment
+    noise: dict[str, Noise] = field(default_factory=dict)  # of outputs, where it is known from more than the recordings
     files: tuple[Path, ...] = ()  # what was read: case.toml, the user's model, the recordings
 
     @property
@@ -116,6 +125,16 @@ class Case:
 
     def library(self) -> Library:
         return self.found.library() if self.found else Library()
+
+    def is_uncertain(self, parameter: str) -> bool:
+        """Whether a parameter has a belief: the model's own, those whose numbers it writes, what case.toml names."""
+        plain = re.sub(r"\[[^]]*\]", "", parameter)
+        named = parameter in self.parameters or parameter in self.uncertainty
+        return (
+            named
+            or (parameter == plain and "." not in plain)
+            or plain in written_values(self.library().find(self.base))
+        )
 
     @property
     def inputs(self) -> list[Signal]:

@@ -134,7 +134,8 @@ def _parameters(text: _Text, draft: Draft) -> None:
     text("[parameters]  # what is believed, SI; the model's own values where nothing is said")
     for name, (value, unit, description) in draft.parameters.items():
         text(f"# {key(name)} = {value!r}  # {_one_line(f'{unit}  {description}'.strip())}")
-    text("", "[uncertainty]  # relative standard deviation of a belief; 0 is exact, 0.05 where nothing is said", "")
+    text("", "[uncertainty]  # relative standard deviation of a belief; 0 is exact")
+    text("# 0.05 where nothing is said, and 0 for what only a component's class says", "")
 
 
 def key(name: str) -> str:

@@ -104,7 +104,8 @@ def places_of(
 def located(case: Case, amendment: Amendment, base: Fit, library: Library) -> Locator:
     """Every place of the amended model, about the runs of the machine that is believed: a fit without what is missing
     may have taken parameters anywhere. About those of the fit where the believed machine does not run."""
-    door = opened(case, amendment, library, [f.name for f in base.estimate.free if is_parameter(f.name)])
+    free = [f.name for f in base.estimate.free if is_parameter(f.name)]
+    door = opened(case, amendment, library, free, base.machine)
     try:
         return Locator(case, door, base, base.point | base.believed())
     except SimulationError:

@@ -64,7 +64,7 @@ def log_evidence(case: Case, amendment: Amendment, fit: Fit) -> float:
 def _locator(case: Case, amendment: Amendment, fit: Fit) -> Locator | None:
     try:
         common = [f.name for f in fit.estimate.free if is_parameter(f.name)]
-        return Locator(case, opened(case, amendment, case.library(), common), fit)
+        return Locator(case, opened(case, amendment, case.library(), common, fit.machine), fit)
     except (NotNumeric, SimulationError, np.linalg.LinAlgError):
         return None
 

@@ -81,6 +81,11 @@ class Linear:
         read, feed = self._outputs(answer, n)
         return Along(recording.time, step, drive, read, feed, answer[:, :, states:], {**fixed, **values})
 
+    def of(self, name: str, along: Along) -> np.ndarray:
+        """(n,) of a variable, by any of its names, along a run."""
+        kept, sign = self.prepared.aliases.get(name, (name, 1))
+        return sign * along.values[kept]
+
     def _trajectory(
         self, point: Mapping[str, float], recording: Recording, efforts: Mapping[str, RecordedInput] | None
     ) -> tuple[dict[str, np.ndarray], dict[str, float]]:

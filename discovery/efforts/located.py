@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from lacuna.discovery.case.cases import Case, Recording
+from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
 from lacuna.discovery.efforts.latent.evidence import evidence
 from lacuna.discovery.efforts.latent.smoother import Whitener, acting, courses, thinned
@@ -21,7 +22,6 @@ from lacuna.runtime import RecordedInput, SimulationError
 SIZES = 10.0 ** np.arange(-1.0, 2.1, 0.5)  # of the effort that would explain the misfit by itself: half decades
 TIMES = (1 / 300, 1 / 50, 1 / 8)  # of the longest recording: shorter is noise, longer is a constant
 SAMPLES = 1500  # of all recordings together, that hypotheses are weighed on: locating needs no more
-LEADING = (1.0, 0.5)  # powers of the misfit that noise is taken to have when the model is led: from coarse to fine
 
 
 @dataclass
@@ -68,10 +68,10 @@ class Locator:
         opened, time = self.opened, recording.time
         drive = {opened.linear.inputs[column]: RecordedInput(time, course, "hold") for column, course in efforts}
         along = opened.linear.along(point, recording, drive)
-        run = opened.machine.trajectory(point, recording, list(opened.machine.columns.values()), drive)
-        left = np.stack([recording.columns[c] - run[v] for c, v in opened.machine.columns.items()], axis=1)
-        for column, effort in efforts:
-            left = left + along.response(np.array([column]), effort[:, None], hold=True)[:, :, 0]
+        left = np.stack(
+            [recording.columns[c] - opened.linear.of(v, along) for c, v in opened.machine.columns.items()], 1
+        )
+        left = left + _response(along, efforts)
         inputs, count = len(opened.linear.inputs), len(self.free)
         columns = np.arange(inputs, inputs + count)
         answers = along.response(columns, np.ones((len(time), count))) * self.sigma
@@ -110,6 +110,10 @@ class Locator:
             self._chosen[id(site)] = _one(hypotheses, best), found.mean[best]
             result.append(site)
         return sorted(result, key=lambda s: -s.gain)
+
+    def latent(self, site: Site) -> Latent:
+        """The effort, or the error of a sensor, that explains most at a place that was ranked."""
+        return self._chosen[id(site)][0]
 
     _chosen: dict[int, tuple[Latent, np.ndarray]]
 
@@ -160,6 +164,26 @@ class Locator:
         runs = zip(self.case.fit, acting(pieces, latent, mean), strict=True)
         return [self.piece(point, recording, efforts) for recording, efforts in runs]
 
+    def _nearer(self, latent: Latent) -> list[Piece]:
+        """The linear models about runs that the effort leads ever nearer to the data, from coarse to fine: noise is
+        taken to be a power of the misfit, from 1 to a half, in steps halved where a run ends further from the data."""
+        held = np.array([self.point[f.name] - f.centre for f in self.free]) / self.sigma
+        pieces, level, power, step = self.pieces, self._level(), 1.5, 0.5
+        missed = self._size([p.data[:, :, 0] for p in pieces])
+        while power > 0.5 and step > 0.01:
+            coarse = [replace(p, noise=self.noise * level ** (power - step)) for p in pieces]
+            efforts = acting(coarse, latent, held)
+            try:
+                led = [self.piece(self.point, r, e) for r, e in zip(self.case.fit, efforts, strict=True)]
+                now = self._size([p.data[:, :, 0] - _response(p.along, e) for p, e in zip(led, efforts, strict=True)])
+            except (SimulationError, np.linalg.LinAlgError):
+                now = np.inf
+            if now > missed:
+                step /= 2
+                continue
+            power, pieces, missed = power - step, led, now
+        return pieces
+
     def _followed(
         self, latent: Latent, pieces: list[Piece]
     ) -> tuple[dict[str, float], list[Piece], np.ndarray]:  # fmt: skip
@@ -178,7 +202,7 @@ class Locator:
 
     def beside(self, locator: Locator, site: Site) -> Locator:
         """Itself, where efforts are looked for beside the one that `locator` found at a place."""
-        latent, _ = locator._chosen[id(site)]
+        latent = locator.latent(site)
         none = Colour(np.zeros(0, dtype=int), np.zeros((1, 0)), np.zeros((1, 0)))
         there = copy(self)
         there.colour = (self.colour or none).with_effort(
@@ -193,18 +217,19 @@ class Locator:
         them, since an effort that jumps costs by its prior what an inertia that jumps with it does not; what is then
         left for a law is the effort beside a wrong machine. They follow while the evidence about the runs so led rises.
         """
-        latent, _ = self._chosen[id(site)]
-        held = np.array([self.point[f.name] - f.centre for f in self.free]) / self.sigma
-        pieces, level = self.pieces, self._level()
-        for share in LEADING:
-            led = [replace(p, noise=self.noise * level**share) for p in pieces]
-            pieces = self._led(self.point, latent, led, held)
-        point, pieces, mean = self._followed(latent, pieces)
+        latent = self.latent(site)
+        point, pieces, mean = self._followed(latent, self._nearer(latent))
         efforts = courses(pieces, latent, mean)
         site.effort = {
             r.name: (r.time, e, s) for r, (e, s) in zip(self.case.fit, efforts, strict=True)
         }  # fmt: skip
         return Guided(point, pieces, [e for e, _ in efforts], mean, latent)
+
+
+def _response(along: Along, efforts: Sequence[tuple[int, np.ndarray]]) -> np.ndarray:
+    """(n, y) outputs to efforts (column, course), to first order."""
+    answers = (along.response(np.array([c]), effort[:, None], hold=True)[:, :, 0] for c, effort in efforts)
+    return sum(answers, np.zeros(along.read.shape[:2]))
 
 
 def thinned_all(pieces: list[Piece], samples: int = SAMPLES) -> list[Piece]:

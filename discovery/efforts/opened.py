@@ -30,10 +30,11 @@ from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws.variables import MOST
 from lacuna.discovery.efforts.linear import Linear
 from lacuna.discovery.efforts.numeric import NotNumeric
-from lacuna.discovery.efforts.sites import Site, exchanges, read, varying
-from lacuna.discovery.fit.machine import Machine
+from lacuna.discovery.efforts.sites import Site, exchanges, read, renames, varying
+from lacuna.discovery.fit.machine import Machine, richer
 from lacuna.units import Unit
 
+RENAMES = "it only gives a name to what is recorded: an error there is its sensor's"
 ALIKE = 1e-5  # of a direction, by which two places may differ: rounding of the linearisation
 _ORDER = {"node": 0, "equation": 1, "branch": 2, "edge": 3, "exchange": 4, "parameter": 5, "input": 6}
 
@@ -74,7 +75,13 @@ class Opened:
         strength = np.sqrt(np.sum(effect**2, axis=1))
         unit = effect / np.maximum(strength[:, None], 1e-300)
         groups: list[list[int]] = []
-        for k in np.flatnonzero(strength.max(axis=0) > 0):
+        acting = strength.max(axis=0) > 0
+        read = effect[:, : len(self.linear.states)].any(axis=(0, 1))
+        for k in np.flatnonzero(acting & ~read):
+            if renames(self.sites[k]):
+                acting[k] = False
+                self.closed.append((self.sites[k].label, RENAMES))
+        for k in np.flatnonzero(acting):
             for group in groups:
                 both = (strength[:, k] > 0) & (strength[:, group[0]] > 0)
                 cosine = np.abs(np.sum(unit[both, :, k] * unit[both, :, group[0]], axis=1))
@@ -203,8 +210,10 @@ def _touches(site: Site, location: str) -> bool:
     return any(end.rpartition(".")[0] == location for end in site.ends)
 
 
-def opened(case: Case, amendment: Amendment, library: Library, parameters: list[str]) -> Opened:
-    """The amended model with an input at every site where one can act."""
+def opened(
+    case: Case, amendment: Amendment, library: Library, parameters: list[str], base: Machine | None = None
+) -> Opened:
+    """The amended model, simulated as `base` is, with an input at every site where one can act."""
     found = read(library, amendment.structure.model)
     closed = list(found.closed)
     believed, _ = translate(str(write_source(amendment)), search_path=case.search_path)
@@ -217,7 +226,7 @@ def opened(case: Case, amendment: Amendment, library: Library, parameters: list[
     sites = _openable(case, amendment, [*found.places, *between, *vary, *acting], closed)
     whole = _with_probes(amendment, sites)
     try:
-        machine = Machine(case, whole)
+        machine = richer(case, whole, base) if base else Machine(case, whole)
     except CaseError as reason:  # it has other states than those whose first values are known
         raise NotNumeric(str(reason)) from reason
     return Opened(machine, Linear(machine, list(whole.inputs), parameters), sites, closed, believed)

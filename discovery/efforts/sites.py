@@ -128,6 +128,11 @@ def occurrences(name: str, text: str, begin: int, end: int) -> list[int]:
     return [begin + m.start() for m in re.finditer(_alone(name), text[begin:end])]
 
 
+def renames(site: Site) -> bool:
+    """Whether an equation only says that two variables are one."""
+    return site.kind == "equation" and re.fullmatch(r"\s*-?[\w.\[\]]+\s*=\s*-?[\w.\[\]]+\s*", site.label) is not None
+
+
 def _branches(group: dict[str, str], ports: dict[str, Port]) -> list[Site]:
     """Past every component that joins two nodes: what goes on between them may have been left out. Its ports are of one
     kind where the language lets them be connected: their variables have the same names (specification 9.3)."""

@@ -130,6 +130,23 @@ def _at_most(noise: Noise) -> float:
     return HALF_STEP if is_coarse(noise) else LEFT
 
 
+def repeats(unseen: Mapping[str, float], attained: Mapping[str, float], fit: Fit, samples: int) -> bool:
+    """Whether NRMSE on `samples` unseen ones are those that a fit attains on what it was fitted to, where the
+    noise's level, as estimated, is in `attained`: up to what mean squares of so few independent samples scatter by."""
+    counts, correlation = fit.counts(), fit.correlation()
+    return all(
+        unseen[c]
+        < (max(LEFT, _scatter(counts[c], samples, correlation[c])) if not n.given else _at_most(n)) * attained[c]
+        for c, n in fit.noise.items()
+    )
+
+
+def _scatter(fitted: float, unseen: float, correlation: float) -> float:
+    """The most that the RMS of noise of one process differs by between samples that carry the information of one in
+    `correlation` of them."""
+    return float(np.sqrt(1.0 + SIGMAS * np.sqrt(2.0 * correlation * (1.0 / fitted + 1.0 / unseen))))
+
+
 def nearly_noise(fit: Fit) -> bool:
     """Whether no signal leaves much more than its noise: what may still be there is too little to be told apart."""
     return max(fit.level.values()) < LEFT

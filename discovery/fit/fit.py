@@ -21,7 +21,7 @@ from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import STAGES, Objective, alike, anneal
 from lacuna.discovery.fit.solver.free import Free, clipped
 from lacuna.discovery.fit.solver.least_squares import Estimate, Problem
-from lacuna.discovery.fit.starts import uncertain_starts, with_starts
+from lacuna.discovery.fit.starts import as_known_to, uncertain_starts, with_starts
 from lacuna.discovery.fit.tracking import noise_bandwidth
 from lacuna.runtime import Variable
 
@@ -111,9 +111,8 @@ class Fit:
 def believed(case: Case, machine: Machine) -> tuple[list[Free], dict[str, float]]:
     """(free parameters, exact ones) of the believed model: what case.toml names and the model's own defaults."""
     free, fixed = [], {}
-    named = set(case.parameters) | set(case.uncertainty)
     for name, variable in machine.model.parameters.items():
-        if (("." in name or "[" in name) and name not in named) or variable.type != "Real":
+        if variable.type != "Real" or not case.is_uncertain(name):
             continue
         value = case.parameters.get(name, variable.start)
         _believe(name, value, case.sigma(name, value), variable, free, fixed)
@@ -161,6 +160,7 @@ def fit(
     renewed: bool = True,
 ) -> Fit | None:
     """Fit `free` to the recordings, tracking with each bandwidth in turn (the last one 0). None if it cannot run."""
+    free = as_known_to(machine, free)
     objective = Objective(machine, recordings, noise)
     readers = objective.readers(f.name for f in free)
     problem = Problem(free, objective, len(objective.recordings), dict(fixed), readers)

@@ -24,7 +24,7 @@ ROUNDINGS = 32  # places of the levels, over which rounding is averaged
 
 
 def standard_errors(fit: Fit, lead: Lead | None = None) -> dict[str, float]:
-    """1-sigma of each free parameter (in its unit; 0 at a bound); `lead` is how the fit was led.
+    """1-sigma of each free parameter in its unit, to the inside at a bound; `lead` is how the fit was led.
 
     Infinite where neither data nor belief tells a direction that the parameter is part of.
     """
@@ -33,9 +33,22 @@ def standard_errors(fit: Fit, lead: Lead | None = None) -> dict[str, float]:
     variance = np.diag(covariance(held)) + moved**2 + solver_shift(held) ** 2 + input_shift(held) ** 2
     free = undetermined(held.estimate.normal)
     return {
-        f.name: 0.0 if fit.estimate.at_bound(f.name) else float("inf") if open_ else float(np.sqrt(max(v, 0.0)))
-        for f, v, open_ in zip(fit.estimate.free, variance, free, strict=True)
+        f.name: float("inf") if open_ else from_bound(held, k) if fit.estimate.at_bound(f.name) else float(np.sqrt(v))
+        for k, (f, v, open_) in enumerate(zip(fit.estimate.free, variance, free, strict=True))
     }
+
+
+def from_bound(fit: Fit, k: int) -> float:
+    """How far from its bound a parameter costs what one sigma does, 2 g s + h s^2 = 1, the others following, with the
+    gradient 2 g, by which the data pushes it there, and the curvature h."""
+    estimate = fit.estimate
+    inside = [j for j, f in enumerate(estimate.free) if j != k and not estimate.at_bound(f.name)]
+    normal, across = estimate.normal[np.ix_(inside, inside)], estimate.normal[inside, k]
+    curvature = float(estimate.normal[k, k] - across @ np.linalg.pinv(normal, hermitian=True) @ across)
+    pull = sum(float(b[:, k] @ r) for b, r in zip(estimate.jacobian, estimate.residuals, strict=False))
+    f, value = estimate.free[k], float(estimate.values[k])
+    pull = abs(pull + ((value - f.centre) * f.scale / f.sigma**2 if f.sigma else 0.0))
+    return f.scale * fit.inflation() / (pull + float(np.sqrt(pull**2 + max(curvature, 0.0) * fit.inflation())))
 
 
 def undetermined(normal: np.ndarray) -> np.ndarray:

@@ -114,7 +114,9 @@ def cut(case: Case, share: float) -> Case:
 def _first(recording: Recording, share: float) -> Recording:
     count = max(int(len(recording.time) * share), 16)
     columns = {n: v[:count] for n, v in recording.columns.items()}
-    return replace(recording, name=f"{recording.name}@{share:g}", time=recording.time[:count], columns=columns)
+    time, name = recording.time[:count], f"{recording.name}@{share:g}"
+    drives = {c: (t[t <= time[-1]], v[t <= time[-1]]) for c, (t, v) in recording.drives.items()}
+    return replace(recording, name=name, time=time, columns=columns, drives=drives)
 
 
 def _share(case: Case) -> float:

@@ -25,8 +25,7 @@ from lacuna.suggest import did_you_mean, suggestion
 
 RTOL, LEAST_RTOL, FINER = 1e-6, 1e-9, 0.1  # of the solver: usual, least, and the step from one to the next finer one
 NEGLIGIBLE = 1e-3  # RMS of the solver's errors, in units of noise; friction that is added makes ten times as much of it
-STEPS_PER_SAMPLE, STEPS_PER_SECOND = 40, 8000  # a run that needs more is given up: its parameters are absurd
-MOST_STEPS = 1_000_000  # some seconds; a fit makes a hundred runs, and a search has ten minutes
+STEPS_PER_SAMPLE, STEPS = 40, 1_000_000  # a run that needs more of both is given up: its parameters are absurd
 STEPS_GROWTH = 10  # so is a hypothesis that needs so many times the steps of the model it amends
 
 
@@ -204,9 +203,7 @@ class Machine:
             )  # fmt: skip
 
     def _step_limit(self, recording: Recording) -> int:
-        duration = float(recording.time[-1] - recording.time[0])
-        largest = int(max(STEPS_PER_SAMPLE * len(recording.time), STEPS_PER_SECOND * duration))
-        return min(largest, MOST_STEPS, self.step_limits.get(recording.name, largest))
+        return self.step_limits.get(recording.name, max(STEPS_PER_SAMPLE * len(recording.time), STEPS))
 
     def _inputs_of(self, recording: Recording) -> dict[str, RecordedInput]:
         with self._lock:
@@ -281,18 +278,23 @@ def _differ(
 
 
 def _recorded(signal: Signal, recording: Recording) -> RecordedInput:
-    values = recording.columns[signal.column]
+    time, values = recording.drive(signal.column)
     good = np.isfinite(values)
     if good.all():  # the samples themselves: every model of a case shares them
-        return RecordedInput(recording.time, values, signal.interpolation)
-    return RecordedInput(recording.time[good], values[good], signal.interpolation)
+        return RecordedInput(time, values, signal.interpolation)
+    return RecordedInput(time[good], values[good], signal.interpolation)
+
+
+def richer(case: Case, amendment: Amendment, base: Machine) -> Machine:
+    """A machine that is simulated as `base` is, in no more than so many times its steps."""
+    samples = {r.name: len(r.time) for r in case.fit}
+    limits = {name: STEPS_GROWTH * max(steps, 1000, samples.get(name, 0)) for name, steps in base.steps.items()}
+    return Machine(case, amendment, base.solver, step_limits=limits, rtol=base.rtol)
 
 
 def try_machine(case: Case, amendment: Amendment, base: Machine) -> tuple[Machine | None, str]:
-    """A richer machine than `base`, or None and why it cannot be built (a hypothesis that does not fit this model)."""
-    samples = {r.name: len(r.time) for r in case.fit}
-    limits = {name: STEPS_GROWTH * max(steps, 1000, samples.get(name, 0)) for name, steps in base.steps.items()}
+    """The same, or None and why it cannot be built (a hypothesis that does not fit this model)."""
     try:
-        return Machine(case, amendment, base.solver, step_limits=limits, rtol=base.rtol), ""
+        return richer(case, amendment, base), ""
     except (Diagnostic, CompilerError, SimulationError, CaseError) as error:
         return None, str(error)

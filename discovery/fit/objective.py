@@ -20,7 +20,9 @@ SETTLED = 0.02  # relative change of a signal's level at which weights are taken
 
 def noise_of(case: Case) -> dict[str, Noise]:
     """Noise of every output, as given or as estimated from the recordings that may be fitted."""
-    return {s.column: estimate([r.columns[s.column] for r in case.fit], s.noise_std) for s in case.outputs}
+    return case.noise or {
+        s.column: estimate([r.columns[s.column] for r in case.fit], s.noise_std) for s in case.outputs
+    }
 
 
 class Objective:

@@ -15,7 +15,7 @@ import numpy as np
 
 from lacuna.discovery.case.cases import Recording
 from lacuna.discovery.case.noise import Noise
-from lacuna.discovery.case.values import start_name, state_of
+from lacuna.discovery.case.values import is_start, start_name, state_of
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import Objective, noise_of
 from lacuna.discovery.fit.solver.free import Free
@@ -37,7 +37,7 @@ def _start(
     column, name = machine.recorded(state), start_name(state, recording)
     if sample is not None and column:
         std = noise[column].std
-        return Free(name, sample, std, sigma=std, step=1.0)
+        return Free(name, sample, std, sigma=std if state in machine.model.states else None, step=1.0)
     seen = recording.columns[column] if column else np.zeros(0)
     seen = seen[np.isfinite(seen)]
     guess = float(seen[0]) if len(seen) else 0.0
@@ -53,6 +53,14 @@ def with_starts(machine: Machine, recording: Recording, values: Mapping[str, flo
     objective = Objective(machine, [recording], noise_of(machine.case))
     found = solve(Problem(missing, objective, 1, dict(values)))
     return dict(values) | (found.point if found else {})
+
+
+def as_known_to(machine: Machine, free: list[Free]) -> list[Free]:
+    """Free values with no belief in a start that this machine tells from what was recorded: a hypothesis that adds to
+    an equation such as v = vC makes two variables of them, and the first sample is of the one that is no state."""
+    return [
+        replace(f, sigma=None) if is_start(f.name) and state_of(f.name) not in machine.model.states else f for f in free
+    ]
 
 
 def in_doubt(machine: Machine, free: list[Free], variable: str) -> list[Free]:

@@ -40,6 +40,7 @@ class Form:
     of: tuple[str, ...]
     exponent: float = 0.0
     between: bool = False  # its variable is what one place has over another
+    commanded: bool = False  # its variable is a command, in the unit of what the term gives
 
 
 FORMS = (
@@ -69,6 +70,8 @@ FORMS = (
     Form("overflow", r"^abs\(abs\(X - \S+\) \+ X - \S+\)\^1.5$", ("m3/s",), ("m",)),
     Form("loss.turbulent", POWER, LEVEL, FLOW, 2.0),
     Form("end_stop", r"^X\*\(1 \+ sign\((?:abs|-)?Y - \S+\)\)$", FORCE, SPEED),
+    Form("drive.deadband", r"^\(abs\(X \+ \S+\) - abs\(X - \S+\)\)$", ANY, ANY, commanded=True),
+    Form("drive.saturation", BEYOND, ANY, ANY, commanded=True),
     Form("backlash", r"^\(abs\(X \+ \S+\) - abs\(X - \S+\)\)$", FORCE, PLACE, between=True),
     Form("backlash", r"^X\*\(1 - sign\(absY - \S+\)\)$", FORCE, SPEED, between=True),
 )
@@ -114,11 +117,15 @@ def _named(text: str, variables: Sequence[Variable], gives: str, shapes: Mapping
     plain = plain.replace("absX", "abs(X)")
     for form in FORMS:
         found = re.match(form.text, plain)
-        if not found or (form.between and not first.minus):
+        if not found or (form.between and not first.minus) or (form.commanded and not _is_command(first, gives)):
             continue
         if _alike(gives, form.gives) and _alike(first.unit, form.of) and _has(form, found, shapes):
             return form.name
     return ""
+
+
+def _is_command(variable: Variable, gives: str) -> bool:
+    return variable.kind == "input" and _alike(gives, (variable.unit,))
 
 
 def _has(form: Form, found: re.Match, shapes: Mapping[str, float]) -> bool:

@@ -22,9 +22,9 @@ model FlightControl "Whole flight control actuator: position, speed and current 
   parameter Real Ki_i(final min=0, final unit="Ohm/s") = 500 "Integral gain of the current loop";
   input Types.Angle theta_cmd "Commanded angle of the surface";
   input Types.Torque T_aero "Load on the surface, against positive angle";
-  Components.Control.PositionController controller(N=N, Kp=Kp, w_max=wmax, Kw=Kw, Ki=Ki, i_max=i_max, onset=1e-4)
+  Components.Control.PositionController controller(N=N, Kp=Kp, w_max=wmax, Kw=Kw, Ki=Ki, i_max=i_max, final onset=1e-4)
     "Position and speed loops";
-  Components.Drives.AveragedDrive drive(V=Vdc, i_max=i_max, Kp=Kp_i, Ki=Ki_i, onset=1e-4) "Current loop and inverter";
+  Components.Drives.AveragedDrive drive(V=Vdc, i_max=i_max, Kp=Kp_i, Ki=Ki_i, final onset=1e-4) "Current loop and inverter";
   Components.Electrical.SignalVoltage supply "Bus";
   Components.Electrical.Ground ground "Reference potential";
   Components.Drives.StarWinding winding(R=R, L=L, Ke=Ke, pp=pp) "Stator";

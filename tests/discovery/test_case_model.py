@@ -105,6 +105,33 @@ def test_a_class_in_a_package_file_and_in_a_package_folder(tmp_path: Path) -> No
         assert simulated(case) == pytest.approx(1.0, abs=0.15)
 
 
+PLANT = """package Plant
+  model Wall "Loses heat" parameter Real G(unit="W/K") = 2; parameter Real a(unit="1") = 1; Real q(unit="W");
+    input Real dT(unit="K") = 1; equation q = a*G*dT; end Wall;
+  model Tank
+    parameter Real A(unit="m2") = 0.01;
+    parameter Real k(unit="m2/s") = 3e-4;
+    parameter Real G(unit="W/K") = 3;
+    input Real q(unit="m3/s");
+    Real h(unit="m", start=0.2, fixed=true);
+    Wall north(G=2*2.5), south(G=G), east[2](G={5.0, 6.0}), west;
+  equation
+    A*der(h) = q - k*h;
+  end Tank;
+end Plant;
+"""
+
+
+def test_what_is_believed_is_what_the_model_writes(tmp_path: Path) -> None:
+    """Its own parameters, and numbers that it gives to its components; what a component's class says is exact."""
+    folder = tank_case(tmp_path, "Plant.mo:Plant.Tank", source="")
+    (folder / "Plant.mo").write_text(PLANT, encoding="utf-8")
+    case = load(folder)
+    free, _ = believed(case, Machine(case, Amendment(read(case.library(), case.base))))
+    sigmas = {f.name: f.sigma for f in free if f.name.endswith("G") or "." in f.name}
+    assert sigmas == pytest.approx({"G": 0.15, "north.G": 0.25, "east[1].G": 0.25, "east[2].G": 0.3})
+
+
 def test_a_library_given_to_the_command(tmp_path: Path) -> None:
     folder = tmp_path / "lib" / "Works"
     folder.mkdir(parents=True)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2] / "discovery"
-MOST = 194  # lower it where one goes
+MOST = 193  # lower it where one goes
 
 
 def _is_number(node: ast.expr) -> bool:

@@ -7,7 +7,7 @@ import pytest
 from scipy.signal import lfilter
 
 from lacuna.discovery.case.noise import Noise, sample_weights
-from lacuna.discovery.fit.evidence import holds, is_noise, like_noise, pays, whiteness
+from lacuna.discovery.fit.evidence import holds, is_noise, like_noise, pays, repeats, whiteness
 
 N = 8000
 white = np.random.default_rng(3).standard_normal(N)
@@ -63,6 +63,19 @@ def test_what_fits_holds_only_if_unseen_recordings_are_noise_too(unseen: float, 
     noise = {"i": Noise(1.0, 0.0, True), "w": Noise(1.0, 0.0, given)}
     judged = {"": 0.02, "i": 0.02, "w": 0.01 * unseen}
     assert holds(judged, floor, noise) == passes
+
+
+@pytest.mark.parametrize(("times", "memory", "given", "passes"), [
+    (1.15, 1, False, True), (3.0, 1, False, False), (1.15, 1, True, True), (1.25, 1, True, False),
+    (1.4, 400, False, True), (1.4, 400, True, False), (3.0, 400, False, False),
+])  # fmt: skip
+def test_noise_of_an_unknown_level_leaves_as_much_in_unseen_recordings(
+    times: float, memory: int, given: bool, passes: bool
+) -> None:
+    """Its level is what the fit leaves: more elsewhere is physics, but for the scatter of few independent samples."""
+    noise = {"i": Noise(1.0, 0.0, given)}
+    found = SimpleNamespace(noise=noise, counts=lambda: {"i": N}, correlation=lambda: {"i": memory})
+    assert repeats({"i": times * 0.03}, {"i": 0.03}, found, N) == passes
 
 
 def encoder(angle: np.ndarray) -> SimpleNamespace:

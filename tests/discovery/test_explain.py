@@ -159,18 +159,20 @@ def test_a_finding_that_is_certain_makes_the_verdict_though_another_is_tied(expl
 
 
 @pytest.mark.parametrize(
-    ("left", "level", "verdict"),
-    [(0.9, 300.0, "undetermined"), (0.9, 1.5, "missing_physics"), (0.7, 300.0, "missing_physics")],
-)
-def test_a_finding_that_leaves_nearly_all_far_above_noise_is_no_diagnosis(
-    explained: Explanation, left: float, level: float, verdict: str
+    ("left", "noise", "verdict"),
+    [(0.9, 0.01, "undetermined"), (0.7, 0.01, "missing_physics"), (0.9, 0.85, "missing_physics"),
+     (0.9, 1.1, "undetermined")],
+)  # fmt: skip
+def test_a_finding_that_leaves_nearly_all_that_is_above_noise_is_no_diagnosis(
+    explained: Explanation, left: float, noise: float, verdict: str
 ) -> None:
-    final = replace(explained.final, level=dict.fromkeys(explained.final.level, level))
-    after = replace(explained.after, validate={n: left * v for n, v in explained.before.validate.items()})
-    result = replace(explained, final=final, after=after, reason="", experiment="")
+    before = explained.before.validate
+    after = replace(explained.after, validate={n: left * v for n, v in before.items()})
+    floor = dict.fromkeys(explained.floor, noise * before[""])
+    result = replace(explained, after=after, floor=floor, reason="", experiment="")
     _conclude(result)
     assert result.verdict == verdict
-    assert ("takes only 10% of the error" in result.reason) == (verdict == "undetermined")
+    assert ("of the error on unseen" in result.reason) == (verdict == "undetermined")
     assert bool(result.experiment) == (verdict == "undetermined")
 
 

@@ -92,3 +92,20 @@ def test_a_level_is_not_told_from_dry_friction_of_what_never_turns(
     place = Site(Place("equation", "a = b"), "body", gives, (speed,))
     assert attach(Law(place, (Group(("1",)),))).alike == alike
     assert attach(Law(place, (Group((speed.scaled,)),))).alike == ("", "")
+
+
+BOTH_WAYS = (Shape("q", "1", 0.1, 0.01, 0.99),)
+LOST = Group(("(abs((x1/x1_ref) + {q}) - abs((x1/x1_ref) - {q}))",), BOTH_WAYS)
+BEYOND = Group(("((x1/x1_ref) - 0.5*abs((x1/x1_ref) + {q}) + 0.5*abs((x1/x1_ref) - {q}))",), BOTH_WAYS)
+
+
+@pytest.mark.parametrize(
+    ("gives", "kind", "group", "form"),
+    [
+        ("V", "input", LOST, "drive.deadband"), ("V", "input", BEYOND, "drive.saturation"),
+        ("V", "state", LOST, ""), ("A", "input", LOST, ""),
+    ],
+)  # fmt: skip
+def test_a_command_that_is_lost_in_part_is_a_drive_s(gives: str, kind: str, group: Group, form: str) -> None:
+    variable = Variable("x1", "u", "V", kind, 2.0)
+    assert Law(Site(Place("input", "u"), "u", gives, (variable,)), (group,)).form({"q_1": 0.1}) == form

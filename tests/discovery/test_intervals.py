@@ -12,11 +12,11 @@ from lacuna.discovery.case.noise import Noise, last_digit, sample_weights
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.fit.fit import fit
-from lacuna.discovery.fit.intervals import covariance
+from lacuna.discovery.fit.intervals import covariance, from_bound
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.secants import input_shift
 from lacuna.discovery.fit.solver.free import Free
-from lacuna.discovery.fit.solver.least_squares import Problem, solve
+from lacuna.discovery.fit.solver.least_squares import Estimate, Problem, solve
 from lacuna.discovery.steps import fit_believed
 
 from .conftest import BELIEVED, write_case
@@ -38,6 +38,24 @@ def fitted(measured: np.ndarray, shape: np.ndarray, noise: Noise) -> SimpleNames
         residuals={"r": residual}, correlation=lambda: {"angle": 1.0},
         machine=SimpleNamespace(case=SimpleNamespace(fit=[SimpleNamespace(name="r", columns={"angle": measured})])),
     )  # fmt: skip
+
+
+@pytest.mark.parametrize("pushed", [0.0, 0.8, 5.0])  # by how many sigmas the data lies beyond the bound
+def test_at_a_bound_one_sigma_is_where_the_cost_has_risen_by_one(pushed: float) -> None:
+    """The cost of the best line with a slope that far inside is one more, whatever pushes the slope to its bound."""
+    x = np.linspace(0.0, 1.0, 400)
+    sigma = 1.0 / np.sqrt(np.sum((x - x.mean()) ** 2))
+    y = 3.0 + pushed * sigma * x
+
+    def best(slope: Free) -> Estimate:
+        problem = Problem([Free("level", 0.0, 1.0), slope], lambda v, _: y - v["level"] - v["slope"] * x, 1)
+        return solve(problem, tolerance=1e-12)
+
+    here = best(Free("slope", -0.1, 0.3, upper=0.0))
+    assert here.at_bound("slope")
+    inside = from_bound(SimpleNamespace(estimate=here, inflation=lambda: 1.0), 1)
+    there = best(Free("slope", -inside, 0.3, lower=-inside, upper=-inside))
+    assert there.cost - here.cost == pytest.approx(1.0, rel=1e-3)
 
 
 def test_the_last_digit_of_a_column_is_that_of_its_recordings_together() -> None:

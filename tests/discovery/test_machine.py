@@ -11,12 +11,14 @@ import pytest
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.case.noise import Noise
+from lacuna.discovery.case.values import is_start
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
-from lacuna.discovery.efforts.opened import opened
+from lacuna.discovery.efforts.opened import RENAMES, opened
 from lacuna.discovery.fit.fit import believed
 from lacuna.discovery.fit.machine import LEAST_RTOL, RTOL, Machine, try_machine
 from lacuna.discovery.fit.objective import noise_of
+from lacuna.discovery.fit.starts import as_known_to
 
 from .test_efforts import BELIEVED, cascade
 
@@ -73,8 +75,16 @@ def test_a_start_recorded_by_another_name_of_its_state(tmp_path: Path) -> None:
     named = toml.read_text().replace("[signals.upper]", '[signals.upper]\nvariable = "level"')
     toml.write_text(named + '[initial]\nlevel = "recorded"\n')
     case = load(folder)
-    door = opened(case, Amendment(read(case.library(), case.base)), case.library(), ["k"])
+    known = Machine(case, Amendment(read(case.library(), case.base)))
+    door = opened(case, known.amendment, case.library(), ["k"])
     assert any(s.label.startswith("level = upper") for s in door.sites)
-    first = case.fit[0]
-    run = door.machine.trajectory({"A": 0.01, "B": 0.02, "k": 3e-4}, first, ["upper", "level"])
+    point, first = {"A": 0.01, "B": 0.02, "k": 3e-4}, case.fit[0]
+    tried = [s.label for place in door.places(door.linear.along(point, first)) for s in place.sites]
+    assert "level = upper" not in tried and dict(door.closed)["level = upper"] == RENAMES  # nothing else reads it
+    run = door.machine.trajectory(point, first, ["upper", "level"])
     assert run["upper"][0] == run["level"][0] == first.columns["upper"][0]
+    starts = [f for f in believed(case, known)[0] if is_start(f.name)]
+    assert starts and all(f.sigma for f in starts)
+    split = as_known_to(door.machine, starts)  # what the effort adds at the first sample, nobody knows
+    assert [f.name for f in split] == [f.name for f in starts] and not any(f.sigma for f in split)
+    assert as_known_to(known, starts) == starts

@@ -5,6 +5,7 @@ from __future__ import annotations
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws import screening
@@ -109,3 +110,12 @@ def test_what_strains_beliefs_is_offered_by_itself_and_what_nobody_would_believe
     )
     assert screening._refined(regression, range(3)) == [(0,)]
     assert screening._refined(regression, range(3), strained=True) == [(1,)]
+
+
+@pytest.mark.parametrize(("unit", "turns", "offered"), [("rad", 40.0, True), ("rad", 1.0, False), ("m", 40.0, False)])
+def test_along_many_turns_the_orders_of_a_turn_are_tried(unit: str, turns: float, offered: bool) -> None:
+    """Twelve cogs a turn: no wave number over the whole range comes near, and the order of a turn is exact."""
+    angle = Variable("x1", "phi", unit, "state", 100.0)
+    every = groups([angle], {"x1": (0.0, turns * 2 * np.pi / 100.0)}, 0.01, 10.0)
+    numbers = [g.shapes[0].start / 100.0 for g in every if g.texts[0].startswith("sin(")]
+    assert any(n == pytest.approx(12.0, rel=1e-9) for n in numbers) == offered

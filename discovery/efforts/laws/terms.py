@@ -41,7 +41,7 @@ def groups(
             result += _alone(v) if low < 0 < high else _of_one_sign(v, low > AWAY or high < -AWAY)
         result += [g for rate in found if rate.local == v.rate for g in _contacts(v, rate, low < 0 < high)]
         if v.kind == "state":
-            result += _waves(v, high - low) + _varying(v, interval, duration)
+            result += _waves(v, high - low) + _turning(v, high - low) + _varying(v, interval, duration)
     plain = [v for v in found if v.kind not in ("apart", "above")]
     for a in plain:
         for b in plain:
@@ -104,11 +104,11 @@ def _alone(v: Variable) -> list[Group]:
     ]  # fmt: skip
     ends += [
         Group((f"({x} - 0.5*abs({x} + {{q}}) + 0.5*abs({x} - {{q}}))",), (Shape("q", "1", q, 0.01, 0.99, (), 0.25),))
-        for q in (0.25, 0.5, 0.75)
+        for q in (1 / 16, 0.25, 0.5, 0.75)
     ]  # both ways
     ends += [
         Group((f"(abs({x} + {{q}}) - abs({x} - {{q}}))",), (Shape("q", "1", q, 0.01, 0.99, (), 0.25),))
-        for q in (0.25, 0.5, 0.75)
+        for q in (1 / 16, 0.25, 0.5, 0.75)
     ]  # up to a limit either way
     stribeck = Group((v.dry, f"{v.dry}*exp(-abs{x}/{{q}})"), (Shape("q", "1", 0.1, 0.01, 1.0, (), 0.08),))
     plain = [Group((x,)), Group((f"abs{x}",)), Group((f"{x}^2",)), Group((v.dry,))]
@@ -174,6 +174,18 @@ def _waves(v: Variable, span: float) -> list[Group]:
             (Shape("k", "1", float(k), 0.5 * k, 2.0 * k, (), step),),
         )
         for k in numbers
+    ]
+
+
+def _turning(v: Variable, span: float) -> list[Group]:
+    """Waves along an angle of so many turns that others are not tried: orders of a turn, as poles, slots and teeth make
+    them: whole ones, and above two dozen multiples of six, of three phases and two directions."""
+    if v.unit != "rad":
+        return []
+    orders = [m for m in (*range(1, 25), *range(30, 97, 6)) if m * span * v.size > 2 * np.pi * CYCLES]
+    return [
+        Group((f"sin({{k}}*{v.scaled})", f"cos({{k}}*{v.scaled})"), (Shape("k", "1", k, 0.9 * k, 1.1 * k, (), 0.0),))
+        for k in (m * v.size for m in orders)
     ]
 
 

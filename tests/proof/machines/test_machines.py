@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from lacuna.recorded_units import ZERO_CELSIUS, to_si
 from lacuna.runtime import Model, RecordedInput, simulate
 from tests.proof.machines import machine as truth
 from tests.proof.machines import plan, strangers
+from tests.proof.machines import truth as truths
 
 MACHINES = (*plan.MACHINES, *strangers.MACHINES)
 SAMPLES = 60
@@ -49,3 +51,20 @@ def test_the_plans_have_every_effect_once_and_a_null_of_each_kind(seed: int) -> 
     assert sorted(effects) == sorted((m.name, k) for m in machines for k in range(len(m.hidden)))
     for kind in ("consistent", "parameters"):
         assert sorted(p.machine.name for p in cases if p.kind == kind) == sorted(m.name for m in machines)
+
+
+def test_of_two_effects_none_is_what_a_believed_parameter_stands_in_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    """y = k u with a term in u that k takes up, and one in u^3 that it does not."""
+    drive = {"u": np.linspace(-1, 1, 50)[:, None]}
+
+    def run(_: object, values: dict, drive: dict, hidden: tuple) -> dict:
+        return {"y": values["k"] * drive["u"] + sum(q * drive["u"] ** power for power, q in hidden)}
+
+    def case(*hidden: tuple[int, float]) -> SimpleNamespace:
+        machine = truth.Machine("", "", "", "", {"k": truth.Parameter(2.0, "1", 0.1)}, {}, {}, {}, None, (), 1.0)
+        return SimpleNamespace(machine=machine, substeps=1, recordings=1, true={"k": 2.0}, drive=drive, hidden=hidden,
+                               outputs=("y",), noise={"y": 0.01})  # fmt: skip
+
+    monkeypatch.setattr(truths, "simulate", run)
+    assert truths.each_shows(case((3, 0.3), (5, 0.3)), slice(0, 1))
+    assert not truths.each_shows(case((1, 0.3), (3, 0.3)), slice(0, 1))

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from tests.proof.machines.generate import Drawn
 
 FINEST = 32  # times the machine's own steps, that its truth may need
+STEP = 0.01  # believed sigmas, by which a parameter is moved for its response
 TRUE = 0.1  # of the noise, by which a truth may differ from that of half the step
 
 
@@ -44,16 +45,27 @@ def truth(case: Drawn) -> dict[str, np.ndarray] | None:
 
 
 def each_shows(case: Drawn, fit: slice) -> bool:
-    """Whether the fit recordings, each effect of several taken away, move by the noise of some output."""
+    """Whether the fit recordings, each effect of several taken away, move by the noise of some output, and by more than
+    parameters within their beliefs stand in for (to first order): what they do is no physics that anyone could find."""
     if len(case.hidden) < 2:
         return True
     values = columns(case.true, case.recordings)
     machine = replace(case.machine, substeps=case.substeps)
-    whole = simulate(machine, values, case.drive, case.hidden)
+
+    def outputs(values: dict[str, np.ndarray], hidden: tuple) -> np.ndarray:
+        run = simulate(machine, values, case.drive, hidden)
+        return np.stack([run[n][:, fit] / case.noise[n] for n in case.outputs])
+
+    whole = outputs(values, case.hidden)
+    believed = {n: p.sigma for n, p in machine.parameters.items() if p.sigma}
     for left_out in case.hidden:
         others = tuple(h for h in case.hidden if h is not left_out)
-        without = simulate(machine, values, case.drive, others)
-        moved = [np.sqrt(np.mean((whole[n] - without[n])[:, fit] ** 2)) / case.noise[n] for n in case.outputs]
-        if max(moved) < 1.0:
+        without = outputs(values, others)
+        moved = [outputs(values | {n: values[n] * (1 + STEP * s)}, others) for n, s in believed.items()]
+        answers = np.stack([((m - without) / STEP).ravel() for m in moved], axis=1)
+        shown = (whole - without).ravel()
+        normal = answers.T @ answers + np.eye(len(believed))  # in believed sigmas
+        left = (shown - answers @ np.linalg.solve(normal, answers.T @ shown)).reshape(whole.shape)
+        if np.sqrt(np.mean(left**2, axis=(1, 2))).max() < 1.0:
             return False
     return True
