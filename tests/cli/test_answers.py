@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from pathlib import Path
+import signal
+import subprocess
+import sys
 
 import pytest
 from typer.testing import CliRunner
@@ -38,3 +41,9 @@ def test_rows_of_a_map_s_folder_that_are_not_ours_stay(tmp_path: Path) -> None:
     store._folder, store.key = tmp_path / "rows", "key"
     store.prune([])
     assert mine.exists()
+
+
+def test_ctrl_c_while_the_commands_are_imported_is_one_word() -> None:
+    code = "import lacuna.cli, os, signal; os.kill(os.getpid(), signal.SIGINT); import time; time.sleep(9)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False)
+    assert (done.stderr, done.returncode) == ("interrupted\n", -signal.SIGINT)
