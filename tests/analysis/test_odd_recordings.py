@@ -183,3 +183,12 @@ def test_a_name_in_two_groups_is_refused(tmp_path: Path) -> None:
         file.write_segment([nptdms.ChannelObject(g, "u", TIME, properties={"wf_increment": 0.1}) for g in "ab"])
     with pytest.raises(RecordingError, match="u occurs more than once"):
         read_recorded(tmp_path / "w.tdms")
+
+
+def test_a_file_whose_parts_do_not_fit_is_refused_in_a_sentence(tmp_path: Path) -> None:
+    """As one of our own layout that was damaged, or made by hand: NumPy's error was a fault of ours."""
+    from scipy.io import savemat
+
+    savemat(tmp_path / "r.mat", {"time": TIME, "names": ["a", "b"], "data": np.zeros((len(TIME) + 2, 2))})
+    with pytest.raises(RecordingError, match=r"r.mat: damaged, or laid out as no recording is \(ValueError"):
+        read_recorded(tmp_path / "r.mat")
