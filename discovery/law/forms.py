@@ -100,7 +100,7 @@ def picked(
     """Nats of a group's name among all groups that a law at a place may have; `offered`: how many kinds there are of
     one variable and of several. A constant, where the zero of the others lies, is of the known ones."""
     if tuple(texts) == ("1",) or any(_named(text, variables, gives, {}) for text in texts):
-        known = sum(_alike(gives, f.gives) and _alike(v.unit, f.of) for f in FORMS for v in variables)
+        known = sum(_may_be(f, gives, v) for f in FORMS for v in variables)
         return math.log(KINDS * (1 + known))
     several = len({v.local for v in variables for text in texts if f"{v.local}_ref" in text}) > 1
     return math.log(KINDS * max(offered[several], 1))
@@ -117,15 +117,17 @@ def _named(text: str, variables: Sequence[Variable], gives: str, shapes: Mapping
     plain = plain.replace("absX", "abs(X)")
     for form in FORMS:
         found = re.match(form.text, plain)
-        if not found or (form.between and not first.minus) or (form.commanded and not _is_command(first, gives)):
+        if not found or (form.between and not first.minus):
             continue
-        if _alike(gives, form.gives) and _alike(first.unit, form.of) and _has(form, found, shapes):
+        if _may_be(form, gives, first) and _has(form, found, shapes):
             return form.name
     return ""
 
 
-def _is_command(variable: Variable, gives: str) -> bool:
-    return variable.kind == "input" and _alike(gives, (variable.unit,))
+def _may_be(form: Form, gives: str, of: Variable) -> bool:
+    """Whether an effort of a unit may be a form's of a variable."""
+    commanded = of.kind == "input" and _alike(gives, (of.unit,))
+    return _alike(gives, form.gives) and _alike(of.unit, form.of) and (commanded or not form.commanded)
 
 
 def _has(form: Form, found: re.Match, shapes: Mapping[str, float]) -> bool:
