@@ -95,7 +95,7 @@ def _place_switches(result: Explanation, progress: Progress) -> None:
         machine = result.base.machine.amended(result.base.machine.amendment, case)
         result.case, (result.base, result.lead) = case, fit_believed(case, machine)
     for column in sorted({c for r in result.case.fit for c in r.drives} - before):
-        text = "it switches between samples: it was taken to where the outputs tell when"
+        text = "its steps fall between samples: each was taken to come when the outputs say that it did"
         result.problems.append(Problem("switches", result.case.fit[0].name, column, None, text, False))
 
 
