@@ -18,6 +18,7 @@ from lacuna.discovery.experiment.proposal import propose
 from lacuna.discovery.explanation.contenders import contenders
 from lacuna.discovery.explanation.explanation import Clock, Explanation
 from lacuna.discovery.fit.evidence import (
+    CLEARLY,
     astray,
     is_noise,
     like_noise,
@@ -88,9 +89,8 @@ def _conclude(result: Explanation) -> None:
     if result.instead and not _equations_may_be_wrong(result) and _holds(result):
         result.verdict = "missing_physics"
         return
-    if result.findings and _accuses_sensors(result) and nearly_noise(result.base):
-        _believe_again(result)  # an error of an instrument that is smaller than its noise is no finding
-    if result.findings and _is_colour(result):
+    small = _accuses_sensors(result) and nearly_noise(result.base)  # an error that is smaller than its noise is none
+    if result.findings and (small or _is_colour(result)):
         _believe_again(result)
     if result.findings:
         _conclude_from_findings(result)
@@ -165,9 +165,9 @@ def _conclude_from_findings(result: Explanation) -> None:
 
 
 def _taken(result: Explanation) -> float:
-    """Share of the NRMSE above noise, on unseen recordings, that the findings take away."""
+    """Share of the unseen NRMSE above noise, known no better than CLEARLY tells, that the findings take away."""
     before, noise = result.before.validate[""], float(np.sqrt(np.mean([f**2 for f in result.floor.values()])))
-    return (before - result.after.validate[""]) / (before - noise) if before > noise else 0.0
+    return (before - result.after.validate[""]) / (before - min(noise, CLEARLY * before))
 
 
 def _efforts(result: Explanation) -> list[float]:

@@ -161,7 +161,7 @@ def test_a_finding_that_is_certain_makes_the_verdict_though_another_is_tied(expl
 @pytest.mark.parametrize(
     ("left", "noise", "verdict"),
     [(0.9, 0.01, "undetermined"), (0.7, 0.01, "missing_physics"), (0.9, 0.85, "missing_physics"),
-     (0.9, 1.1, "undetermined")],
+     (0.9, 1.1, "missing_physics"), (0.98, 1.1, "undetermined")],
 )  # fmt: skip
 def test_a_finding_that_leaves_nearly_all_that_is_above_noise_is_no_diagnosis(
     explained: Explanation, left: float, noise: float, verdict: str
