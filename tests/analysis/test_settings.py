@@ -23,7 +23,7 @@ def test_the_papers_settings():
         ("duration = 1.0", "", "recording.duration is missing"),
         ("duration = 1.0", "length = 1.0", "recording.length is not known"),
         ("step = 0.01", "step = -1.0", "fault.step is -1.0, not a number above zero"),
-        ("last = 0.5", "last = 1" + 400 * "0", "fault.last is 1000"),
+        ("last = 0.5", "last = 1" + 400 * "0", "a whole number of more than 18 digits"),
         ("step = 0.01", "step = nan", "fault.step is nan, not a number above zero"),
         ("step = 0.01", "step = 1e-9", "more than 100000 tests"),
         ("sampling_rate = 100000.0", "sampling_rate = 1e9", "more than 1024 MB a test"),

@@ -44,6 +44,7 @@ def test_rows_of_a_map_s_folder_that_are_not_ours_stay(tmp_path: Path) -> None:
 
 
 def test_ctrl_c_while_the_commands_are_imported_is_one_word() -> None:
-    code = "import lacuna.cli, os, signal; os.kill(os.getpid(), signal.SIGINT); import time; time.sleep(9)"
+    heard = "import os, signal, time; signal.signal(signal.SIGINT, signal.default_int_handler)"  # unlike in background
+    code = f"{heard}; import lacuna.cli; os.kill(os.getpid(), signal.SIGINT); time.sleep(9)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False)
     assert (done.stderr, done.returncode) == ("interrupted\n", -signal.SIGINT)

@@ -38,7 +38,7 @@ role = "output"
 unit = "Pa"
 [recordings]
 fit = ["r.csv"]
-validate = ["r.csv"]
+validate = ["other.csv"]
 """
 
 
@@ -47,7 +47,8 @@ def test_a_loss_in_a_line_is_a_place_beside_a_leak(tmp_path: Path) -> None:
     (tmp_path / "Line.mo").write_text(LINE, encoding="utf-8")
     (tmp_path / "case.toml").write_text(CASE, encoding="utf-8")
     rows = [f"{0.01 * k:.2f},{3e-4 * (1 + k // 20 % 2)},{k}" for k in range(100)]
-    (tmp_path / "r.csv").write_text("\n".join(["time,q,pa", *rows]) + "\n", encoding="utf-8")
+    for name in ("r.csv", "other.csv"):
+        (tmp_path / name).write_text("\n".join(["time,q,pa", *rows]) + "\n", encoding="utf-8")
     case = load(tmp_path)
     door = opened(case, Amendment(read_structure(case.library(), case.base)), case.library(), [])
     believed = {n: v.start for n, v in door.machine.model.parameters.items()}
