@@ -22,7 +22,7 @@ from lacuna.discovery.efforts.located import Guided, Locator, Site
 from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.efforts.sites import SEVERAL
-from lacuna.discovery.fit.evidence import nearly_noise, settled
+from lacuna.discovery.fit.evidence import LEFT, nearly_noise, settled
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.law.empirical_law import race, simplified, unfitted
 from lacuna.discovery.law.law_screen import Proposal
@@ -79,7 +79,8 @@ def add_laws(
     efforts = simplest([s for s in found.sites if s.place is not None and s.gain > 0 and admitted(s)])
     for site in efforts[found.tried : most]:
         enough = found.short and nearly_noise(found.laws[0].fit)
-        if efforts[0].gain - site.gain > INDIFFERENT and (enough or site.gain < WORTH * efforts[0].gain):
+        told = efforts[0].gain - site.gain > INDIFFERENT and not alike(site, efforts[0])
+        if told and (enough or site.gain < WORTH * efforts[0].gain):
             break
         found.tried += 1
         proposal, single = _law_at(case, amendment, base, found.locator, site, progress)
@@ -87,6 +88,12 @@ def add_laws(
         _put(found.single, single, base)
         if proposal is not None and found.laws[0] is proposal.candidate:
             found.short = _terms(proposal) == 1
+
+
+def alike(site: Site, best: Site) -> bool:
+    """Whether an effort at a place leaves hardly more than at another one, whatever the nats between them: to first
+    order about a run far from the data these tell apart what laws do not."""
+    return 1.0 - site.explains <= LEFT**2 * (1.0 - best.explains)
 
 
 def places_of(

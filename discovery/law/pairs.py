@@ -14,12 +14,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lacuna.discovery.catalogue.amend import Amendment
-from lacuna.discovery.efforts.find import TRIED, Found, simplest
+from lacuna.discovery.efforts.find import TRIED, Found, alike, simplest
 from lacuna.discovery.efforts.instruments import NATS
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.numeric import NotNumeric
-from lacuna.discovery.fit.evidence import LEFT, nearly_noise, pays
+from lacuna.discovery.fit.evidence import nearly_noise, pays
 from lacuna.discovery.fit.fit import Fit, linearised
 from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.law.empirical_law import fitted_law, free_of, simplified
@@ -59,9 +59,8 @@ class Place:
     def alike(self, other: Site) -> list[Place]:
         """Places at which an effort leaves hardly more than at this one: of two that are coupled stiffly a smooth
         effort, which takes no edge as sharply as a law does, may tell the wrong one by any number of nats."""
-        left = LEFT**2 * (1.0 - self.site.explains)
         near = [s for s in self.sites[:TRIED] if s is not self.site and s.location != other.location]
-        return [Place(self.locator, s, self.sites) for s in near if 1.0 - s.explains <= left]
+        return [Place(self.locator, s, self.sites) for s in near if alike(s, self.site)]
 
 
 @dataclass
@@ -154,9 +153,9 @@ class Joining:
     def elsewhere(self, best: Both, pair: tuple[Place, Place]) -> Both:
         """The same laws' best at places alike, one law after the other."""
         for place, other in (pair, pair[::-1]):
-            for alike in place.alike(other.site):
+            for near in place.alike(other.site):
                 kept = best.two if place is pair[0] else best.one
-                for law in next(alike.offered, []):
+                for law in next(near.offered, []):
                     moved = self._joint(kept, law)
                     if moved is not None:
                         moved = moved if place is pair[1] else Both(moved.two, moved.one, moved.fit)
