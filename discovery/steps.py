@@ -16,9 +16,9 @@ from lacuna.discovery.catalogue import catalogue, places
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.find import places_of
-from lacuna.discovery.efforts.latent.switches import switched
-from lacuna.discovery.efforts.linear import NEWTON
+from lacuna.discovery.efforts.latent.linear import NEWTON
 from lacuna.discovery.efforts.moved import sensor_instead
+from lacuna.discovery.efforts.switches import switched
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import astray, is_noise, nearly_noise, outside_belief
 from lacuna.discovery.fit.fit import Fit, believed, carried, falling_bandwidths, fit, linearised

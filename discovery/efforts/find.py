@@ -17,9 +17,9 @@ from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.instruments import colour_of
+from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Guided, Locator, Site
-from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.efforts.sites import SEVERAL
 from lacuna.discovery.fit.evidence import LEFT, nearly_noise, settled

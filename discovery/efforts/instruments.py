@@ -17,8 +17,8 @@ from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
 from lacuna.discovery.efforts.latent.evidence import evidence
+from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.located import SIZES, TIMES, Locator, thinned_all
-from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.fit.evidence import INSTRUMENTS, may_be_coloured
 from lacuna.discovery.fit.fit import Fit

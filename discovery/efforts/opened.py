@@ -27,9 +27,9 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.searched import write_source
 from lacuna.discovery.efforts.insertion import probe
 from lacuna.discovery.efforts.latent.along import Along
+from lacuna.discovery.efforts.latent.linear import Linear
+from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.laws.variables import MOST
-from lacuna.discovery.efforts.linear import Linear
-from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.efforts.sites import Site, exchanges, read, renames, varying
 from lacuna.discovery.fit.machine import Machine, richer
 from lacuna.units import Unit

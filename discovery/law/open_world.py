@@ -12,7 +12,7 @@ import numpy as np
 
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.efforts.find import WORTH, Found, add_laws, places_of
-from lacuna.discovery.efforts.numeric import NotNumeric
+from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.fit.evidence import like_noise, nearly_noise, within_instruments
 from lacuna.discovery.law.beyond import MARGIN
 from lacuna.discovery.law.pairs import Place, is_short, paired, two_places

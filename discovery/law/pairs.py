@@ -16,9 +16,9 @@ import numpy as np
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.find import TRIED, Found, alike, simplest
 from lacuna.discovery.efforts.instruments import NATS
+from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
-from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.fit.evidence import nearly_noise, pays
 from lacuna.discovery.fit.fit import Fit, linearised
 from lacuna.discovery.fit.machine import try_machine

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from lacuna.discovery.catalogue.amend import probe_name
-from lacuna.discovery.efforts.linear import Linear
-from lacuna.discovery.efforts.numeric import NotNumeric
+from lacuna.discovery.efforts.latent.linear import Linear
+from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.fit.fit import Fit, Objective
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import where_measured

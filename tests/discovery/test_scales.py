@@ -10,7 +10,7 @@ import pytest
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as read_structure
-from lacuna.discovery.efforts.linear import _without_rounding
+from lacuna.discovery.efforts.latent.linear import _without_rounding
 from lacuna.discovery.efforts.opened import opened
 
 LINE = """model Line "Accumulator, long line, load"

@@ -14,9 +14,9 @@ from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as read_structure
 from lacuna.discovery.efforts.find import Found
+from lacuna.discovery.efforts.latent.numeric import Evaluator, NotNumeric, table
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
-from lacuna.discovery.efforts.numeric import Evaluator, NotNumeric, table
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.explain import explain
 from lacuna.discovery.fit.fit import believed, fit

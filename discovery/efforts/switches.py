@@ -16,10 +16,10 @@ import numpy as np
 from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.efforts.latent.chains import Latent, Piece
+from lacuna.discovery.efforts.latent.linear import Linear
+from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.latent.smoother import Whitener
-from lacuna.discovery.efforts.linear import Linear
 from lacuna.discovery.efforts.located import Locator
-from lacuna.discovery.efforts.numeric import NotNumeric
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.least_squares import bounded_linear

@@ -18,7 +18,7 @@ from lacuna.codegen.symbolic.differentiate import Differentiator, partial
 from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, var
 from lacuna.discovery.case.cases import Recording
 from lacuna.discovery.efforts.latent.along import Along
-from lacuna.discovery.efforts.numeric import Evaluator, NotNumeric, Value, table
+from lacuna.discovery.efforts.latent.numeric import Evaluator, NotNumeric, Value, table
 from lacuna.discovery.fit.machine import Machine
 from lacuna.runtime import RecordedInput
 
