@@ -16,9 +16,8 @@ from lacuna.discovery.catalogue import catalogue, places
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.find import places_of
-from lacuna.discovery.efforts.latent.linear import NEWTON
 from lacuna.discovery.efforts.moved import sensor_instead
-from lacuna.discovery.efforts.switches import switched
+from lacuna.discovery.efforts.switches import switched, switches
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import astray, is_noise, nearly_noise, outside_belief
 from lacuna.discovery.fit.fit import Fit, believed, carried, falling_bandwidths, fit, linearised
@@ -47,7 +46,8 @@ def opened(case: Case, library: Library) -> tuple[Explanation, Machine | None]:
     result = Explanation(case, check_case(case))
     if not _trusted(result, "the recordings cannot be trusted"):
         return result, None
-    result.case = case = thinned(without_gaps(case))
+    whole = without_gaps(case)
+    result.case = case = thinned(whole, noise_of(whole))
     result.problems += said_of(case)
     machine = _believed_machine(case, places.read(library, case.base))
     result.problems += slips(machine)
@@ -84,19 +84,18 @@ def add_fit(result: Explanation, machine: Machine, progress: Progress) -> None:
 
 def _place_switches(result: Explanation, progress: Progress) -> None:
     """Held inputs that switch between samples, as the outputs tell beside what else the believed model lacks."""
-    if result.base.machine.amendment.trackers or not result.lead.direct:
+    base, before = result.base, result.case
+    held = any(switches(before, r) for r in before.fit)
+    if not held or base.machine.amendment.trackers or not result.lead.direct:
         return
     progress("looking for when the inputs switched between samples")
-    before = {c for r in result.case.fit for c in r.drives}
-    for _ in range(NEWTON):
-        case = switched(result.base)
-        if case is None:
-            break
-        machine = result.base.machine.amended(result.base.machine.amendment, case)
-        result.case, (result.base, result.lead) = case, fit_believed(case, machine)
-    for column in sorted({c for r in result.case.fit for c in r.drives} - before):
+    if (case := switched(base)) is None:
+        return
+    machine = base.machine.amended(base.machine.amendment, case)
+    result.case, (result.base, result.lead) = case, fit_believed(case, machine)
+    for column in sorted({s.column for r in before.fit for s in switches(before, r)}):
         text = "its steps fall between samples: each was taken to come when the outputs say that it did"
-        result.problems.append(Problem("switches", result.case.fit[0].name, column, None, text, False))
+        result.problems.append(Problem("switches", case.fit[0].name, column, None, text, False))
 
 
 def add_location(result: Explanation, progress: Progress) -> None:

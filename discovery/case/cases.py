@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 import math
 from pathlib import Path
 import re
@@ -49,8 +50,8 @@ class Recording:
     """A file, or a part of one between gaps: `time` (n,) in s and each signal's samples (n,) in SI, NaN where missing.
 
     `file` and `piece` stay where a first share of it is taken (whose name says which). Of what comes `after_gap` no
-    state is known at the first sample. `drives` has the times and samples
-    (m,) of inputs by which a run is driven, where they are others than those of their columns.
+    state is known at the first sample. `drives` has the times and samples (m,) of inputs by which a run is driven,
+    where they are others than those of their columns.
     """
 
     name: str
@@ -129,12 +130,12 @@ class Case:
     def is_uncertain(self, parameter: str) -> bool:
         """Whether a parameter has a belief: the model's own, those whose numbers it writes, what case.toml names."""
         plain = re.sub(r"\[[^]]*\]", "", parameter)
-        named = parameter in self.parameters or parameter in self.uncertainty
-        return (
-            named
-            or (parameter == plain and "." not in plain)
-            or plain in written_values(self.library().find(self.base))
-        )
+        own = parameter == plain and "." not in plain
+        return own or parameter in self.parameters or parameter in self.uncertainty or plain in self._written
+
+    @cached_property
+    def _written(self) -> set[str]:
+        return written_values(self.library().find(self.base))
 
     @property
     def inputs(self) -> list[Signal]:

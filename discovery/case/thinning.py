@@ -11,20 +11,17 @@ from dataclasses import replace
 import numpy as np
 
 from lacuna.discovery.case.cases import Case, Recording
-from lacuna.discovery.case.noise import estimate
+from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.case.recordings_check import Problem
 
-MOST = (
-    2**17
-)  # samples of a case: the answers of two outputs to thirty parameters are 60 MB then, and a search has dozens
+MOST = 2**17  # samples of a case: two outputs' answers to thirty parameters are 60 MB then, and a search has dozens
 
 
-def thinned(case: Case) -> Case:
-    """The case with no more than MOST samples; the case itself where it has no more."""
+def thinned(case: Case, noise: dict[str, Noise]) -> Case:
+    """The case, whose outputs have this noise, with no more than MOST samples; itself where it has no more."""
     every = -(-sum(len(r.time) for r in (*case.fit, *case.validate)) // MOST)
     if every == 1:
         return case
-    noise = {s.column: estimate([r.columns[s.column] for r in case.fit], s.noise_std) for s in case.outputs}
     fit, validate = ([_thinned(case, r, every) for r in rs] for rs in (case.fit, case.validate))
     return replace(case, fit=fit, validate=validate, noise=noise)
 

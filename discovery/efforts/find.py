@@ -76,7 +76,7 @@ def add_laws(
     most: int = TRIED,
 ) -> None:
     """Laws at the best places that are `admitted`, up to the `most`-th: those where none has been looked for yet."""
-    efforts = simplest([s for s in found.sites if s.place is not None and s.gain > 0 and admitted(s)])
+    efforts = simplest([s for s in found.sites if s.place is not None and admitted(s)])
     for site in efforts[found.tried : most]:
         enough = found.short and nearly_noise(found.laws[0].fit)
         told = efforts[0].gain - site.gain > INDIFFERENT and not alike(site, efforts[0])
@@ -119,9 +119,10 @@ def located(case: Case, amendment: Amendment, base: Fit, library: Library) -> Lo
         return Locator(case, door, base)
 
 
-def simplest(efforts: list[Site]) -> list[Site]:
-    """Places without those in several balances at once (what is exchanged, what varies) that do not tell clearly more
-    than any one balance."""
+def simplest(sites: list[Site]) -> list[Site]:
+    """The places, no sensors, that tell something, without those in several balances at once (what is exchanged, what
+    varies) that do not tell clearly more than any one balance."""
+    efforts = [s for s in sites if s.place is not None and s.gain > 0]
     one = max((s.gain for s in efforts if s.place.sites[0].kind not in SEVERAL), default=-np.inf)
     return [s for s in efforts if s.place.sites[0].kind not in SEVERAL or s.gain > one + INDIFFERENT]
 

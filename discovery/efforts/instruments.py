@@ -39,7 +39,7 @@ def only_instruments(case: Case, amendment: Amendment, fit: Fit) -> bool:
     False where levels are given and exceeded, where it comes in bursts, and where no place of the equations is open.
     """
     if fit.only_instruments is None:
-        locator = _locator(case, amendment, fit) if may_be_coloured(fit) else None
+        locator = locator_of(case, amendment, fit) if may_be_coloured(fit) else None
         fit.only_instruments = locator is not None and bool(locator.places) and weighed(locator) < NATS
     return fit.only_instruments
 
@@ -47,7 +47,7 @@ def only_instruments(case: Case, amendment: Amendment, fit: Fit) -> bool:
 def gained(case: Case, before: tuple[Amendment, Fit], after: tuple[Amendment, Fit]) -> float:
     """Nats that a model has over another one where what either leaves is the instruments' own: what is found in noise
     with a colour has to explain more than the colour does. Minus infinity where one cannot be opened."""
-    locators = [_locator(case, *model) for model in (before, after)]
+    locators = [locator_of(case, *model) for model in (before, after)]
     if None in locators:
         return -np.inf
     without, with_it = (_fitted(thinned_all(x.pieces, SAMPLES), _NOTHING, _worst(x))[1] for x in locators)
@@ -57,11 +57,12 @@ def gained(case: Case, before: tuple[Amendment, Fit], after: tuple[Amendment, Fi
 def log_evidence(case: Case, amendment: Amendment, fit: Fit) -> float:
     """Log evidence of a fitted model with nothing else missing, on the scale on which places are ranked. Minus infinity
     where it cannot be opened."""
-    locator = _locator(case, amendment, fit)
+    locator = locator_of(case, amendment, fit)
     return -np.inf if locator is None else float(evidence(thinned_all(locator.pieces), _NOWHERE).log[0])
 
 
-def _locator(case: Case, amendment: Amendment, fit: Fit) -> Locator | None:
+def locator_of(case: Case, amendment: Amendment, fit: Fit) -> Locator | None:
+    """Where efforts are looked for in a fitted model, about its own runs; None where it cannot be opened."""
     try:
         common = [f.name for f in fit.estimate.free if is_parameter(f.name)]
         return Locator(case, opened(case, amendment, case.library(), common, fit.machine), fit)

@@ -159,10 +159,9 @@ class Locator:
         left = np.concatenate([p.data[:, :, 0] for p in self.pieces]) / self.noise
         return np.maximum(1.0, np.sqrt(np.nanmean(left**2, axis=0)))
 
-    def _led(self, point: dict[str, float], latent: Latent, pieces: list[Piece], mean: np.ndarray) -> list[Piece]:
-        """The linear model about the runs from `point` with the efforts that these pieces say there are."""
-        runs = zip(self.case.fit, acting(pieces, latent, mean), strict=True)
-        return [self.piece(point, recording, efforts) for recording, efforts in runs]
+    def _led(self, point: dict[str, float], efforts: list[list[tuple[int, np.ndarray]]]) -> list[Piece]:
+        """The linear model about the runs from `point` with these efforts on each recording."""
+        return [self.piece(point, r, own) for r, own in zip(self.case.fit, efforts, strict=True)]
 
     def _nearer(self, latent: Latent) -> list[Piece]:
         """The linear models about runs that the effort leads ever nearer to the data, from coarse to fine: noise is
@@ -170,11 +169,11 @@ class Locator:
         held = np.array([self.point[f.name] - f.centre for f in self.free]) / self.sigma
         pieces, level, power, step = self.pieces, self._level(), 1.5, 0.5
         missed = self._size([p.data[:, :, 0] for p in pieces])
-        while power > 0.5 and step > 0.01:
+        while power > 0.5 and step > 0.1:  # a dozen runs at most
             coarse = [replace(p, noise=self.noise * level ** (power - step)) for p in pieces]
             efforts = acting(coarse, latent, held)
             try:
-                led = [self.piece(self.point, r, e) for r, e in zip(self.case.fit, efforts, strict=True)]
+                led = self._led(self.point, efforts)
                 now = self._size([p.data[:, :, 0] - _response(p.along, e) for p, e in zip(led, efforts, strict=True)])
             except (SimulationError, np.linalg.LinAlgError):
                 now = np.inf
@@ -192,7 +191,7 @@ class Locator:
         while True:
             trial = self.point | _values(self.free, self.sigma, told.mean[0])
             try:
-                led = self._led(trial, latent, pieces, told.mean[0])
+                led = self._led(trial, acting(pieces, latent, told.mean[0]))
             except SimulationError:
                 return point, pieces, told.mean[0]
             now = evidence(thinned_all(led), latent)

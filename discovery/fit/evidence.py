@@ -134,11 +134,13 @@ def repeats(unseen: Mapping[str, float], attained: Mapping[str, float], fit: Fit
     """Whether NRMSE on `samples` unseen ones are those that a fit attains on what it was fitted to, where the
     noise's level, as estimated, is in `attained`: up to what mean squares of so few independent samples scatter by."""
     counts, correlation = fit.counts(), fit.correlation()
-    return all(
-        unseen[c]
-        < (max(LEFT, _scatter(counts[c], samples, correlation[c])) if not n.given else _at_most(n)) * attained[c]
-        for c, n in fit.noise.items()
-    )
+
+    def most(column: str, noise: Noise) -> float:
+        if noise.given:
+            return _at_most(noise)
+        return max(LEFT, _scatter(counts[column], samples, correlation[column]))
+
+    return all(unseen[c] < most(c, n) * attained[c] for c, n in fit.noise.items())
 
 
 def _scatter(fitted: float, unseen: float, correlation: float) -> float:

@@ -28,7 +28,7 @@ def uncertain_starts(machine: Machine, recording: Recording, given: Mapping[str,
     """The start values of a recording to be fitted, beside those that are given."""
     unfitted = machine.unfitted_states(given, recording)
     noise = noise_of(machine.case) if unfitted else {}
-    return [_start(machine, state, sample, recording, noise) for state, sample in unfitted.items()]
+    return as_known_to(machine, [_start(machine, s, sample, recording, noise) for s, sample in unfitted.items()])
 
 
 def _start(
@@ -37,7 +37,7 @@ def _start(
     column, name = machine.recorded(state), start_name(state, recording)
     if sample is not None and column:
         std = noise[column].std
-        return Free(name, sample, std, sigma=std if state in machine.model.states else None, step=1.0)
+        return Free(name, sample, std, sigma=std, step=1.0)
     seen = recording.columns[column] if column else np.zeros(0)
     seen = seen[np.isfinite(seen)]
     guess = float(seen[0]) if len(seen) else 0.0

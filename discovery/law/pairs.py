@@ -100,7 +100,7 @@ def is_short(finding: Finding) -> bool:
 
 def paired(found: Found, progress: Progress) -> tuple[Place, Place] | None:
     """The two places whose efforts together have the most evidence; None where one has as much."""
-    sites = _efforts(found.sites)
+    sites = simplest(found.sites)
     if not sites:
         return None
     one = Place(found.locator, sites[0], sites)
@@ -119,12 +119,8 @@ def paired(found: Found, progress: Progress) -> tuple[Place, Place] | None:
 def _beside(locator: Locator, place: Place) -> Place | None:
     """The best place beside an effort at another one."""
     there = locator.beside(place.locator, place.site)
-    sites = _efforts([s for s in there.ranked() if s.location != place.site.location])
+    sites = simplest([s for s in there.ranked() if s.location != place.site.location])
     return Place(there, sites[0], sites) if sites else None
-
-
-def _efforts(sites: list[Site]) -> list[Site]:
-    return simplest([s for s in sites if s.place is not None and s.gain > 0])
 
 
 class Joining:

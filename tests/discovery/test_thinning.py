@@ -54,7 +54,7 @@ def case(tmp_path: Path) -> Case:
 
 def test_a_thinned_recording_says_what_the_whole_one_says(case: Case, monkeypatch: pytest.MonkeyPatch) -> None:
     whole = fitted(case, lambda text: None)
-    assert thinned(case) is case and not said_of(case)
+    assert thinned(case, noise_of(case)) is case and not said_of(case)
     monkeypatch.setattr(thinning, "MOST", 500)
     short = fitted(case, lambda text: None)
     recording = short.case.fit[0]

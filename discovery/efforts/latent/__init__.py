@@ -1,2 +1,1 @@
-"""The linear model along a recording, and an unknown effort in it as a latent force: its Markov chain, its evidence, its
-course."""
+"""The linear model along a recording, and in it an unknown effort as a latent force: its chain, evidence and course."""
