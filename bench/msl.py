@@ -32,7 +32,7 @@ PACKAGES = (
 )  # fmt: skip
 FURTHER = ("Electrical.Digital", "Electrical.Polyphase", "Electrical.PowerConverters", "Mechanics.MultiBody")
 RIGHT = 1e-3  # of a signal's range
-TIMEOUT = 300  # s for one example
+TIMEOUT = 300  # s of processor time for one example
 
 
 def shared_folder() -> Path:
