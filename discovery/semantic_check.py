@@ -67,14 +67,17 @@ def check_against_model(machine: Machine, start: tuple[list[Free], dict[str, flo
     for recording in machine.case.fit + machine.case.validate:
         simulated = machine.simulate(point, recording)
         if simulated is not None:
-            problems += _check(machine, recording, simulated)
+            problems += _check(machine, point, recording, simulated)
     return problems
 
 
-def _check(machine: Machine, recording: Recording, simulated: dict[str, np.ndarray]) -> list[Problem]:
+def _check(
+    machine: Machine, point: dict[str, float], recording: Recording, simulated: dict[str, np.ndarray]
+) -> list[Problem]:
     outputs = machine.case.outputs
     scales = {s.column: _scale(recording.columns[s.column], simulated[s.column]) for s in outputs}
-    slips = {c: text for c, scale in scales.items() if scale and (text := _slip(scale)) is not None}
+    factors = {c: factor for c, scale in scales.items() if scale and (factor := _slip(scale)) is not None}
+    slips = {c: SCALES[f] for c, f in factors.items() if _mends(machine, point, recording, simulated, c, f)}
     slips = slips or _broken_relation([s.column for s in outputs], recording.columns, simulated)
     begin = float(recording.time[0])
     if slips and len(slips) == len(outputs) and len(outputs) > 1 and len(set(slips.values())) == 1:
@@ -88,6 +91,29 @@ def _check(machine: Machine, recording: Recording, simulated: dict[str, np.ndarr
     ]
     found += [p for s in outputs if (p := _still(machine, recording, simulated, s.column)) is not None]
     return found or _shifts(machine, recording, simulated)
+
+
+def _mends(
+    machine: Machine, point: dict[str, float], recording: Recording, simulated: dict[str, np.ndarray], column: str,
+    factor: float,
+) -> bool:  # fmt: skip
+    """Whether an output comes nearer to the model's when it is put right, or an input is: what settles the other way
+    than a model that lacks something has the opposite shape too, but not about zero, nor with another drive."""
+    measured = recording.columns[column]
+
+    def misses(values: np.ndarray, run: dict[str, np.ndarray] | None) -> float:
+        return math.inf if run is None else float(np.nansum((values - run[column]) ** 2))
+
+    def put_right(drive: str) -> dict[str, np.ndarray] | None:
+        columns = recording.columns | {drive: recording.columns[drive] / factor}
+        drives = {c: (t, v / factor if c == drive else v) for c, (t, v) in recording.drives.items()}
+        name = f"{recording.name}/{drive}/{factor:g}"
+        return machine.simulate(point, replace(recording, name=name, columns=columns, drives=drives))
+
+    before = misses(measured, simulated)
+    if misses(measured / factor, simulated) < before:
+        return True
+    return any(misses(measured, put_right(s.column)) < before for s in machine.case.inputs)
 
 
 def _driven(machine: Machine) -> str:
@@ -163,11 +189,12 @@ def _still(machine: Machine, recording: Recording, simulated: dict[str, np.ndarr
     return Problem("constant", recording.name, column, float(begin), text, True)
 
 
-def _slip(scale: float) -> str | None:
-    for factor, text in SCALES.items():
+def _slip(scale: float) -> float | None:
+    """The listed factor that a scale comes near to."""
+    for factor in SCALES:
         within = FAR if factor < 0 or abs(math.log10(factor)) == 3 else WITHIN
         if abs(math.log(scale / factor) if scale / factor > 0 else math.inf) < within:
-            return text
+            return factor
     return None
 
 

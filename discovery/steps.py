@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-import numpy as np
-
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case, CaseError
 from lacuna.discovery.case.gaps import without_gaps
@@ -21,7 +19,7 @@ from lacuna.discovery.efforts.switches import switched, switches
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import astray, is_noise, nearly_noise, outside_belief
 from lacuna.discovery.fit.fit import Fit, believed, carried, falling_bandwidths, fit, linearised
-from lacuna.discovery.fit.lead import ROUGH, Lead, lead_for
+from lacuna.discovery.fit.lead import ROUGH, Lead, joined, lead_for
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import noise_of
 from lacuna.discovery.fit.time_limit import TimeUp
@@ -257,16 +255,13 @@ def _believed_machine(case: Case, structure: places.Structure) -> Machine:
 
 
 def fit_believed(case: Case, machine: Machine) -> tuple[Fit, Lead]:
-    """The believed model's best fit from several starts, and how fits of this model are led."""
+    """The believed model's best fit, in pieces too where it leaves more than noise, and how fits of it are led."""
     noise = noise_of(case)
     free, fixed = believed(case, machine)
     lead = lead_for(case, machine, fixed | {f.name: f.centre for f in free})
     best = lead.fit(machine, case, noise, free, fixed)
     if lead.direct and (best is None or not is_noise(best)):
-        random = np.random.default_rng(1)
-        start = {f.name: f.clip(f.centre + f.scale * float(random.normal())) for f in free}
-        other = fit(machine, case.fit, noise, free, fixed, start=start)
-        best = _better(best, other)
+        best = _better(best, joined(machine, case, noise, free, fixed))
     if best is None:
         said = f"{case.model} cannot be simulated with the recorded inputs of {case.label} at the believed values"
         raise CaseError(f"{said}: look at [parameters] and [initial] of case.toml, and at the units of time and inputs")

@@ -2,13 +2,14 @@
 
 Outputs may be missing as long as they like; a run does not need them. But no run can go on through a gap of the time,
 or of an input that is interpolated. What comes after it is a recording of its own, whose states at its first sample
-are unknown.
+are unknown. In such pieces a recording may be cut on purpose, too: a run of one cannot go far from what was recorded.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -59,3 +60,28 @@ def _parts(recording: Recording, inputs: list[Signal]) -> list[Recording]:
         columns = {c: v[rows] for c, v in recording.columns.items()}
         parts.append(Recording(name, recording.time[rows], columns, recording.file, after_gap=number > 1))
     return parts
+
+
+def in_pieces(case: Case, count: int) -> Case:
+    """The case with each recording that may be fitted cut into `count` pieces of equal length."""
+    return replace(case, fit=[piece for r in case.fit for piece in _cut(r, case.inputs, count)])
+
+
+def _cut(recording: Recording, inputs: list[Signal], count: int) -> Iterator[Recording]:
+    edges = np.linspace(0, len(recording.time), count + 1).astype(int)
+    for begin, end in pairwise(edges):
+        time, rows = recording.time[begin:end], slice(begin, end)
+        piece = f"{recording.piece}+{begin}" if begin else recording.piece
+        columns = {c: v[rows] for c, v in recording.columns.items()}
+        drives = {s.column: _around(*recording.drive(s.column), time) for s in inputs}
+        name, after_gap = f"{recording.name}+{begin}", recording.after_gap or begin > 0
+        yield replace(recording, name=name, piece=piece, time=time, columns=columns, drives=drives, after_gap=after_gap)
+
+
+def _around(time: np.ndarray, values: np.ndarray, piece: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The samples of an input that drive a piece: those next to its ends too, as it holds or is on its way there."""
+    good = np.isfinite(values)
+    time, values = time[good], values[good]
+    begin = max(int(np.searchsorted(time, piece[0], "right")) - 1, 0)
+    rows = slice(begin, int(np.searchsorted(time, piece[-1])) + 1)
+    return time[rows], values[rows]

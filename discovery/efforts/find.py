@@ -22,8 +22,9 @@ from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Guided, Locator, Site
 from lacuna.discovery.efforts.opened import opened
 from lacuna.discovery.efforts.sites import SEVERAL
-from lacuna.discovery.fit.evidence import LEFT, nearly_noise, settled
+from lacuna.discovery.fit.evidence import LEFT, astray, nearly_noise, settled
 from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.fit.lead import joined
 from lacuna.discovery.law.empirical_law import race, simplified, unfitted
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.naming.comparison import score
@@ -157,6 +158,8 @@ def _law_at(
             progress(f"fitting a law at {site.location}: {proposal.law.text()}")
             proposal.candidate = unfitted(case, amendment, base, proposal.law, proposal.start, guided.point)
         race(case, base, [p.candidate for p in tried if p.candidate is not None], best and best.candidate)
+        if best is None:
+            _join(case, base, [p.candidate for p in tried if p.candidate is not None], guided)
         tried = [p for p in tried if p.candidate is not None and p.candidate.fit is not None]
         best = _best([p for p in (best, *tried) if p is not None], base)
         single = best if best is None or len(best.law.groups) == 1 else single
@@ -166,6 +169,19 @@ def _law_at(
         return None, None
     apart = best is not single and _terms(best) > 1
     return simplified(case, amendment, base, best), single.candidate if apart and single else None
+
+
+def _join(case: Case, base: Fit, laws: list[Candidate], guided: Guided) -> None:
+    """The first law again, by multiple shooting along what it was screened on, where every one's fit has gone astray:
+    what is found there to first order may be out of reach of a run from the beginning."""
+    if not laws or any(not astray(law.fit) for law in laws if law.fit is not None):
+        return
+    first = laws[0]
+    courses = {r.name: p.along.values for r, p in zip(case.fit, guided.pieces, strict=True)}
+    free = [*base.estimate.free, *first.free]
+    found = joined(first.machine, case, base.noise, free, base.fixed, first.start, courses)
+    if found is not None and (first.fit is None or found.deviance() < first.fit.deviance()):
+        first.fit = found
 
 
 def _offered(locator: Locator, site: Site, progress: Progress) -> Iterator[tuple[list[Proposal], Guided]]:

@@ -3,20 +3,31 @@
 Trackers hold a shaft near its recorded motion and are released step by step. Where no sensor records a motion, the
 recordings are fitted from their beginning on, a little more each time, so that the simulated motion never runs away
 from what was recorded. Hypotheses are compared on a fit that is held: edges stay where they are, and misfit shows.
+
+Where it is rough because a run slips out of phase, or leaves where it was linear, multiple shooting leads (H. G. Bock,
+Recent advances in parameter identification techniques for O.D.E., in: Numerical Treatment of Inverse Problems,
+Birkhaeuser 1983): recordings in pieces, whose states at their first samples are free, which are joined step by step.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from lacuna.discovery.case.cases import Case, Recording
+from lacuna.discovery.case.gaps import MIN_SAMPLES, in_pieces
 from lacuna.discovery.case.noise import Noise
+from lacuna.discovery.case.values import state_of
 from lacuna.discovery.fit.evidence import nearly_noise
 from lacuna.discovery.fit.fit import Fit, falling_bandwidths, fit
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import Objective
 from lacuna.discovery.fit.solver.free import Free
+from lacuna.discovery.fit.starts import uncertain_starts
+from lacuna.runtime import SimulationError
 
 ROUGH = 20  # events a second, from which fits are led
 FAST, HELD = 1, 2  # which of the bandwidths holds the shafts for sensitivities, and while hypotheses are compared
@@ -25,6 +36,10 @@ LOST = 2.5  # level of a signal, from which the simulated motion is taken to hav
 FOLLOWED = 1.5  # unless another signal is below this level: that one's edges are where they were recorded
 BELIEVABLE = 8.0  # sigmas from its believed value, within which a parameter is sought while shafts are held
 EARLY = 0.16  # share on which the motion is still held fast by its beginning
+JOINED, PIECES = 4, 64  # pieces that are made one at a time; at first: a few periods of what slips in a few hundred
+ROOM = 2e7  # numbers in a Jacobian, 160 MB
+
+Courses = Mapping[str, Mapping[str, np.ndarray]]  # recording -> state -> (n,)
 
 
 @dataclass(frozen=True)
@@ -150,3 +165,53 @@ def _near_belief(free: Free, value: float) -> Free:
         return free
     reach = max(BELIEVABLE * free.sigma, abs(value - free.centre))
     return replace(free, lower=max(free.lower, free.centre - reach), upper=min(free.upper, free.centre + reach))
+
+
+def joined(
+    machine: Machine, case: Case, noise: Mapping[str, Noise], free: list[Free], fixed: Mapping[str, float],
+    start: Mapping[str, float] | None = None, courses: Courses | None = None,
+) -> Fit | None:  # fmt: skip
+    """The fit to all of the recordings by multiple shooting. Pieces begin on `courses` of the states, without them on
+    those of a run from the start. None where a piece cannot be simulated."""
+    point = dict(fixed) | {f.name: f.centre if f.start is None else f.start for f in free} | dict(start or {})
+    courses = _courses(machine, case, point) if courses is None else courses
+    for count in _counts(case, len(machine.model.states)):
+        short = in_pieces(case, count)
+        here = machine.amended(machine.amendment, short)
+        starts = [s for r in short.fit if r.after_gap for s in _piece_starts(here, r, courses)]
+        known = {f.name for f in free}
+        free_here = [*free, *(s for s in starts if s.name not in known)]
+        found = fit(here, short.fit, noise, free_here, fixed, start=point)
+        if found is None:
+            return None
+        point |= found.point
+    return fit(machine, case.fit, noise, free, fixed, start=point)
+
+
+def _counts(case: Case, states: int) -> list[int]:
+    """Pieces of each recording, falling: so many that each says something, and that there is room for their starts."""
+    rows, recordings = min(len(r.time) for r in case.fit), len(case.fit)
+    values = sum(len(r.time) for r in case.fit) * len(case.outputs) * states * recordings
+    most = min(PIECES, rows // MIN_SAMPLES, int(ROOM / values))
+    return [count for count in (JOINED**k for k in range(16, 0, -1)) if count <= most]
+
+
+def _courses(machine: Machine, case: Case, point: Mapping[str, float]) -> Courses:
+    """What the states do from a point; nothing of a recording that does not run."""
+    found = {}
+    for recording in case.fit:
+        with suppress(SimulationError):
+            found[recording.name] = machine.trajectory(point, recording, list(machine.model.states))
+    return found
+
+
+def _piece_starts(machine: Machine, piece: Recording, courses: Courses) -> list[Free]:
+    """The start values of a piece; those of states that are not recorded begin on their courses."""
+    name, _, begin = piece.name.rpartition("+")
+    found = []
+    for f in uncertain_starts(machine, piece, {}):
+        course = courses.get(name, {}).get(state_of(f.name))
+        if course is not None and machine.recorded(state_of(f.name)) is None:
+            f = replace(f, centre=float(course[int(begin)]), scale=float(np.ptp(course)) or f.scale)
+        found.append(f)
+    return found
