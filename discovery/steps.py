@@ -26,7 +26,7 @@ from lacuna.discovery.fit.time_limit import TimeUp
 from lacuna.discovery.fit.tracking import trackable
 from lacuna.discovery.law.beyond import explain_beyond
 from lacuna.discovery.law.locate import effort_at, locate, place_of
-from lacuna.discovery.law.open_world import explain_open
+from lacuna.discovery.law.open_world import begun_open, explain_open
 from lacuna.discovery.naming.comparison import MIN_GAIN
 from lacuna.discovery.naming.dips import explored, is_smooth
 from lacuna.discovery.naming.judge import judge, noise_floor, try_judge
@@ -131,6 +131,7 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
     unbegun = _search(result, [])
     if not unbegun.settled():
         unbegun.effects = catalogue.read(library)
+    places_known = begun_open(unbegun, library, progress)
     search = _begun(unbegun)
     shafts = trackable(result.case, result.base.machine.model, result.amendment.structure)[:1]
     search.restarts = bool(shafts)
@@ -139,7 +140,7 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
         if search.lost():
             search, unbegun = _anew(result, search, unbegun, shafts, progress)
         explain_beyond(search, unbegun, progress)
-        result.opened = explain_open(search, unbegun, library, progress)
+        result.opened = explain_open(search, unbegun, library, progress, places_known)
         if not search.findings:
             result.instead = sensor_instead(search, catalogue.read(library), progress)
         if result.instead:

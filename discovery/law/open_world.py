@@ -11,9 +11,10 @@ from collections.abc import Callable
 import numpy as np
 
 from lacuna.codegen.library.classes import Library
+from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.find import WORTH, Found, add_laws, places_of
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
-from lacuna.discovery.fit.evidence import like_noise, nearly_noise, within_instruments
+from lacuna.discovery.fit.evidence import FAR, like_noise, nearly_noise, within_instruments
 from lacuna.discovery.law.beyond import MARGIN
 from lacuna.discovery.law.pairs import Place, is_short, paired, two_places
 from lacuna.discovery.law.several import apart, go_on, take_if_less
@@ -36,9 +37,25 @@ from lacuna.runtime import SimulationError
 Progress = Callable[[str], None]
 
 
-def explain_open(search: Search, unbegun: Search, library: Library, progress: Progress) -> Found | None:
+def begun_open(unbegun: Search, library: Library, progress: Progress) -> Found | None:
+    """The places of the equations, looked at first where the catalogue knows none but sensors: those of which an error
+    of any course leaves far more than an effort at one place does need not be tried. None where it knows others."""
+    case, structure = unbegun.case, unbegun.amendment.structure
+    known = enumerate_attachments(case, structure, unbegun.effects, unbegun.amendment)
+    if not unbegun.lead.direct or not known or not all(a.variable for a in known):
+        return None
+    found = places_of(case, unbegun.amendment, unbegun.fit, library, progress)
+    best = max((s.explains for s in found.sites if s.place is not None), default=0.0)
+    beaten = {s.location for s in found.sites if s.place is None and 1.0 - s.explains > FAR * (1.0 - best)}
+    unbegun.blameless = frozenset(s.variable for s in case.outputs if f"sensor:{s.column}" in beaten)
+    return found
+
+
+def explain_open(
+    search: Search, unbegun: Search, library: Library, progress: Progress, places: Found | None = None
+) -> Found | None:
     """Locate and explain what `unbegun`, the believed model, lacks, unless `search` has explained it in its equations;
-    where what it found there leaves more than noise, laws at other places beside it.
+    where what it found there leaves more than noise, laws at other places beside it. `places` may be known already.
 
     None where that is so, or where fits need shafts held near their motion: those are left to the catalogue.
     """
@@ -48,7 +65,7 @@ def explain_open(search: Search, unbegun: Search, library: Library, progress: Pr
     explained = search.settled() or within_instruments(search.fit)
     if explained and any(not f.ranked.attachment.variable for f in search.findings):
         return None
-    found = places_of(search.case, unbegun.amendment, unbegun.fit, library, progress)
+    found = places or places_of(search.case, unbegun.amendment, unbegun.fit, library, progress)
     add_laws(found, search.case, unbegun.amendment, unbegun.fit, progress, most=1)
     pair = _pair(search, found, progress)
     told = pair is not None and pair[1].site.explains > WORTH

@@ -51,6 +51,7 @@ class Search:
     exhausted: bool = False
     restarts: bool = False  # whether a search that has lost its way is begun anew
     left: Contest | None = None  # where its most promising hypotheses had lost their way
+    blameless: frozenset[str] = frozenset()  # variables whose sensors are none of the first findings
 
     def run(self, progress: Progress, most: int = MAX_FINDINGS) -> None:
         """Add findings, `most` of them, until what is left is noise, or nothing more pays."""
@@ -102,7 +103,8 @@ class Search:
 
     def _begun(self, progress: Progress) -> Contest:
         """The contest of all hypotheses, its most promising ones fitted."""
-        attachments = enumerate_attachments(self.case, self.amendment.structure, self.effects, self.amendment)
+        every = enumerate_attachments(self.case, self.amendment.structure, self.effects, self.amendment)
+        attachments = [a for a in every if self.findings or a.variable not in self.blameless]
         held = self.lead.hold(self.fit)
         contest = Contest(held.machine.case, held, self.amendment, attachments, progress)
         contest.lead()
