@@ -17,11 +17,9 @@ import os
 from pathlib import Path
 import shutil
 import tempfile
-import time
 
 _SCRATCH = ".partial-"
 _BEFORE = ".before"  # in the scratch folder: what is replaced, until all has been
-_YOUNG = 60  # s: one that was made so lately may not be locked yet
 
 
 @contextmanager
@@ -93,15 +91,28 @@ def _scratch(folder: Path) -> Iterator[Path]:
     """A folder in `folder` that is gone afterwards. It is locked, so that others see whether we are still there."""
     folder.mkdir(parents=True, exist_ok=True)
     _remove_abandoned(folder)
-    scratch = Path(tempfile.mkdtemp(prefix=_SCRATCH, dir=folder))
-    handle = os.open(scratch, os.O_RDONLY)
+    scratch, handle = _locked(folder)
     try:
-        with suppress(OSError):  # a file system without locks
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         yield scratch
     finally:
         os.close(handle)
         shutil.rmtree(scratch, ignore_errors=True)
+
+
+def _locked(folder: Path) -> tuple[Path, int]:
+    """A new folder in `folder` and the handle that locks it. Another process may have taken it away as abandoned before
+    it was locked: then a further one."""
+    while True:
+        scratch = Path(tempfile.mkdtemp(prefix=_SCRATCH, dir=folder))
+        try:
+            handle = os.open(scratch, os.O_RDONLY)
+        except FileNotFoundError:
+            continue
+        with suppress(OSError):  # a file system without locks
+            fcntl.flock(handle, fcntl.LOCK_EX)
+        if scratch.exists():
+            return scratch, handle
+        os.close(handle)
 
 
 @lru_cache(maxsize=1024)
@@ -109,8 +120,6 @@ def _remove_abandoned(folder: Path) -> None:
     """Remove what killed processes left: scratch folders that nobody has locked. Once a process, which is cheap."""
     for scratch in folder.glob(f"{_SCRATCH}*"):
         with suppress(OSError):
-            if time.time() - scratch.stat().st_mtime < _YOUNG:
-                continue
             handle = os.open(scratch, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
             try:
                 fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
 from pathlib import Path
 import subprocess
 import sys
-import time
 
 import pytest
 
@@ -81,12 +81,27 @@ def test_what_a_killed_process_left_goes_and_what_a_living_one_writes_stays(tmp_
     (abandoned,) = tmp_path.iterdir()
     with whole_file(tmp_path / "b") as partial:
         partial.write_text("new")
-        for scratch in tmp_path.iterdir():
-            os.utime(scratch, (0, time.time() - 2 * written._YOUNG))
         written._remove_abandoned.cache_clear()
         write_whole(tmp_path / "c", "new")
         assert not abandoned.exists()
     assert content(tmp_path) == {"b": "new", "c": "new"}
+
+
+def test_one_that_is_taken_for_abandoned_before_it_is_locked_is_made_anew(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lock, taken = fcntl.flock, []
+
+    def late(handle: int, how: int) -> None:
+        if not taken:
+            taken.extend(tmp_path.iterdir())
+            taken[0].rmdir()
+        lock(handle, how)
+
+    monkeypatch.setattr(fcntl, "flock", late)
+    write_whole(tmp_path / "a", "new")
+    assert taken
+    assert content(tmp_path) == {"a": "new"}
 
 
 def test_folders_are_taken_back_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
