@@ -296,7 +296,7 @@ def test_practice_recordings_are_seen_when_broken(
 def test_what_settles_the_other_way_is_no_reversed_sign(
     tmp_path: Path, rate: float, sense: float, slips: list[str]
 ) -> None:
-    """A culture that is washed out faster than it grows, where the model has it grow; and one read with its sign turned."""
+    """A culture washed out faster than it grows, where the model has it grow; and one read with its sign turned."""
     (tmp_path / "Culture.mo").write_text(
         'model Culture\n  parameter Real mu(unit="1/s") = 1.2e-4;\n  input Real D(unit="1/s");\n'
         '  Real X(unit="kg/m3", start=4, fixed=true);\nequation\n  der(X) = (mu - D)*X;\nend Culture;\n'
