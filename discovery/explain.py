@@ -32,7 +32,7 @@ from lacuna.discovery.fit.evidence import (
 )
 from lacuna.discovery.fit.time_limit import within
 from lacuna.discovery.law.law import law_at
-from lacuna.discovery.naming.comparison import TIE, Ranked
+from lacuna.discovery.naming.comparison import TIE, Ranked, price, score
 from lacuna.discovery.naming.foretold import foretold
 from lacuna.discovery.naming.judge import judge_file
 from lacuna.discovery.naming.screen import Candidate
@@ -176,13 +176,12 @@ def _efforts(result: Explanation) -> list[float]:
 
 
 def _equations_may_be_wrong(result: Explanation) -> bool:
-    """Whether a sensor would be accused though places in the equations could not be tried, though more than noise is
-    left, or though an effort of some course there explains as much as sensors do: by an error of any course, or by
-    the one that was found, which has few numbers."""
+    """Whether a sensor would be accused though places in the equations could not be tried, more than noise is left, or
+    a law there, or an effort of any course, explains as much as what was found."""
     efforts = _efforts(result)
     if not efforts:
         return not result.amendment.structure.open
-    if astray(result.final):
+    if astray(result.final) or (result.findings and _rival_law(result)):
         return True
     found = log_evidence(result.case, result.amendment, result.final) - result.opened.null
     sensors = [s.gain for s in result.opened.sites if s.place is None]
@@ -235,9 +234,12 @@ def _as_much(result: Explanation) -> str:
 
 def _rival_law(result: Explanation) -> Candidate | None:
     """The best law in the equations, where the data does not tell it from what was found."""
+    base, picked = result.base, sum(2 * f.ranked.candidate.pick for f in result.findings)
+    added = len(result.final.estimate.free) - len(base.estimate.free)
     for law in result.opened.laws[:1]:
         correlation = law.fit.correlation()
-        if law.fit.deviance(correlation) < result.final.deviance(correlation) + TIE:
+        found = result.final.deviance(correlation) + price(added, base, correlation) + picked
+        if score(law, base, correlation) + base.deviance(correlation) < found + TIE:
             return law
     return None
 
@@ -245,8 +247,8 @@ def _rival_law(result: Explanation) -> Candidate | None:
 def _quiet(result: Explanation) -> bool:
     """Whether what is left, though some of it is not white, is no more than the noise: by its size or by its colour.
 
-    Instruments drift and are off by parts of their noise: what is left of that size, and of no form, is theirs. Where
-    nobody gave its level, noise with a colour is what no effort in the equations explains better."""
+    Instruments drift and are off by parts of their noise: what is left of that size, and of no form, is theirs. Of no
+    given level, noise with a colour is what no effort in the equations explains better."""
     final, direct = result.final, result.lead.direct
     if within_instruments(final) or settled(final, rough=not direct):
         return True

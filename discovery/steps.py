@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
+
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case, CaseError
 from lacuna.discovery.case.gaps import without_gaps
@@ -72,7 +74,12 @@ def add_fit(result: Explanation, machine: Machine, progress: Progress) -> None:
     progress("fitting the believed model")
     case = result.case
     result.base, result.lead = fit_believed(case, machine)
-    if not is_noise(result.base):
+    if result.base.machine.case is not case:
+        result.case = result.base.machine.case
+        length = float(np.ptp(result.case.fit[0].time))
+        text = f"what is unknown where it starts grows too fast for one run: it is compared in pieces of {length:.3g} s"
+        result.problems.append(Problem("unstable", case.fit[0].name, case.outputs[0].column, None, text, False))
+    elif not is_noise(result.base):
         _place_switches(result, progress)
     case, machine = result.case, result.base.machine
     result.amendment, result.final = machine.amendment, result.base
@@ -262,7 +269,8 @@ def fit_believed(case: Case, machine: Machine) -> tuple[Fit, Lead]:
     lead = lead_for(case, machine, fixed | {f.name: f.centre for f in free})
     best = lead.fit(machine, case, noise, free, fixed)
     if lead.direct and (best is None or not is_noise(best)):
-        best = _better(best, joined(machine, case, noise, free, fixed))
+        other = joined(machine, case, noise, free, fixed)
+        best = other if other is not None and other.machine is not machine else _better(best, other)
     if best is None:
         said = f"{case.model} cannot be simulated with the recorded inputs of {case.label} at the believed values"
         raise CaseError(f"{said}: look at [parameters] and [initial] of case.toml, and at the units of time and inputs")

@@ -63,11 +63,13 @@ def _parts(recording: Recording, inputs: list[Signal]) -> list[Recording]:
 
 
 def in_pieces(case: Case, count: int) -> Case:
-    """The case with each recording that may be fitted cut into `count` pieces of equal length."""
-    return replace(case, fit=[piece for r in case.fit for piece in _cut(r, case.inputs, count)])
+    """The case with each of its recordings cut into `count` pieces of equal length."""
+    fit, validate = ([piece for r in rs for piece in cut(r, case.inputs, count)] for rs in (case.fit, case.validate))
+    return replace(case, fit=fit, validate=validate)
 
 
-def _cut(recording: Recording, inputs: list[Signal], count: int) -> Iterator[Recording]:
+def cut(recording: Recording, inputs: list[Signal], count: int) -> Iterator[Recording]:
+    """The recording in `count` pieces of equal length, the first with the start of the whole."""
     edges = np.linspace(0, len(recording.time), count + 1).astype(int)
     for begin, end in pairwise(edges):
         time, rows = recording.time[begin:end], slice(begin, end)

@@ -180,7 +180,8 @@ def _join(case: Case, base: Fit, laws: list[Candidate], guided: Guided) -> None:
     courses = {r.name: p.along.values for r, p in zip(case.fit, guided.pieces, strict=True)}
     free = [*base.estimate.free, *first.free]
     found = joined(first.machine, case, base.noise, free, base.fixed, first.start, courses)
-    if found is not None and (first.fit is None or found.deviance() < first.fit.deviance()):
+    whole = found is not None and found.machine is first.machine
+    if whole and (first.fit is None or found.deviance() < first.fit.deviance()):
         first.fit = found
 
 

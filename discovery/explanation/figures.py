@@ -11,11 +11,11 @@ import numpy as np
 
 from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.catalogue.places import Line, Shaft
+from lacuna.discovery.experiment.picture import POINTS
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.law.locate import Located
 from lacuna.discovery.naming.name import Finding
 
-POINTS = 1500  # of a curve
 SAMPLES = 3000  # of a cloud
 BAND = 2.0  # standard deviations to both sides
 ABOVE = {"fontsize": "x-small", "loc": "lower left", "bbox_to_anchor": (0, 1)}  # off the curves

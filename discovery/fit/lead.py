@@ -20,8 +20,9 @@ import numpy as np
 from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.case.gaps import MIN_SAMPLES, in_pieces
 from lacuna.discovery.case.noise import Noise
-from lacuna.discovery.case.values import state_of
-from lacuna.discovery.fit.evidence import nearly_noise
+from lacuna.discovery.case.thinning import MOST
+from lacuna.discovery.case.values import is_start, state_of
+from lacuna.discovery.fit.evidence import LEFT, nearly_noise
 from lacuna.discovery.fit.fit import Fit, falling_bandwidths, fit
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import Objective
@@ -36,8 +37,10 @@ LOST = 2.5  # level of a signal, from which the simulated motion is taken to hav
 FOLLOWED = 1.5  # unless another signal is below this level: that one's edges are where they were recorded
 BELIEVABLE = 8.0  # sigmas from its believed value, within which a parameter is sought while shafts are held
 EARLY = 0.16  # share on which the motion is still held fast by its beginning
-JOINED, PIECES = 4, 64  # pieces that are made one at a time; at first: a few periods of what slips in a few hundred
-ROOM = 2e7  # numbers in a Jacobian, 160 MB
+JOINED = 4  # pieces that are made one at a time
+PIECES = JOINED**3  # at first: of a few hundred periods, a few
+POLYNOMIAL = JOINED**3  # growth from the first quarter of a piece to its last, of what is as a cube of time
+ROOM = 60 * MOST  # numbers in a Jacobian
 
 Courses = Mapping[str, Mapping[str, np.ndarray]]  # recording -> state -> (n,)
 
@@ -172,28 +175,62 @@ def joined(
     start: Mapping[str, float] | None = None, courses: Courses | None = None,
 ) -> Fit | None:  # fmt: skip
     """The fit to all of the recordings by multiple shooting. Pieces begin on `courses` of the states, without them on
-    those of a run from the start. None where a piece cannot be simulated."""
+    those of a run from the start. None where a piece cannot be simulated.
+
+    Where errors of the states at first grow faster than a power of time (an unstable plant in a closed loop), no run
+    can tell what a longer one does: the fit is then that of the longest pieces in which they do not, its machine bound
+    to a case of those."""
     point = dict(fixed) | {f.name: f.centre if f.start is None else f.start for f in free} | dict(start or {})
     courses = _courses(machine, case, point) if courses is None else courses
+    known, shorter, before = {f.name for f in free}, None, 0.0
     for count in _counts(case, len(machine.model.states)):
-        short = in_pieces(case, count)
+        short = replace(in_pieces(case, count), noise=dict(noise))
         here = machine.amended(machine.amendment, short)
-        starts = [s for r in short.fit if r.after_gap for s in _piece_starts(here, r, courses)]
-        known = {f.name for f in free}
-        free_here = [*free, *(s for s in starts if s.name not in known)]
-        found = fit(here, short.fit, noise, free_here, fixed, start=point)
-        if found is None:
-            return None
+        starts = [s for r in short.fit if r.after_gap for s in _piece_starts(here, r, courses) if s.name not in known]
+        found = fit(here, short.fit, noise, [*free, *starts], fixed, start=point)
+        if found is None or (shorter is not None and _worse(found, shorter) and _growth(found) > np.log(POLYNOMIAL)):
+            return shorter
+        growth = _growth(found)
+        if growth * _power(before, growth) > np.log(POLYNOMIAL):
+            return found
+        shorter, before = found, growth
         point |= found.point
     return fit(machine, case.fit, noise, free, fixed, start=point)
 
 
+def _growth(found: Fit) -> float:
+    """Logarithm of what an error of a state at the start of a piece grows by, from its first quarter to its last, in
+    the outputs: of the state for which that is most, the median of the pieces."""
+    grown: dict[str, list[float]] = {}
+    for name, columns in found.sensitivities().items():
+        for column, recording in zip(columns, found.residuals, strict=True):
+            if not (is_start(name) and np.any(column)):
+                continue
+            rows = len(next(iter(found.residuals[recording].values())))
+            size = np.abs(column).reshape(-1, rows).max(axis=0)
+            first, last = size[: rows // JOINED].max(), size[-(rows // JOINED) :].max()
+            grown.setdefault(state_of(name), []).append(np.log(max(last, 1e-300) / max(first, 1e-300)))
+    return max((float(np.median(g)) for g in grown.values()), default=0.0)
+
+
+def _worse(found: Fit, shorter: Fit) -> bool:
+    return any(found.level[c] > LEFT * shorter.level[c] for c in found.level)
+
+
+def _power(before: float, growth: float) -> float:
+    """By what power the growth rises from pieces to those of JOINED times their length: 1 of a power of time, JOINED
+    of an exponential; as it has risen to here."""
+    return 1.0 if before <= 0.0 else float(np.clip(growth / before, 1.0, JOINED))
+
+
 def _counts(case: Case, states: int) -> list[int]:
     """Pieces of each recording, falling: so many that each says something, and that there is room for their starts."""
-    rows, recordings = min(len(r.time) for r in case.fit), len(case.fit)
+    rows, recordings = min(len(r.time) for r in (*case.fit, *case.validate)), len(case.fit)
     values = sum(len(r.time) for r in case.fit) * len(case.outputs) * states * recordings
     most = min(PIECES, rows // MIN_SAMPLES, int(ROOM / values))
-    return [count for count in (JOINED**k for k in range(16, 0, -1)) if count <= most]
+    joins = int(np.log2(most) / np.log2(JOINED)) if most >= JOINED else 0
+    first = most // JOINED ** min(joins, 2) * JOINED ** min(joins, 2)  # so that the pieces of a join are whole
+    return [first // JOINED**k for k in range(joins + 1) if first // JOINED**k > 1] if joins else []
 
 
 def _courses(machine: Machine, case: Case, point: Mapping[str, float]) -> Courses:

@@ -10,10 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from itertools import islice
 
 import numpy as np
 
 from lacuna.discovery.case.cases import Recording
+from lacuna.discovery.case.gaps import cut
 from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.case.values import is_start, start_name, state_of
 from lacuna.discovery.fit.machine import Machine
@@ -21,6 +23,7 @@ from lacuna.discovery.fit.objective import Objective, noise_of
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.fit.solver.least_squares import Problem, solve
 
+BEGINNING = 4  # parts of a recording, in the first of which nothing has yet gone far from where it starts
 STEP = 1e-3  # of what a state changes by, for differences
 
 
@@ -46,13 +49,17 @@ def _start(
 
 
 def with_starts(machine: Machine, recording: Recording, values: Mapping[str, float]) -> dict[str, float]:
-    """The values with the start values that they lack for this recording, fitted to it; unchanged where none is."""
+    """The values with the start values that they lack for this recording, fitted to its beginning, then to all of it;
+    unchanged where none is."""
     missing = uncertain_starts(machine, recording, values)
-    if not missing:
-        return dict(values)
-    objective = Objective(machine, [recording], noise_of(machine.case))
-    found = solve(Problem(missing, objective, 1, dict(values)))
-    return dict(values) | (found.point if found else {})
+    unknown = any(f.sigma is None for f in missing)
+    for part in [
+        *islice(cut(recording, machine.case.inputs, BEGINNING), int(unknown)),
+        *([recording] if missing else []),
+    ]:
+        found = solve(Problem(missing, Objective(machine, [part], noise_of(machine.case)), 1, dict(values)))
+        missing = [replace(f, start=found.point[f.name]) for f in missing] if found else missing
+    return dict(values) | {f.name: f.centre if f.start is None else f.start for f in missing}
 
 
 def as_known_to(machine: Machine, free: list[Free]) -> list[Free]:
