@@ -38,8 +38,7 @@ def run_all(
     """The outcome of every job, by its name. `keep` takes any result that is there, whatever generator made it."""
     folder.mkdir(parents=True, exist_ok=True)
     version = generator_version()
-    results: dict[str, Outcome] = {}
-    waiting: list[str] = []
+    results, waiting = dict[str, Outcome](), list[str]()
     for job in jobs:
         known = _stored(folder, job)
         if known is not None and (keep or known.get("generator") == version):

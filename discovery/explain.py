@@ -234,21 +234,19 @@ def _as_much(result: Explanation) -> str:
 
 def _rival_law(result: Explanation) -> Candidate | None:
     """The best law in the equations, where the data does not tell it from what was found."""
-    base, picked = result.base, sum(2 * f.ranked.candidate.pick for f in result.findings)
-    added = len(result.final.estimate.free) - len(base.estimate.free)
-    for law in result.opened.laws[:1]:
-        correlation = law.fit.correlation()
-        found = result.final.deviance(correlation) + price(added, base, correlation) + picked
-        if score(law, base, correlation) + base.deviance(correlation) < found + TIE:
-            return law
-    return None
+    base, final, laws = result.base, result.final, result.opened.laws
+    if not laws:
+        return None
+    correlation = laws[0].fit.correlation()
+    found = final.deviance(correlation) - base.deviance(correlation)
+    found += price(len(final.estimate.free) - len(base.estimate.free), base, correlation)
+    picked = sum(2 * f.ranked.candidate.pick for f in result.findings)
+    return laws[0] if score(laws[0], base, correlation) < found + picked + TIE else None
 
 
 def _quiet(result: Explanation) -> bool:
-    """Whether what is left, though some of it is not white, is no more than the noise: by its size or by its colour.
-
-    Instruments drift and are off by parts of their noise: what is left of that size, and of no form, is theirs. Of no
-    given level, noise with a colour is what no effort in the equations explains better."""
+    """Whether what is left is no more than noise, though some of it is not white: by its size, which instruments drift
+    and are off by; or by its colour, where its level is not given and no effort in the equations explains it better."""
     final, direct = result.final, result.lead.direct
     if within_instruments(final) or settled(final, rough=not direct):
         return True

@@ -17,6 +17,7 @@ from lacuna.discovery.case.cases import Case, Recording, Signal
 
 GAP = 5.0  # a pause longer than this many intervals of a signal is a gap: an odd sample may be lost
 MIN_SAMPLES = 50  # fewer say nothing of noise
+JOINED = 4  # pieces that are made one at a time, where a run has been cut into some
 
 
 def gaps(recording: Recording, inputs: list[Signal]) -> list[tuple[str, float, float]]:

@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lacuna.discovery.case.cases import Case, Recording
-from lacuna.discovery.case.gaps import MIN_SAMPLES, in_pieces
+from lacuna.discovery.case.gaps import JOINED, MIN_SAMPLES, in_pieces
 from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.case.thinning import MOST
 from lacuna.discovery.case.values import is_start, state_of
@@ -37,7 +37,6 @@ LOST = 2.5  # level of a signal, from which the simulated motion is taken to hav
 FOLLOWED = 1.5  # unless another signal is below this level: that one's edges are where they were recorded
 BELIEVABLE = 8.0  # sigmas from its believed value, within which a parameter is sought while shafts are held
 EARLY = 0.16  # share on which the motion is still held fast by its beginning
-JOINED = 4  # pieces that are made one at a time
 PIECES = JOINED**3  # at first: of a few hundred periods, a few
 POLYNOMIAL = JOINED**3  # growth from the first quarter of a piece to its last, of what is as a cube of time
 ROOM = 60 * MOST  # numbers in a Jacobian

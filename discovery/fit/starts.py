@@ -15,7 +15,7 @@ from itertools import islice
 import numpy as np
 
 from lacuna.discovery.case.cases import Recording
-from lacuna.discovery.case.gaps import cut
+from lacuna.discovery.case.gaps import JOINED, cut
 from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.case.values import is_start, start_name, state_of
 from lacuna.discovery.fit.machine import Machine
@@ -23,7 +23,6 @@ from lacuna.discovery.fit.objective import Objective, noise_of
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.fit.solver.least_squares import Problem, solve
 
-BEGINNING = 4  # parts of a recording, in the first of which nothing has yet gone far from where it starts
 STEP = 1e-3  # of what a state changes by, for differences
 
 
@@ -54,7 +53,7 @@ def with_starts(machine: Machine, recording: Recording, values: Mapping[str, flo
     missing = uncertain_starts(machine, recording, values)
     unknown = any(f.sigma is None for f in missing)
     for part in [
-        *islice(cut(recording, machine.case.inputs, BEGINNING), int(unknown)),
+        *islice(cut(recording, machine.case.inputs, JOINED), int(unknown)),
         *([recording] if missing else []),
     ]:
         found = solve(Problem(missing, Objective(machine, [part], noise_of(machine.case)), 1, dict(values)))
