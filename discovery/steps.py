@@ -44,14 +44,22 @@ STIFFLY = (1.0, 1 / 4, 1 / 16, 1 / 50, 0.0)  # bandwidths of trackers where what
 
 def opened(case: Case, library: Library) -> tuple[Explanation, Machine | None]:
     """The case with what is wrong with its recordings, and the believed model; none where they are of no use."""
-    result = Explanation(case, check_case(case))
-    if not _trusted(result, "the recordings cannot be trusted"):
+    result = prepared(case)
+    if result.reason:
         return result, None
-    result.case = case = thinned(without_gaps(case))
-    result.problems += said_of(case)
-    machine = _believed_machine(case, places.read(library, case.base))
+    machine = _believed_machine(result.case, places.read(library, case.base))
     result.problems += slips(machine)
     return result, machine if _trusted(result, "the recordings contradict themselves") else None
+
+
+def prepared(case: Case, without: tuple[str, ...] = ()) -> Explanation:
+    """The case without gaps and thinned, with what is wrong with its recordings, but `without` problems of these kinds;
+    `reason` where they are of no use."""
+    result = Explanation(case, [p for p in check_case(case) if p.kind not in without])
+    if _trusted(result, "the recordings cannot be trusted"):
+        result.case = thinned(without_gaps(case))
+        result.problems += said_of(result.case)
+    return result
 
 
 def _trusted(result: Explanation, otherwise: str) -> bool:
