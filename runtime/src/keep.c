@@ -73,9 +73,11 @@ rt_status rt_keep_step(rt_session *s, const rt_kept *kept, const char *doing) {
       continue;
     }
     if (++pieces > MOST)
-      return rt_fail(s, RT_ARGUMENT, s->t, -1, NULL, "%s: it varies too fast: %d pieces of a step of %.9g s do not show it",
-                     doing, MOST, s->t - s->t_previous);
-    if (!kept->take(s, begin, end - begin)) return rt_fail(s, RT_MEMORY, s->t, -1, NULL, "out of memory while %s", doing);
+      return rt_fail(s, RT_ARGUMENT, s->t, -1, NULL,
+                     "%s: it varies too fast: %d pieces of a step of %.9g s do not show it", doing, MOST,
+                     s->t - s->t_previous);
+    if (!kept->take(s, begin, end - begin))
+      return rt_fail(s, RT_MEMORY, s->t, -1, NULL, "out of memory while %s", doing);
     memcpy(kept->at_node, kept->at_node + (NODES - 1) * kept->count, (size_t)kept->count * sizeof *kept->at_node);
     begin = end;
     length *= 2;
