@@ -28,7 +28,11 @@ def piecewise(x: Sequence[float], y: Sequence[float], smoothness: int, extrapola
     check_abscissa(x, smoothness)
     if len(x) == 1:
         return [(x[0], y[0], 0.0, 0.0, 0.0)]
-    slopes = None if smoothness in (LINEAR, CONSTANT) or len(x) == 2 else _slopes(x, y, smoothness, extrapolation == PERIODIC)
+    slopes = (
+        None
+        if smoothness in (LINEAR, CONSTANT) or len(x) == 2
+        else _slopes(x, y, smoothness, extrapolation == PERIODIC)
+    )
     segments = [_segment(x, y, slopes, i) for i in range(len(x) - 1) if x[i + 1] > x[i]]
     if not segments:
         return [(x[-1], y[-1], 0.0, 0.0, 0.0)]
