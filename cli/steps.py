@@ -65,7 +65,8 @@ def judge(
     table = Table("signal", "NRMSE, validation")
     for signal, value in found.validate.items():
         table.add_row(signal or "all", f"{value:.4g}")
-    return Answer({"fit": found.fit, "validate": found.validate}, [table], [found.report])
+    data = {"fit": found.fit, "validate": found.validate}
+    return Answer(data, [table], [found.report], [f"warning: {problem}" for problem in found.problems])
 
 
 def _ranking(found: lacuna.Explanation) -> Answer:

@@ -19,9 +19,9 @@ from lacuna.discovery.efforts.find import places_of
 from lacuna.discovery.efforts.moved import sensor_instead
 from lacuna.discovery.efforts.switches import switched, switches
 from lacuna.discovery.explanation.explanation import Explanation
-from lacuna.discovery.fit.evidence import astray, is_noise, nearly_noise, outside_belief
-from lacuna.discovery.fit.fit import Fit, believed, carried, falling_bandwidths, fit, linearised
-from lacuna.discovery.fit.lead import ROUGH, Lead, joined, lead_for
+from lacuna.discovery.fit.evidence import astray, is_noise
+from lacuna.discovery.fit.fit import believed, carried, falling_bandwidths, linearised
+from lacuna.discovery.fit.lead import ROUGH, Lead, fit_believed
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import noise_of
 from lacuna.discovery.fit.time_limit import TimeUp
@@ -43,15 +43,23 @@ STIFFLY = (1.0, 1 / 4, 1 / 16, 1 / 50, 0.0)  # bandwidths of trackers where what
 
 def opened(case: Case, library: Library) -> tuple[Explanation, Machine | None]:
     """The case with what is wrong with its recordings, and the believed model; none where they are of no use."""
-    result = Explanation(case, check_case(case))
-    if not _trusted(result, "the recordings cannot be trusted"):
+    result = prepared(case)
+    if result.reason:
         return result, None
-    whole = without_gaps(case)
-    result.case = case = thinned(whole, noise_of(whole))
-    result.problems += said_of(case)
-    machine = _believed_machine(case, places.read(library, case.base))
+    machine = _believed_machine(result.case, places.read(library, case.base))
     result.problems += slips(machine)
     return result, machine if _trusted(result, "the recordings contradict themselves") else None
+
+
+def prepared(case: Case, without: tuple[str, ...] = ()) -> Explanation:
+    """The case without gaps and thinned, with what is wrong with its recordings, but `without` problems of these kinds;
+    `reason` where they are of no use."""
+    result = Explanation(case, [p for p in check_case(case) if p.kind not in without])
+    if _trusted(result, "the recordings cannot be trusted"):
+        whole = without_gaps(case)
+        result.case = thinned(whole, noise_of(whole))
+        result.problems += said_of(result.case)
+    return result
 
 
 def _trusted(result: Explanation, otherwise: str) -> bool:
@@ -260,35 +268,3 @@ def _believed_machine(case: Case, structure: places.Structure) -> Machine:
     if not shafts or machine.events_per_second(values, case.fit[0]) < ROUGH:
         return machine
     return machine.amended(Amendment(structure, trackers=shafts))
-
-
-def fit_believed(case: Case, machine: Machine) -> tuple[Fit, Lead]:
-    """The believed model's best fit, in pieces too where it leaves more than noise, and how fits of it are led."""
-    noise = noise_of(case)
-    free, fixed = believed(case, machine)
-    lead = lead_for(case, machine, fixed | {f.name: f.centre for f in free})
-    best = lead.fit(machine, case, noise, free, fixed)
-    if lead.direct and (best is None or not is_noise(best)):
-        other = joined(machine, case, noise, free, fixed)
-        best = other if other is not None and other.machine is not machine else _better(best, other)
-    if best is None:
-        said = f"{case.model} cannot be simulated with the recorded inputs of {case.label} at the believed values"
-        raise CaseError(f"{said}: look at [parameters] and [initial] of case.toml, and at the units of time and inputs")
-    return _nearer_belief(best), lead
-
-
-def _better(one: Fit | None, other: Fit | None) -> Fit | None:
-    if one is None or (other is not None and other.deviance() < one.deviance()):
-        return other
-    return one
-
-
-def _nearer_belief(found: Fit) -> Fit:
-    """A fit that leaves noise, begun anew with the parameters that left belief put back there: a dip is no finding."""
-    free, recordings = found.estimate.free, found.machine.case.fit
-    outside = outside_belief(found)
-    if not outside or not nearly_noise(found):
-        return found
-    start = found.point | {f.name: f.centre for f in free if f.name in outside}
-    other = fit(found.machine, recordings, found.noise, free, found.fixed, start=start)
-    return _better(found, other)

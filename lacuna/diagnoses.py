@@ -90,6 +90,7 @@ class Judged:
     fit: dict[str, float]
     validate: dict[str, float]
     report: Path
+    problems: tuple[str, ...] = ()  # of the recordings: what was left out, or is doubtful
 
     def _repr_html_(self) -> str:
         rows = [(signal or "all", value, self.fit[signal]) for signal, value in self.validate.items()]
@@ -221,19 +222,26 @@ class Case:
     @names_missing_packages
     def judge(self, model: str | Path, *, out: str | Path | None = None, progress: Progress | None = None) -> Judged:
         """How well does a model file, as written, simulate the recordings that nothing was fitted to?"""
+        from lacuna.discovery.case.cases import CaseError
+        from lacuna.discovery.case.gaps import before_gaps
+        from lacuna.discovery.case.recordings_check import UNDRIVEN
         from lacuna.discovery.catalogue import places
         from lacuna.discovery.catalogue.amend import Amendment
         from lacuna.discovery.explanation.report import write_judgement
         from lacuna.discovery.naming.judge import judge_file
+        from lacuna.discovery.steps import prepared
 
         path = Path(model)
         path.open().close()  # an unreadable file is said before anything is simulated
+        usable = prepared(self._case, without=(UNDRIVEN,))
+        case, left_out = before_gaps(usable.case)
+        if usable.reason or not (case.fit and case.validate):
+            raise CaseError(usable.reason or f"nothing is left to judge by before a gap: {usable.problems[0]}")
         spoken(progress)(f"simulating the recordings by {path.name}")
-        found: Judgement = judge_file(
-            self._case, Amendment(places.read(self._case.library(), self._case.base)), path, {}
-        )
-        report = write_judgement(self._case, found, self._out("judge", out), path)
-        return Judged(found.fit, found.validate, report)
+        found: Judgement = judge_file(case, Amendment(places.read(case.library(), case.base)), path, {})
+        report = write_judgement(case, found, self._out("judge", out), path)
+        doubts = [str(p) for p in usable.problems] + [f"{r}: not judged, its states are unknown" for r in left_out]
+        return Judged(found.fit, found.validate, report, tuple(doubts))
 
     def _out(self, step: str, out: str | Path | None) -> Path:
         folder = Path(out) if out else Path("out") / step / self.folder.resolve().name

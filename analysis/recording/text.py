@@ -36,7 +36,7 @@ _SAMPLE = 200  # lines that decide the dialect
 _NAN = re.compile(r"(?<![A-Za-z])nan(?![A-Za-z])", re.IGNORECASE)
 _NUMBER = {mark: re.compile(rf"[+-]?(\d+[{mark}]?\d*|[{mark}]\d+)([eE][+-]?\d+)?|(?i:nan)|") for mark in ".,"}
 _NO_TEXT = re.compile("[\0-\x08\x0e-\x1f\x7f]")  # control characters, which a terminal would obey
-_NO_NAME = re.compile(r"[+-]?([0-9.]+([eE][+-]?[0-9]+)?|(?i:inf|infinity|nan))")
+_NO_NAME = re.compile(r"[+-]?([0-9.,]+([eE][+-]?[0-9]+)?|(?i:inf|infinity|nan))")
 # A unit as it stands in a row of its own, such as s, rad/s, 1/min, N.m, degC: no blanks, few characters.
 _UNIT = re.compile(r"[\[(]?[^\s\[\]()]{0,12}[\])]?")
 

@@ -46,6 +46,14 @@ def without_gaps(case: Case) -> Case:
     )
 
 
+def before_gaps(case: Case) -> tuple[Case, list[str]]:
+    """(a case that was cut at gaps without what comes after one: its states are unknown, and a model file as it is
+    written fits none; what was left out)."""
+    fit, validate = ([r for r in some if not r.after_gap] for some in (case.fit, case.validate))
+    left_out = [r.name for r in (*case.fit, *case.validate) if r.after_gap]
+    return replace(case, fit=fit, validate=validate), left_out
+
+
 def _parts(recording: Recording, inputs: list[Signal]) -> list[Recording]:
     found = gaps(recording, inputs)
     if not found:

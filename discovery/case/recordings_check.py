@@ -17,6 +17,7 @@ from lacuna.discovery.case.noise import level, quantum
 
 FROZEN_RUN = 25  # equal samples in a row that noise above the resolution cannot give
 AT_REST = 8.0  # noise levels around zero, within which a signal that comes to rest, or leaves it, may be
+UNDRIVEN = "undriven"  # the kind of problem that is none where nothing is to be learned
 CLIPPED_RUN, CLIPPED_SHARE = 5, 0.003  # equal samples in a row, and in all, at the end of a noisy signal's range
 
 
@@ -208,16 +209,17 @@ def _constant(case: Case) -> list[Problem]:
     for signal in case.outputs:
         still = [r for r in case.fit if not _changes(r, signal)]
         if len(still) == len(case.fit):
-            problems.append(_still(still[0], signal, "constant in every recording that may be fitted"))
+            problems.append(_still("constant", still[0], signal, "constant in every recording that may be fitted"))
             continue
         still += [r for r in case.validate if not _changes(r, signal)]
         others = [r for r in case.fit + case.validate if r not in still]
         still = [r for r in still if not _at_rest(case, r, signal, others)]
         if all(_noisy(r.columns[signal.column], signal) for r in others):
-            problems += [_still(r, signal, "constant, where other recordings of it are noisy") for r in still]
+            said = "constant, where other recordings of it are noisy"
+            problems += [_still("constant", r, signal, said) for r in still]
     if case.inputs and not any(_changes(r, s) for s in case.inputs for r in case.fit):
         text = "no input ever changes: there is nothing to learn from"
-        problems.append(_still(case.fit[0], case.inputs[0], text))
+        problems.append(_still(UNDRIVEN, case.fit[0], case.inputs[0], text))
     return problems
 
 
@@ -238,9 +240,9 @@ def _changes(recording: Recording, signal: Signal) -> bool:
     return len(finite) > 0 and bool(np.ptp(finite) > 0)
 
 
-def _still(recording: Recording, signal: Signal, text: str) -> Problem:
+def _still(kind: str, recording: Recording, signal: Signal, text: str) -> Problem:
     begin = float(recording.time[0]) if len(recording.time) else None
-    return Problem("constant", recording.name, signal.column, begin, text, True)
+    return Problem(kind, recording.name, signal.column, begin, text, True)
 
 
 def longest_run(flags: np.ndarray) -> tuple[int, int]:

@@ -17,15 +17,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lacuna.discovery.case.cases import Case, Recording
+from lacuna.discovery.case.cases import Case, CaseError, Recording
 from lacuna.discovery.case.gaps import JOINED, MIN_SAMPLES, in_pieces
 from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.case.thinning import MOST
 from lacuna.discovery.case.values import is_start, state_of
-from lacuna.discovery.fit.evidence import LEFT, nearly_noise
-from lacuna.discovery.fit.fit import Fit, falling_bandwidths, fit
+from lacuna.discovery.fit.evidence import LEFT, is_noise, nearly_noise, outside_belief
+from lacuna.discovery.fit.fit import Fit, believed, falling_bandwidths, fit
 from lacuna.discovery.fit.machine import Machine
-from lacuna.discovery.fit.objective import Objective
+from lacuna.discovery.fit.objective import Objective, noise_of
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.fit.starts import uncertain_starts
 from lacuna.runtime import SimulationError
@@ -167,6 +167,38 @@ def _near_belief(free: Free, value: float) -> Free:
         return free
     reach = max(BELIEVABLE * free.sigma, abs(value - free.centre))
     return replace(free, lower=max(free.lower, free.centre - reach), upper=min(free.upper, free.centre + reach))
+
+
+def fit_believed(case: Case, machine: Machine) -> tuple[Fit, Lead]:
+    """The believed model's best fit, in pieces too where it leaves more than noise, and how fits of it are led."""
+    noise = noise_of(case)
+    free, fixed = believed(case, machine)
+    lead = lead_for(case, machine, fixed | {f.name: f.centre for f in free})
+    best = lead.fit(machine, case, noise, free, fixed)
+    if lead.direct and (best is None or not is_noise(best)):
+        other = joined(machine, case, noise, free, fixed)
+        best = other if other is not None and other.machine is not machine else _better(best, other)
+    if best is None:
+        said = f"{case.model} cannot be simulated with the recorded inputs of {case.label} at the believed values"
+        raise CaseError(f"{said}: look at [parameters] and [initial] of case.toml, and at the units of time and inputs")
+    return _nearer_belief(best), lead
+
+
+def _better(one: Fit | None, other: Fit | None) -> Fit | None:
+    if one is None or (other is not None and other.deviance() < one.deviance()):
+        return other
+    return one
+
+
+def _nearer_belief(found: Fit) -> Fit:
+    """A fit that leaves noise, begun anew with the parameters that left belief put back there: a dip is no finding."""
+    free, recordings = found.estimate.free, found.machine.case.fit
+    outside = outside_belief(found)
+    if not outside or not nearly_noise(found):
+        return found
+    start = found.point | {f.name: f.centre for f in free if f.name in outside}
+    other = fit(found.machine, recordings, found.noise, free, found.fixed, start=start)
+    return _better(found, other)
 
 
 def joined(

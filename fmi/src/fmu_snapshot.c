@@ -118,6 +118,7 @@ static void pass_delays(stream *w, rt_session *s) {
     rt_history *h = &d->past[k];
     int n = w->judged ? count_of(w->judged, k) : h->n;
     pass_within(w, &h->cursor, -1, n - 1);
+    h->near = h->cursor;
     pass_within(w, &h->ahead, 0, n);
     PASS(h->before), PASS(h->size);
     pass_pieces(w, h, n);

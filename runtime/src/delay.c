@@ -1,9 +1,8 @@
 /* delay(e, T) = e at T seconds ago: an input of the model whose samples the run writes itself.
  *
- * The past of e is kept in pieces, one a step, each a polynomial through the values at its Chebyshev-Lobatto points
- * (J.-P. Berrut, L. N. Trefethen, Barycentric Lagrange interpolation, SIAM Review 46 (2004) 501-517). No step is longer
- * than the shortest T, so that it looks into what is known. Where e jumped or bent, its delay does so T later: an
- * event. As with recorded inputs, the end of a step that lands on a jump sees the value before it. */
+ * The past of e is kept in pieces (keep.c), one or more a step. No step is longer than the shortest T, so that it looks
+ * into what is known. Where e jumped or bent, its delay does so T later: an event. As with recorded inputs, the end of
+ * a step that lands on a jump sees the value before it. */
 #include "past.h"
 
 #include <stdlib.h>
@@ -16,11 +15,12 @@ bool rt_delays_create(rt_session *s) {
   if (!d) return false;
   d->n = n;
   d->past = calloc((size_t)n, sizeof *d->past);
-  d->seconds = calloc((size_t)n * (3 + NODES), sizeof *d->seconds);
+  d->seconds = calloc((size_t)n * (4 + NODES), sizeof *d->seconds);
   if (!d->past || !d->seconds) return false;
   d->left = d->seconds + n;
-  d->right = d->left + n;
-  d->at_node = d->right + n;
+  d->test = d->left + n;
+  d->largest = d->test + n;
+  d->at_node = d->largest + n;
   return true;
 }
 
@@ -43,7 +43,7 @@ rt_status rt_delays_begin(rt_session *s) {
   d->fresh = true;
   for (int k = 0; k < d->n; k++) {
     d->past[k].n = d->past[k].ahead = 0;
-    d->past[k].cursor = -1;
+    d->past[k].cursor = d->past[k].near = -1;
     if (!(d->seconds[k] >= 16 * rt_time_resolution(s)) || d->seconds[k] < s->options.step)
       return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL,
                      "delay() number %d is by %.9g s, which is no time or less than a step", k + 1, d->seconds[k]);
@@ -83,12 +83,13 @@ rt_status rt_delays_leave(rt_session *s) {
   if (!d) return RT_OK;
   for (int k = 0; k < d->n; k++) {
     rt_history *h = &d->past[k];
+    h->near = h->cursor;
     h->cursor = rt_reached(h, s->t - d->seconds[k]);
     if (h->cursor < MANY || h->cursor < h->n / 2) continue;
     h->n -= h->cursor;
     h->ahead = h->ahead > h->cursor ? h->ahead - h->cursor : 0;
     memmove(h->pieces, h->pieces + h->cursor, (size_t)h->n * sizeof *h->pieces);
-    h->cursor = 0;
+    h->cursor = h->near = 0;
   }
   if (!values_at(s, s->t, s->data.x, s->data.xdot, s->data.v, d->left)) return RT_OK;
   return rt_fail_model(s, s->t, "keeping what is delayed");
@@ -115,32 +116,22 @@ bool rt_history_reserve(rt_history *h, int n) {
   return true;
 }
 
-static bool append(rt_session *s, int k) {
+static bool append(rt_session *s, double begin, double length) {
   rt_delays *d = s->delays;
-  rt_history *h = &d->past[k];
-  if (!rt_history_reserve(h, h->n + 1)) return false;
-  rt_piece *p = &h->pieces[h->n++];
-  *p = (rt_piece){.begin = s->t_previous, .length = s->t - s->t_previous};
-  for (int i = 0; i < NODES; i++) {
-    p->value[i] = d->at_node[i * d->n + k];
-    h->size = rt_max(h->size, fabs(p->value[i]));
+  for (int k = 0; k < d->n; k++) {
+    rt_history *h = &d->past[k];
+    if (!rt_history_reserve(h, h->n + 1)) return false;
+    rt_piece *p = &h->pieces[h->n++];
+    *p = (rt_piece){.begin = begin, .length = length};
+    for (int i = 0; i < NODES; i++) {
+      p->value[i] = d->at_node[i * d->n + k];
+      h->size = rt_max(h->size, fabs(p->value[i]));
+    }
+    d->largest[k] = h->size;
+    compare_ends(s, h, d->fresh);
   }
-  compare_ends(s, h, d->fresh);
+  d->fresh = false;
   return true;
-}
-
-/* What `values` gives at the points of the last step, [count] each, from the second on. */
-int rt_at_nodes(rt_session *s, rt_point_values values, int count, double *at_node) {
-  memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
-  int status = values(&s->data, s->t, s->data.x, s->data.xdot, s->data.v, at_node + (NODES - 1) * count);
-  for (int i = NODES - 2; i > 0 && !status; i--) {
-    double t = s->t_previous + node[i] * (s->t - s->t_previous);
-    rt_dense_point(s, t, s->x_trial);
-    status = rt_rhs(s, t, s->x_trial, s->xdot_trial, s->v_trial);
-    if (!status) status = values(&s->data, t, s->x_trial, s->xdot_trial, s->v_trial, at_node + i * count);
-  }
-  rt_inputs_at(s, s->t);
-  return status;
 }
 
 /* The step from t_previous to t is done. */
@@ -148,11 +139,10 @@ rt_status rt_delays_follow(rt_session *s) {
   rt_delays *d = s->delays;
   if (!d || !(s->t > s->t_previous)) return RT_OK;
   memcpy(d->at_node, d->left, (size_t)d->n * sizeof *d->left);
-  if (rt_at_nodes(s, s->d->delays, d->n, d->at_node)) return rt_fail_model(s, s->t, "keeping what is delayed");
   for (int k = 0; k < d->n; k++)
-    if (!append(s, k)) return rt_fail(s, RT_MEMORY, s->t, -1, NULL, "out of memory for what is delayed");
-  d->fresh = false;
-  return RT_OK;
+    d->largest[k] = d->past[k].size;
+  rt_kept kept = {s->d->delays, append, d->n, d->at_node, d->test, d->largest};
+  return rt_keep_step(s, &kept, "keeping what is delayed");
 }
 
 void rt_delays_event(rt_session *s) {

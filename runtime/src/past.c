@@ -36,17 +36,19 @@ static double inside(const rt_piece *p, double t) {
 }
 
 /* The piece that holds t, not beyond a jump. */
-int rt_reached(const rt_history *h, double t) {
-  int k = h->cursor;
+int rt_reached(rt_history *h, double t) {
+  int k = h->near > h->cursor ? h->near : h->cursor;
+  while (k > h->cursor && !(h->pieces[k].begin < t))
+    k--;
   while (k + 1 < h->n && h->pieces[k + 1].begin < t && !h->pieces[k + 1].jump)
     k++;
-  return k;
+  return h->near = k;
 }
 
 void rt_delays_at(rt_session *s, double t) {
   rt_delays *d = s->delays;
   for (int k = 0; d && k < d->n; k++) {
-    const rt_history *h = &d->past[k];
+    rt_history *h = &d->past[k];
     int at = rt_reached(h, t - d->seconds[k]);
     s->data.u[s->d->delay_input[k]] = at < 0 ? h->before : inside(&h->pieces[at], t - d->seconds[k]);
   }

@@ -15,10 +15,11 @@ typedef struct {
 } rt_piece;
 
 /* `cursor` is the piece that is looked into from the start of the present step on, -1 before the start of the run;
- * nothing before piece `ahead` that jumps or bends is still to come. */
+ * `near` the one that was looked into last, where that is not before; nothing before piece `ahead` that jumps or bends
+ * is still to come. */
 typedef struct {
   rt_piece *pieces;
-  int n, capacity, cursor, ahead;
+  int n, capacity, cursor, near, ahead;
   double before, size; /* value up to the start; largest one so far */
 } rt_history;
 
@@ -26,15 +27,26 @@ struct rt_delays {
   int n;
   bool fresh; /* an event lies between the last piece and the next */
   rt_history *past;
-  double *seconds, *left, *right, *at_node; /* [n], and [n * NODES] */
+  double *seconds, *left, *test, *largest, *at_node; /* [n], and [n * NODES] */
 };
 
 typedef int (*rt_point_values)(mdl_data *m, double t, const double *x, const double *xdot, const double *v,
                                double *value);
-int rt_at_nodes(rt_session *s, rt_point_values values, int count, double *at_node);
+
+/* What is kept of a step: `values` [count] at the nodes of one piece after another, which `take` gets in `at_node`
+ * [NODES count]. `scale` [count] are the sizes that the tolerance is relative to, or more where a piece has more. */
+typedef struct {
+  rt_point_values values;
+  bool (*take)(rt_session *s, double begin, double length);
+  int count;
+  double *at_node, *test;
+  const double *scale;
+} rt_kept;
+
+rt_status rt_keep_step(rt_session *s, const rt_kept *kept, const char *doing);
 double rt_along(const double *value, double theta);
 double rt_slope_along(const double *value, double theta);
 bool rt_history_reserve(rt_history *h, int n); /* room for n pieces */
-int rt_reached(const rt_history *h, double t);
+int rt_reached(rt_history *h, double t);
 
 #endif

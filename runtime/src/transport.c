@@ -1,9 +1,9 @@
 /* spatialDistribution(in0, in1, x, ...): a quantity that moves with x along a pipe of length 1, whose ends are 0 and 1.
  *
  * What lies at y when x is the position has the label y - x, which it keeps while it moves. The contents are segments
- * by rising label, one a step and one between initial points: label and value are polynomials through the values at
- * the Chebyshev-Lobatto points of the step (as in past.c), which is as exact where the velocity passes zero as
- * elsewhere. Steps that go forward add segments at the left end, steps backward at the right end; what leaves is cut.
+ * by rising label, one or more a step and one between initial points: label and value are polynomials of the time
+ * (keep.c), which is as exact where the velocity passes zero as elsewhere. Steps that go forward add segments at the
+ * left end, steps backward at the right end; what leaves is cut.
  *
  * A mark is a label at which the contents jump or bend. An end reads between two marks only; the inputs of the model
  * say at which positions x the next ones are reached, and the model has a relation for each: an event, which moves on.
@@ -23,8 +23,8 @@ struct rt_transports {
   int n;
   bool fresh; /* an event lies between the last segment and the next */
   rt_pipe *pipe;
-  double *point;         /* initial points and values */
-  double *now, *at_node; /* [VALUES n], [VALUES n NODES] */
+  double *point;                 /* initial points and values */
+  double *now, *scale, *at_node; /* [VALUES n], [VALUES n], [VALUES n NODES] */
 };
 
 static double carried(const mdl_data *m, int k, double end, double x, int order) {
@@ -38,8 +38,9 @@ bool rt_transports_create(rt_session *s) {
   if (!t) return false;
   t->n = n;
   t->pipe = calloc((size_t)n, sizeof *t->pipe);
-  t->now = calloc((size_t)n * VALUES * (1 + NODES), sizeof *t->now);
-  t->at_node = t->now + (size_t)n * VALUES;
+  t->now = calloc((size_t)n * VALUES * (2 + NODES), sizeof *t->now);
+  t->scale = t->now + (size_t)n * VALUES;
+  t->at_node = t->scale + (size_t)n * VALUES;
   size_t points = 0;
   for (int k = 0; k < n; k++)
     points += 2 * (size_t)s->d->transport_points[k];
@@ -128,6 +129,8 @@ rt_status rt_transports_begin(rt_session *s) {
     return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "sensitivities of spatialDistribution() are not computed");
   if (s->d->transport_initial(&s->data, t->point)) return rt_fail_model(s, s->start, "computing what is transported");
   t->fresh = true;
+  for (int i = 0; i < t->n * VALUES; i++) /* positions count in lengths of the pipe; which way it moves is no number */
+    t->scale[i] = i % VALUES == AT ? 1 : i % VALUES == FORWARD ? INFINITY : 0;
   for (int k = 0; k < t->n; k++) {
     t->pipe[k].n = 0;
     if (!is_distribution(s->d->transport_points[k], points_of(s, k)))
@@ -146,7 +149,7 @@ int rt_transports_start(rt_session *s) {
   return status ? status : pass(s, true);
 }
 
-/* What a step adds at one end. */
+/* What a piece of a step adds at one end. */
 static bool add(rt_session *s, int k) {
   const struct rt_transports *t = s->transports;
   rt_pipe *c = &t->pipe[k];
@@ -175,17 +178,26 @@ static bool add(rt_session *s, int k) {
   return true;
 }
 
+static bool add_all(rt_session *s, double begin, double length) {
+  (void)begin, (void)length; /* labels say where a piece is */
+  struct rt_transports *t = s->transports;
+  for (int k = 0; k < t->n; k++)
+    if (!add(s, k)) return false;
+  t->fresh = false;
+  for (int i = 0; i < t->n * VALUES * NODES; i++) {
+    double *largest = &t->scale[i % (t->n * VALUES)];
+    if (i % VALUES == IN0 || i % VALUES == IN1) *largest = rt_max(*largest, fabs(t->at_node[i]));
+  }
+  return true;
+}
+
 /* The step from t_previous to t is done. */
 rt_status rt_transports_follow(rt_session *s) {
   struct rt_transports *t = s->transports;
   if (!t || !(s->t > s->t_previous)) return RT_OK;
   memcpy(t->at_node, t->now, (size_t)t->n * VALUES * sizeof *t->now);
-  if (rt_at_nodes(s, s->d->transports, VALUES * t->n, t->at_node))
-    return rt_fail_model(s, s->t, "keeping what is transported");
-  for (int k = 0; k < t->n; k++)
-    if (!add(s, k)) return rt_fail(s, RT_MEMORY, s->t, -1, NULL, "out of memory for what is transported");
-  t->fresh = false;
-  return RT_OK;
+  rt_kept kept = {s->d->transports, add_all, VALUES * t->n, t->at_node, t->now, t->scale};
+  return rt_keep_step(s, &kept, "keeping what is transported");
 }
 
 void rt_transports_event(rt_session *s) {

@@ -234,6 +234,7 @@ def test_a_damaged_file_of_units_is_refused_by_name(tmp_path: Path) -> None:
     [
         ("time,x\n0,1e999\n1,2\n", "largest number"),
         ("time,x\n0,inf\n1,2\n", "names of columns or units"),
+        ("u;time\n-8,5e-07;1_0\n-2,1;1,9\n4,8;2,1\n", "names of columns or units"),
         ("time,x\x1b[31m\n0,1\n1,2\n", "no text"),
     ],
 )

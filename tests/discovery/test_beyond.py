@@ -11,11 +11,11 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment, probe_name
 from lacuna.discovery.catalogue.places import read
+from lacuna.discovery.fit.lead import fit_believed
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.law.empirical_law import find
 from lacuna.discovery.law.law_terms import Group, evaluate
 from lacuna.discovery.law.response import Response, linear
-from lacuna.discovery.steps import fit_believed
 from lacuna.runtime import RecordedInput
 from tests.discovery.conftest import BELIEVED, write_case, write_model
 

@@ -15,7 +15,7 @@ from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit, linearised
-from lacuna.discovery.fit.lead import Lead
+from lacuna.discovery.fit.lead import Lead, fit_believed
 from lacuna.discovery.fit.machine import Machine, try_machine
 from lacuna.discovery.naming.candidate_fit import shared
 from lacuna.discovery.naming.judge import judge, noise_floor
@@ -23,7 +23,6 @@ from lacuna.discovery.naming.name import Contest
 from lacuna.discovery.naming.race import outdone
 from lacuna.discovery.naming.screen import Screen, prepare
 from lacuna.discovery.naming.search import Search
-from lacuna.discovery.steps import fit_believed
 
 from .conftest import BELIEVED, attachment, conceal
 

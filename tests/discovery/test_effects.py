@@ -16,12 +16,12 @@ from lacuna.discovery.catalogue import catalogue
 from lacuna.discovery.catalogue.amend import Amendment, Attachment
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.fit.fit import fit
+from lacuna.discovery.fit.lead import fit_believed
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.solver.least_squares import bounded_linear
 from lacuna.discovery.naming import candidate_fit
 from lacuna.discovery.naming.screen import Screen, prepare
 from lacuna.discovery.naming.shapes import limits_of
-from lacuna.discovery.steps import fit_believed
 
 from .conftest import BELIEVED, attachment, conceal, write_case
 

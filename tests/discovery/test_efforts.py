@@ -25,8 +25,8 @@ from lacuna.discovery.efforts.sites import read
 from lacuna.discovery.explain import explain, judge_written, write_amended
 from lacuna.discovery.explanation import diagnosis
 from lacuna.discovery.fit.intervals import undetermined
+from lacuna.discovery.fit.lead import fit_believed
 from lacuna.discovery.fit.machine import Machine
-from lacuna.discovery.steps import fit_believed
 from lacuna.runtime import Model, RecordedInput, simulate
 
 from .recorded import record, truth

@@ -21,8 +21,8 @@ from lacuna.discovery.experiment.limits import Range, derivatives, ranges
 from lacuna.discovery.experiment.proposal import propose
 from lacuna.discovery.experiment.separation import Rival, refitted_distance, released
 from lacuna.discovery.experiment.waveforms import as_recording, waveforms
+from lacuna.discovery.fit.lead import fit_believed
 from lacuna.discovery.fit.machine import Machine
-from lacuna.discovery.steps import fit_believed
 from lacuna.runtime import Model, RecordedInput, simulate
 from tests.discovery.conftest import BELIEVED, attachment, conceal, write_model
 

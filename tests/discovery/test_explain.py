@@ -21,6 +21,7 @@ from lacuna.discovery.explanation import diagnosis, report
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.intervals import standard_errors
+from lacuna.discovery.fit.lead import fit_believed
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.fit.solver.least_squares import Problem, solve
@@ -28,7 +29,6 @@ from lacuna.discovery.law.locate import locate
 from lacuna.discovery.naming.comparison import confidences
 from lacuna.discovery.naming.judge import judge_file
 from lacuna.discovery.naming.name import Naming
-from lacuna.discovery.steps import fit_believed
 
 
 def test_least_squares_finds_rosenbrock_within_bounds() -> None:

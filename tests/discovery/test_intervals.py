@@ -13,11 +13,11 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.fit.fit import fit
 from lacuna.discovery.fit.intervals import covariance, from_bound
+from lacuna.discovery.fit.lead import fit_believed
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.secants import input_shift
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.fit.solver.least_squares import Estimate, Problem, solve
-from lacuna.discovery.steps import fit_believed
 
 from .conftest import BELIEVED, write_case
 

@@ -14,6 +14,7 @@ from lacuna.discovery.case.cases import Case, load
 from lacuna.discovery.catalogue.amend import Amendment, Attachment
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.fit.fit import Fit, fit
+from lacuna.discovery.fit.lead import fit_believed
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.time_limit import TimeUp, check, within
 from lacuna.discovery.naming import name as naming
@@ -21,7 +22,6 @@ from lacuna.discovery.naming import restarts
 from lacuna.discovery.naming.name import Naming, compete
 from lacuna.discovery.naming.restarts import begin_again
 from lacuna.discovery.naming.screen import Candidate, Screen, prepare
-from lacuna.discovery.steps import fit_believed
 from lacuna.runtime import SimulationError
 
 from .conftest import attachment

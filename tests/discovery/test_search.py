@@ -17,7 +17,7 @@ from lacuna.discovery.catalogue.catalogue import read as read_catalogue
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.explain import explain
 from lacuna.discovery.fit.fit import Fit, fit
-from lacuna.discovery.fit.lead import Lead
+from lacuna.discovery.fit.lead import Lead, fit_believed
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.time_limit import TimeUp
 from lacuna.discovery.naming import search as searching
@@ -29,7 +29,6 @@ from lacuna.discovery.naming.race import _enriched, best_starts, first_round, in
 from lacuna.discovery.naming.restarts import _shared
 from lacuna.discovery.naming.screen import Candidate, Screen, prepare
 from lacuna.discovery.naming.search import Search
-from lacuna.discovery.steps import fit_believed
 
 from .conftest import BELIEVED, attachment, conceal
 

@@ -60,6 +60,38 @@ def test_a_shorter_delay_than_a_step_of_the_solver_limits_it(tmp_path: Path) -> 
     assert result["x"][-1] == pytest.approx(1 + 1e-3 + np.sin(1 - 1e-3), rel=1e-6)
 
 
+@pytest.mark.parametrize("solver", ["ida", "dopri5"])
+@pytest.mark.parametrize("state", ["", "Real x(start=0, fixed=true); equation der(x) = -x;"])
+def test_what_turns_many_times_in_a_step_is_delayed_as_it_is(tmp_path: Path, solver: str, state: str) -> None:
+    """No state follows the sine, so that nothing but what is kept of it limits a step, as long as the delay."""
+    text = f"model Fast\n  Real y = delay(sin(100*time), 0.5);\n  {state}\nend Fast;\n"
+    result = simulated(tmp_path, text, solver=solver, stop=2.0, interval=0.01)
+    late = np.where(result.time > 0.5, np.sin(100 * (result.time - 0.5)), 0.0)
+    assert result["y"] == pytest.approx(late, abs=2e-6)
+
+
+@pytest.mark.parametrize("x", ["2*time", "time + 0.025*sin(40*time)"])
+def test_what_turns_many_times_in_a_step_is_carried_as_it_is(tmp_path: Path, x: str) -> None:
+    text = f"""model Pipe
+  Real x = {x};
+  Real out0, out1;
+equation
+  (out0, out1) = spatialDistribution(sin(30*x), 0, x, true, {{0, 1}}, {{0, 0}});
+end Pipe;
+"""
+    result = simulated(tmp_path, text, stop=2.0, interval=0.01)
+    carried = np.where(result["x"] > 1, np.sin(30 * (result["x"] - 1)), 0.0)
+    assert result["out1"] == pytest.approx(carried, abs=2e-6)
+
+
+def test_a_jump_without_an_event_is_one_and_what_is_too_fast_is_refused(tmp_path: Path) -> None:
+    text = "model Hidden\n  Real y = delay(noEvent(if time > 0.3 then 1 else 0), 0.5);\nend Hidden;\n"
+    result = simulated(tmp_path, text, stop=2.0, interval=0.0501)
+    assert result["y"] == pytest.approx(np.where(result.time > 0.8, 1.0, 0.0), abs=0)
+    text = text.replace("noEvent(if time > 0.3 then 1 else 0)", "sin(1e9*time)")
+    assert "varies too fast" in str(simulated(tmp_path, text, stop=0.6).failure)
+
+
 def test_the_longest_time_is_kept_to(tmp_path: Path) -> None:
     failure = simulated(tmp_path, LAG.replace("delay(x, T)", "delay(x, T, 0.1)")).failure
     assert "delayTime is longer than delayMax" in str(failure)

@@ -236,10 +236,9 @@ def _value_2d(a: list[Value], call: ExternalCall) -> list[Value]:
         hint = "two or more grid points each way, HoldLastPoint or LastTwoPoints"
         raise Diagnostic("R091", "this table in two dimensions is outside the subset", call.span, hint)
     z = Array((len(x), len(y)), vector([v for row in table.rows[1:] for v in row[1:]]).items)
-    grid = {"u": a[1], "v": a[2], "x": vector(x), "y": vector(y), "z": z}
-    if table.smoothness == pp.CONSTANT:
-        return _run("steps", grid, call)
-    return _run("bilinear", {**grid, "hold": ex.const(table.extrapolation == pp.HOLD)}, call)
+    hold = ex.const(table.extrapolation == pp.HOLD)
+    grid = {"u": a[1], "v": a[2], "hold": hold, "x": vector(x), "y": vector(y), "z": z}
+    return _run("steps" if table.smoothness == pp.CONSTANT else "bilinear", grid, call)
 
 
 def _edge(last: bool, call_2d: bool = False) -> Handler:

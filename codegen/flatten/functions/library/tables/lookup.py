@@ -160,15 +160,20 @@ package Tables
     w := (1 - a)*((1 - b)*z[i, j] + b*z[i, j + 1]) + a*((1 - b)*z[i + 1, j] + b*z[i + 1, j + 1]);
   end bilinear;
 
-  function steps "The value of the cell's lower corner"
+  function steps "The value of the cell's lower corner; beyond the edge as `bilinear`, where `hold` is not set"
     input Real u;
     input Real v;
+    input Boolean hold;
     input Real x[:];
     input Real y[:];
     input Real z[size(x, 1), size(y, 1)];
     output Real w;
   algorithm
-    w := z[find(x, u), find(y, v)];
+    if hold or u >= x[1] and u <= x[size(x, 1)] and v >= y[1] and v <= y[size(y, 1)] then
+      w := z[find(x, u), find(y, v)];
+    else
+      w := bilinear(u, v, false, x, y, z);
+    end if;
   end steps;
 end Tables;
 """

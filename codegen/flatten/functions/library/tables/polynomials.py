@@ -28,10 +28,11 @@ def piecewise(x: Sequence[float], y: Sequence[float], smoothness: int, extrapola
     check_abscissa(x, smoothness)
     if len(x) == 1:
         return [(x[0], y[0], 0.0, 0.0, 0.0)]
-    if smoothness == CONSTANT:
-        rows = [(x[0], y[0], 0.0, 0.0, 0.0), *((a, b, 0.0, 0.0, 0.0) for a, b in zip(x, y, strict=True))]
-        return _without_empty(rows)
-    slopes = None if smoothness == LINEAR or len(x) == 2 else _slopes(x, y, smoothness, extrapolation == PERIODIC)
+    slopes = (
+        None
+        if smoothness in (LINEAR, CONSTANT) or len(x) == 2
+        else _slopes(x, y, smoothness, extrapolation == PERIODIC)
+    )
     segments = [_segment(x, y, slopes, i) for i in range(len(x) - 1) if x[i + 1] > x[i]]
     if not segments:
         return [(x[-1], y[-1], 0.0, 0.0, 0.0)]
@@ -40,6 +41,8 @@ def piecewise(x: Sequence[float], y: Sequence[float], smoothness: int, extrapola
     width = x[-1] - last[0]
     slope = last[2] + (2 * last[3] + 3 * last[4] * width) * width
     after = (x[-1], y[-1], slope if extrapolation == EXTEND else 0.0, 0.0, 0.0)
+    if smoothness == CONSTANT:
+        segments = [(a, b, 0.0, 0.0, 0.0) for a, b in zip(x, y, strict=True)][:-1]
     return _without_empty([before, *segments, after])
 
 
