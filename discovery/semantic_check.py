@@ -200,7 +200,9 @@ def _slip(scale: float) -> float | None:
 
 def _shifts(machine: Machine, recording: Recording, simulated: dict[str, np.ndarray]) -> list[Problem]:
     lags = {s.column: _lag(recording.columns[s.column], simulated[s.column]) for s in machine.case.outputs}
-    found = []
+    found: list[Problem] = []
+    if len(machine.case.signals) == 1:  # there is nothing that it could be shifted against
+        return found
     together = len(lags) > 1 and np.ptp([lag for lag, _ in lags.values()]) <= 4  # that is the drive, or a delay
     if together and all(lag <= -EARLY and gain > SURE for lag, gain in lags.values()):
         seconds = -max(lag for lag, _ in lags.values()) * recording.interval

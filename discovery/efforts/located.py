@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from lacuna.discovery.case.cases import Case, Recording
+from lacuna.discovery.case.values import is_read, is_start, state_of
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
 from lacuna.discovery.efforts.latent.evidence import evidence
@@ -53,7 +54,7 @@ class Locator:
 
     def __init__(self, case: Case, opened: Opened, base: Fit, point: dict[str, float] | None = None) -> None:
         self.case, self.opened, self.base, self.point = case, opened, base, point or base.point
-        self.free = [f for f in base.estimate.free if f.name in opened.linear.parameters]
+        self.free = [f for f in base.estimate.free if f.name in opened.linear.parameters] + self._unknown_starts()
         self.noise = np.array([base.noise[s.column].std for s in case.outputs])
         self.sigma = np.array([f.sigma or f.scale for f in self.free])
         self.pieces = [self.piece(self.point, r) for r in case.fit]
@@ -72,18 +73,45 @@ class Locator:
             [recording.columns[c] - opened.linear.of(v, along) for c, v in opened.machine.columns.items()], 1
         )
         left = left + _response(along, efforts)
-        inputs, count = len(opened.linear.inputs), len(self.free)
+        inputs, count = len(opened.linear.inputs), sum(not is_start(f.name) for f in self.free)
         columns = np.arange(inputs, inputs + count)
-        answers = along.response(columns, np.ones((len(time), count))) * self.sigma
+        answers = along.response(columns, np.ones((len(time), count)))
+        answers = np.concatenate([answers, self._from_starts(along, recording)], axis=2) * self.sigma
         believed = np.array([(f.centre - point[f.name]) for f in self.free]) / self.sigma
         data = np.concatenate([(left - answers @ believed)[:, :, None], -answers], axis=2)
         return Piece(along, data, self.noise, self._start(recording))
+
+    def _unknown_starts(self) -> list[Free]:
+        """States that nobody knows at the first sample: as parameters, which may be anywhere within their size. Those
+        of pieces stay where they were fitted: an effort puts a piece right with what it does first."""
+        if any(r.after_gap for r in self.case.fit):
+            return []
+        unknown = (f for f in self.base.estimate.free if is_start(f.name) and not f.sigma)
+        return [replace(f, centre=self.point[f.name]) for f in unknown if self._state(f.name) is not None]
+
+    def _state(self, start: str) -> tuple[int, int] | None:
+        """Number and sense of the state whose start value has this name; None where the linear model has none such."""
+        states, (kept, sense) = self.opened.linear.states, self._alias(state_of(start))
+        return (states.index(kept), sense) if kept in states else None
+
+    def _alias(self, name: str) -> tuple[str, int]:
+        return self.opened.linear.prepared.aliases.get(name, (name, 1))
+
+    def _from_starts(self, along: Along, recording: Recording) -> np.ndarray:
+        """(n, y, j): outputs to each of the j unknown starts of all recordings; nothing to those of others."""
+        starts = [f.name for f in self.free if is_start(f.name)]
+        result = np.zeros((len(along.time), along.read.shape[1], len(starts)))
+        own = [k for k, name in enumerate(starts) if is_read(name, recording)]
+        found = [self._state(starts[k]) for k in own]
+        if own:
+            result[:, :, own] = along.from_start([n for n, _ in found]) * [sense for _, sense in found]
+        return result
 
     def _start(self, recording: Recording) -> np.ndarray:
         """Standard deviations of the states at the first sample: that of the noise where they are recorded."""
         result, machine = np.zeros(len(self.opened.linear.states)), self.base.machine
         for name, sample in machine.uncertain_states(recording).items():
-            kept, _ = self.opened.linear.prepared.aliases.get(name, (name, 1))
+            kept, _ = self._alias(name)
             if sample is not None and kept in self.opened.linear.states:
                 result[self.opened.linear.states.index(kept)] = self.base.noise[machine.recorded(name)].std
         return result

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
@@ -27,7 +28,7 @@ from lacuna.discovery.fit.fit import Fit, believed, falling_bandwidths, fit
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import Objective, noise_of
 from lacuna.discovery.fit.solver.free import Free
-from lacuna.discovery.fit.starts import uncertain_starts
+from lacuna.discovery.fit.starts import begun, uncertain_starts
 from lacuna.runtime import SimulationError
 
 ROUGH = 20  # events a second, from which fits are led
@@ -38,7 +39,7 @@ FOLLOWED = 1.5  # unless another signal is below this level: that one's edges ar
 BELIEVABLE = 8.0  # sigmas from its believed value, within which a parameter is sought while shafts are held
 EARLY = 0.16  # share on which the motion is still held fast by its beginning
 PIECES = JOINED**3  # at first: of a few hundred periods, a few
-POLYNOMIAL = JOINED**3  # growth from the first quarter of a piece to its last, of what is as a cube of time
+POLYNOMIAL = JOINED**2  # growth from the first quarter of a piece to its last, of what is as the square of time
 ROOM = 60 * MOST  # numbers in a Jacobian
 
 Courses = Mapping[str, Mapping[str, np.ndarray]]  # recording -> state -> (n,)
@@ -217,8 +218,10 @@ def joined(
     for count in _counts(case, len(machine.model.states)):
         short = replace(in_pieces(case, count), noise=dict(noise))
         here = machine.amended(machine.amendment, short)
-        starts = [s for r in short.fit if r.after_gap for s in _piece_starts(here, r, courses) if s.name not in known]
-        found = fit(here, short.fit, noise, [*free, *starts], fixed, start=point)
+        starts = {r.name: [f for f in _piece_starts(here, r, courses) if f.name not in known] for r in short.fit}
+        if shorter is None:
+            starts = {r.name: begun(here, r, starts[r.name], point) for r in short.fit}
+        found = fit(here, short.fit, noise, [*free, *chain(*starts.values())], fixed, start=point)
         if found is None or (shorter is not None and _worse(found, shorter) and _growth(found) > np.log(POLYNOMIAL)):
             return shorter
         growth = _growth(found)

@@ -48,17 +48,23 @@ def _start(
 
 
 def with_starts(machine: Machine, recording: Recording, values: Mapping[str, float]) -> dict[str, float]:
-    """The values with the start values that they lack for this recording, fitted to its beginning, then to all of it;
-    unchanged where none is."""
-    missing = uncertain_starts(machine, recording, values)
-    unknown = any(f.sigma is None for f in missing)
-    for part in [
-        *islice(cut(recording, machine.case.inputs, JOINED), int(unknown)),
-        *([recording] if missing else []),
-    ]:
+    """The values with the start values that they lack for this recording, fitted to it; unchanged where none is."""
+    missing = begun(machine, recording, uncertain_starts(machine, recording, values), values)
+    return dict(values) | {f.name: f.centre if f.start is None else f.start for f in missing}
+
+
+def begun(
+    machine: Machine, recording: Recording, missing: list[Free], values: Mapping[str, float]
+) -> list[Free]:  # fmt: skip
+    """Missing start values, with those to start from that fit the recording: its beginning, and then all of it."""
+    parts = [
+        *islice(cut(recording, machine.case.inputs, JOINED), int(any(f.sigma is None for f in missing))),
+        recording,
+    ]
+    for part in parts if missing else []:
         found = solve(Problem(missing, Objective(machine, [part], noise_of(machine.case)), 1, dict(values)))
         missing = [replace(f, start=found.point[f.name]) for f in missing] if found else missing
-    return dict(values) | {f.name: f.centre if f.start is None else f.start for f in missing}
+    return missing
 
 
 def as_known_to(machine: Machine, free: list[Free]) -> list[Free]:

@@ -50,3 +50,12 @@ class Along:
             self.model(), columns.ctypes.data_as(INTEGERS), pointer(courses), len(columns), hold, every, pointer(result)
         )
         return result
+
+    def from_start(self, states: list[int]) -> np.ndarray:
+        """(n, y, j): outputs to each of j states being one at the first sample, nothing acting."""
+        course = np.zeros((len(self.time), self.read.shape[2], len(states)))
+        course[0, states, np.arange(len(states))] = 1.0
+        with np.errstate(over="ignore", invalid="ignore"):  # what runs away is no number from there on
+            for k, step in enumerate(self.step):
+                course[k + 1] = step @ course[k]
+        return self.read @ course
