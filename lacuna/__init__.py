@@ -10,7 +10,6 @@ Every name below is loaded when it is first used: `import lacuna` itself needs n
 """
 
 from importlib import import_module
-from importlib.metadata import version as _version
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -43,6 +42,8 @@ if TYPE_CHECKING:
     from lacuna.results import IncompleteRun, Result
     from lacuna.verification import ELSEWHERE, Verification, record_making, verify
     from lacuna.watching import watch
+
+    __version__: str
 
 _HOMES = {
     "campaigns": ("Sweep", "sweep"),
@@ -77,7 +78,6 @@ _HOMES = {
 }
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 
-__version__ = _version("lacuna")
 __all__ = [
     "ELSEWHERE",
     "Agreement",
@@ -142,9 +142,12 @@ __all__ = [
 
 def __getattr__(name: str) -> object:
     """The public names, each from its module when it is first used."""
-    if name not in _HOME_OF:
+    if name == "__version__":
+        found: object = import_module("importlib.metadata").version("lacuna")
+    elif name in _HOME_OF:
+        found = getattr(import_module(f"lacuna.{_HOME_OF[name]}"), name)
+    else:
         raise AttributeError(f"module 'lacuna' has no attribute {name!r}")
-    found = getattr(import_module(f"lacuna.{_HOME_OF[name]}"), name)
     globals()[name] = found
     return found
 

@@ -48,3 +48,10 @@ def test_ctrl_c_while_the_commands_are_imported_is_one_word() -> None:
     code = f"{heard}; import lacuna.cli; os.kill(os.getpid(), signal.SIGINT); time.sleep(9)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False)
     assert (done.stderr, done.returncode) == ("interrupted\n", -signal.SIGINT)
+
+
+def test_nothing_long_is_imported_before_ctrl_c_is_heard() -> None:
+    """The reader of versions brings mail, sockets and archives: a tenth of a second in which Ctrl-C was a traceback."""
+    code = "import sys, lacuna.cli; print(*{'importlib.metadata', 'email', 'socket', 'zipfile'} & {*sys.modules})"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)
+    assert done.stdout.split() == []
