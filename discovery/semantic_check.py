@@ -147,6 +147,8 @@ def _broken_relation(
     """The one slip after whose correction the recording obeys what the simulated outputs obey, such as currents that
     add up to zero; empty where there is no such relation, it is not broken, or no single slip explains that."""
     good = np.all([np.isfinite(measured[c]) for c in columns], axis=0)
+    if not good.any():
+        return {}
     s, m = (np.array([v[c][good] - v[c][good].mean() for c in columns]) for v in (simulated, measured))
     size = np.sqrt(np.mean(s**2, axis=1))
     if len(columns) < 2 or not np.all(size > 0):
