@@ -85,7 +85,7 @@ def cut(recording: Recording, inputs: list[Signal], count: int) -> Iterator[Reco
         piece = f"{recording.piece}+{begin}" if begin else recording.piece
         columns = {c: v[rows] for c, v in recording.columns.items()}
         drives = {s.column: _around(*recording.drive(s.column), time) for s in inputs}
-        name, after_gap = f"{recording.name}+{begin}", recording.after_gap or begin > 0
+        name, after_gap = f"{recording.name} from {time[0]:.6g} s", recording.after_gap or begin > 0
         yield replace(recording, name=name, piece=piece, time=time, columns=columns, drives=drives, after_gap=after_gap)
 
 

@@ -177,7 +177,7 @@ def _join(case: Case, base: Fit, laws: list[Candidate], guided: Guided) -> None:
     if not laws or any(not astray(law.fit) for law in laws if law.fit is not None):
         return
     first = laws[0]
-    courses = {r.name: p.along.values for r, p in zip(case.fit, guided.pieces, strict=True)}
+    courses = {r.piece: p.along.values for r, p in zip(case.fit, guided.pieces, strict=True)}
     free = [*base.estimate.free, *first.free]
     found = joined(first.machine, case, base.noise, free, base.fixed, first.start, courses)
     whole = found is not None and found.machine is first.machine

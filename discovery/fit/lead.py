@@ -42,7 +42,7 @@ PIECES = JOINED**3  # at first: of a few hundred periods, a few
 POLYNOMIAL = JOINED**2  # growth from the first quarter of a piece to its last, of what is as the square of time
 ROOM = 60 * MOST  # numbers in a Jacobian
 
-Courses = Mapping[str, Mapping[str, np.ndarray]]  # recording -> state -> (n,)
+Courses = Mapping[str, Mapping[str, np.ndarray]]  # recording, or what of it is between gaps -> state -> (n,)
 
 
 @dataclass(frozen=True)
@@ -272,17 +272,18 @@ def _courses(machine: Machine, case: Case, point: Mapping[str, float]) -> Course
     found = {}
     for recording in case.fit:
         with suppress(SimulationError):
-            found[recording.name] = machine.trajectory(point, recording, list(machine.model.states))
+            found[recording.piece] = machine.trajectory(point, recording, list(machine.model.states))
     return found
 
 
 def _piece_starts(machine: Machine, piece: Recording, courses: Courses) -> list[Free]:
     """The start values of a piece; those of states that are not recorded begin on their courses."""
-    name, _, begin = piece.name.rpartition("+")
+    whole, plus, begin = piece.piece.rpartition("+")
+    courses_here = courses.get(whole if plus else piece.piece, {})
     found = []
     for f in uncertain_starts(machine, piece, {}):
-        course = courses.get(name, {}).get(state_of(f.name))
+        course = courses_here.get(state_of(f.name))
         if course is not None and machine.recorded(state_of(f.name)) is None:
-            f = replace(f, centre=float(course[int(begin)]), scale=float(np.ptp(course)) or f.scale)
+            f = replace(f, centre=float(course[int(begin) if plus else 0]), scale=float(np.ptp(course)) or f.scale)
         found.append(f)
     return found
