@@ -261,7 +261,7 @@ def _counts(case: Case, states: int) -> list[int]:
     """Pieces of each recording, falling: so many that each says something, and that there is room for their starts."""
     rows, recordings = min(len(r.time) for r in (*case.fit, *case.validate)), len(case.fit)
     values = sum(len(r.time) for r in case.fit) * len(case.outputs) * states * recordings
-    most = min(PIECES, rows // MIN_SAMPLES, int(ROOM / values))
+    most = min(PIECES, rows // MIN_SAMPLES, int(ROOM / values)) if states else 0  # what has none, begins nowhere
     joins = int(np.log2(most) / np.log2(JOINED)) if most >= JOINED else 0
     first = most // JOINED ** min(joins, 2) * JOINED ** min(joins, 2)  # so that the pieces of a join are whole
     return [first // JOINED**k for k in range(joins + 1) if first // JOINED**k > 1] if joins else []

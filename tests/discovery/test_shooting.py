@@ -15,7 +15,7 @@ from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.explain import explain
 from lacuna.discovery.fit.evidence import astray
 from lacuna.discovery.fit.fit import believed, fit
-from lacuna.discovery.fit.lead import joined
+from lacuna.discovery.fit.lead import fit_believed, joined
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import noise_of
 
@@ -87,3 +87,23 @@ def test_pieces_are_driven_as_the_whole_is(mass: Path) -> None:
         time, values = piece.drive("F")
         here = values[np.searchsorted(time, piece.time, side="right") - 1]
         assert np.array_equal(here, held[126 * number : 126 * (number + 1)])
+
+
+def test_a_machine_without_states_begins_nowhere(tmp_path: Path) -> None:
+    (tmp_path / "Resistor.mo").write_text(
+        'model Resistor\n  parameter Real R(unit="Ohm") = 2;\n  input Real i(unit="A");\n  Real u(unit="V");\n'
+        "equation\n  u = R*i;\nend Resistor;\n"
+    )
+    (tmp_path / "case.toml").write_text(
+        'model = "Resistor.mo"\n[signals.i]\nrole = "input"\nvariable = "i"\nunit = "A"\n'
+        '[signals.u]\nrole = "output"\nvariable = "u"\nunit = "V"\nnoise_std = 0.01\n'
+        '[recordings]\nfit = ["r1.csv"]\nvalidate = ["r2.csv"]\n'
+    )
+    random, time = np.random.default_rng(2), 0.01 * np.arange(400)
+    for name in ("r1", "r2"):
+        current = np.sin(3.0 * time) + random.normal(0.0, 0.1)
+        table = np.column_stack([time, current, 2.0 * current + current**3 + random.normal(0.0, 0.01, 400)])
+        np.savetxt(tmp_path / f"{name}.csv", table, "%.8g", ",", header="time,i,u", comments="")
+    case = load(tmp_path)
+    machine = Machine(case, Amendment(read(case.library(), case.base)))
+    assert astray(fit_believed(case, machine)[0])
