@@ -1,4 +1,4 @@
-"""Recordings of cases that tests write: a simulated machine, read with errors; and that machine."""
+"""Recordings of cases that tests write: a simulated machine, read with errors; and that machine, or a tank."""
 
 from __future__ import annotations
 
@@ -9,6 +9,16 @@ import numpy as np
 
 from lacuna.codegen.compile import compile_model
 from lacuna.runtime import Model, RecordedInput, simulate
+
+TANK = """model Tank "A tank with an outlet"
+  parameter Real A(unit="m2") = 0.01;
+  parameter Real k(unit="m2/s", min=0) = 3e-4;
+  input Real q(unit="m3/s");
+  Real h(unit="m", start=0.2, fixed=true);
+equation
+  A*der(h) = q - {outflow};
+end Tank;
+"""
 
 
 def truth(folder: Path, name: str, text: str, cls: str = "") -> Model:

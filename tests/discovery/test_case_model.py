@@ -24,17 +24,10 @@ from lacuna.discovery.fit.fit import believed
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.naming.judge import judge_file
 
+from .recorded import TANK
+
 ROOT = Path(__file__).resolve().parents[2]
 SHARED = Path(os.environ.get("LACUNA_SHARED", ROOT.parent / "shared"))
-TANK = """model Tank "A tank with an outlet"
-  parameter Real A(unit="m2") = 0.01;
-  parameter Real k(unit="m2/s", min=0) = 3e-4;
-  input Real q(unit="m3/s");
-  Real h(unit="m", start=0.2, fixed=true);
-equation
-  A*der(h) = q - {outflow};
-end Tank;
-"""
 CASE = """title = "Tank"
 model = "{model}"
 {libraries}

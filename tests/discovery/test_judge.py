@@ -11,15 +11,8 @@ import lacuna
 from lacuna.diagnoses import Judged
 from lacuna.discovery.case.cases import CaseError
 
-TANK = """model Tank "A tank with an outlet"
-  parameter Real A(unit="m2") = 0.01;
-  parameter Real k(unit="m2/s", min=0) = 3e-4;
-  input Real q(unit="m3/s");
-  Real h(unit="m", start=0.2, fixed=true);
-equation
-  A*der(h) = q - k*h;
-end Tank;
-"""
+from .recorded import TANK
+
 CASE = """title = "Tank"
 model = "Tank.mo"
 [parameters]
@@ -40,7 +33,7 @@ validate = ["unseen.csv"]
 @pytest.fixture
 def rows(tmp_path: Path) -> np.ndarray:
     """Of the closed form of a tank, recorded: time in s, q in m3/s, h in m; the case is in `tmp_path`."""
-    (tmp_path / "Tank.mo").write_text(TANK, encoding="utf-8")
+    (tmp_path / "Tank.mo").write_text(TANK.format(outflow="k*h"), encoding="utf-8")
     (tmp_path / "case.toml").write_text(CASE, encoding="utf-8")
     time = np.arange(200) * 1.0
     level = 0.1 + 0.1 * np.exp(-time * 0.03) + 0.002 * np.random.default_rng(1).normal(size=200)
