@@ -38,7 +38,8 @@ def run_all(
     """The outcome of every job, by its name. `keep` takes any result that is there, whatever generator made it."""
     folder.mkdir(parents=True, exist_ok=True)
     version = generator_version()
-    results, waiting = dict[str, Outcome](), list[str]()
+    results: dict[str, Outcome] = {}
+    waiting: list[str] = []
     for job in jobs:
         known = _stored(folder, job)
         if known is not None and (keep or known.get("generator") == version):
@@ -53,19 +54,11 @@ def run_all(
         for pid, (job, since) in list(running.items()):
             finished, status = os.waitpid(pid, os.WNOHANG)
             if not finished:
-                if _processor_seconds(pid) <= timeout and time.monotonic() - since <= PATIENCE * timeout:
+                if not (reason := _too_long(pid, time.monotonic() - since, timeout)):
                     continue
                 os.kill(pid, signal.SIGKILL)
                 os.waitpid(pid, 0)
-                _store(
-                    folder,
-                    job,
-                    {
-                        "status": "timeout",
-                        "message": f"more than {timeout:g} s of processor time",
-                        "generator": version,
-                    },
-                )
+                _store(folder, job, {"status": "timeout", "message": reason, "generator": version})
             elif status:
                 reason = f"the process ended with signal {os.WTERMSIG(status)}"
                 _store(folder, job, {"status": "crash", "message": reason, "generator": version})
@@ -75,6 +68,13 @@ def run_all(
                 print(f"{len(results):4d} {results[job]['status']:10s} {job}", file=sys.stderr, flush=True)
         time.sleep(0.01)
     return results
+
+
+def _too_long(pid: int, since: float, timeout: float) -> str:
+    """Why a job that has run for `since` seconds by the clock is ended; nothing where it may go on."""
+    if _processor_seconds(pid) > timeout:
+        return f"more than {timeout:g} s of processor time"
+    return f"more than {PATIENCE * timeout:g} s, most of them waiting" if since > PATIENCE * timeout else ""
 
 
 def _processor_seconds(pid: int) -> float:
