@@ -39,8 +39,8 @@ FOLLOWED = 1.5  # unless another signal is below this level: that one's edges ar
 BELIEVABLE = 8.0  # sigmas from its believed value, within which a parameter is sought while shafts are held
 EARLY = 0.16  # share on which the motion is still held fast by its beginning
 PIECES = JOINED**3  # at first: of a few hundred periods, a few
-POLYNOMIAL = JOINED**2  # growth from the first quarter of a piece to its last, of what is as the square of time
-ROOM = 60 * MOST  # numbers in a Jacobian
+POLYNOMIAL = JOINED**2  # growth from the first quarter of a piece to its last, through two integrators: force to place
+ROOM = 60 * MOST  # numbers in a Jacobian: as many as thinning leaves room for
 
 Courses = Mapping[str, Mapping[str, np.ndarray]]  # recording, or what of it is between gaps -> state -> (n,)
 
@@ -207,11 +207,11 @@ def joined(
     start: Mapping[str, float] | None = None, courses: Courses | None = None,
 ) -> Fit | None:  # fmt: skip
     """The fit to all of the recordings by multiple shooting. Pieces begin on `courses` of the states, without them on
-    those of a run from the start. None where a piece cannot be simulated.
+    those of a run from the start. None where the first pieces cannot be simulated, or the whole.
 
     Where errors of the states at first grow faster than a power of time (an unstable plant in a closed loop), no run
-    can tell what a longer one does: the fit is then that of the longest pieces in which they do not, its machine bound
-    to a case of those."""
+    can tell what a longer one does, if it can be simulated at all: the fit is then that of the longest pieces in which
+    they do not, its machine bound to a case of those."""
     point = dict(fixed) | {f.name: f.centre if f.start is None else f.start for f in free} | dict(start or {})
     courses = _courses(machine, case, point) if courses is None else courses
     known, shorter, before = {f.name for f in free}, None, 0.0
@@ -222,9 +222,11 @@ def joined(
         if shorter is None:
             starts = {r.name: begun(here, r, starts[r.name], point) for r in short.fit}
         found = fit(here, short.fit, noise, [*free, *chain(*starts.values())], fixed, start=point)
-        if found is None or (shorter is not None and _worse(found, shorter) and _growth(found) > np.log(POLYNOMIAL)):
+        if found is None:
             return shorter
         growth = _growth(found)
+        if shorter is not None and growth > np.log(POLYNOMIAL) and _worse(found, shorter):
+            return shorter
         if growth * _power(before, growth) > np.log(POLYNOMIAL):
             return found
         shorter, before = found, growth
@@ -248,6 +250,7 @@ def _growth(found: Fit) -> float:
 
 
 def _worse(found: Fit, shorter: Fit) -> bool:
+    """Whether a fit leaves more of a signal than that of shorter pieces, by more than noise may."""
     return any(found.level[c] > LEFT * shorter.level[c] for c in found.level)
 
 

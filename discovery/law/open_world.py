@@ -39,7 +39,8 @@ Progress = Callable[[str], None]
 
 def begun_open(unbegun: Search, library: Library, progress: Progress) -> Found | None:
     """The places of the equations, looked at first where the catalogue knows none but sensors: those of which an error
-    of any course leaves far more than an effort at one place does need not be tried. None where it knows others."""
+    of any course leaves far more power than an effort at one place does need not be tried, as where the sensor is wrong
+    it leaves about as little. None where the catalogue knows others."""
     case, structure = unbegun.case, unbegun.amendment.structure
     known = enumerate_attachments(case, structure, unbegun.effects, unbegun.amendment)
     if not unbegun.lead.direct or not known or not all(a.variable for a in known):
