@@ -8,7 +8,7 @@ one at another place: an effort of any course, by which places are ranked, does 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -25,8 +25,9 @@ from lacuna.discovery.efforts.sites import SEVERAL
 from lacuna.discovery.fit.evidence import LEFT, astray, nearly_noise, settled
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.lead import joined
-from lacuna.discovery.law.empirical_law import race, simplified, unfitted
+from lacuna.discovery.law.empirical_law import fitted_law, race, released, simplified, unfitted
 from lacuna.discovery.law.law_screen import Proposal
+from lacuna.discovery.naming.candidate_fit import SMALL_STEP, nearest
 from lacuna.discovery.naming.comparison import score
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.runtime import SimulationError
@@ -110,14 +111,23 @@ def places_of(
 
 
 def located(case: Case, amendment: Amendment, base: Fit, library: Library) -> Locator:
-    """Every place of the amended model, about the runs of the machine that is believed: a fit without what is missing
-    may have taken parameters anywhere. About those of the fit where the believed machine does not run."""
+    """Every place of the amended model, about the runs of the machine that is believed, since a fit without what is
+    missing may have taken parameters anywhere, or about those of the fit, since what is believed may miss a resonance
+    by cycles: about those where some effort explains more. Raises SimulationError where neither runs."""
     free = [f.name for f in base.estimate.free if is_parameter(f.name)]
     door = opened(case, amendment, library, free, base.machine)
+    found = Locator(case, door, base)
     try:
-        return Locator(case, door, base, base.point | base.believed())
+        believed = Locator(case, door, base, base.point | base.believed())
     except SimulationError:
-        return Locator(case, door, base)
+        return found
+    return max(believed, found, key=_told)
+
+
+def _told(locator: Locator) -> float:
+    """Log evidence of an effort at the place where one explains most."""
+    sites = locator.ranked()
+    return locator.null + max((s.gain for s in sites if s.place is not None), default=-np.inf)
 
 
 def simplest(sites: list[Site]) -> list[Site]:
@@ -156,12 +166,14 @@ def _law_at(
     for tried, guided in _offered(locator, site, progress):
         for proposal in tried:
             progress(f"fitting a law at {site.location}: {proposal.law.text()}")
-            proposal.candidate = unfitted(case, amendment, base, proposal.law, proposal.start, guided.point)
+            proposal.candidate = _begun(case, amendment, base, proposal, guided.point)
         race(case, base, [p.candidate for p in tried if p.candidate is not None], best and best.candidate)
         if best is None:
             _join(case, base, [p.candidate for p in tried if p.candidate is not None], guided)
         tried = [p for p in tried if p.candidate is not None and p.candidate.fit is not None]
         best = _best([p for p in (best, *tried) if p is not None], base)
+        if best is not None and not settled(best.candidate.fit):
+            best = _best([best, *_released(case, amendment, base, best)], base)
         single = best if best is None or len(best.law.groups) == 1 else single
         if best is not None and settled(best.candidate.fit):
             break
@@ -169,6 +181,26 @@ def _law_at(
         return None, None
     apart = best is not single and _terms(best) > 1
     return simplified(case, amendment, base, best), single.candidate if apart and single else None
+
+
+def _begun(case: Case, amendment: Amendment, base: Fit, proposal: Proposal, led: dict[str, float]) -> Candidate | None:
+    """A screened law where its fit begins: with parameters as they were `led` or as the base has them, or with little
+    of it, whichever misses by least: a law that is a little off puts free swings out of step."""
+    candidate = unfitted(case, amendment, base, proposal.law, proposal.start, led)
+    if candidate is None:
+        return None
+    here = candidate.start | base.point
+    amounts = [candidate.attachment.full_name(c) for c, _, _ in proposal.law.numbered()]
+    little = here | {n: SMALL_STEP * here[n] for n in amounts}
+    return replace(candidate, start=nearest(case, base, candidate, candidate.start, here, little))
+
+
+def _released(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> list[Proposal]:
+    """A fitted law with any exponent in the place of a usual one, fitted from there."""
+    found = released(best)
+    for freed in found:
+        freed.candidate = fitted_law(case, amendment, base, freed.law, freed.start, best.candidate.fit.point)
+    return [freed for freed in found if freed.candidate is not None]
 
 
 def _join(case: Case, base: Fit, laws: list[Candidate], guided: Guided) -> None:

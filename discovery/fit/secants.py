@@ -3,13 +3,14 @@ rounding of recorded inputs move.
 
 The differences that lead a fit are taken over short steps, and carry the noise of events and of the solver's steps.
 Along parameters that the data tells only together that noise is most of what they say, and would pass for information.
-So sensitivities are taken anew as central differences, a standard error to both sides along the principal axes of the
-normal equations.
+So sensitivities are taken anew as central differences, a standard error to both sides along conjugate axes of the
+normal equations: principal ones of what all pieces share, and of what is a piece's own, of all pieces at once.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import zip_longest
 
 import numpy as np
 
@@ -54,27 +55,61 @@ def _around(found: Fit, machine: Machine) -> tuple[Problem | None, list[np.ndarr
 def _with_secants(problem: Problem, estimate: Estimate) -> Estimate | None:
     free, values = estimate.free, estimate.values
     scales = np.array([f.scale for f in free])
-    axes = _axes(estimate)
-    ends = [clipped(free, values + side * scales * axis) for axis in axes.T for side in (1.0, -1.0)]
+    shared, own = _axes(estimate)
+    ends = [
+        clipped(free, values + side * scales * axis) for axis in [*shared.T, *_at_once(own)] for side in (1.0, -1.0)
+    ]
     outputs = problem.evaluate_each(ends)
     if not outputs or any(o is None for o in outputs):
         return None
-    moves = np.linalg.pinv(np.array([(a - b) / scales for a, b in zip(ends[::2], ends[1::2], strict=True)]))
+    moves = np.array([(a - b) / scales for a, b in zip(ends[::2], ends[1::2], strict=True)])
     responses = list(zip(outputs[::2], outputs[1::2], strict=True))
-    jacobian = [(moves @ np.array([a[k] - b[k] for a, b in responses])).T for k in range(problem.pieces)]
+    jacobian = []
+    for k in range(problem.pieces):
+        read = [n for n in range(len(free)) if k in problem.reading(n)]
+        answers = np.linalg.pinv(moves[:, read]) @ np.array([a[k] - b[k] for a, b in responses])
+        block = np.zeros((answers.shape[1], len(free)))
+        block[:, read] = answers.T
+        jacobian.append(block)
     beliefs = np.diag([(f.scale / f.sigma) ** 2 if f.sigma else 0.0 for f in free])
     return replace(estimate, jacobian=jacobian, normal=sum(b.T @ b for b in jacobian) + beliefs)
 
 
-def _axes(estimate: Estimate) -> np.ndarray:
-    """Principal axes (p, m) of the normal equations in scaled coordinates, a standard error long; parameters at a bound
-    stay there."""
+def _axes(estimate: Estimate) -> tuple[np.ndarray, list[np.ndarray]]:
+    """Axes of the normal equations in scaled coordinates, conjugate and a standard error long; parameters at a bound
+    stay there: (p, m) of what several pieces read, where the rest follows, and (p, m) of the rest of each piece."""
     inside = [k for k, f in enumerate(estimate.free) if not estimate.at_bound(f.name)]
-    values, vectors = np.linalg.eigh(estimate.normal[np.ix_(inside, inside)])
+    own = _own(estimate, inside)
+    rest = [k for ks in own for k in ks]
+    shared = [k for k in inside if k not in rest]
+    normal = estimate.normal
+    follow = -np.linalg.pinv(normal[np.ix_(rest, rest)], hermitian=True) @ normal[np.ix_(rest, shared)]
+    along = np.zeros((len(normal), len(shared)))
+    along[shared], along[rest] = np.eye(len(shared)), follow
+    return along @ _principal(normal[np.ix_(shared, shared)] + normal[np.ix_(shared, rest)] @ follow), [
+        np.eye(len(normal))[:, ks] @ _principal(normal[np.ix_(ks, ks)]) for ks in own
+    ]
+
+
+def _own(estimate: Estimate, inside: list[int]) -> list[list[int]]:
+    """For each of several pieces, the parameters that no other one answers to."""
+    answers = np.array([np.any(block != 0, axis=0) for block in estimate.jacobian])
+    if len(answers) < 2:
+        return []
+    alone = answers.sum(axis=0) == 1
+    return [[k for k in inside if alone[k] and piece[k]] for piece in answers]
+
+
+def _principal(normal: np.ndarray) -> np.ndarray:
+    """Principal axes (p, m) of normal equations (p, p), a standard error long, of what is known."""
+    values, vectors = np.linalg.eigh(normal)
     seen = values > UNSEEN * np.max(values, initial=0.0)
-    axes = np.zeros((len(estimate.free), int(seen.sum())))
-    axes[inside] = vectors[:, seen] / np.sqrt(values[seen])
-    return axes
+    return vectors[:, seen] / np.sqrt(values[seen])
+
+
+def _at_once(own: list[np.ndarray]) -> list[np.ndarray]:
+    """The first axes of all pieces together, the second ones, and so on: none answers to another one's."""
+    return [sum(axis for axis in axes if axis is not None) for axes in zip_longest(*(axes.T for axes in own))]
 
 
 def solver_shift(found: Fit) -> np.ndarray:
@@ -111,5 +146,6 @@ def _shifts(found: Fit, machines: list[Machine]) -> np.ndarray:
     if not here or not all(outputs) or not estimate.jacobian:
         return np.zeros((len(machines), len(estimate.free)))
     loads = [sum(b.T @ (t - h) for b, h, t in zip(estimate.jacobian, here, there, strict=True)) for there in outputs]
-    axes, scales = _axes(estimate), np.array([f.scale for f in estimate.free])
+    shared, own = _axes(estimate)
+    axes, scales = np.hstack([shared, *own]), np.array([f.scale for f in estimate.free])
     return -(np.array(loads) @ axes @ axes.T) * scales

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
+import re
 
 import numpy as np
 
@@ -21,7 +22,7 @@ from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.law.law import Law, attach, component_of
 from lacuna.discovery.law.law_screen import Effort, Proposal, screened, sites
-from lacuna.discovery.law.law_terms import Group, Variable
+from lacuna.discovery.law.law_terms import LEAST_POWER, MOST_POWER, WHOLE, Group, Shape, Variable
 from lacuna.discovery.naming.comparison import best_correlation, score
 from lacuna.discovery.naming.race import ROUNDS, run_round, still_in
 from lacuna.discovery.naming.screen import Candidate
@@ -166,6 +167,25 @@ def _with_fixed(law: Law, values: dict[str, float], name: str, value: float) -> 
     texts = tuple(text.replace("(1*", "(") for text in texts)
     groups[k] = Group(texts, tuple(s for s in groups[k].shapes if s.name != shape))
     return Proposal(Law(law.site, tuple(groups)), {n: v for n, v in values.items() if n != name})
+
+
+def released(best: Proposal) -> list[Proposal]:
+    """A fitted law with any exponent in the place of one that physics has; one group at a time."""
+    law, found = best.law, []
+    prefix = f"{component_of(law)}."
+    values = {n.removeprefix(prefix): v for n, v in best.candidate.fit.point.items() if n.startswith(prefix)}
+    for n, group in enumerate(law.groups):
+        text = group.texts[0]
+        linear = re.fullmatch(r"\((\w+)/\w+_ref\)", text)
+        power = re.search(r"(?<=abs)(\(\w+/\w+_ref\))\^([\d.]+)$", text)
+        if len(group.texts) > 1 or group.shapes or not (linear or power):
+            continue
+        start = float(power[2]) if power else 1.0
+        freed = f"{text[: power.start(2)]}{{p}}" if power else f"sign({linear[1]})*abs{text}^{{p}}"
+        shape = Shape("p", "1", start, LEAST_POWER, MOST_POWER, WHOLE)
+        groups = (*law.groups[:n], Group((freed,), (shape,)), *law.groups[n + 1 :])
+        found.append(Proposal(Law(law.site, groups), values | {f"p_{n + 1}": start}))
+    return found
 
 
 def _sticking(law: Law, values: dict[str, float], n: int, speed: Variable) -> Proposal:

@@ -15,7 +15,7 @@ from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.find import WORTH, Found, add_laws, places_of
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.fit.evidence import FAR, like_noise, nearly_noise, within_instruments
-from lacuna.discovery.law.beyond import MARGIN
+from lacuna.discovery.law.beyond import MARGIN, SHORT
 from lacuna.discovery.law.pairs import Place, is_short, paired, two_places
 from lacuna.discovery.law.several import apart, go_on, take_if_less
 from lacuna.discovery.naming.comparison import (
@@ -57,17 +57,23 @@ def explain_open(
 ) -> Found | None:
     """Locate and explain what `unbegun`, the believed model, lacks, unless `search` has explained it in its equations;
     where what it found there leaves more than noise, laws at other places beside it. `places` may be known already.
+    Where several effects explain it, they may stand for one law that the catalogue does not have.
 
-    None where that is so, or where fits need shafts held near their motion: those are left to the catalogue.
+    None where one has explained it, or where fits need shafts held near their motion: those are left to the catalogue.
     """
     quiet = nearly_noise(unbegun.fit) and like_noise(unbegun.fit)  # colour alone may also be a misfit of fast motion
     if not unbegun.lead.direct or unbegun.amendment.trackers or quiet:
         return None
     explained = search.settled() or within_instruments(search.fit)
-    if explained and any(not f.ranked.attachment.variable for f in search.findings):
+    explained = explained and any(not f.ranked.attachment.variable for f in search.findings)
+    if explained and len(search.findings) == 1:
         return None
     found = places or places_of(search.case, unbegun.amendment, unbegun.fit, library, progress)
     add_laws(found, search.case, unbegun.amendment, unbegun.fit, progress, most=1)
+    if explained:
+        if found.short:
+            _take(search, unbegun, found, progress)
+        return found
     pair = _pair(search, found, progress)
     told = pair is not None and pair[1].site.explains > WORTH
     two = _two(unbegun, found, pair, progress) if told else None
@@ -137,11 +143,13 @@ def _take(search: Search, unbegun: Search, found: Found, progress: Progress) -> 
 
 def _better(search: Search, unbegun: Search, law: Candidate, gain: float, correlation: dict[str, float]) -> bool:
     """Whether a law takes the place of findings: of effects in the equations, which have a name and a reason, only
-    where it leaves noise and the evidence is clearly for it; of sensors where it is better."""
+    where it leaves noise and the evidence is clearly for it, or a short one for several; of sensors where it is better.
+    """
     before = _score_of(search, unbegun, correlation)
     if all(f.ranked.attachment.variable for f in search.findings):
         return gain < before - TIE
-    return gain < before - MARGIN and (nearly_noise(law.fit) or like_noise(law.fit))
+    margin = 0.0 if len(law.free) <= SHORT and len(search.findings) > 1 else MARGIN
+    return gain < before - margin and (nearly_noise(law.fit) or like_noise(law.fit))
 
 
 def _one_a_place(laws: list[Candidate]) -> list[Candidate]:

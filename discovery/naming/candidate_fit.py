@@ -42,6 +42,12 @@ def fit_candidate(
 def _start(case: Case, base: Fit, candidate: Candidate) -> dict[str, float]:
     """The screened start that misses by least: the base's parameters as they are, or as they would go with the effect,
     or only a little of both."""
+    full = base.point | candidate.shift | candidate.start
+    return nearest(case, base, candidate, base.point | candidate.start, full, _small_step(base, candidate, full))
+
+
+def nearest(case: Case, base: Fit, candidate: Candidate, *starts: dict[str, float]) -> dict[str, float]:
+    """Of these starts the one where the candidate misses the data by least; the first where it runs from none."""
     objective = Objective(candidate.machine, case.fit, base.noise)
     weights = objective.weights(base.level)
 
@@ -49,8 +55,7 @@ def _start(case: Case, base: Fit, candidate: Candidate) -> dict[str, float]:
         residual = objective.weighted(start | candidate.fixed, weights)
         return float("inf") if residual is None else float(residual @ residual)
 
-    full = base.point | candidate.shift | candidate.start
-    return min((base.point | candidate.start, full, _small_step(base, candidate, full)), key=missed)
+    return min(starts, key=missed)
 
 
 def _small_step(base: Fit, candidate: Candidate, full: dict[str, float]) -> dict[str, float]:

@@ -13,16 +13,14 @@ from dataclasses import replace
 import numpy as np
 
 from lacuna.discovery.efforts.insertion import KEPT
-from lacuna.discovery.law.law_terms import Group, Shape, Variable
+from lacuna.discovery.law.law_terms import EXPONENTS, LEAST_POWER, MOST_POWER, WHOLE, Group, Shape, Variable
 
 LEAST = 1.5  # cycles over the range: less of a wave is a bend, which powers say with fewer numbers
 CYCLES = 30  # of a wave along a variable, over the range that it has
 TURN = 1.6  # rad from one wave number to the next at the ends of the range: so that none is missed
 AWAY = 0.05  # of its largest value, that a variable stays above for laws that divide by it
 BEYOND = (1.5, 2.0)  # powers of what is beyond a threshold: weirs, contacts
-EXPONENTS = (0.5, 1.5, 2.0, 3.0, 4.0)  # where powers start: flow through an orifice to radiation
 OCTAVES = 3.0  # from one time constant of a relaxation to the next: half a bandwidth either way
-_WHOLE = (1 / 3, 2 / 3, 1.0, 7 / 4, *EXPONENTS, 5.0)
 
 
 def groups(
@@ -83,14 +81,19 @@ def _of_one_sign(v: Variable, away: bool) -> list[Group]:
 
 def _powers(base: str) -> list[Group]:
     """Powers with the exponents that physics has, and with any other."""
-    free = [Group((f"{base}^{{p}}",), (Shape("p", "1", p, 0.1, 8.0, _WHOLE, 0.75),)) for p in (0.75, 2.5, 5.0)]
+    free = [
+        Group((f"{base}^{{p}}",), (Shape("p", "1", p, LEAST_POWER, MOST_POWER, WHOLE, 0.75),)) for p in (0.75, 2.5, 5.0)
+    ]
     return [*(Group((f"{base}^{p:.4g}",)) for p in EXPONENTS), *free]
 
 
 def _alone(v: Variable) -> list[Group]:
     x, sign = v.scaled, f"sign({v.local})"
     power = [Group((f"{sign}*abs{x}^{p:.4g}",)) for p in EXPONENTS]
-    power += [Group((f"{sign}*abs{x}^{{p}}",), (Shape("p", "1", p, 0.1, 8.0, _WHOLE, 0.75),)) for p in (0.75, 2.5, 5.0)]
+    power += [
+        Group((f"{sign}*abs{x}^{{p}}",), (Shape("p", "1", p, LEAST_POWER, MOST_POWER, WHOLE, 0.75),))
+        for p in (0.75, 2.5, 5.0)
+    ]
     bend = [
         Group((f"exp({{q}}*{x})",), (Shape("q", "1", q, min(q / 9, q * 9), max(q / 9, q * 9), (), 3.0),))
         for q in (-4, 4)
