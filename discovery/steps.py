@@ -82,13 +82,13 @@ def add_fit(result: Explanation, machine: Machine, progress: Progress) -> None:
     progress("fitting the believed model")
     case = result.case
     result.base, result.lead = fit_believed(case, machine)
-    if result.base.machine.case is not case:
+    if result.base.machine.case is case and not is_noise(result.base):
+        _place_switches(result, progress)
+    if result.base.machine.case is not result.case:
         result.case = result.base.machine.case
         length = float(np.ptp(result.case.fit[0].time))
         text = f"what is unknown where it starts grows too fast for one run: it is compared in pieces of {length:.3g} s"
         result.problems.append(Problem("unstable", case.fit[0].name, case.outputs[0].column, None, text, False))
-    elif not is_noise(result.base):
-        _place_switches(result, progress)
     case, machine = result.case, result.base.machine
     result.amendment, result.final = machine.amendment, result.base
     result.before = result.after = judge(machine, result.base.point)

@@ -6,47 +6,12 @@ has to be put in series or take another's place, the class is extended selective
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
-from lacuna.discovery.catalogue.catalogue import Effect
-from lacuna.discovery.catalogue.places import Device, Line, Part, Shaft, Structure
+from lacuna.discovery.catalogue.attachment import Attachment
+from lacuna.discovery.catalogue.places import Line, Shaft, Structure
 from lacuna.discovery.efforts.copied import copied
 from lacuna.discovery.efforts.sites import Site
-
-
-@dataclass(frozen=True)
-class Attachment:
-    """An effect at a place. `values` are parameters that are written into the model (variants, whole numbers)."""
-
-    effect: Effect
-    component: str  # its name in the amended model
-    location: str
-    shaft: Shaft | None = None
-    lines: tuple[Line, ...] = ()
-    part: Part | None = None
-    device: Device | None = None
-    site: Site | None = None
-    variable: str = ""  # of a sensor: the recorded variable
-    signals: tuple[tuple[str, str], ...] = ()  # input of the effect -> variable of the model
-    values: tuple[tuple[str, float], ...] = ()
-    definition: str = ""  # source of the effect's class where it is in no library
-    expression: Callable[[dict[str, float]], str] | None = None  # of an empirical law, in variables of the model
-    form: Callable[[dict[str, float]], str] | None = None  # its name, where it has the form of a known one
-    alike: tuple[str, str] = ("", "")  # the name of what it is not told from, and the variable that never turns
-
-    @property
-    def label(self) -> str:
-        extra = "".join(f", {n}={v:g}" for n, v in self.values)
-        signals = "".join(f", {n} from {v}" for n, v in self.signals)
-        return f"{self.effect.identifier} at {self.location} ({self.effect.name}{extra}{signals})"
-
-    def full_name(self, parameter: str) -> str:
-        return f"{self.component}.{parameter}"
-
-    def contains(self, other: Attachment) -> bool:
-        """Whether its law holds the other's, at the same place, as a special case."""
-        return self.effect.identifier in other.effect.nests_in and self.location == other.location
 
 
 @dataclass
@@ -90,6 +55,7 @@ class _Writer:
         self.equations: list[str] = []
         self.sums: dict[str, list[str]] = {}  # variable -> terms of its new binding
         self.sums_at: dict[str, list[str]] = {}  # variable that is added to an equation -> what it is the sum of
+        self.sums_into: dict[Site, list[str]] = {}  # signal -> what is added to it on its way
         self.edits: dict[Site, str] = {}  # equation of the believed model -> the variable that is added to it
 
     def write(self, name: str, comment: str) -> str:
@@ -97,13 +63,8 @@ class _Writer:
             getattr(self, f"_{attachment.effect.attaches}")(attachment)
         for attachment in self.amendment.beside:
             self._reads(attachment, replace(self.amendment, seen=None))
-        given = []
-        for site, variable in self.edits.items():
-            terms = " + ".join(self.sums_at[variable])
-            if site.instance:  # an input of the component
-                given.append(f"{site.instance}({variable}={terms})")
-            else:
-                self.equations.append(f"{variable} = {terms};")
+        given = self._given()
+        self._signals_changed()
         self._trackers()
         self._probes()
         modification = [f"{n}={v:.10g}" for n, v in self.amendment.parameters.items()]
@@ -125,6 +86,23 @@ class _Writer:
         if self.equations:
             lines += ["equation", *(f"  {e}" for e in self.equations)]
         return "\n".join([*lines, f"end {name};", ""])
+
+    def _given(self) -> list[str]:
+        """Modifications that give components what is added to their equations; that of the class itself is equated."""
+        given = []
+        for site, variable in self.edits.items():
+            terms = " + ".join(self.sums_at[variable])
+            if site.instance:
+                given.append(f"{site.instance}({variable}={terms})")
+            else:
+                self.equations.append(f"{variable} = {terms};")
+        return given
+
+    def _signals_changed(self) -> None:
+        for site, terms in self.sums_into.items():
+            self.left_out.append(f"connect({', '.join(site.ends)})")
+            source = next(end for end in site.ends if end != site.into)
+            self.equations.append(f"{site.into} = {source} + {' + '.join(terms)};")
 
     def _declare(
         self, attachment: Attachment, extra: str = "", bound: dict[str, str] | None = None, name: str = ""
@@ -206,8 +184,7 @@ class _Writer:
         self.sums.setdefault(device.variable, [f"{device.part}.f"]).append(f"{name}.f")
 
     def _site(self, attachment: Attachment) -> None:
-        """At any place: a port at a node, two in an edge or past a component, or a variable that is added to an
-        equation."""
+        """At any place: a port at a node, two in an edge or past a component, or a term of a signal or equation."""
         site, name = attachment.site, attachment.component
         self._declare(attachment, ", ".join(f"{local}={variable}" for local, variable in attachment.signals))
         if site.kind == "node":
@@ -223,6 +200,8 @@ class _Writer:
             else:
                 self.left_out.append(f"connect({left}, {right})")
             self.equations += [f"connect({left}, {name}.a);", f"connect({name}.b, {right});"]
+        elif site.kind == "signal":
+            self.sums_into.setdefault(site, []).append(f"{name}.effort")
         else:
             exchanged = site.kind == "exchange"
             for sense, part in zip(("", "-"), site.parts if exchanged else (site,), strict=False):

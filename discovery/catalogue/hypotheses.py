@@ -5,7 +5,8 @@ from __future__ import annotations
 from itertools import product
 
 from lacuna.discovery.case.cases import Case
-from lacuna.discovery.catalogue.amend import Amendment, Attachment
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.catalogue import Effect
 from lacuna.discovery.catalogue.places import Line, Shaft, Structure
 

@@ -6,41 +6,84 @@ from collections.abc import Mapping
 from pathlib import Path
 import re
 
+from lacuna.codegen.flatten.classes.inheritance import written
 from lacuna.codegen.syntax import ast
 from lacuna.discovery.efforts.sites import Site, occurrences
+
+Change = tuple[int, bool, str, int]  # where, whether around a right side, what is put in, in place of what up to where
 
 
 def copied(cls: ast.Class, edits: Mapping[Site, str]) -> tuple[str, list[str]]:
     """(name, lines) of class `cls` with the named variable added to the right side of each edited equation, or to each
-    edited parameter or input in its equations.
+    edited parameter or input in its equations. A component whose class stands elsewhere in the file has a copy of that.
 
     The copy is to be nested in a class that extends it and says what the variables are.
     """
-    lines = Path(cls.span.file).read_text(encoding="utf-8").split("\n")
-    text = "\n".join(lines)
-    starts = [0]
-    for line in lines:
-        starts.append(starts[-1] + len(line) + 1)
-    changes: list[tuple[int, bool, str]] = []  # where, whether around a right side, what is put in
+    text = Path(cls.span.file).read_text(encoding="utf-8")
+    starts = [0, *(m.end() for m in re.finditer("\n", text))]
+    changes: list[Change] = []
+    inner: dict[int, tuple[ast.Class, str, list[Change]]] = {}  # by where the type of a component is written
     for site, variable in edits.items():
-        for part in site.parts or (site,):
-            begin = starts[part.span.line - 1] + part.span.column - 1
-            side, end = right_side(text, begin)
-            if site.kind in ("parameter", "input"):
-                for at in occurrences(site.label, text, begin, end):
-                    changes += [(at, False, "("), (at + len(site.label), False, f" + {variable})")]
-            else:
-                changes += [(side, True, " ("), (end, True, f") + {variable}")]
-        owner = text.rfind("\nequation", 0, begin)
-        owner = _section(text, begin) if owner < 0 else owner
-        kind = "input Real" if site.instance else "Real"  # a component is given from outside what it does not say
-        changes.append((owner, False, f'\n  {kind} {variable} "Missing in a balance";'))
-    for at, _, new in sorted(changes, key=lambda c: c[:2], reverse=True):  # a parameter closes before its right side
-        text = text[:at] + new + text[at:]
+        where = changes
+        if site.of is not None:
+            component = next(c for c in cls.components if c.name == site.instance)
+            span = component.type.span
+            name = f"{site.of.name}_{site.instance}"
+            where = inner.setdefault(starts[span.line - 1] + span.column - 1, (site.of, name, []))[2]
+        where += _added(site, variable, text, starts)
+    for at, (of, name, own) in inner.items():
+        line = text.rfind("\n", 0, at) + 1
+        changes.append((line, False, _renamed(of, _class_text(of, text, starts, own), name), line))
+        changes.append((at, False, name, re.compile(r"[\w.']+").match(text, at).end()))
+    body = _class_text(cls, text, starts, changes)
+    return cls.name, [f"  {line}" if line else "" for line in body.split("\n")]
+
+
+def _added(site: Site, variable: str, text: str, starts: list[int]) -> list[Change]:
+    """What declares a variable and puts it where a site is."""
+    changes: list[Change] = []
+    for part in site.parts or (site,):
+        begin = starts[part.span.line - 1] + part.span.column - 1
+        side, end = right_side(text, begin)
+        if site.kind in ("parameter", "input"):
+            for at in occurrences(site.label, text, begin, end):
+                last = at + len(site.label)
+                changes += [(at, False, "(", at), (last, False, f" + {variable})", last)]
+        else:
+            changes += [(side, True, " (", side), (end, True, f") + {variable}", end)]
+    owner = _section(text, begin)
+    kind = "input Real" if site.instance else "Real"  # a component is given from outside what it does not say
+    value = " = 0" if site.of else ""
+    return [*changes, (owner, False, f'\n  {kind} {variable}{value} "Missing in a balance";', owner)]
+
+
+def _class_text(cls: ast.Class, text: str, starts: list[int], changes: list[Change]) -> str:
+    """A class as it is written, changed."""
     begin = starts[cls.span.line - 1]
     end = re.compile(rf"\bend\s+{re.escape(cls.name)}\s*;").search(text, begin).end()
-    body = text[begin:end].split("\n")
-    return cls.name, [f"  {line}" if line else "" for line in body]
+    result, last = [], begin
+    for at, _, new, until in sorted(changes, key=lambda c: c[:2]):  # a parameter closes before its right side
+        result += [text[last:at], new]
+        last = until
+    return "".join([*result, text[last:end]])
+
+
+def _renamed(cls: ast.Class, text: str, name: str) -> str:
+    """The text of a class by another name, elsewhere: with what the packages around it and their imports let it see."""
+    around, seen = cls.parent, []
+    while around is not None and around.name:
+        seen += [f"  import {around.path}.*;", *(f"  import {_imported(i)};" for i in around.imports)]
+        around = around.parent
+    text = re.sub(rf"\b(model|block)(\s+){re.escape(cls.name)}\b", rf"\1\2{name}", text, count=1)
+    text = re.sub(rf"\bend(\s+){re.escape(cls.name)}(\s*);$", rf"end\1{name}\2;", text)
+    lines = text.split("\n")
+    first = next(k for k, line in enumerate(lines) if line.strip().startswith("equation"))
+    return "\n".join([*lines[:first], *seen, *lines[first:], ""])
+
+
+def _imported(clause: ast.Import) -> str:
+    path = written(clause.path)
+    return f"{path}.*" if clause.every else f"{clause.alias} = {path}" if clause.alias else path
 
 
 def right_side(text: str, begin: int) -> tuple[int, int]:
@@ -64,6 +107,7 @@ def right_side(text: str, begin: int) -> tuple[int, int]:
 
 
 def _section(text: str, begin: int) -> int:
-    """Where the section of the equation at `begin` starts."""
-    found = [m.start() for m in re.finditer(r"\bequation\b", text[:begin])]
-    return found[-1]
+    """Where the line ends before the section of the equation at `begin`; or where that starts, if it does so within a
+    line."""
+    found = [m.start() for m in re.finditer(r"\n[ \t]*equation\b", text[:begin])]
+    return found[-1] if found else [m.start() for m in re.finditer(r"\bequation\b", text[:begin])][-1]

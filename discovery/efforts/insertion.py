@@ -3,16 +3,47 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
-from lacuna.discovery.catalogue.amend import Attachment
+from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.catalogue import Effect, EffectParameter
 from lacuna.discovery.efforts.sites import Site
 
 Signal = tuple[str, str, str]  # name in the component, expression of the model, unit
 Lag = tuple[str, str, str]  # name of a state of the component, what it follows, its time constant
 Late = tuple[str, str, str, str, str]  # a variable, delay | onset, what arrives in it, how late, kept how far apart
+Swing = tuple[str, str, str, str]  # a variable, what it swings behind, its natural frequency and damping ratio
 
 KEPT = 128  # samples of what is late: the interpolation between them is off by less than a thousandth of a slow wave
+
+
+@dataclass(frozen=True)
+class States:
+    """What a law remembers; speeds that stick have a `sense_` of the sliding."""
+
+    lags: Sequence[Lag] = ()
+    late: Sequence[Late] = ()
+    swings: Sequence[Swing] = ()
+    sticking: Sequence[str] = ()
+
+    def declarations(self) -> list[str]:
+        lines = [f'  Real {state} "{followed}, late";' for state, followed, _ in self.lags]
+        lines += [f'  Real {n}, stretch_{n}, behind_{n} "What swings behind {x}";' for n, x, *_ in self.swings]
+        lines += [line for speed in self.sticking for line in _modes(speed)]
+        return lines + [line for quantity in self.late for line in _kept(*quantity)]
+
+    def beginning(self) -> list[str]:
+        """At rest with what they follow."""
+        starts = [f"  {state} = {followed};" for state, followed, _ in self.lags]
+        starts += [line for n, x, *_ in self.swings for line in (f"  stretch_{n} = 0;", f"  behind_{n} = {x};")]
+        lines = ["initial equation", *starts] if starts else []
+        return lines + [line for quantity in self.late for line in _keeping(quantity[0], quantity[2])]
+
+    def equations(self) -> list[str]:
+        lines = [line for quantity in self.late for line in _arrives(*quantity[:4])]
+        lines += [f"  {time}*der({state}) = {followed} - {state};" for state, followed, time in self.lags]
+        lines += [line for swing in self.swings for line in _swings(*swing)]
+        return lines + [line for speed in self.sticking for line in _sticks(speed)]
 
 
 def probe(site: Site, number: int) -> tuple[Attachment, str]:
@@ -25,11 +56,10 @@ def probe(site: Site, number: int) -> tuple[Attachment, str]:
 
 def component(
     site: Site, name: str, title: str, signals: Sequence[Signal], parameters: Sequence[EffectParameter], text: str,
-    unit: str = "", lags: Sequence[Lag] = (), sticking: Sequence[str] = (),
-    late: Sequence[Late] = (),
+    unit: str = "", states: States = States(),
 ) -> str:  # fmt: skip
     """Source of a class that gives the effort `text`: into a node, lost across an edge, from the first port of a
-    component to its second beside it, or added to an equation. Speeds of `sticking` have a `sense_`."""
+    component to its second beside it, or added to an equation."""
     lines = [f'model {name} "{title}"']
     port = site.port
     if site.kind == "node":
@@ -41,15 +71,7 @@ def component(
     for local, _, its in signals:
         lines.append(f"  input Real {local}{_unit(its)};")
     lines += [f'  parameter Real {p.name}{_unit(p.unit)} = {p.default:.10g} "{p.description}";' for p in parameters]
-    lines += [f'  Real {state} "{followed}, late";' for state, followed, _ in lags]
-    lines += [line for speed in sticking for line in _modes(speed)]
-    lines += [line for quantity in late for line in _kept(*quantity)]
-    lines += ["initial equation", *(f"  {state} = {followed};" for state, followed, _ in lags)] if lags else []
-    lines += [line for quantity in late for line in _keeping(quantity[0], quantity[2])]
-    lines.append("equation")
-    lines += [line for quantity in late for line in _arrives(*quantity[:4])]
-    lines += [f"  {time}*der({state}) = {followed} - {state};" for state, followed, time in lags]
-    lines += [line for speed in sticking for line in _sticks(speed)]
+    lines += [*states.declarations(), *states.beginning(), "equation", *states.equations()]
     if site.kind == "node":
         lines.append(f"  port.{port.flow} = -({text});")
     elif site.kind == "edge":
@@ -94,6 +116,15 @@ def _arrives(name: str, begins: str, followed: str, late: str) -> list[str]:
     return [
         f"  {name} = noEvent({start}(if {age} > {late} then {followed} + ({kept}[1] - {followed})*{late}/{age}",
         f"    else sum({kept}[k]*max(0, 1 - abs(({age} - {late})/{apart} + k - 1)) for k in 1:{KEPT})));",
+    ]
+
+
+def _swings(name: str, followed: str, w: str, z: str) -> list[str]:
+    """A mass on a spring, moved at the other end: its speed `behind`, the `stretch` in units of the speed."""
+    return [
+        f"  {name} = stretch_{name} + 2*{z}*(behind_{name} - {followed});",
+        f"  der(stretch_{name}) = {w}*(behind_{name} - {followed});",
+        f"  der(behind_{name}) = -{w}*{name};",
     ]
 
 

@@ -25,7 +25,7 @@ from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.naming.comparison import MIN_GAIN
 from lacuna.runtime import SimulationError
 
-SAMPLES = 600  # of all recordings together: what is weighed are tens of nats, and noise is slow where it matters
+SAMPLES = 600, 600  # of all recordings together: what is weighed are tens of nats, and noise is slow where it matters
 STEPS = (1.0, 0.5)  # half decades of size and time constant, in which a chain is sought: as near as tells a nat
 WORST = 0.05  # of its span, that an error of an instrument may have: the worst class of IEC 60051 (class 5)
 NATS = MIN_GAIN / 2  # of log evidence, below which nothing is believed to be there

@@ -15,14 +15,14 @@ from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
 from lacuna.discovery.efforts.latent.evidence import evidence
 from lacuna.discovery.efforts.latent.smoother import Whitener, acting, courses, thinned
 from lacuna.discovery.efforts.opened import Opened, Place
-from lacuna.discovery.fit.evidence import SIGMAS
+from lacuna.discovery.fit.evidence import LEFT, SIGMAS
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.runtime import RecordedInput, SimulationError
 
 SIZES = 10.0 ** np.arange(-1.0, 2.1, 0.5)  # of the effort that would explain the misfit by itself: half decades
 TIMES = (1 / 300, 1 / 50, 1 / 8)  # of the longest recording: shorter is noise, longer is a constant
-SAMPLES = 1500  # of all recordings together, that hypotheses are weighed on: locating needs no more
+SAMPLES = 1500, 6000  # of all recordings together, that hypotheses are weighed on: few, and most
 
 
 @dataclass
@@ -259,10 +259,25 @@ def _response(along: Along, efforts: Sequence[tuple[int, np.ndarray]]) -> np.nda
     return sum(answers, np.zeros(along.read.shape[:2]))
 
 
-def thinned_all(pieces: list[Piece], samples: int = SAMPLES) -> list[Piece]:
-    """The recordings with so few samples that a search over many hypotheses is quick."""
-    every = -(-sum(len(p.along.time) for p in pieces) // samples)
+def thinned_all(pieces: list[Piece], samples: tuple[int, int] = SAMPLES) -> list[Piece]:
+    """The recordings with so few samples that a search over many hypotheses is quick; with more, up to the second
+    number, where the misfit lives between those: a resonance, a commutation."""
+    count = sum(len(p.along.time) for p in pieces)
+    every, least = (-(-count // n) for n in samples)
+    while every > least and not all(_follows(p, every) for p in pieces):
+        every -= 1
     return [thinned(p, every) for p in pieces]
+
+
+def _follows(piece: Piece, every: int) -> bool:
+    """Whether the misfit is linear between every so many samples, but for noise, which leaves a power of 1.5 there."""
+    left = piece.data[:, :, 0] / piece.noise
+    if len(left) <= 2 * every:
+        return True
+    between = left[every:-every] - (left[: -2 * every] + left[2 * every :]) / 2
+    seen = np.isfinite(between)
+    power = np.sum(np.where(seen, between, 0.0) ** 2, axis=0) / np.maximum(seen.sum(axis=0), 1)
+    return bool(np.all(power < 1.5 * LEFT**2))
 
 
 def _values(free: list[Free], sigma: np.ndarray, mean: np.ndarray) -> dict[str, float]:

@@ -36,7 +36,7 @@ from lacuna.units import Unit
 
 RENAMES = "it only gives a name to what is recorded: an error there is its sensor's"
 ALIKE = 1e-5  # of a direction, by which two places may differ: rounding of the linearisation
-_ORDER = {"node": 0, "equation": 1, "branch": 2, "edge": 3, "exchange": 4, "parameter": 5, "input": 6}
+_ORDER = {"node": 0, "equation": 1, "branch": 2, "edge": 3, "signal": 4, "exchange": 5, "parameter": 6, "input": 7}
 
 
 @dataclass(frozen=True)
@@ -169,6 +169,8 @@ def unit_of(site: Site, prepared: Prepared) -> str:
     """The unit in which an equation of the class, or the first of two, stands; "" where it is not known."""
     if site.kind in ("parameter", "input"):
         return prepared.declared.variables[site.label].unit
+    if site.kind == "signal":
+        return prepared.declared.variables[site.into].unit
     site = site.parts[0] if site.parts else site
     left = site.label.removeprefix(f"{site.instance}: ").partition("=")[0].strip()
     declared = prepared.declared

@@ -2,7 +2,8 @@
 
 A *node* is a set of connected ports: something may flow in. An *edge* is a connection: something may be lost across it.
 A *branch* goes past a component of two ports: something may flow beside it. An *equation* written in the class is a
-balance: a term may be missing. An *exchange* joins two such balances: what one of them gains the other one loses. A
+balance: a term may be missing. A *signal* goes from one component into another: it may arrive otherwise than it was
+sent. An *exchange* joins two such balances: what one of them gains the other one loses. A
 *parameter* may vary, in all equations in which it stands at once, and an *input* may act otherwise than it
 was commanded, wherever it is read. Ports are any connectors of one flow and one potential; which is which the
 declaration says. Nothing is known here of domains, classes or names.
@@ -19,6 +20,7 @@ import re
 from lacuna.codegen.errors import Span
 from lacuna.codegen.flatten.classes.inheritance import written
 from lacuna.codegen.flatten.classes.instance import Instance
+from lacuna.codegen.flatten.classes.leaf import Leaf
 from lacuna.codegen.flatten.language import LOWERING
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.library.classes import Library
@@ -40,15 +42,18 @@ class Port:
 @dataclass(frozen=True)
 class Site:
     """A place. `ends` are those of its connection, both of its component, or all of a node's, of which one suffices;
-    `span` is where its equation stands, in the class or in one that it declares and has one `instance` of; `parts` are
-    the two equations of an exchange, and those in which a parameter or an input stands."""
+    of a signal, the second one is what it goes `into`, or the first. `span` is where its equation stands, in the class,
+    in one that it declares and has one `instance` of, or in the class `of` an instance that its file holds elsewhere;
+    `parts` are the two equations of an exchange, and those in which a parameter or an input stands."""
 
-    kind: str  # node | edge | branch | equation | exchange | parameter | input
+    kind: str  # node | edge | branch | signal | equation | exchange | parameter | input
     label: str
     ends: tuple[str, ...] = ()
     port: Port | None = None
     span: Span | None = None
     instance: str = ""
+    of: ast.Class | None = None
+    into: str = ""
     parts: tuple[Site, ...] = ()
 
     @property
@@ -146,24 +151,30 @@ def _branches(group: dict[str, str], ports: dict[str, Port]) -> list[Site]:
 
 
 def _inside(top: Instance) -> list[Site]:
-    """Equations of classes that the class itself declares and uses once."""
-    users: dict[str, list[str]] = {}
-    classes: dict[str, ast.Class] = {}
+    """Equations of the components' classes: of those that the class itself declares and uses once, and of others that
+    stand in its file."""
+    users: dict[ast.Class, list[str]] = {}
     for name in top.elements:
         node = top.child(name)
-        if isinstance(node, Instance) and node.cls.parent is top.cls and node.cls.kind in ("model", "block"):
-            users.setdefault(node.cls.name, []).append(name)
-            classes[node.cls.name] = node.cls
-    found = []
-    for name, names in users.items():
-        sections = [s for s in classes[name].sections if not s.algorithm and not s.initial]
-        states = _states(sections)
-        equations = [i for s in sections for i in s.items if isinstance(i, ast.Equality)]
-        found += [
-            Site("equation", f"{names[0]}: {item.text}", span=item.span, instance=names[0])
-            for item in equations if len(names) == 1 and not _is_definition(item, states)
-        ]  # fmt: skip
+        if isinstance(node, Instance) and node.cls.kind in ("model", "block"):
+            users.setdefault(node.cls, []).append(name)
+    own, found = {c.name for c in top.cls.components}, []
+    for cls, names in users.items():
+        nested = cls.parent is top.cls and len(names) == 1
+        if nested or cls.span.file == top.cls.span.file:
+            for name in (n for n in names if nested or n in own):
+                found += _balances(cls, name, None if nested else cls)
     return found
+
+
+def _balances(cls: ast.Class, name: str, of: ast.Class | None) -> list[Site]:
+    sections = [s for s in cls.sections if not s.algorithm and not s.initial]
+    states = _states(sections)
+    equations = [i for s in sections for i in s.items if isinstance(i, ast.Equality)]
+    return [
+        Site("equation", f"{name}: {item.text}", span=item.span, instance=name, of=of)
+        for item in equations if not _is_definition(item, states)
+    ]  # fmt: skip
 
 
 def _is_definition(item: ast.Equality, states: set[str]) -> bool:
@@ -184,6 +195,10 @@ def _connection(
     item: ast.Connect, top: Instance, group: dict[str, str], ports: dict[str, Port], closed: list[tuple[str, str]]
 ) -> list[Site]:
     left, right = written(item.left), written(item.right)
+    into = [end for end in (left, right) if "." in end and _causality(top, end) == "input"]
+    if len(into) == 1 and all(_causality(top, end) for end in (left, right)):
+        source = right if into == [left] else left
+        return [Site("signal", f"{source} to {into[0]}", (left, right), into=into[0])]
     pair = [_port(top, end) for end in (left, right)]
     if None in pair:
         if any(_is_connector(top, end) for end in (left, right)):
@@ -205,6 +220,14 @@ def _node(top: Instance, end: str) -> Instance | None:
     for name in end.split("."):
         node = node.child(name) if isinstance(node, Instance) and "[" not in name else None
     return node if isinstance(node, Instance) and "." in end else None
+
+
+def _causality(top: Instance, end: str) -> str:
+    """Of a signal: input | output; "" of anything else."""
+    node: object = top
+    for name in end.split("."):
+        node = node.child(name) if isinstance(node, Instance) and name in node.elements else None
+    return node.causality if isinstance(node, Leaf) else ""
 
 
 def _is_connector(top: Instance, end: str) -> bool:

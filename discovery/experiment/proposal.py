@@ -19,10 +19,10 @@ from lacuna.discovery.experiment.separation import (
 )
 from lacuna.discovery.experiment.waveforms import Waveform, as_recording, waveforms
 from lacuna.discovery.fit.solver.least_squares import _pool
+from lacuna.discovery.naming.comparison import COLOUR
 
 CLOSER = 4  # candidates whose rivals are refitted: those that differ most before
 DECIDES = 5.0  # sigmas from which an experiment decides: a likelihood ratio of 25 in deviance, above every threshold
-COLOUR = 30.0  # samples at most that count as one
 SEEDS = (1, 2)  # of the waveform to fit, and of the one that judges
 
 Progress = Callable[[str], None]

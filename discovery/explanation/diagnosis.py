@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from lacuna.discovery.catalogue.amend import Attachment
+from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.experiment.files import described
 from lacuna.discovery.explanation.confidence import alternatives, certainty, confidence, explained, odds, tie
 from lacuna.discovery.explanation.explanation import Explanation

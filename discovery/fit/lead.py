@@ -227,8 +227,8 @@ def joined(
         growth = _growth(found)
         if shorter is not None and growth > np.log(POLYNOMIAL) and _worse(found, shorter):
             return shorter
-        if growth * _power(before, growth) > np.log(POLYNOMIAL):
-            return found
+        if growth > np.log(JOINED) and growth * _power(before, growth) > np.log(POLYNOMIAL):
+            return found  # it has grown more than in proportion to time, and will by more than any machine does
         shorter, before = found, growth
         point |= found.point
     return fit(machine, case.fit, noise, free, fixed, start=point)

@@ -15,14 +15,15 @@ import re
 import numpy as np
 
 from lacuna.discovery.case.cases import Case
-from lacuna.discovery.catalogue.amend import Amendment, Attachment
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit, fit
 from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.law.law import Law, attach, component_of
 from lacuna.discovery.law.law_screen import Effort, Proposal, screened, sites
-from lacuna.discovery.law.law_terms import LEAST_POWER, MOST_POWER, WHOLE, Group, Shape, Variable
+from lacuna.discovery.law.law_terms import Group, Variable, exponent
 from lacuna.discovery.naming.comparison import best_correlation, score
 from lacuna.discovery.naming.race import ROUNDS, run_round, still_in
 from lacuna.discovery.naming.screen import Candidate
@@ -182,8 +183,7 @@ def released(best: Proposal) -> list[Proposal]:
             continue
         start = float(power[2]) if power else 1.0
         freed = f"{text[: power.start(2)]}{{p}}" if power else f"sign({linear[1]})*abs{text}^{{p}}"
-        shape = Shape("p", "1", start, LEAST_POWER, MOST_POWER, WHOLE)
-        groups = (*law.groups[:n], Group((freed,), (shape,)), *law.groups[n + 1 :])
+        groups = (*law.groups[:n], Group((freed,), (exponent(start),)), *law.groups[n + 1 :])
         found.append(Proposal(Law(law.site, groups), values | {f"p_{n + 1}": start}))
     return found
 

@@ -59,6 +59,8 @@ FORMS = (
     Form("diode", r"^exp\(\S+\*X\)$", CURRENT, VOLTAGE),
     Form("torque.cogging", r"^(sin|cos)\(\S+\*X\)$", FORCE, PLACE),
     Form("relaxation", r"^\(X - lag\(X, ", ANY, ANY),
+    Form("compliance", r"^swing\(X, ", FORCE, SPEED),
+    Form("resonance", r"^swing\(X, ", ANY, ANY),
     Form("drive.delay", r"^\(X - (delay|onset)\(X, ", ANY, ANY),
     Form("motor.saturation", r"^\(X/\(1 \+ \S+Y\^2\) - X\)$", VOLTAGE, ("A/s",)),
     Form("motor.saturation", r"^\(1/\(1 \+ \S+X\^2\) - 1\)$", ("V.s/rad", "N.m/A", "H"), CURRENT),
@@ -89,8 +91,8 @@ def form_of(terms: Sequence[Term], variables: Sequence[Variable], gives: str, va
     """
     told = [(text, shapes) for text, shapes in terms if text != "1"]
     names = {_named(text, variables, gives, {s: values[n] for s, n in shapes.items()}) for text, shapes in told}
-    if "friction.stribeck" in names:
-        return "friction.stribeck"
+    if whole := names & {"friction.stribeck", "compliance", "resonance"}:  # what else there is belongs to it
+        return whole.pop()
     return names.pop() if len(names) == 1 else ""
 
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 import re
 
-from lacuna.discovery.catalogue.amend import Attachment
+from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.catalogue import Effect, EffectParameter
 from lacuna.discovery.catalogue.places import Device, Line, Shaft
 from lacuna.discovery.efforts import sites
-from lacuna.discovery.efforts.insertion import Lag, Late, component
+from lacuna.discovery.efforts.insertion import States, component
 from lacuna.discovery.law.forms import form_of, picked
 from lacuna.discovery.law.law_terms import Group, Shape, Variable
 
@@ -179,17 +179,19 @@ def _source_at(law: Law, place: sites.Site) -> str:
     used = law.references()
     parameters += [EffectParameter(f"{v.local}_ref", v.unit, "Largest value", 0, 0, v.size) for v in used]
     signals = [(v.local, v.name, v.unit) for v in used]
-    text, lags, late = _with_states(law.text())
+    text, states = _with_states(law.text())
     sticking = [v.local for v in used if f"dry{v.scaled}" in text]
     text = re.sub(r"\bdry\((\w+)/\w+_ref\)", r"sense_\1", text)
-    return component(place, class_name(law), "Law", signals, parameters, f"noEvent({text})", unit, lags, sticking, late)
+    states = replace(states, sticking=sticking)
+    return component(place, class_name(law), "Law", signals, parameters, f"noEvent({text})", unit, states)
 
 
-def _with_states(text: str) -> tuple[str, list[Lag], list[Late]]:
-    """A law's text with a variable in the place of each quantity that lags or is late, and what these are."""
+def _with_states(text: str) -> tuple[str, States]:
+    """A law's text with a variable in the place of each quantity that lags, is late or swings, and what these are."""
     text, lags = _named(text, r"\blag\(([^,]+), ([^,)]+)\)", "z")
     text, late = _named(text, r"\b(delay|onset)\(([^,]+), ([^,)]+), ([^,)]+)\)", "late")
-    return text, lags, late
+    text, swings = _named(text, r"\bswing\(([^,]+), ([^,)]+), ([^,)]+)\)", "swing")
+    return text, States(lags, late, swings)
 
 
 def _named(text: str, pattern: str, name: str) -> tuple[str, list[tuple[str, ...]]]:

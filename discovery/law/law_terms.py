@@ -2,9 +2,10 @@
 
 A term's text is Modelica and is evaluated along a trajectory from that same text, so what is screened is what will be
 simulated. `{p}`, `{k}`, `{tau}` and `{omega}` stand for shape parameters, which a fit may move. `lag(x, tau)` is x
-behind a first-order lag that begins at rest: a state of the law's own. `delay(x, late, apart)` is x as it was, kept
-in samples so far apart; before the start it was what it is there, or nothing: `onset(x, late, apart)`. `dry(x)` truly
-sticks: it has modes and events.
+behind a first-order lag that begins at rest: a state of the law's own. `swing(x, w, z)` is what a mass on a spring of
+its own does to what moves at x, over that mass times w: the stretch of the spring, and its damper, of damping ratio z.
+`delay(x, late, apart)` is x as it was, kept in samples so far apart; before the start it was what it is there, or
+nothing: `onset(x, late, apart)`. `dry(x)` truly sticks: it has modes and events.
 """
 
 from __future__ import annotations
@@ -23,7 +24,6 @@ ORDERS = (0.5, 1, 1.5, 2, 3, 4, 5, 6, 8, 10, 12)  # per turn
 TIMES = (0.1, 0.3, 1.0)  # of the longest recording: time constants of what fades or drifts
 EXPONENTS = (0.5, 1.5, 2.0, 3.0, 4.0)  # where powers start: flow through an orifice to radiation
 WHOLE = (1 / 3, 2 / 3, 1.0, 7 / 4, *EXPONENTS, 5.0)  # exponents that are told as such
-LEAST_POWER, MOST_POWER = 0.1, 8.0  # of free exponents: beyond, a power is a step or a wall
 HIGHEST = 200.0  # rad/s: fastest vibration that is looked for
 OCTAVE = 1.6  # times pi over the longest recording: spacing of the frequencies that are looked at
 
@@ -103,6 +103,7 @@ def evaluate(text: str, trajectory: Mapping[str, np.ndarray], sizes: Mapping[str
     names = {**_FUNCTIONS, **trajectory, **{f"{n}_ref": s for n, s in sizes.items()}}
     time = trajectory["time"]
     names["lag"] = lambda values, tau: lagged(time, values, tau)
+    names["swing"] = lambda values, w, z: swinging(time, values, w, z)
     names["delay"] = lambda values, late, apart: np.interp(time - late, time, values)
     names["onset"] = lambda values, late, apart: (
         np.interp(time - late, time, values) * np.clip((time - time[0] - late) / apart + 0.5, 0, 1)
@@ -111,16 +112,23 @@ def evaluate(text: str, trajectory: Mapping[str, np.ndarray], sizes: Mapping[str
     return np.broadcast_to(np.asarray(value, float), trajectory["time"].shape)
 
 
-def lagged(time: np.ndarray, values: np.ndarray, tau: float) -> np.ndarray:
+def lagged(time: np.ndarray, values: np.ndarray, tau: complex) -> np.ndarray:
     """(n,) of values (n,) behind a first-order lag of `tau` seconds, exact for values that are linear in between."""
     keeps = np.exp(-np.diff(time) / tau)
     mean = (1 - keeps) / (np.diff(time) / tau)  # of what is kept over an interval
     added = (1 - mean) * values[1:] + (mean - keeps) * values[:-1]
-    result = np.empty(len(values))
+    result = np.empty(len(values), dtype=np.result_type(values, keeps))
     result[0] = state = values[0]
     for k, (keep, more) in enumerate(zip(keeps, added, strict=True), start=1):
         result[k] = state = keep * state + more
     return result
+
+
+def swinging(time: np.ndarray, values: np.ndarray, w: float, z: float) -> np.ndarray:
+    """(n,) of what swings behind values (n,): -(w p + 2 z p^2)/(p^2 + 2 z w p + w^2) of them, by partial fractions."""
+    pole = w * complex(-z, np.sqrt(1 - z**2))
+    residue = (2 * z * w**2 - w * (1 - 4 * z**2) * pole) / (2 * (pole + z * w))
+    return -2 * z * values - 2 * np.real(residue / pole * lagged(time, values, -1 / pole))
 
 
 def groups(variables: list[Variable], duration: float) -> list[Group]:
@@ -139,7 +147,7 @@ def groups(variables: list[Variable], duration: float) -> list[Group]:
 
 def _powers(v: Variable) -> list[Group]:
     x = v.scaled
-    odd = [Group((f"sign({v.local})*abs{x}^{{p}}",), (_exponent(p),)) for p in (0.5, 2.0, 3.0, 5.0)]
+    odd = [Group((f"sign({v.local})*abs{x}^{{p}}",), (exponent(p),)) for p in (0.5, 2.0, 3.0, 5.0)]
     return [*odd, Group((f"{x}^2",)), Group((f"abs{x}",)), Group((f"{x}^3",))]
 
 
@@ -171,8 +179,9 @@ def _vibrations(duration: float) -> list[Group]:
     ]
 
 
-def _exponent(start: float) -> Shape:
-    return Shape("p", "1", start, 0.1, 8.0, (1 / 3, 0.5, 2 / 3, 1.5, 2.0, 3.0, 4.0, 5.0))
+def exponent(start: float, step: float = 0.0) -> Shape:
+    """Any exponent; below and above, a power is a step or a wall."""
+    return Shape("p", "1", start, 0.1, 8.0, WHOLE, step)
 
 
 def _order(start: float) -> Shape:

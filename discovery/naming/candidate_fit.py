@@ -10,7 +10,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from lacuna.discovery.case.cases import Case
-from lacuna.discovery.catalogue.amend import Amendment, Attachment
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.fit.fit import Fit, fit
 from lacuna.discovery.fit.machine import Machine, try_machine
 from lacuna.discovery.fit.objective import Objective

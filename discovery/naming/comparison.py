@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lacuna.discovery.catalogue.amend import Attachment
+from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.fit.evidence import nearly_noise
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.naming.left_out import left_out_residuals

@@ -12,7 +12,8 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 
 from lacuna.discovery.case.cases import Case
-from lacuna.discovery.catalogue.amend import Amendment, Attachment
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.fit.evidence import is_noise, nearly_noise
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.least_squares import WORKERS

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
-from lacuna.discovery.catalogue.amend import Attachment
+from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.fit.evidence import nearly_noise
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.least_squares import WORKERS

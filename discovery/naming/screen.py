@@ -14,7 +14,7 @@ import math
 import numpy as np
 
 from lacuna.discovery.case.cases import Recording
-from lacuna.discovery.catalogue.amend import Attachment
+from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.catalogue import Effect, EffectParameter
 from lacuna.discovery.fit.evidence import outside_belief
 from lacuna.discovery.fit.fit import Fit, Objective

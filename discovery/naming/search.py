@@ -12,7 +12,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from lacuna.discovery.case.cases import Case
-from lacuna.discovery.catalogue.amend import Amendment, Attachment
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.catalogue import Effect
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.instruments import only_instruments

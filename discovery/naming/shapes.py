@@ -9,7 +9,7 @@ from itertools import product
 
 import numpy as np
 
-from lacuna.discovery.catalogue.amend import Attachment
+from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.fit.machine import Machine
 
 ONE_SIDED = 0.05  # of the greatest size of a variable, below which it is not taken to go to that side

@@ -11,7 +11,8 @@ from lacuna.codegen.compile import compile_model
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue import catalogue
-from lacuna.discovery.catalogue.amend import Amendment, Attachment
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.catalogue.places import read
 from lacuna.runtime import Model, RecordedInput, simulate

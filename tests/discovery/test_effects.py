@@ -13,7 +13,8 @@ from lacuna.codegen.compile import compile_model
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue import catalogue
-from lacuna.discovery.catalogue.amend import Amendment, Attachment
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.fit.fit import fit
 from lacuna.discovery.fit.lead import fit_believed

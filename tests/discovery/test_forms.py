@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.signal import lsim
 
 from lacuna.discovery.efforts.sites import Site as Place
 from lacuna.discovery.law.forms import FORMS
 from lacuna.discovery.law.law import Law, Site, attach
-from lacuna.discovery.law.law_terms import Group, Shape, Variable, lagged
+from lacuna.discovery.law.law_terms import Group, Shape, Variable, lagged, swinging
 
 POWER = (Shape("p", "1", 2.0, 0.1, 8.0),)
 RELAXING = Group(("((x1/x1_ref) - lag((x1/x1_ref), {t}))",), (Shape("t", "s", 0.5, 0.1, 5.0),))
@@ -35,6 +36,16 @@ def test_a_lag_of_any_signal_does_not_depend_on_how_finely_it_is_sampled() -> No
     np.testing.assert_allclose(lagged(coarse, signal, 0.2), whole[::10], atol=1e-12)
 
 
+@pytest.mark.parametrize("z", [0.0, 0.1, 0.9])
+def test_what_swings_behind_a_signal_is_its_transfer_function(z: float) -> None:
+    w, time = 40.0, np.linspace(0, 2, 401)
+    signal = np.random.default_rng(4).normal(size=401)
+    filtered = lsim(([-2 * z, -w, 0.0] if z else [-w, 0.0], [1.0, 2 * z * w, w**2]), signal - signal[0], time)[
+        1
+    ]  # at rest before
+    np.testing.assert_allclose(swinging(time, signal, w, z), filtered, atol=1e-9)
+
+
 @pytest.mark.parametrize(
     ("gives", "of", "group", "exponent", "form"),
     [
@@ -47,6 +58,7 @@ def test_a_lag_of_any_signal_does_not_depend_on_how_finely_it_is_sampled() -> No
         ("m3/s", "Pa", Group(("sign(x1)*abs(x1/x1_ref)^{p}",), POWER), 0.5, "leakage.turbulent"),
         ("A", "V", Group(("exp({q}*(x1/x1_ref))",), (Shape("q", "1", 2.0, 0.1, 8.0),)), 0, "diode"),
         ("W", "K", RELAXING, 0, "relaxation"),
+        ("N.m", "rad/s", Group(("swing((x1/x1_ref), {q}, 0.1)", "(x1/x1_ref)"), POWER), 1.0, "compliance"),
     ],
 )  # fmt: skip
 def test_a_law_of_known_form_bears_its_name_in_its_domain_alone(
@@ -65,6 +77,14 @@ def test_what_lags_becomes_a_state_of_the_law_once() -> None:
     assert "z_2" not in source
     assert "t_1*der(z_1) = (x1/x1_ref) - z_1;" in source
     assert "z_1 = (x1/x1_ref);" in source.partition("initial equation")[2].partition("\nequation")[0]
+
+
+def test_what_swings_becomes_two_states_of_the_law() -> None:
+    source = attach(law("N.m", "rad/s", Group(("swing((x1/x1_ref), 40, 0.1)",)))).definition
+    assert "swing_1 = stretch_swing_1 + 2*0.1*(behind_swing_1 - (x1/x1_ref));" in source
+    assert "der(stretch_swing_1) = 40*(behind_swing_1 - (x1/x1_ref));" in source
+    assert "der(behind_swing_1) = -40*swing_1;" in source
+    assert "effort = noEvent(c_1*swing_1);" in source
 
 
 def test_a_law_pays_for_having_been_picked_and_a_known_form_pays_least() -> None:

@@ -11,7 +11,8 @@ import pytest
 
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case, load
-from lacuna.discovery.catalogue.amend import Amendment, Attachment
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.fit.fit import Fit, fit
 from lacuna.discovery.fit.lead import fit_believed

@@ -13,7 +13,8 @@ from lacuna.codegen.flatten import flatten
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Signal
 from lacuna.discovery.catalogue import catalogue, places
-from lacuna.discovery.catalogue.amend import Amendment, Attachment
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.runtime import Model, RecordedInput, simulate
 

@@ -100,6 +100,9 @@ def _offered(locator: Locator, place: Place, guided: Guided) -> tuple[Regression
     told = {o.only for o in place.other} - {""}
     longest = max((a.time for a in along), key=lambda t: t[-1] - t[0])
     interval, duration = float(np.median(np.diff(longest))), float(longest[-1] - longest[0])
+    aliases = locator.opened.linear.prepared.aliases
+    sent = {aliases.get(end, (end, 1))[0] for s in place.sites if s.kind == "signal" for end in s.ends}
+    found = [replace(v, kind="input") if v.name in sent else v for v in found]
     varies = place.sites[0].kind in ("parameter", "input")
     if varies:  # it holds nothing at rest
         found = [replace(v, sticks=False) for v in found]
@@ -184,14 +187,14 @@ def _refined(regression: Regression, every: range, strained: bool = False) -> li
 
 
 def _finer(group: Group, zoom: int) -> list[Group]:
-    """The group with its one shape at values around the present one."""
-    if len(group.shapes) != 1:
+    """The group with its first shape at values around the present one."""
+    if not group.shapes:
         return []
-    shape = group.shapes[0]
+    shape, *others = group.shapes
     reach = shape.step / 4.0**zoom
     values = shape.start + reach * np.linspace(-1, 1, FINE)
     values = values[(values > shape.lower) & (values < shape.upper) & (values != shape.start)]
-    return [Group(group.texts, (replace(shape, start=float(v)),)) for v in values]
+    return [Group(group.texts, (replace(shape, start=float(v)), *others)) for v in values]
 
 
 def _doubled(regression: Regression, single: list[tuple[int, ...]], every: range) -> list[tuple[int, ...]]:

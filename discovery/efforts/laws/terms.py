@@ -13,13 +13,14 @@ from dataclasses import replace
 import numpy as np
 
 from lacuna.discovery.efforts.insertion import KEPT
-from lacuna.discovery.law.law_terms import EXPONENTS, LEAST_POWER, MOST_POWER, WHOLE, Group, Shape, Variable
+from lacuna.discovery.law.law_terms import EXPONENTS, Group, Shape, Variable, exponent
 
 LEAST = 1.5  # cycles over the range: less of a wave is a bend, which powers say with fewer numbers
 CYCLES = 30  # of a wave along a variable, over the range that it has
 TURN = 1.6  # rad from one wave number to the next at the ends of the range: so that none is missed
 AWAY = 0.05  # of its largest value, that a variable stays above for laws that divide by it
 BEYOND = (1.5, 2.0)  # powers of what is beyond a threshold: weirs, contacts
+DAMPED = 0.1  # damping ratio of what swings, where it starts: as most joints and mounts have
 OCTAVES = 3.0  # from one time constant of a relaxation to the next: half a bandwidth either way
 
 
@@ -32,6 +33,7 @@ def groups(
     for v in found:
         result += _remembering(v, interval, duration) if v.kind not in ("rate", "above") else []
         result += _late(v, interval, duration) if v.kind == "input" else []
+        result += _swinging(v, found, interval, duration) if v.sticks else []
         low, high = ranges[v.local]
         if v.switch:
             result.append(Group((v.scaled,)))
@@ -81,19 +83,14 @@ def _of_one_sign(v: Variable, away: bool) -> list[Group]:
 
 def _powers(base: str) -> list[Group]:
     """Powers with the exponents that physics has, and with any other."""
-    free = [
-        Group((f"{base}^{{p}}",), (Shape("p", "1", p, LEAST_POWER, MOST_POWER, WHOLE, 0.75),)) for p in (0.75, 2.5, 5.0)
-    ]
+    free = [Group((f"{base}^{{p}}",), (exponent(p, 0.75),)) for p in (0.75, 2.5, 5.0)]
     return [*(Group((f"{base}^{p:.4g}",)) for p in EXPONENTS), *free]
 
 
 def _alone(v: Variable) -> list[Group]:
     x, sign = v.scaled, f"sign({v.local})"
     power = [Group((f"{sign}*abs{x}^{p:.4g}",)) for p in EXPONENTS]
-    power += [
-        Group((f"{sign}*abs{x}^{{p}}",), (Shape("p", "1", p, LEAST_POWER, MOST_POWER, WHOLE, 0.75),))
-        for p in (0.75, 2.5, 5.0)
-    ]
+    power += [Group((f"{sign}*abs{x}^{{p}}",), (exponent(p, 0.75),)) for p in (0.75, 2.5, 5.0)]
     bend = [
         Group((f"exp({{q}}*{x})",), (Shape("q", "1", q, min(q / 9, q * 9), max(q / 9, q * 9), (), 3.0),))
         for q in (-4, 4)
@@ -139,6 +136,22 @@ def _remembering(v: Variable, interval: float, duration: float) -> list[Group]:
     """A relaxation: storage behind a resistance, a damper behind a spring, a winding around a core; all that is faster
     than the samples or slower than a recording is something else."""
     return [Group((f"({v.scaled} - lag({v.scaled}, {{t}}))",), (s,)) for s in _times(interval, duration)]
+
+
+def _swinging(v: Variable, found: Sequence[Variable], interval: float, duration: float) -> list[Group]:
+    """A mass on a spring of its own, besides what is believed to move or a part of it, which then goes from the rest;
+    from three cycles of a recording to three samples a cycle, half a bandwidth apart."""
+    low, high = 2 * np.pi * 3 / duration, 2 * np.pi / (3 * interval)
+    part = [w.scaled for w in found if w.name == f"der({v.name})"]
+    result = []
+    for w in low * (1 + DAMPED) ** np.arange(np.log(high / low) / np.log1p(DAMPED)):
+        shapes = (
+            Shape("w", "rad/s", float(w), low / 3, 3 * high, (), DAMPED * float(w)),
+            Shape("z", "1", DAMPED, DAMPED / 1e3, 0.9),
+        )
+        texts = [f"swing({v.scaled}, {{w}}, {{z}})", *part]
+        result += [Group((texts[0],), shapes), *([Group(tuple(texts), shapes)] if part else [])]
+    return result
 
 
 def _late(v: Variable, interval: float, duration: float) -> list[Group]:

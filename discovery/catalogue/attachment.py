@@ -1,0 +1,44 @@
+"""A hypothesis: an effect of the catalogue, or a law, at a place of the believed model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from lacuna.discovery.catalogue.catalogue import Effect
+from lacuna.discovery.catalogue.places import Device, Line, Part, Shaft
+from lacuna.discovery.efforts.sites import Site
+
+
+@dataclass(frozen=True)
+class Attachment:
+    """An effect at a place. `values` are parameters that are written into the model (variants, whole numbers)."""
+
+    effect: Effect
+    component: str  # its name in the amended model
+    location: str
+    shaft: Shaft | None = None
+    lines: tuple[Line, ...] = ()
+    part: Part | None = None
+    device: Device | None = None
+    site: Site | None = None
+    variable: str = ""  # of a sensor: the recorded variable
+    signals: tuple[tuple[str, str], ...] = ()  # input of the effect -> variable of the model
+    values: tuple[tuple[str, float], ...] = ()
+    definition: str = ""  # source of the effect's class where it is in no library
+    expression: Callable[[dict[str, float]], str] | None = None  # of an empirical law, in variables of the model
+    form: Callable[[dict[str, float]], str] | None = None  # its name, where it has the form of a known one
+    alike: tuple[str, str] = ("", "")  # the name of what it is not told from, and the variable that never turns
+
+    @property
+    def label(self) -> str:
+        extra = "".join(f", {n}={v:g}" for n, v in self.values)
+        signals = "".join(f", {n} from {v}" for n, v in self.signals)
+        return f"{self.effect.identifier} at {self.location} ({self.effect.name}{extra}{signals})"
+
+    def full_name(self, parameter: str) -> str:
+        return f"{self.component}.{parameter}"
+
+    def contains(self, other: Attachment) -> bool:
+        """Whether its law holds the other's, at the same place, as a special case."""
+        return self.effect.identifier in other.effect.nests_in and self.location == other.location

@@ -1,0 +1,91 @@
+"""A machine of components whose classes stand elsewhere in its file, joined by signals: its places, one by one."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lacuna.codegen.compile import compile_model
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.places import read as structure_of
+from lacuna.discovery.efforts.insertion import probe
+from lacuna.discovery.efforts.sites import Site, read
+from lacuna.runtime import Model, RecordedInput, simulate
+
+LINE = """package Process "Signals and parts"
+  connector ConcIn = input Real(unit="mol/m3");
+  connector ConcOut = output Real(unit="mol/m3");
+  model Feed
+    ConcOut b;
+  equation
+    b = 20;
+  end Feed;
+  model Vessel "Stirred"
+    ConcIn a;
+    ConcOut b;
+    parameter Real V(unit="m3") = 0.02;
+    parameter Real Q(unit="m3/s") = 2e-4;
+    Real c(unit="mol/m3", start=20, fixed=true);
+  equation
+    V*der(c) = Q*(a - c);
+    b = c;
+  end Vessel;
+end Process;
+model Line "Two vessels"
+  import Process.*;
+  Feed feed;
+  Vessel first, second(V=0.01);
+equation
+  connect(feed.b, first.a);
+  connect(first.b, second.a);
+end Line;
+"""
+
+
+@pytest.fixture
+def line(tmp_path: Path) -> Path:
+    path = tmp_path / "Line.mo"
+    path.write_text(LINE)
+    return path
+
+
+def places(path: Path) -> dict[str, Site]:
+    return {s.label: s for s in read(Library([str(path)]), "Line").places}
+
+
+def opened(path: Path, site: Site, amount: float) -> tuple[np.ndarray, np.ndarray]:
+    """(first.c, second.c) over 400 s with an effort of this amount at a site."""
+    attachment, name = probe(site, 0)
+    library = Library([str(path)])
+    amendment = replace(Amendment(structure_of(library, "Line")), attachments=[attachment], inputs=(name,))
+    file = path.parent / "Amended.mo"
+    file.write_text(amendment.text("Amended"))
+    model = Model(compile_model(str(file), search_path=[str(path)]).path)
+    run = simulate(
+        model, solver="dopri5", rtol=1e-9, inputs={name: RecordedInput([0.0], [amount], "hold")}, start=0.0, stop=400.0,
+        output_times=np.linspace(0, 400, 41), outputs=["first.c", "second.c"], events=False,
+    )  # fmt: skip
+    return np.array(run["first.c"]), np.array(run["second.c"])
+
+
+def test_every_balance_and_signal_of_the_parts_is_a_place(line: Path) -> None:
+    assert list(places(line)) == [
+        "feed.b to first.a", "first.b to second.a", "feed: b = 20", "first: V*der(c) = Q*(a - c)", "first: b = c",
+        "second: V*der(c) = Q*(a - c)", "second: b = c",
+    ]  # fmt: skip
+
+
+def test_a_term_in_one_of_two_vessels_of_a_class_acts_there_alone(line: Path) -> None:
+    first, second = opened(line, places(line)["second: V*der(c) = Q*(a - c)"], 1e-3)
+    assert first == pytest.approx(20.0)
+    assert second == pytest.approx(20.0 + 5.0 * (1 - np.exp(-np.linspace(0, 400, 41) / 50)), abs=1e-6)
+
+
+def test_a_signal_arrives_with_what_is_added_on_its_way(line: Path) -> None:
+    first, second = opened(line, places(line)["first.b to second.a"], 3.0)
+    assert first == pytest.approx(20.0)
+    assert second == pytest.approx(20.0 + 3.0 * (1 - np.exp(-np.linspace(0, 400, 41) / 50)), abs=1e-6)
