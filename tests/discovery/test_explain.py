@@ -16,7 +16,7 @@ from lacuna.discovery.case.noise import estimate, quantum
 from lacuna.discovery.catalogue import catalogue
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
-from lacuna.discovery.explain import _conclude, explain, judge_written, write_amended
+from lacuna.discovery.explain import explain, judge_written, write_amended
 from lacuna.discovery.explanation import diagnosis, report
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import is_noise
@@ -29,6 +29,7 @@ from lacuna.discovery.law.locate import locate
 from lacuna.discovery.naming.comparison import confidences
 from lacuna.discovery.naming.judge import judge_file
 from lacuna.discovery.naming.name import Naming
+from lacuna.discovery.verdict import conclude
 
 
 def test_least_squares_finds_rosenbrock_within_bounds() -> None:
@@ -139,7 +140,7 @@ def test_a_rival_elsewhere_that_is_as_likely_leaves_it_undetermined(
     confidences(ranked)
     tied = replace(finding, ranked=ranked[0], naming=Naming(ranked, []))
     result = replace(explained, findings=[tied], trial=None, reason="", experiment="")
-    _conclude(result)
+    conclude(result)
     assert result.verdict == verdict
     assert ("explain the data equally well" in result.reason) == (verdict == "undetermined")
 
@@ -153,7 +154,7 @@ def test_a_finding_that_is_certain_makes_the_verdict_though_another_is_tied(expl
     confidences(ranked)
     tied = replace(finding, ranked=ranked[0], naming=Naming(ranked, []))
     result = replace(explained, findings=[tied, finding], trial=None, reason="", experiment="")
-    _conclude(result)
+    conclude(result)
     assert tied.tied and not finding.tied and result.verdict == "missing_physics"
     assert diagnosis.sentence(result).count(": the data does not tell)") == 1
 
@@ -170,7 +171,7 @@ def test_a_finding_that_leaves_nearly_all_that_is_above_noise_is_no_diagnosis(
     after = replace(explained.after, validate={n: left * v for n, v in before.items()})
     floor = dict.fromkeys(explained.floor, noise * before[""])
     result = replace(explained, after=after, floor=floor, reason="", experiment="")
-    _conclude(result)
+    conclude(result)
     assert result.verdict == verdict
     assert ("of the error on unseen" in result.reason) == (verdict == "undetermined")
     assert bool(result.experiment) == (verdict == "undetermined")

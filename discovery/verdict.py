@@ -1,0 +1,223 @@
+"""The verdict: from the findings, what the fitted model leaves, and the parameters that left their beliefs."""
+
+from __future__ import annotations
+
+from copy import copy
+from dataclasses import replace
+
+import numpy as np
+
+from lacuna.discovery.efforts.find import INDIFFERENT
+from lacuna.discovery.efforts.instruments import NATS, gained, log_evidence, only_instruments
+from lacuna.discovery.explanation.explanation import Explanation
+from lacuna.discovery.fit.evidence import (
+    CLEARLY,
+    astray,
+    like_noise,
+    nearly_noise,
+    outside_belief,
+    pays,
+    repeats,
+    settled,
+    whiteness,
+    within_instruments,
+)
+from lacuna.discovery.law.law import law_at
+from lacuna.discovery.naming.comparison import TIE, Ranked, price, score
+from lacuna.discovery.naming.foretold import foretold
+from lacuna.discovery.naming.screen import Candidate
+
+LEAST_TAKEN = 0.2  # of the NRMSE above noise on unseen recordings, that findings must take away
+
+
+def conclude(result: Explanation) -> None:
+    """The verdict, from the findings, the whiteness of what is left and the believed parameters."""
+    if result.instead and not _equations_may_be_wrong(result) and _holds(result):
+        result.verdict = "missing_physics"
+        return
+    small = _accuses_sensors(result) and nearly_noise(result.base)  # an error that is smaller than its noise is none
+    if result.findings and (small or _is_colour(result) or _is_refuted(result)):
+        _believe_again(result)
+    if result.findings:
+        _conclude_from_findings(result)
+        return
+    worst = _worst(result)
+    if worst or not _holds(result):
+        result.verdict = "undetermined"
+        where = f"the residual of {worst}" if worst else "what is left of the recordings that were not fitted to"
+        result.reason = result.reason or f"{where} is not noise, and no effect of the catalogue explains it"
+        result.experiment = "record the same motion with the quantities that are not recorded now"
+    else:
+        result.verdict = "parameters" if outside_belief(result.base) else "consistent"
+
+
+def _worst(result: Explanation) -> str:
+    """The output whose residual is least like noise; "" where all are, or are no more than noise."""
+    left = [w for w in whiteness(result.final).values() if not w.passed]
+    return max(left, key=lambda w: w.ratio / w.limit).column if left and not _quiet(result) else ""
+
+
+def _is_refuted(result: Explanation) -> bool:
+    """Whether what was found does not hold on unseen recordings, of which the fitted believed model leaves noise."""
+    if pays(result.before.validate, result.after.validate, result.floor):
+        return False
+    without = copy(result)
+    _believe_again(without)
+    return not _worst(without) and _holds(without)
+
+
+def _is_colour(result: Explanation) -> bool:
+    """Whether errors of instruments with a memory, noise of an unknown level or what is beside a known one, say as much
+    as what was found in them."""
+    case, base = result.case, (replace(result.amendment, attachments=[]), result.base)
+    if not result.lead.direct or not (within_instruments(result.base) or only_instruments(case, *base)):
+        return False
+    picked = sum(f.ranked.candidate.pick for f in result.findings)
+    return gained(case, base, (result.amendment, result.final)) < NATS + picked
+
+
+def _holds(result: Explanation) -> bool:
+    """Whether the fitted model tells unseen recordings as well as its noise lets it, or its uncertain parameters."""
+    attained, samples = _attained(result), sum(len(r.time) for r in result.case.validate)
+    if repeats(result.after.validate, attained, result.final, samples):
+        return True
+    spread = foretold(result.final, result.case.validate)
+    within = {c: float(np.hypot(attained[c], spread[c])) for c in attained}
+    return repeats(result.after.validate, within, result.final, samples)
+
+
+def _attained(result: Explanation) -> dict[str, float]:
+    """NRMSE on unseen recordings that a model has which errs there as it does on those that it was fitted to."""
+    return {c: floor * result.final.level[c] for c, floor in result.floor.items()}
+
+
+def _conclude_from_findings(result: Explanation) -> None:
+    """Physics is missing, unless every finding is tied with another place or nearly all of what is missing is left."""
+    first = result.findings[0]
+    if _accuses_sensors(result) and _equations_may_be_wrong(result):
+        _withdraw(result, first.ranked)
+        return
+    if not pays(result.before.validate, result.after.validate, result.floor):
+        result.verdict = "undetermined"
+        result.reason = (
+            f"{first.ranked.attachment.label} explains the recordings that it was fitted to, but does not hold on "
+            "those that only judge"
+        )
+        result.experiment = experiment_for(first.ranked, first.naming.ranked[1:])
+        return
+    if (taken := _taken(result)) < LEAST_TAKEN:
+        result.verdict = "undetermined"
+        result.reason = (
+            f"{first.ranked.attachment.label} fits best, but takes only {taken:.0%} of the error on unseen recordings "
+            "that is above noise away: what is missing is something else"
+        )
+        result.experiment = experiment_for(first.ranked, first.naming.ranked[1:])
+    elif all(f.tied for f in result.findings):
+        result.verdict = "undetermined"
+        rivals = first.elsewhere
+        names = ", ".join(dict.fromkeys(r.attachment.label for r in rivals[:3]))
+        result.reason = f"{first.ranked.attachment.label} and {names} explain the data equally well"
+        result.experiment = experiment_for(first.ranked, rivals)
+    else:
+        result.verdict = "missing_physics"
+        turning = dict.fromkeys(v for f in result.findings if (v := f.ranked.attachment.alike[1]))
+        result.experiment = f"record a motion in which {' and '.join(turning)} turns" if turning else ""
+
+
+def _taken(result: Explanation) -> float:
+    """Share of the unseen NRMSE above noise, known no better than CLEARLY tells, that the findings take away."""
+    before, noise = result.before.validate[""], float(np.sqrt(np.mean([f**2 for f in result.floor.values()])))
+    return (before - result.after.validate[""]) / (before - min(noise, CLEARLY * before))
+
+
+def _efforts(result: Explanation) -> list[float]:
+    """What an unknown effort at each place of the equations explains."""
+    return [s.gain for s in result.opened.sites if s.place is not None] if result.opened else []
+
+
+def _equations_may_be_wrong(result: Explanation) -> bool:
+    """Whether a sensor would be accused though places in the equations could not be tried, more than noise is left, or
+    a law there, or an effort of any course, explains as much as what was found."""
+    efforts = _efforts(result)
+    if not efforts:
+        return not result.amendment.structure.open
+    if astray(result.final) or (result.findings and _rival_law(result)):
+        return True
+    found = log_evidence(result.case, result.amendment, result.final) - result.opened.null
+    sensors = [s.gain for s in result.opened.sites if s.place is None]
+    return max(efforts) > max([*sensors, found]) - INDIFFERENT
+
+
+def _withdraw(result: Explanation, best: Ranked) -> None:
+    """A sensor is not accused where nothing else could be: the believed model stands, and the reason says so."""
+    result.verdict = "undetermined"
+    result.reason = f"{best.attachment.label} fits best, but " + (
+        "leaves far more than noise, and no law was found in the equations"
+        if _efforts(result) and astray(result.final)
+        else _as_much(result)
+        if _efforts(result)
+        else "the equations had not been searched yet: it may as well be physics"
+        if result.stopped and result.opened is None
+        else f"no place in the equations of {result.case.model} was open to this search{_why_closed(result)}: "
+        "it may as well be physics"
+    )
+    result.experiment = "record the same motion with the quantities that are not recorded now"
+    _believe_again(result)
+
+
+def _why_closed(result: Explanation) -> str:
+    if result.opened is None:
+        return ""
+    reasons = [result.opened.reason] if result.opened.reason else [f"{at}: {why}" for at, why in result.opened.closed]
+    return f" ({reasons[0]})" if reasons else ""
+
+
+def _believe_again(result: Explanation) -> None:
+    """Put the believed model, as fitted, in the place of what was found."""
+    result.findings, result.final, result.after, result.instead = [], result.base, result.before, ()
+    result.amendment = replace(result.amendment, attachments=[])
+
+
+def _accuses_sensors(result: Explanation) -> bool:
+    """Whether nothing but sensors is said to be wrong."""
+    return all(f.ranked.attachment.variable for f in result.findings)
+
+
+def _as_much(result: Explanation) -> str:
+    """What in the equations explains as much as an error of a sensor."""
+    law = _rival_law(result)
+    if law is not None:
+        return f"a term {law_at(law.attachment, law.fit.point)} at {law.attachment.location} explains as much"
+    place = next(s.location for s in result.opened.sites if s.place is not None)
+    return f"an effort at {place} explains as much, for which no law was found"
+
+
+def _rival_law(result: Explanation) -> Candidate | None:
+    """The best law in the equations, where the data does not tell it from what was found."""
+    base, final, laws = result.base, result.final, result.opened.laws
+    if not laws:
+        return None
+    correlation = laws[0].fit.correlation()
+    found = final.deviance(correlation) - base.deviance(correlation)
+    found += price(len(final.estimate.free) - len(base.estimate.free), base, correlation)
+    picked = sum(2 * f.ranked.candidate.pick for f in result.findings)
+    return laws[0] if score(laws[0], base, correlation) < found + picked + TIE else None
+
+
+def _quiet(result: Explanation) -> bool:
+    """Whether what is left is no more than noise, though some of it is not white: by its size, which instruments drift
+    and are off by; or by its colour, where its level is not given and no effort in the equations explains it better."""
+    final, direct = result.final, result.lead.direct
+    if within_instruments(final) or settled(final, rough=not direct):
+        return True
+    if not direct:
+        return like_noise(final)
+    return only_instruments(result.case, result.amendment, final)
+
+
+def experiment_for(best: Ranked, rivals: list[Ranked]) -> str:
+    """What to record so that tied hypotheses part: the excitation that the catalogue asks for each of them."""
+    wanted = dict.fromkeys(
+        r.attachment.effect.excitation for r in [best, *rivals[:2]] if r.attachment.effect.excitation
+    )
+    return "record: " + "; ".join(wanted)
