@@ -156,7 +156,8 @@ def _own_name(place: Place, taken: list[str]) -> str:
         owners = [e.rpartition(".")[0] for s in place.sites if s.kind == "node" for e in s.ends]
         name = max(dict.fromkeys(owners), key=owners.count)
     elif site.kind == "equation":
-        name = site.label.removeprefix(f"{site.instance}: ").partition("=")[0].strip()
+        name = site.label.replace(": ", ".", 1) if site.instance else site.label
+        name = name.partition("=")[0].strip()
     return name if re.fullmatch(r"[\w.\[\]]+", name) and name not in taken else place.location
 
 

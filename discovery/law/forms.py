@@ -92,7 +92,7 @@ def form_of(terms: Sequence[Term], variables: Sequence[Variable], gives: str, va
     told = [(text, shapes) for text, shapes in terms if text != "1"]
     names = {_named(text, variables, gives, {s: values[n] for s, n in shapes.items()}) for text, shapes in told}
     if whole := names & {"friction.stribeck", "compliance", "resonance"}:  # what else there is belongs to it
-        return whole.pop()
+        return min(whole)
     return names.pop() if len(names) == 1 else ""
 
 
