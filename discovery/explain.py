@@ -13,11 +13,11 @@ from lacuna.discovery.case.values import is_parameter
 from lacuna.discovery.experiment.proposal import propose
 from lacuna.discovery.explanation.contenders import contenders
 from lacuna.discovery.explanation.explanation import Clock, Explanation
+from lacuna.discovery.explanation.verdict import conclude
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.time_limit import within
 from lacuna.discovery.naming.judge import judge_file
 from lacuna.discovery.steps import add_effort, add_findings, add_fit, add_location, add_scatter, opened
-from lacuna.discovery.verdict import conclude
 from lacuna.written import write_whole
 
 Progress = Callable[[str], None]

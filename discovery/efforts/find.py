@@ -25,7 +25,7 @@ from lacuna.discovery.efforts.sites import SEVERAL
 from lacuna.discovery.fit.evidence import LEFT, astray, nearly_noise, settled
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.lead import joined
-from lacuna.discovery.law.empirical_law import fitted_law, race, released, simplified, unfitted
+from lacuna.discovery.law.empirical_law import fitted_law, race, simplified, unfitted, varied
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.naming.candidate_fit import SMALL_STEP, nearest
 from lacuna.discovery.naming.comparison import score
@@ -173,7 +173,7 @@ def _law_at(
         tried = [p for p in tried if p.candidate is not None and p.candidate.fit is not None]
         best = _best([p for p in (best, *tried) if p is not None], base)
         if best is not None and not settled(best.candidate.fit):
-            best = _best([best, *_released(case, amendment, base, best)], base)
+            best = _best([best, *_varied(case, amendment, base, best)], base)
         single = best if best is None or len(best.law.groups) == 1 else single
         if best is not None and settled(best.candidate.fit):
             break
@@ -195,12 +195,12 @@ def _begun(case: Case, amendment: Amendment, base: Fit, proposal: Proposal, led:
     return replace(candidate, start=nearest(case, base, candidate, candidate.start, here, little))
 
 
-def _released(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> list[Proposal]:
-    """A fitted law with any exponent in the place of a usual one, fitted from there."""
-    found = released(best)
-    for freed in found:
-        freed.candidate = fitted_law(case, amendment, base, freed.law, freed.start, best.candidate.fit.point)
-    return [freed for freed in found if freed.candidate is not None]
+def _varied(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> list[Proposal]:
+    """A fitted law's variants, fitted from there."""
+    found = varied(best)
+    for other in found:
+        other.candidate = fitted_law(case, amendment, base, other.law, other.start, best.candidate.fit.point)
+    return [other for other in found if other.candidate is not None]
 
 
 def _join(case: Case, base: Fit, laws: list[Candidate], guided: Guided) -> None:

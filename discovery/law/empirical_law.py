@@ -144,14 +144,11 @@ def _simpler(proposal: Proposal) -> list[Proposal]:
     law, fitted = proposal.law, proposal.candidate.fit
     covariance = fitted.estimate.covariance(fitted.inflation())
     errors = {f.name: float(np.sqrt(max(covariance[k, k], 0.0))) for k, f in enumerate(fitted.estimate.free)}
-    prefix = f"{component_of(law)}."
-    values = {n.removeprefix(prefix): v for n, v in fitted.point.items() if n.startswith(prefix)}
-    found = []
+    prefix, values = f"{component_of(law)}.", _values(proposal)
+    found = _stuck(law, values)
     for name, shape in law.shapes().items():
         near = [s for s in shape.simple if abs(s - values[name]) < SIGNIFICANT * errors[prefix + name] + 0.02 * s]
         found += [_with_fixed(law, values, name, s) for s in near]
-    found += [_sticking(law, values, n, v) for n, g in enumerate(law.groups) for v in law.site.variables
-              if v.sticks and g.texts == (f"tanh({{q}}*{v.scaled})",)]  # fmt: skip
     numbered = law.numbered()
     for k, (c, _, _) in enumerate(numbered):
         if len(numbered) > 1 and abs(values[c]) < SIGNIFICANT * errors[prefix + c]:
@@ -170,11 +167,11 @@ def _with_fixed(law: Law, values: dict[str, float], name: str, value: float) -> 
     return Proposal(Law(law.site, tuple(groups)), {n: v for n, v in values.items() if n != name})
 
 
-def released(best: Proposal) -> list[Proposal]:
-    """A fitted law with any exponent in the place of one that physics has; one group at a time."""
-    law, found = best.law, []
-    prefix = f"{component_of(law)}."
-    values = {n.removeprefix(prefix): v for n, v in best.candidate.fit.point.items() if n.startswith(prefix)}
+def varied(best: Proposal) -> list[Proposal]:
+    """A fitted law with any exponent in the place of one that physics has, or with dry friction that truly sticks in
+    that of a steep one; one group at a time."""
+    law, values = best.law, _values(best)
+    found = _stuck(law, values)
     for n, group in enumerate(law.groups):
         text = group.texts[0]
         linear = re.fullmatch(r"\((\w+)/\w+_ref\)", text)
@@ -186,6 +183,19 @@ def released(best: Proposal) -> list[Proposal]:
         groups = (*law.groups[:n], Group((freed,), (exponent(start),)), *law.groups[n + 1 :])
         found.append(Proposal(Law(law.site, groups), values | {f"p_{n + 1}": start}))
     return found
+
+
+def _values(proposal: Proposal) -> dict[str, float]:
+    """The numbers of a fitted law, by the names of its component."""
+    prefix = f"{component_of(proposal.law)}."
+    return {n.removeprefix(prefix): v for n, v in proposal.candidate.fit.point.items() if n.startswith(prefix)}
+
+
+def _stuck(law: Law, values: dict[str, float]) -> list[Proposal]:
+    return [
+        _sticking(law, values, n, v) for n, g in enumerate(law.groups) for v in law.site.variables
+        if v.sticks and g.texts == (f"tanh({{q}}*{v.scaled})",)
+    ]  # fmt: skip
 
 
 def _sticking(law: Law, values: dict[str, float], n: int, speed: Variable) -> Proposal:

@@ -19,6 +19,7 @@ from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.explain import explain, judge_written, write_amended
 from lacuna.discovery.explanation import diagnosis, report
 from lacuna.discovery.explanation.explanation import Explanation
+from lacuna.discovery.explanation.verdict import conclude
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.intervals import standard_errors
 from lacuna.discovery.fit.lead import fit_believed
@@ -29,7 +30,6 @@ from lacuna.discovery.law.locate import locate
 from lacuna.discovery.naming.comparison import confidences
 from lacuna.discovery.naming.judge import judge_file
 from lacuna.discovery.naming.name import Naming
-from lacuna.discovery.verdict import conclude
 
 
 def test_least_squares_finds_rosenbrock_within_bounds() -> None:
