@@ -104,6 +104,10 @@ class FleetWork:
             digest.update(repr((law.label, law.wander, law.diffusion)).encode() + law.growth.tobytes())
         digest.update(repr((self.bank.settings, sorted(self.limits.items()), self.options)).encode())
         digest.update(self.bank.prior.tobytes())
+        for fault, scatter in sorted(self.bank.scatter.items()):
+            digest.update(
+                repr((fault, scatter.stated)).encode() + scatter.severity.tobytes() + scatter.spread.tobytes()
+            )
         return digest.digest()
 
 

@@ -13,6 +13,7 @@ from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.prognosis.filter.bank import Bank, Beliefs, in_use
 from lacuna.analysis.prognosis.filter.crossing import Remaining, remaining
 from lacuna.analysis.prognosis.filter.filter import Series, Step, run
+from lacuna.analysis.prognosis.filter.scatter import Life, Scatter, scatter_of
 from lacuna.analysis.prognosis.history import History
 from lacuna.analysis.prognosis.series import last_error, series_of
 from lacuna.analysis.prognosis.verdict import FEWEST, FORECAST, tells, verdict_on
@@ -139,7 +140,8 @@ def forecasts(
 
 
 def fleet_prior(histories: Sequence[History], bank: Bank, of: Callable[[History], Limits], most: int = 400) -> None:
-    """Replace the bank's prior by that of the lives that have ended, where there are FLEET of them or more.
+    """Replace the bank's prior by that of the lives that have ended, where there are FLEET of them or more, and what
+    the tests' intervals say of their scatter by how tests of these lives scatter.
 
     A life has ended where its part was replaced beyond half of the limit, or has reached it. Lives that go on are
     left out:
@@ -150,6 +152,8 @@ def fleet_prior(histories: Sequence[History], bank: Bank, of: Callable[[History]
         return
     chosen = [ended[k] for k in np.unique(np.linspace(0, len(ended) - 1, most).round().astype(int))]
     weights = []
+    bank.scatter = {}
+    bank.scatter = _scatter(chosen, bank, of)
     for rows in _batches(chosen):
         batch = [chosen[k] for k in rows]
         *_, last = run(bank, _series(batch, [of(h) for h in batch], bank))
@@ -158,7 +162,19 @@ def fleet_prior(histories: Sequence[History], bank: Bank, of: Callable[[History]
 
 
 def _series(batch: Sequence[History], scale: Sequence[Limits], bank: Bank) -> Series:
-    return series_of(batch, [one.span for one in scale], bank.settings.floor, [one.healthy for one in scale])
+    return series_of(batch, [one.span for one in scale], bank, [one.healthy for one in scale])
+
+
+def _scatter(lives: Sequence[History], bank: Bank, of: Callable[[History], Limits]) -> dict[str, Scatter]:
+    """Of tests of each fault, where there are enough."""
+    by_fault: dict[str, list[Life]] = {}
+    for h in lives:
+        series = _series([h], [of(h)], bank)
+        known = series.valid[0]
+        own = by_fault.setdefault(h.fault, [])
+        own.append((series.use[0, known], series.value[0, known], series.stated[0, known]))
+    found = {fault: scatter_of(several, bank.settings.floor) for fault, several in by_fault.items()}
+    return {fault: one for fault, one in found.items() if one}
 
 
 def _ended(h: History, limits: Limits) -> list[History]:

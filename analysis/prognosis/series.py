@@ -6,13 +6,16 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from lacuna.analysis.prognosis.filter.bank import Bank
 from lacuna.analysis.prognosis.filter.filter import Series
 from lacuna.analysis.prognosis.history import TWO_SIDED_95, History
 
 
-def series_of(histories: Sequence[History], limit, floor: float, healthy=0.0) -> Series:
+def series_of(histories: Sequence[History], limit, bank: Bank, healthy=0.0) -> Series:
     """The parts in service, padded to the longest, as shares of `limit` above `healthy` (numbers, or one a history). A
-    side of an interval that the map's edge cuts takes the other's width."""
+    side of an interval that the map's edge cuts takes the other's width. Where a fleet has told the bank how tests
+    of this fault scatter, they are read with that error instead: with twice or half of it as well, as the part says
+    (`commons`)."""
     parts = [h.lives[-1] for h in histories]
     n = max(1, *(part.stop - part.start for part in parts))
     use, value, lower, upper = (np.full((len(parts), n), np.nan) for _ in range(4))
@@ -27,8 +30,15 @@ def series_of(histories: Sequence[History], limit, floor: float, healthy=0.0) ->
     valid = np.isfinite(value)
     value = np.where(valid, (value - healthy) / limit, 0)
     below, above = (np.where(valid, side, 1) / limit / TWO_SIDED_95 for side in (lower, upper))
-    sides = (np.maximum(np.where(a > 0, a, b), floor) for a, b in ((below, above), (above, below)))
-    return Series(use, value, *sides, valid, interval)
+    floor = bank.settings.floor
+    sides = [np.maximum(np.where(a > 0, a, b), floor) for a, b in ((below, above), (above, below))]
+    stated = (sides[0] + sides[1]) / 2
+    own = np.sqrt(np.mean(1 - np.array(bank.settings.commons)))  # of what is read with, what is a test's own
+    for b, h in enumerate(histories):
+        if scatter := bank.scatter.get(h.fault):
+            for side in sides:
+                side[b] = np.maximum(scatter.deviation(value[b], side[b]) / own, floor)
+    return Series(use, value, *sides, valid, interval, stated)
 
 
 def usual_interval(history: History) -> float:
@@ -38,6 +48,6 @@ def usual_interval(history: History) -> float:
 
 
 def last_error(series: Series, b: int) -> float:
-    """Standard deviation of the assessments now: the median of the last five."""
+    """Standard deviation that the assessments state now: the median of the last five."""
     known = np.flatnonzero(series.valid[b])[-5:]
-    return float(np.median((series.below[b, known] + series.above[b, known]) / 2)) if len(known) else 0.0
+    return float(np.median(series.stated[b, known])) if len(known) else 0.0

@@ -58,7 +58,7 @@ def walked(parts: Sequence[Part], bank: Bank, risk: float | None) -> Arm:
     """All tests of the parts in turn: a forecast at every checkpoint, as `lacuna forecast` makes it of the tests so
     far, and a removal at the first test after which the risk of violet by the next one exceeds `risk` (None: never)."""
     scores, verdicts = Scores.empty(len(parts)), np.full((len(parts), len(CHECKPOINTS)), "", dtype=object)
-    series = series_of([p.history for p in parts], LIMIT, bank.settings.floor)
+    series = series_of([p.history for p in parts], LIMIT, bank)
     first = np.array([p.history.lives[-1].start for p in parts])
     rows = np.array([[last_test(p, share) for share in CHECKPOINTS] for p in parts])
     removed, outliers = np.full(len(parts), np.nan), np.zeros(series.use.shape)

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from lacuna.analysis.prognosis.filter.law import Law, prior, tables
+from lacuna.analysis.prognosis.filter.scatter import Scatter
 from lacuna.analysis.prognosis.filter.settings import DEFAULT, FilterSettings
 
 LOST = 1e-3  # of the greatest weight
@@ -20,10 +21,12 @@ GONE = 1e-8  # weight below which a hypothesis can be left out for good
 
 
 class Bank:
-    """Laws and settings, with what follows from them; the same for all histories."""
+    """Laws and settings, with what follows from them; the same for all histories. `scatter`: of tests of each fault,
+    where a fleet has told it."""
 
     def __init__(self, laws: Sequence[Law], settings: FilterSettings = DEFAULT):
         self.laws, self.settings = list(laws), settings
+        self.scatter: dict[str, Scatter] = {}
         self.tables = tables(self.laws)
         shortest, longest = np.log(settings.lives)
         count = max(1, round((longest - shortest) / settings.tile))

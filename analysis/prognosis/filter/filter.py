@@ -31,7 +31,8 @@ class Series:
     """Tests of B histories as shares of the limit, padded to a common length n. The first test is at use 0.
 
     `use` [B, n] never falls; `valid` [B, n] False where there is no severity (not done, refused, padding). `below` and
-    `above` are standard deviations of each side of the interval. `interval` [B] is the usual use between tests.
+    `above` are the standard deviations that a test is read with, of each side; `stated` [B, n] is what its assessment
+    states. `interval` [B] is the usual use between tests.
     """
 
     use: np.ndarray
@@ -40,6 +41,7 @@ class Series:
     above: np.ndarray
     valid: np.ndarray
     interval: np.ndarray
+    stated: np.ndarray
 
 
 @dataclass(frozen=True)

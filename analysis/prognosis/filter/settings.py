@@ -24,7 +24,9 @@ class FilterSettings:
     `commons`: share of an assessment's variance that all tests of one actuator have in common (its own inertia and
         friction, say) and that the trend cannot show; each tried, and told by how much less than stated the tests
         scatter. The tests of docs/robustness.md scatter about an actuator's own mean with 0.25 to 0.7 of the stated
-        variance, the less the smaller the severity: these are the two ends.
+        variance from half of the limit on: these are the two ends. At small severities it is less than a tenth, which
+        only a fleet can tell (scatter.py): its tests' scatter takes the place of the stated errors, and these two
+        stand for parts that scatter less or more than the fleet's mean.
     `wide`, `wide_scale`: share of tests with an error of so many of the assessment's own standard deviations.
     `outlier`, `outlier_range`: share of tests that say nothing, spread over so many limits.
     `change`, `change_size`: probability a test that the rate changes abruptly (duty, lubrication: about once in two

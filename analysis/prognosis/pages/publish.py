@@ -117,7 +117,7 @@ def _cells(row: np.ndarray) -> list[str]:
 def curves(f: Forecast, bank: Bank):
     """(smoothed, levels) for `figure.draw`: what the tests say of the past, and when each severity is reached."""
     limit, healthy = f.limits.span, f.limits.healthy
-    series = series_of([f.history], limit, bank.settings.floor, healthy)
+    series = series_of([f.history], limit, bank, healthy)
     steps = list(run(bank, series, keep=True))
     mean, deviation = tracked(bank, steps)
     part = f.history.lives[-1]

@@ -39,7 +39,8 @@ def wiener(seed: int, n: int = 30):
     truth = mean + deviation * random.standard_normal() + np.concatenate([[0.0], np.cumsum(increments)])
     sd = random.uniform(0.01, 0.05, n)
     value = truth + sd * random.standard_normal(n)
-    return Series(*(a[None] for a in (use, value, sd, sd, random.random(n) < 0.8)), np.ones(1)), truth, rate
+    tests = (a[None] for a in (use, value, sd, sd, random.random(n) < 0.8))
+    return Series(*tests, np.ones(1), sd[None]), truth, rate
 
 
 def dense(series: Series, rate: float):
@@ -101,7 +102,7 @@ def test_as_a_long_monte_carlo(truth, life):
     bank = Bank(laws, FilterSettings(noises=((1.0, 1.0, 1.0, 0.0),), change=0.0))
     use = np.arange(1.0, life * 40)
     h = history(lambda n: truth(n, 40.0), use, seed=3)
-    series = series_of([h], LIMITS.removal, bank.settings.floor)
+    series = series_of([h], LIMITS.removal, bank)
     *_, last = run(bank, series)
     ahead = (1 - life) * 40 * np.array([0.5, 0.7, 0.85, 1.0, 1.2, 1.5, 2.0, 3.0])
     sd = float(np.median(series.above))
