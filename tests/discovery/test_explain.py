@@ -159,6 +159,16 @@ def test_a_finding_that_is_certain_makes_the_verdict_though_another_is_tied(expl
     assert diagnosis.sentence(result).count(": the data does not tell)") == 1
 
 
+def test_what_unseen_recordings_refute_leaves_the_verdict_of_a_model_that_tells_them(explained: Explanation) -> None:
+    """The findings take nothing away: from a model that leaves noise, or from one that does not."""
+    tells = replace(explained, base=explained.final, before=explained.after, reason="", experiment="")
+    conclude(tells)
+    assert not tells.findings and tells.verdict in ("consistent", "parameters")
+    fails = replace(explained, final=explained.base, after=explained.before, reason="", experiment="")
+    conclude(fails)
+    assert fails.findings and fails.verdict == "undetermined" and "does not hold" in fails.reason
+
+
 @pytest.mark.parametrize(
     ("left", "noise", "verdict"),
     [(0.9, 0.01, "undetermined"), (0.7, 0.01, "missing_physics"), (0.9, 0.85, "missing_physics"),
