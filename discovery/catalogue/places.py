@@ -20,7 +20,6 @@ from lacuna.codegen.syntax import ast
 
 _FLANGES = ("Flange_a", "Flange_b")
 _PINS = ("PositivePin", "NegativePin")
-_RIGID = ("Rigid", "DryFriction")  # components whose two flanges turn as one
 
 
 @dataclass(frozen=True)
@@ -178,23 +177,17 @@ def _flanges(name: str, node: Instance) -> list[str]:
 
 def _shafts(structure: Structure, instances: dict[str, Instance]) -> list[Shaft]:
     group: dict[str, str] = {}
-
-    def root(end: str) -> str:
-        while group.setdefault(end, end) != end:
-            end = group[end]
-        return end
-
     for name, node in instances.items():
         flanges = _flanges(name, node)
-        rigid = any(c.name in _RIGID for c in node.classes)
+        rigid = _turn_as_one(node, [f.removeprefix(f"{name}.") for f in flanges])
         for flange in flanges:
-            group[root(flange)] = root(flanges[0]) if rigid else root(flange)
+            group[_root(group, flange)] = _root(group, flanges[0] if rigid else flange)
     for left, right in structure.connections:
         if _connector(instances, left) in _FLANGES and _connector(instances, right) in _FLANGES:
-            group[root(left)] = root(right)
+            group[_root(group, left)] = _root(group, right)
     members: dict[str, list[str]] = {}
     for end in group:
-        members.setdefault(root(end), []).append(end)
+        members.setdefault(_root(group, end), []).append(end)
     shafts = []
     for ends in members.values():
         owners = dict.fromkeys(e.split(".")[0] for e in ends)
@@ -202,6 +195,22 @@ def _shafts(structure: Structure, instances: dict[str, Instance]) -> list[Shaft]
         if inertias:
             shafts.append(Shaft(inertias[0], f"{inertias[0]}.flange_b", tuple(ends)))
     return shafts
+
+
+def _turn_as_one(node: Instance, flanges: list[str]) -> bool:
+    """Whether the equations of a component say that all of its flanges have one angle."""
+    group: dict[str, str] = {}
+    for section, _ in node.sections:
+        for item in () if section.algorithm or section.initial else section.items:
+            if isinstance(item, ast.Equality) and isinstance(item.left, ast.Ref) and isinstance(item.right, ast.Ref):
+                group[_root(group, written(item.left))] = _root(group, written(item.right))
+    return len({_root(group, f"{flange}.phi") for flange in flanges}) == 1
+
+
+def _root(group: dict[str, str], end: str) -> str:
+    while group.setdefault(end, end) != end:
+        end = group[end]
+    return end
 
 
 def _lines(structure: Structure, instances: dict[str, Instance]) -> list[Line]:

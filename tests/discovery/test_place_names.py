@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+from lacuna.codegen.library.classes import Library
+from lacuna.codegen.library.search_path import search_path
+from lacuna.discovery.catalogue.places import read as structure_of
 from lacuna.discovery.efforts.opened import Place, _apart
 from lacuna.discovery.efforts.sites import Site
 
@@ -27,3 +32,35 @@ def test_a_port_keeps_the_name_of_its_state_beside_the_wall_behind_it() -> None:
     shell = place("shell", Site("node", "film.b", ("film.b", "shell.a", "fins.a")))
     wall = place("shell", Site("edge", "film.b to shell.a", ("film.b", "shell.a")))
     assert [p.location for p in _apart([wall, shell])] == ["shell", "shell"]
+
+
+ROTOR = """model Rotor "A disc that is no relative of the library's, between two dampers"
+  model Inertia "Its flanges turn as one, as its equations say"
+    Lacuna.Interfaces.Flange_a flange_a;
+    Lacuna.Interfaces.Flange_b flange_b;
+    parameter Real J(unit="kg.m2") = 1e-3;
+    Real phi(unit="rad", start=0, fixed=true);
+    Real w(unit="rad/s", start=1, fixed=true);
+  equation
+    phi = flange_a.phi;
+    phi = flange_b.phi;
+    w = der(phi);
+    J*der(w) = flange_a.tau + flange_b.tau;
+  end Inertia;
+  Inertia disc;
+  Lacuna.Components.Mechanics.Spring left(c=1), right(c=1);
+  Lacuna.Components.Mechanics.Fixed wall;
+equation
+  connect(wall.flange, left.flange_a);
+  connect(left.flange_b, disc.flange_a);
+  connect(disc.flange_b, right.flange_a);
+  connect(right.flange_b, wall.flange);
+end Rotor;
+"""
+
+
+def test_flanges_that_turn_as_one_are_one_shaft_whatever_class_says_so(tmp_path: Path) -> None:
+    (tmp_path / "Rotor.mo").write_text(ROTOR)
+    (shaft,) = structure_of(Library(search_path([tmp_path])), str(tmp_path / "Rotor.mo")).shafts
+    assert shaft.location == "disc"
+    assert {"disc.flange_a", "disc.flange_b", "left.flange_b", "right.flange_a"} <= set(shaft.members)
