@@ -54,7 +54,8 @@ def _added(site: Site, variable: str, text: str, starts: list[int]) -> list[Chan
     owner = _section(text, begin)
     kind = "input Real" if site.instance else "Real"  # a component is given from outside what it does not say
     value = " = 0" if site.of else ""
-    return [*changes, (owner, False, f'\n  {kind} {variable}{value} "Missing in a balance";', owner)]
+    margin = _margin(text[owner:].lstrip("\n"))
+    return [*changes, (owner, False, f'\n{margin}{kind} {variable}{value} "Missing in a balance";', owner)]
 
 
 def _class_text(cls: ast.Class, text: str, starts: list[int], changes: list[Change]) -> str:
@@ -72,13 +73,18 @@ def _renamed(cls: ast.Class, text: str, name: str) -> str:
     """The text of a class by another name, elsewhere: with what the packages around it and their imports let it see."""
     around, seen = cls.parent, []
     while around is not None and around.name:
-        seen += [f"  import {around.path}.*;", *(f"  import {_imported(i)};" for i in around.imports)]
+        seen += [f"import {around.path}.*;", *(f"import {_imported(i)};" for i in around.imports)]
         around = around.parent
     text = re.sub(rf"\b(model|block)(\s+){re.escape(cls.name)}\b", rf"\1\2{name}", text, count=1)
     text = re.sub(rf"\bend(\s+){re.escape(cls.name)}(\s*);$", rf"end\1{name}\2;", text)
     lines = text.split("\n")
     first = next(k for k, line in enumerate(lines) if line.strip().startswith("equation"))
-    return "\n".join([*lines[:first], *seen, *lines[first:], ""])
+    return "\n".join([*lines[:first], *(_margin(lines[first]) + clause for clause in seen), *lines[first:], ""])
+
+
+def _margin(section: str) -> str:
+    """Before an element of a class whose section begins with this line."""
+    return section[: len(section) - len(section.lstrip())] + "  "
 
 
 def _imported(clause: ast.Import) -> str:
