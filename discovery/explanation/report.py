@@ -164,7 +164,13 @@ def _rivals(result: Explanation) -> list[str]:
     for k, naming in enumerate(result.namings):
         rows = [[r.attachment.label, r.score - naming.ranked[0].score, f"{r.confidence:.3f}", len(r.candidate.free),
                  _leaves(r.candidate.fit)] for r in naming.ranked[:10]]  # fmt: skip
-        header = ["what could be missing", "2 ln of the odds behind the best", "probability", "parameters", "leaves"]
+        header = [
+            "what could be missing",
+            "2 ln of the odds behind the best",
+            "probability among these",
+            "parameters",
+            "leaves",
+        ]
         parts += [f"<h2>What else was tried{f', step {k + 1}' if k else ''}</h2>", _table(header, rows)]
         tried = {r.attachment.label for r in naming.ranked}
         others = [(label, share) for label, share in naming.screened if label not in tried][:12]
