@@ -8,6 +8,8 @@ from pathlib import Path
 
 from lacuna.codegen.cache import Cache
 from lacuna.codegen.compile import translate
+from lacuna.codegen.structure.sorting.tearing import Assignment
+from lacuna.codegen.symbolic.expr import var
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.written import write_whole
 
@@ -25,6 +27,14 @@ def write_source(amendment: Amendment) -> Path:
 
 def believed_aliases(amendment: Amendment, search_path: Sequence[str] | None) -> Mapping[str, tuple[str, int]]:
     """(variable, sign) that each name is another one for in the model as believed: what an amended model adds to an
-    equation such as T = Th may make two of them."""
+    equation such as T = Th may make two of them. So is a speed that is the rate of an angle which a component measures
+    the other way: the state is then that component's."""
     believed, _ = translate(str(write_source(Amendment(amendment.structure))), search_path=search_path)
-    return believed.aliases
+    same = {var(n): (n, 1) for n in believed.system.states}
+    for step in believed.explicit:
+        if isinstance(step, Assignment):
+            value, sign = (step.value.args[0], -1) if step.value.op == "neg" else (step.value, 1)
+            if value in same:
+                name, sense = same[value]
+                same[step.unknown] = name, sense * sign
+    return {str(n.value): found for n, found in same.items() if n.op == "var"} | believed.aliases

@@ -88,3 +88,39 @@ def test_a_start_recorded_by_another_name_of_its_state(tmp_path: Path) -> None:
     split = as_known_to(door.machine, starts)  # what the effort adds at the first sample, nobody knows
     assert [f.name for f in split] == [f.name for f in starts] and not any(f.sigma for f in split)
     assert as_known_to(known, starts) == starts
+
+
+TURNED = """model Turned "A rotor whose speed is the rate of a damper's angle, which counts the other way"
+  parameter Real J(unit="kg.m2") = 0.01;
+  parameter Real d(unit="N.m.s/rad") = 0.02;
+  parameter Real wall(unit="rad") = 0;
+  input Real T(unit="N.m");
+  Real phi(unit="rad", start=0, fixed=true);
+  Real w(unit="rad/s", start=0, fixed=true);
+  Real rel(unit="rad", stateSelect=StateSelect.prefer);
+  Real w_rel(unit="rad/s", stateSelect=StateSelect.prefer);
+equation
+  w = der(phi);
+  rel = wall - phi;
+  w_rel = der(rel);
+  J*der(w) = T + d*w_rel;
+end Turned;
+"""
+
+
+def test_a_first_speed_of_what_a_component_measures_the_other_way(tmp_path: Path) -> None:
+    """The state is `w_rel`, and the case says where `w` begins; it decays in closed form."""
+    (tmp_path / "Turned.mo").write_text(TURNED)
+    time = np.linspace(0, 2, 101)
+    for name in ("r1", "r2"):
+        table = np.column_stack([time, 0 * time, 15 * np.exp(-2 * time)])
+        np.savetxt(tmp_path / f"{name}.csv", table, "%.8g", ",", header="time,T,w", comments="")
+    (tmp_path / "case.toml").write_text(
+        'model = "Turned.mo"\n[initial]\nw = 15\n[signals.T]\nrole = "input"\nvariable = "T"\nunit = "N.m"\n'
+        '[signals.w]\nrole = "output"\nvariable = "w"\nunit = "rad/s"\nnoise_std = 0.01\n'
+        '[recordings]\nfit = ["r1.csv"]\nvalidate = ["r2.csv"]\n'
+    )
+    case = load(tmp_path)
+    machine = Machine(case, Amendment(read(case.library(), case.base)))
+    assert "w" not in machine.model.states
+    assert machine.simulate({}, case.fit[0])["w"] == pytest.approx(15 * np.exp(-2 * time), abs=1e-4)
