@@ -193,7 +193,8 @@ def _as_much(result: Explanation) -> str:
 
 
 def _rival_law(result: Explanation) -> Candidate | None:
-    """The best law in the equations, where the data does not tell it from what was found."""
+    """The best law in the equations, where the data does not tell it from what was found. Which law it is does not
+    matter: that it was picked among many is no reason against that one of them holds."""
     base, final, laws = result.base, result.final, result.opened.laws
     if not laws:
         return None
@@ -201,7 +202,8 @@ def _rival_law(result: Explanation) -> Candidate | None:
     found = final.deviance(correlation) - base.deviance(correlation)
     found += price(len(final.estimate.free) - len(base.estimate.free), base, correlation)
     picked = sum(2 * f.ranked.candidate.pick for f in result.findings)
-    return laws[0] if score(laws[0], base, correlation) < found + picked + TIE else None
+    law = min(laws, key=lambda law: score(law, base, correlation) - 2 * law.pick)
+    return law if score(law, base, correlation) - 2 * law.pick < found + picked + TIE else None
 
 
 def _quiet(result: Explanation) -> bool:

@@ -97,12 +97,14 @@ TURNED = """model Turned "A rotor whose speed is the rate of a damper's angle, w
   input Real T(unit="N.m");
   Real phi(unit="rad", start=0, fixed=true);
   Real w(unit="rad/s", start=0, fixed=true);
-  Real rel(unit="rad", stateSelect=StateSelect.prefer);
-  Real w_rel(unit="rad/s", stateSelect=StateSelect.prefer);
+  Real rel(unit="rad", stateSelect=StateSelect.always);
+  Real w_rel(unit="rad/s", stateSelect=StateSelect.always);
+  Real a_rel(unit="rad/s2");
 equation
   w = der(phi);
   rel = wall - phi;
   w_rel = der(rel);
+  a_rel = der(w_rel);
   J*der(w) = T + d*w_rel;
 end Turned;
 """
