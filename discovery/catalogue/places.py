@@ -17,6 +17,7 @@ from lacuna.codegen.flatten.language import LOWERING
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.syntax import ast
+from lacuna.discovery.efforts.sites import root
 
 _FLANGES = ("Flange_a", "Flange_b")
 _PINS = ("PositivePin", "NegativePin")
@@ -181,13 +182,13 @@ def _shafts(structure: Structure, instances: dict[str, Instance]) -> list[Shaft]
         flanges = _flanges(name, node)
         rigid = _turn_as_one(node, [f.removeprefix(f"{name}.") for f in flanges])
         for flange in flanges:
-            group[_root(group, flange)] = _root(group, flanges[0] if rigid else flange)
+            group[root(group, flange)] = root(group, flanges[0] if rigid else flange)
     for left, right in structure.connections:
         if _connector(instances, left) in _FLANGES and _connector(instances, right) in _FLANGES:
-            group[_root(group, left)] = _root(group, right)
+            group[root(group, left)] = root(group, right)
     members: dict[str, list[str]] = {}
     for end in group:
-        members.setdefault(_root(group, end), []).append(end)
+        members.setdefault(root(group, end), []).append(end)
     shafts = []
     for ends in members.values():
         owners = dict.fromkeys(e.split(".")[0] for e in ends)
@@ -203,14 +204,8 @@ def _turn_as_one(node: Instance, flanges: list[str]) -> bool:
     for section, _ in node.sections:
         for item in () if section.algorithm or section.initial else section.items:
             if isinstance(item, ast.Equality) and isinstance(item.left, ast.Ref) and isinstance(item.right, ast.Ref):
-                group[_root(group, written(item.left))] = _root(group, written(item.right))
-    return len({_root(group, f"{flange}.phi") for flange in flanges}) == 1
-
-
-def _root(group: dict[str, str], end: str) -> str:
-    while group.setdefault(end, end) != end:
-        end = group[end]
-    return end
+                group[root(group, written(item.left))] = root(group, written(item.right))
+    return len({root(group, f"{flange}.phi") for flange in flanges}) == 1
 
 
 def _lines(structure: Structure, instances: dict[str, Instance]) -> list[Line]:

@@ -113,7 +113,7 @@ def places_of(
 def located(case: Case, amendment: Amendment, base: Fit, library: Library) -> Locator:
     """Every place of the amended model, about the runs of the machine that is believed, since a fit without what is
     missing may have taken parameters anywhere, or about those of the fit, since what is believed may miss a resonance
-    by cycles: about those where some effort explains more. Raises SimulationError where neither runs."""
+    by cycles: about those where some effort explains more. Raises SimulationError where the fit does not run."""
     free = [f.name for f in base.estimate.free if is_parameter(f.name)]
     door = opened(case, amendment, library, free, base.machine)
     found = Locator(case, door, base)

@@ -60,6 +60,7 @@ class Locator:
         self.pieces = [self.piece(self.point, r) for r in case.fit]
         self.places = opened.places(self.pieces[0].along)
         self.null = -np.inf  # log evidence of no effort at all, once places are ranked
+        self._weighed: tuple[Colour | None, list[Site]] | None = None
         self.colour: Colour | None = None  # errors of sensors, and an effort, that efforts are looked for beside
 
     def piece(
@@ -117,7 +118,13 @@ class Locator:
         return result
 
     def ranked(self) -> list[Site]:
-        """Places and sensors, best first."""
+        """Places and sensors, best first; weighed once beside the same errors of sensors."""
+        if self._weighed is None or self._weighed[0] is not self.colour:
+            self._weighed = self.colour, self._rank()
+        return list(self._weighed[1])
+
+    def _rank(self) -> list[Site]:
+        self._chosen = {}
         hypotheses, owners = self.hypotheses()
         thin = thinned_all(self.pieces)
         found = evidence(thin, hypotheses)
@@ -146,7 +153,6 @@ class Locator:
     _chosen: dict[int, tuple[Latent, np.ndarray]]
 
     def hypotheses(self) -> tuple[Latent, list[tuple[str, int]]]:
-        self._chosen = {}
         longest = max(p.along.time[-1] - p.along.time[0] for p in self.pieces)
         misfit = self._size([p.data[:, :, 0] for p in self.pieces])
         rows, owners = [], []
@@ -265,7 +271,7 @@ def thinned_all(pieces: list[Piece], samples: tuple[int, int] = SAMPLES) -> list
     count = sum(len(p.along.time) for p in pieces)
     every, least = (-(-count // n) for n in samples)
     while every > least and not all(_follows(p, every) for p in pieces):
-        every -= 1
+        every = max(every // 2, least)
     return [thinned(p, every) for p in pieces]
 
 

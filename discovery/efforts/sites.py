@@ -95,7 +95,7 @@ def read(library: Library, name: str) -> Sites:
     found += _inside(top)
     joined: dict[str, list[str]] = {}
     for end in ports:
-        joined.setdefault(_root(group, end), []).append(end)
+        joined.setdefault(root(group, end), []).append(end)
     nodes = [
         Site("node", root, (root, *(e for e in ends if e != root)), ports[root])
         for root, ends in joined.items() if root in ports
@@ -146,7 +146,7 @@ def _branches(group: dict[str, str], ports: dict[str, Port]) -> list[Site]:
         of.setdefault((end.rpartition(".")[0], port.flow, port.potential), []).append(end)
     return [
         Site("branch", name, (ends[0], ends[1]), ports[ends[0]]) for (name, *_), ends in of.items()
-        if len(ends) == 2 and _root(group, ends[0]) != _root(group, ends[1])
+        if len(ends) == 2 and root(group, ends[0]) != root(group, ends[1])
     ]  # fmt: skip
 
 
@@ -205,28 +205,32 @@ def _connection(
             closed.append((f"{left}, {right}", "its connectors are not one flow and one potential"))
         return []
     ports[left], ports[right] = pair
-    group[_root(group, right)] = _root(group, left)
+    group[root(group, right)] = root(group, left)
     return [Site("edge", f"{left} to {right}", (left, right), pair[0])]
 
 
-def _root(group: dict[str, str], end: str) -> str:
+def root(group: dict[str, str], end: str) -> str:
+    """Of names that are joined in a group, the one that stands for all."""
     while group.setdefault(end, end) != end:
         end = group[end]
     return end
 
 
 def _node(top: Instance, end: str) -> Instance | None:
+    node = _found(top, end)
+    return node if isinstance(node, Instance) and "." in end else None
+
+
+def _found(top: Instance, end: str) -> object:
     node: object = top
     for name in end.split("."):
-        node = node.child(name) if isinstance(node, Instance) and "[" not in name else None
-    return node if isinstance(node, Instance) and "." in end else None
+        node = node.child(name) if isinstance(node, Instance) and name in node.elements else None
+    return node
 
 
 def _causality(top: Instance, end: str) -> str:
     """Of a signal: input | output; "" of anything else."""
-    node: object = top
-    for name in end.split("."):
-        node = node.child(name) if isinstance(node, Instance) and name in node.elements else None
+    node = _found(top, end)
     return node.causality if isinstance(node, Leaf) else ""
 
 

@@ -55,7 +55,7 @@ def _around(found: Fit, machine: Machine) -> tuple[Problem | None, list[np.ndarr
 def _with_secants(problem: Problem, estimate: Estimate) -> Estimate | None:
     free, values = estimate.free, estimate.values
     scales = np.array([f.scale for f in free])
-    shared, own = _axes(estimate)
+    shared, own = _axes(problem, estimate)
     ends = [
         clipped(free, values + side * scales * axis) for axis in [*shared.T, *_at_once(own)] for side in (1.0, -1.0)
     ]
@@ -75,11 +75,11 @@ def _with_secants(problem: Problem, estimate: Estimate) -> Estimate | None:
     return replace(estimate, jacobian=jacobian, normal=sum(b.T @ b for b in jacobian) + beliefs)
 
 
-def _axes(estimate: Estimate) -> tuple[np.ndarray, list[np.ndarray]]:
+def _axes(problem: Problem, estimate: Estimate) -> tuple[np.ndarray, list[np.ndarray]]:
     """Axes of the normal equations in scaled coordinates, conjugate and a standard error long; parameters at a bound
-    stay there: (p, m) of what several pieces read, where the rest follows, and (p, m) of the rest of each piece."""
+    stay there: (p, m) of what several pieces read, where the rest follows, and (p, m) of what each one reads alone."""
     inside = [k for k, f in enumerate(estimate.free) if not estimate.at_bound(f.name)]
-    own = _own(estimate, inside)
+    own = [[k for k in inside if problem.reading(k) == [piece]] for piece in range(problem.pieces)]
     rest = [k for ks in own for k in ks]
     shared = [k for k in inside if k not in rest]
     normal = estimate.normal
@@ -89,15 +89,6 @@ def _axes(estimate: Estimate) -> tuple[np.ndarray, list[np.ndarray]]:
     return along @ _principal(normal[np.ix_(shared, shared)] + normal[np.ix_(shared, rest)] @ follow), [
         np.eye(len(normal))[:, ks] @ _principal(normal[np.ix_(ks, ks)]) for ks in own
     ]
-
-
-def _own(estimate: Estimate, inside: list[int]) -> list[list[int]]:
-    """For each of several pieces, the parameters that no other one answers to."""
-    answers = np.array([np.any(block != 0, axis=0) for block in estimate.jacobian])
-    if len(answers) < 2:
-        return []
-    alone = answers.sum(axis=0) == 1
-    return [[k for k in inside if alone[k] and piece[k]] for piece in answers]
 
 
 def _principal(normal: np.ndarray) -> np.ndarray:
@@ -141,11 +132,11 @@ def input_shift(found: Fit) -> np.ndarray:
 
 def _shifts(found: Fit, machines: list[Machine]) -> np.ndarray:
     """How far (m, p), to first order, each of these machines would move the values; 0 where one does not run."""
-    estimate, here = found.estimate, _around(found, found.machine)[1]
+    estimate, (problem, here) = found.estimate, _around(found, found.machine)
     outputs = [_around(found, machine)[1] for machine in machines]
-    if not here or not all(outputs) or not estimate.jacobian:
+    if problem is None or not all(outputs) or not estimate.jacobian:
         return np.zeros((len(machines), len(estimate.free)))
     loads = [sum(b.T @ (t - h) for b, h, t in zip(estimate.jacobian, here, there, strict=True)) for there in outputs]
-    shared, own = _axes(estimate)
+    shared, own = _axes(problem, estimate)
     axes, scales = np.hstack([shared, *own]), np.array([f.scale for f in estimate.free])
     return -(np.array(loads) @ axes @ axes.T) * scales

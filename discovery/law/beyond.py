@@ -71,8 +71,8 @@ def _instead(search: Search, unbegun: Search, held: Fit, law: Candidate) -> bool
         return False
     correlation = law.fit.correlation()
     gain = score(law, held, correlation)
-    margin = 0.0 if len(law.free) <= SHORT and len(search.findings) > 1 else MARGIN
-    if gain > -MIN_GAIN or (search.findings and gain > _found(search, unbegun, held, correlation) - margin):
+    found = search.findings and _found(search, unbegun, held, correlation) - margin(search, law)
+    if gain > -MIN_GAIN or (search.findings and gain > found):
         return False
     ranked = _ranked(law, held)
     polished = unbegun.polished(ranked, unbegun.fit)
@@ -84,6 +84,11 @@ def _instead(search: Search, unbegun: Search, held: Fit, law: Candidate) -> bool
     search.take([law.attachment], polished, after)
     search.reason = ""
     return True
+
+
+def margin(search: Search, law: Candidate) -> float:
+    """Of the deviance, by which a law has to beat what a search has found: none for a short one against several."""
+    return 0.0 if len(law.free) <= SHORT and len(search.findings) > 1 else MARGIN
 
 
 def _tells(search: Search, before: Fit, after: Fit) -> bool:

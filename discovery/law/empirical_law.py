@@ -21,7 +21,7 @@ from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit, fit
 from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.solver.free import Free
-from lacuna.discovery.law.law import Law, attach, component_of
+from lacuna.discovery.law.law import Law, attach, component_of, own_values
 from lacuna.discovery.law.law_screen import Effort, Proposal, screened, sites
 from lacuna.discovery.law.law_terms import Group, Variable, exponent
 from lacuna.discovery.naming.comparison import best_correlation, score
@@ -144,7 +144,7 @@ def _simpler(proposal: Proposal) -> list[Proposal]:
     law, fitted = proposal.law, proposal.candidate.fit
     covariance = fitted.estimate.covariance(fitted.inflation())
     errors = {f.name: float(np.sqrt(max(covariance[k, k], 0.0))) for k, f in enumerate(fitted.estimate.free)}
-    prefix, values = f"{component_of(law)}.", _values(proposal)
+    prefix, values = f"{component_of(law)}.", own_values(proposal.candidate.attachment, fitted.point)
     found = _stuck(law, values)
     for name, shape in law.shapes().items():
         near = [s for s in shape.simple if abs(s - values[name]) < SIGNIFICANT * errors[prefix + name] + 0.02 * s]
@@ -170,7 +170,7 @@ def _with_fixed(law: Law, values: dict[str, float], name: str, value: float) -> 
 def varied(best: Proposal) -> list[Proposal]:
     """A fitted law with any exponent in the place of one that physics has, or with dry friction that truly sticks in
     that of a steep one; one group at a time."""
-    law, values = best.law, _values(best)
+    law, values = best.law, own_values(best.candidate.attachment, best.candidate.fit.point)
     found = _stuck(law, values)
     for n, group in enumerate(law.groups):
         text = group.texts[0]
@@ -183,12 +183,6 @@ def varied(best: Proposal) -> list[Proposal]:
         groups = (*law.groups[:n], Group((freed,), (exponent(start),)), *law.groups[n + 1 :])
         found.append(Proposal(Law(law.site, groups), values | {f"p_{n + 1}": start}))
     return found
-
-
-def _values(proposal: Proposal) -> dict[str, float]:
-    """The numbers of a fitted law, by the names of its component."""
-    prefix = f"{component_of(proposal.law)}."
-    return {n.removeprefix(prefix): v for n, v in proposal.candidate.fit.point.items() if n.startswith(prefix)}
 
 
 def _stuck(law: Law, values: dict[str, float]) -> list[Proposal]:

@@ -98,15 +98,16 @@ def component_of(law: Law) -> str:
 
 def law_at(attachment: Attachment, point: Mapping[str, float]) -> str:
     """A law with its numbers at a point, in variables of the model; "" for a named effect."""
-    return attachment.expression(_own(attachment, point)) if attachment.expression else ""
+    return attachment.expression(own_values(attachment, point)) if attachment.expression else ""
 
 
 def form_at(attachment: Attachment, point: Mapping[str, float]) -> str:
     """The name of a known form that a law has at a point; "" where it has none."""
-    return attachment.form(_own(attachment, point)) if attachment.form else ""
+    return attachment.form(own_values(attachment, point)) if attachment.form else ""
 
 
-def _own(attachment: Attachment, point: Mapping[str, float]) -> dict[str, float]:
+def own_values(attachment: Attachment, point: Mapping[str, float]) -> dict[str, float]:
+    """The numbers of an effect or a law at a point, by the names of its component."""
     prefix = attachment.full_name("")
     return {n.removeprefix(prefix): v for n, v in point.items() if n.startswith(prefix)}
 

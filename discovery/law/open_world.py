@@ -15,7 +15,7 @@ from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.find import WORTH, Found, add_laws, places_of
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.fit.evidence import FAR, like_noise, nearly_noise, within_instruments
-from lacuna.discovery.law.beyond import MARGIN, SHORT
+from lacuna.discovery.law.beyond import margin
 from lacuna.discovery.law.pairs import Place, is_short, paired, two_places
 from lacuna.discovery.law.several import apart, go_on, take_if_less
 from lacuna.discovery.naming.comparison import (
@@ -148,8 +148,7 @@ def _better(search: Search, unbegun: Search, law: Candidate, gain: float, correl
     before = _score_of(search, unbegun, correlation)
     if all(f.ranked.attachment.variable for f in search.findings):
         return gain < before - TIE
-    margin = 0.0 if len(law.free) <= SHORT and len(search.findings) > 1 else MARGIN
-    return gain < before - margin and (nearly_noise(law.fit) or like_noise(law.fit))
+    return gain < before - margin(search, law) and (nearly_noise(law.fit) or like_noise(law.fit))
 
 
 def _one_a_place(laws: list[Candidate]) -> list[Candidate]:
