@@ -33,9 +33,10 @@ def copied(cls: ast.Class, edits: Mapping[Site, str]) -> tuple[str, list[str]]:
         where += _added(site, variable, text, starts)
     for at, (of, name, own) in inner.items():
         line = text.rfind("\n", 0, at) + 1
+        own += _seen(of, text, starts)
         changes.append((line, False, _renamed(of, _class_text(of, text, starts, own), name), line))
         changes.append((at, False, name, re.compile(r"[\w.']+").match(text, at).end()))
-    body = _class_text(cls, text, starts, changes)
+    body = _class_text(cls, text, starts, [*changes, *_seen(cls, text, starts)])
     return cls.name, [f"  {line}" if line else "" for line in body.split("\n")]
 
 
@@ -50,7 +51,7 @@ def _added(site: Site, variable: str, text: str, starts: list[int]) -> list[Chan
                 last = at + len(site.label)
                 changes += [(at, False, "(", at), (last, False, f" + {variable})", last)]
         else:
-            changes += [(side, True, " (", side), (end, True, f") + {variable}", end)]
+            changes += [(side, True, " (", side), (end, True, f") + {site.term.replace('@', variable)}", end)]
     owner = _section(text, begin)
     kind = "input Real" if site.instance else "Real"  # a component is given from outside what it does not say
     value = " = 0" if site.of else ""
@@ -70,16 +71,21 @@ def _class_text(cls: ast.Class, text: str, starts: list[int], changes: list[Chan
 
 
 def _renamed(cls: ast.Class, text: str, name: str) -> str:
-    """The text of a class by another name, elsewhere: with what the packages around it and their imports let it see."""
+    """The text of a class by another name."""
+    text = re.sub(rf"\b(model|block)(\s+){re.escape(cls.name)}\b", rf"\1\2{name}", text, count=1)
+    return re.sub(rf"\bend(\s+){re.escape(cls.name)}(\s*);$", rf"end\1{name}\2;", text) + "\n"
+
+
+def _seen(cls: ast.Class, text: str, starts: list[int]) -> list[Change]:
+    """What lets a class see elsewhere what the packages around it and their imports let it see."""
     around, seen = cls.parent, []
     while around is not None and around.name:
         seen += [f"import {around.path}.*;", *(f"import {_imported(i)};" for i in around.imports)]
         around = around.parent
-    text = re.sub(rf"\b(model|block)(\s+){re.escape(cls.name)}\b", rf"\1\2{name}", text, count=1)
-    text = re.sub(rf"\bend(\s+){re.escape(cls.name)}(\s*);$", rf"end\1{name}\2;", text)
-    lines = text.split("\n")
-    first = next(k for k, line in enumerate(lines) if line.strip().startswith("equation"))
-    return "\n".join([*lines[:first], *(_margin(lines[first]) + clause for clause in seen), *lines[first:], ""])
+    span = next(item.span for s in cls.sections if not s.algorithm and not s.initial for item in s.items)
+    at = _section(text, starts[span.line - 1] + span.column - 1)
+    margin = _margin(text[at:].lstrip("\n"))
+    return [(at, False, "".join(f"\n{margin}{clause}" for clause in seen), at)]
 
 
 def _margin(section: str) -> str:

@@ -25,10 +25,11 @@ from lacuna.discovery.efforts.sites import SEVERAL
 from lacuna.discovery.fit.evidence import LEFT, astray, nearly_noise, settled
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.lead import joined
-from lacuna.discovery.law.empirical_law import fitted_law, race, simplified, unfitted, varied
+from lacuna.discovery.law.empirical_law import race, simplified, unfitted, varied
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.naming.candidate_fit import SMALL_STEP, nearest
 from lacuna.discovery.naming.comparison import score
+from lacuna.discovery.naming.race import NEAR
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.runtime import SimulationError
 
@@ -170,10 +171,11 @@ def _law_at(
         race(case, base, [p.candidate for p in tried if p.candidate is not None], best and best.candidate)
         if best is None:
             _join(case, base, [p.candidate for p in tried if p.candidate is not None], guided)
-        tried = [p for p in tried if p.candidate is not None and p.candidate.fit is not None]
-        best = _best([p for p in (best, *tried) if p is not None], base)
+        tried = [p for p in (best, *tried) if p is not None and p.candidate is not None and p.candidate.fit is not None]
+        best = _best(tried, base)
         if best is not None and not settled(best.candidate.fit):
-            best = _best([best, *_varied(case, amendment, base, best)], base)
+            near = _near(tried, best, base)
+            best = _best([best, *(v for law in near for v in _varied(case, amendment, base, law))], base)
         single = best if best is None or len(best.law.groups) == 1 else single
         if best is not None and settled(best.candidate.fit):
             break
@@ -195,12 +197,21 @@ def _begun(case: Case, amendment: Amendment, base: Fit, proposal: Proposal, led:
     return replace(candidate, start=nearest(case, base, candidate, candidate.start, here, little))
 
 
+def _near(fitted: list[Proposal], best: Proposal, base: Fit) -> list[Proposal]:
+    """The best law and those that are still in the race with it: which of them has the right form, their variants say."""
+    correlation = best.candidate.fit.correlation()
+    least = score(best.candidate, base, correlation)
+    return [p for p in fitted if score(p.candidate, base, correlation) < (1 - NEAR) * least]
+
+
 def _varied(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> list[Proposal]:
-    """A fitted law's variants, fitted from there."""
+    """A fitted law's variants, fitted from there side by side."""
     found = varied(best)
     for other in found:
-        other.candidate = fitted_law(case, amendment, base, other.law, other.start, best.candidate.fit.point)
-    return [other for other in found if other.candidate is not None]
+        other.candidate = unfitted(case, amendment, base, other.law, other.start, best.candidate.fit.point)
+    found = [other for other in found if other.candidate is not None]
+    race(case, base, [other.candidate for other in found], best.candidate)
+    return [other for other in found if other.candidate.fit is not None]
 
 
 def _join(case: Case, base: Fit, laws: list[Candidate], guided: Guided) -> None:

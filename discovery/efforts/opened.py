@@ -44,7 +44,8 @@ class Place:
     """Sites that the data cannot tell apart, the one that an amendment uses first; `column` is its input's. `other` are
     those of them where the same is done by an effort of another course: a law may be short in the one and long in the
     other (the command of a valve, and what flows through it). So is an input, whose laws are told of it; where it
-    enters in proportion they read `only` the input, all other laws being the same in the balance."""
+    enters in proportion they read `only` the input, all other laws being the same in the balance. What changes no state
+    is a `reading`: that is off there, or its sensor, which is the same."""
 
     location: str
     sites: tuple[Site, ...]
@@ -52,6 +53,7 @@ class Place:
     unit: str
     other: tuple[Place, ...] = ()
     only: str = ""
+    reading: bool = False
 
     def named(self, location: str) -> bool:
         """Whether a law at this place may have that location."""
@@ -112,7 +114,8 @@ class Opened:
             self.sites[k].kind in ("branch", "parameter", "input") for k in group
         ):  # of several balances: it is named itself
             location = self.sites[chosen].label
-        place = Place(location, tuple(self.sites[k] for k in order), chosen, self._unit(chosen))
+        sites, reading = tuple(self.sites[k] for k in order), changed is not states
+        place = Place(location, sites, chosen, self._unit(chosen), reading=reading)
         told = [k for k in order[1:] if self.sites[k].kind == "input"]
         apart = _other(effect, [chosen, *told, *(k for k in order[1:] if k not in told)])
         inputs = [k for k in told if k not in apart]
@@ -217,7 +220,7 @@ def opened(
     case: Case, amendment: Amendment, library: Library, parameters: list[str], base: Machine | None = None
 ) -> Opened:
     """The amended model, simulated as `base` is, with an input at every site where one can act."""
-    found = read(library, amendment.structure.model)
+    found = read(library, amendment.structure.model, MOST)
     closed = list(found.closed)
     believed, _ = translate(str(write_source(amendment)), search_path=case.search_path)
     between = exchanges(found.places, lambda site: unit_of(site, believed), MOST)

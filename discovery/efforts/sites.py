@@ -11,8 +11,9 @@ declaration says. Nothing is known here of domains, classes or names.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from itertools import combinations
 from pathlib import Path
 import re
@@ -21,8 +22,13 @@ from lacuna.codegen.errors import Span
 from lacuna.codegen.flatten.classes.inheritance import written
 from lacuna.codegen.flatten.classes.instance import Instance
 from lacuna.codegen.flatten.classes.leaf import Leaf
+from lacuna.codegen.flatten.connections.connectors import Connector, connectors
+from lacuna.codegen.flatten.equations.equations import unroll
+from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.language import LOWERING
 from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.flatten.names.values import indices, shape_of
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.syntax import ast
 
@@ -44,7 +50,8 @@ class Site:
     """A place. `ends` are those of its connection, both of its component, or all of a node's, of which one suffices;
     of a signal, the second one is what it goes `into`, or the first. `span` is where its equation stands, in the class,
     in one that it declares and has one `instance` of, or in the class `of` an instance that its file holds elsewhere;
-    `parts` are the two equations of an exchange, and those in which a parameter or an input stands."""
+    `parts` are the two equations of an exchange, and those in which a parameter or an input stands. Of an array of
+    equations or one in a loop it is one element: `term` is what is added to them, with @ for what that one lacks."""
 
     kind: str  # node | edge | branch | signal | equation | exchange | parameter | input
     label: str
@@ -55,6 +62,7 @@ class Site:
     of: ast.Class | None = None
     into: str = ""
     parts: tuple[Site, ...] = ()
+    term: str = "@"
 
     @property
     def sign(self) -> str:
@@ -72,8 +80,8 @@ class Sites:
     closed: tuple[tuple[str, str], ...]
 
 
-def read(library: Library, name: str) -> Sites:
-    """The places of class `name`. Raises Diagnostic."""
+def read(library: Library, name: str, most: int) -> Sites:
+    """The places of class `name`; none of an array of more than `most` equations. Raises Diagnostic."""
     cls = library.find(name)
     top = Instance(Context(library, Path(cls.span.file).resolve().parent, LOWERING), cls, "", None, None)
     found: list[Site] = []
@@ -82,16 +90,17 @@ def read(library: Library, name: str) -> Sites:
     ports: dict[str, Port] = {}
     states = _states(section for section, _ in top.sections)
     for section, owner in top.sections:
-        for item in section.items:
+        if section.algorithm or section.initial:
+            continue
+        for item, scope, loops in _each(section.items, Scope(top.context, owner, top)):
             if isinstance(item, ast.Connect):
-                found += _connection(item, top, group, ports, closed)
-            elif isinstance(item, ast.Equality) and not section.algorithm and not section.initial:
-                if _is_definition(item, states):
-                    closed.append((item.text, DEFINITION))
-                elif owner is cls:
-                    found.append(Site("equation", item.text, span=item.span))
-                else:
-                    closed.append((item.text, f"the equation stands in {owner.path}"))
+                found += _connection(item, scope, bool(loops), group, ports, closed)
+            elif _is_definition(item, states):
+                closed.append((item.text, DEFINITION))
+            elif owner is cls:
+                found += _elements(Site("equation", item.text, span=item.span), item, scope, loops)
+            else:
+                closed.append((item.text, f"the equation stands in {owner.path}"))
     found += _inside(top)
     joined: dict[str, list[str]] = {}
     for end in ports:
@@ -100,7 +109,50 @@ def read(library: Library, name: str) -> Sites:
         Site("node", root, (root, *(e for e in ends if e != root)), ports[root])
         for root, ends in joined.items() if root in ports
     ]  # fmt: skip
-    return Sites(cls, (*nodes, *_branches(group, ports), *found), tuple(closed))
+    return _few(cls, [*nodes, *_branches(group, ports), *found], dict.fromkeys(closed), most)
+
+
+def _few(cls: ast.Class, places: list[Site], closed: Iterable[tuple[str, str]], most: int) -> Sites:
+    """Those of arrays of so few equations that each may be a place."""
+    sizes = Counter((s.span, s.instance) for s in places if s.term != "@")
+    many = [s for s in places if sizes[s.span, s.instance] > most]
+    said = dict.fromkeys((s.label.rpartition(" [")[0], f"it is one of more than {most} equations") for s in many)
+    return Sites(cls, tuple(s for s in places if s not in many), (*closed, *said))
+
+
+def _each(
+    items: Iterable[ast.Item], scope: Scope, loops: tuple[str, ...] = ()
+) -> Iterator[tuple[ast.Equality | ast.Connect, Scope, tuple[str, ...]]]:
+    """Equalities and connections with the loops that they are in, a pass at a time: `i == 2`."""
+    for item in items:
+        if isinstance(item, ast.Equality | ast.Connect):
+            yield item, scope, loops
+        elif isinstance(item, ast.For):
+            for inner in unroll(item, scope):
+                here = (f"{i.name} == {inner.locals[i.name].value}" for i in item.iterators)
+                yield from _each(item.body, inner, (*loops, *here))
+
+
+def _elements(site: Site, item: ast.Equality, scope: Scope, loops: tuple[str, ...]) -> list[Site]:
+    """The place of an equation, or of each element of an array of them."""
+    shape = () if isinstance(item.left, ast.Tuple) else shape_of(lower(item.left, scope))
+    if not shape and not loops:
+        return [site]
+    found = []
+    for element in indices(shape) if shape else [()]:
+        term, none = _within(shape, element, "@"), _within(shape, element, "0")
+        term = f"(if {' and '.join(loops)} then {term} else {none})" if loops else term
+        which = [p.replace("==", "=") for p in loops] + [", ".join(map(str, element))] * bool(element)
+        found.append(replace(site, label=f"{site.label} [{', '.join(which)}]", term=term))
+    return found
+
+
+def _within(shape: tuple[int, ...], element: tuple[int, ...], text: str) -> str:
+    """An array of zeros with a text as one element."""
+    if not shape:
+        return text
+    rows = (_within(shape[1:], element[1:], text if k == element[0] else "0") for k in range(1, shape[0] + 1))
+    return "{" + ", ".join(rows) + "}"
 
 
 def exchanges(places: Iterable[Site], unit: Callable[[Site], str], most: int) -> list[Site]:
@@ -118,7 +170,7 @@ def exchanges(places: Iterable[Site], unit: Callable[[Site], str], most: int) ->
 
 def varying(places: Iterable[Site], names: Mapping[str, int], kind: str = "parameter") -> list[Site]:
     """Parameters, or inputs, that stand in equations which are all open; `names` says in how many."""
-    equations = [site for site in places if site.kind == "equation" and not site.instance]
+    equations = [site for site in places if site.kind == "equation" and not site.instance and site.term == "@"]
     found = [(name, [e for e in equations if re.search(_alone(name), e.label)]) for name in names]
     return [Site(kind, name, parts=tuple(parts)) for name, parts in found if 1 <= len(parts) == names[name]]
 
@@ -135,7 +187,8 @@ def occurrences(name: str, text: str, begin: int, end: int) -> list[int]:
 
 def renames(site: Site) -> bool:
     """Whether an equation only says that two variables are one."""
-    return site.kind == "equation" and re.fullmatch(r"\s*-?[\w.\[\]]+\s*=\s*-?[\w.\[\]]+\s*", site.label) is not None
+    text = site.label.rpartition(" [")[0] if site.term != "@" else site.label
+    return site.kind == "equation" and re.fullmatch(r"\s*-?[\w.\[\]]+\s*=\s*-?[\w.\[\]]+\s*", text) is not None
 
 
 def _branches(group: dict[str, str], ports: dict[str, Port]) -> list[Site]:
@@ -153,28 +206,30 @@ def _branches(group: dict[str, str], ports: dict[str, Port]) -> list[Site]:
 def _inside(top: Instance) -> list[Site]:
     """Equations of the components' classes: of those that the class itself declares and uses once, and of others that
     stand in its file."""
-    users: dict[ast.Class, list[str]] = {}
+    users: dict[ast.Class, list[Instance]] = {}
     for name in top.elements:
         node = top.child(name)
         if isinstance(node, Instance) and node.cls.kind in ("model", "block"):
-            users.setdefault(node.cls, []).append(name)
+            users.setdefault(node.cls, []).append(node)
     own, found = {c.name for c in top.cls.components}, []
-    for cls, names in users.items():
-        nested = cls.parent is top.cls and len(names) == 1
+    for cls, nodes in users.items():
+        nested = cls.parent is top.cls and len(nodes) == 1
         if nested or cls.span.file == top.cls.span.file:
-            for name in (n for n in names if nested or n in own):
-                found += _balances(cls, name, None if nested else cls)
+            for node in (n for n in nodes if nested or n.name in own):
+                found += _balances(node, None if nested else cls)
     return found
 
 
-def _balances(cls: ast.Class, name: str, of: ast.Class | None) -> list[Site]:
-    sections = [s for s in cls.sections if not s.algorithm and not s.initial]
-    states = _states(sections)
-    equations = [i for s in sections for i in s.items if isinstance(i, ast.Equality)]
-    return [
-        Site("equation", f"{name}: {item.text}", span=item.span, instance=name, of=of)
-        for item in equations if not _is_definition(item, states)
-    ]  # fmt: skip
+def _balances(node: Instance, of: ast.Class | None) -> list[Site]:
+    sections = [s for s in node.cls.sections if not s.algorithm and not s.initial]
+    states, found = _states(sections), []
+    for section in sections:
+        for item, scope, loops in _each(section.items, Scope(node.context, node.cls, node)):
+            if isinstance(item, ast.Equality) and not _is_definition(item, states):
+                label = f"{node.name}: {item.text}"
+                site = Site("equation", label, span=item.span, instance=node.name, of=of)
+                found += _elements(site, item, scope, loops)
+    return found
 
 
 def _is_definition(item: ast.Equality, states: set[str]) -> bool:
@@ -182,31 +237,50 @@ def _is_definition(item: ast.Equality, states: set[str]) -> bool:
     of a machine is in it."""
     sides = [item.left, item.right]
     rates = [s for s in sides if isinstance(s, ast.Call) and written(s.function) == "der"]
-    return len(rates) == 1 and any(isinstance(s, ast.Ref) and written(s) in states for s in sides)
+    return len(rates) == 1 and any(isinstance(s, ast.Ref) and ".".join(s.names) in states for s in sides)
 
 
 def _states(sections: Iterable[ast.Section]) -> set[str]:
     """Names that occur differentiated in these sections."""
-    texts = [i.text for s in sections for i in s.items if isinstance(i, ast.Equality)]
-    return {name for text in texts for name in re.findall(r"\bder\(\s*([\w.]+)\s*\)", text)}
+    texts = [i.text for s in sections for i in _flat(s.items) if isinstance(i, ast.Equality)]
+    return {name for text in texts for name in re.findall(r"\bder\(\s*([\w.]+)(?:\[[^\]]*\])?\s*\)", text)}
+
+
+def _flat(items: Iterable[ast.Item]) -> Iterator[ast.Item]:
+    for item in items:
+        yield from _flat(item.body) if isinstance(item, ast.For) else (item,)
 
 
 def _connection(
-    item: ast.Connect, top: Instance, group: dict[str, str], ports: dict[str, Port], closed: list[tuple[str, str]]
-) -> list[Site]:
-    left, right = written(item.left), written(item.right)
-    into = [end for end in (left, right) if "." in end and _causality(top, end) == "input"]
-    if len(into) == 1 and all(_causality(top, end) for end in (left, right)):
-        source = right if into == [left] else left
-        return [Site("signal", f"{source} to {into[0]}", (left, right), into=into[0])]
-    pair = [_port(top, end) for end in (left, right)]
-    if None in pair:
-        if any(_is_connector(top, end) for end in (left, right)):
+    item: ast.Connect, scope: Scope, loops: bool, group: dict[str, str], ports: dict[str, Port],
+    closed: list[tuple[str, str]],
+) -> list[Site]:  # fmt: skip
+    """What a connection joins; itself a place where nothing but it is written there."""
+    top, found = scope.instance, []
+    pairs = list(zip(connectors(item.left, scope), connectors(item.right, scope), strict=False))
+    for pair in pairs:
+        left, right = names = [_path(node) for node in pair]
+        alone = not loops and len(pairs) == 1 and names == [written(item.left), written(item.right)]
+        into = [end for end, node in zip(names, pair, strict=True) if "." in end and _causality(node) == "input"]
+        if len(into) == 1 and all(map(_causality, pair)):
+            source = right if into == [left] else left
+            found += [Site("signal", f"{source} to {into[0]}", (left, right), into=into[0])] if alone else []
+            continue
+        kinds = [_port(top, end, node) for end, node in zip(names, pair, strict=True)]
+        if None in kinds:
             closed.append((f"{left}, {right}", "its connectors are not one flow and one potential"))
-        return []
-    ports[left], ports[right] = pair
-    group[root(group, right)] = root(group, left)
-    return [Site("edge", f"{left} to {right}", (left, right), pair[0])]
+            continue
+        ports[left], ports[right] = kinds
+        group[root(group, right)] = root(group, left)
+        found += [Site("edge", f"{left} to {right}", (left, right), kinds[0])] if alone else []
+    return found
+
+
+def _path(node: Connector) -> str:
+    if not isinstance(node, tuple):
+        return node.name
+    leaf, position = node
+    return leaf.name + (f"[{', '.join(map(str, indices(leaf.shape)[position]))}]" if leaf.shape else "")
 
 
 def root(group: dict[str, str], end: str) -> str:
@@ -216,32 +290,13 @@ def root(group: dict[str, str], end: str) -> str:
     return end
 
 
-def _node(top: Instance, end: str) -> Instance | None:
-    node = _found(top, end)
-    return node if isinstance(node, Instance) and "." in end else None
-
-
-def _found(top: Instance, end: str) -> object:
-    node: object = top
-    for name in end.split("."):
-        node = node.child(name) if isinstance(node, Instance) and name in node.elements else None
-    return node
-
-
-def _causality(top: Instance, end: str) -> str:
+def _causality(node: Connector) -> str:
     """Of a signal: input | output; "" of anything else."""
-    node = _found(top, end)
-    return node.causality if isinstance(node, Leaf) else ""
+    return node[0].causality if isinstance(node, tuple) else node.causality if isinstance(node, Leaf) else ""
 
 
-def _is_connector(top: Instance, end: str) -> bool:
-    node = _node(top, end)
-    return node is None or node.cls.kind == "connector"
-
-
-def _port(top: Instance, end: str) -> Port | None:
-    node = _node(top, end)
-    if node is None or node.cls.kind != "connector":
+def _port(top: Instance, end: str, node: Connector) -> Port | None:
+    if not isinstance(node, Instance) or "." not in end or node.cls.kind != "connector":
         return None
     flows = [n for n, e in node.elements.items() if e.declaration.flow]
     others = [n for n, e in node.elements.items() if not e.declaration.flow and not e.declaration.variability]

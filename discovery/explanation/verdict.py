@@ -9,6 +9,7 @@ import numpy as np
 
 from lacuna.discovery.efforts.find import INDIFFERENT
 from lacuna.discovery.efforts.instruments import NATS, gained, log_evidence, only_instruments
+from lacuna.discovery.efforts.located import Site
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import (
     CLEARLY,
@@ -130,9 +131,10 @@ def _taken(result: Explanation) -> float:
     return (before - result.after.validate[""]) / (before - min(noise, CLEARLY * before))
 
 
-def _efforts(result: Explanation) -> list[float]:
-    """What an unknown effort at each place of the equations explains."""
-    return [s.gain for s in result.opened.sites if s.place is not None] if result.opened else []
+def _efforts(result: Explanation) -> list[Site]:
+    """Places of the equations, but those of readings: of an error there that of the sensor is another name."""
+    sites = result.opened.sites if result.opened else []
+    return [s for s in sites if s.place is not None and not s.place.reading]
 
 
 def _equations_may_be_wrong(result: Explanation) -> bool:
@@ -145,7 +147,7 @@ def _equations_may_be_wrong(result: Explanation) -> bool:
         return True
     found = log_evidence(result.case, result.amendment, result.final) - result.opened.null
     sensors = [s.gain for s in result.opened.sites if s.place is None]
-    return max(efforts) > max([*sensors, found]) - INDIFFERENT
+    return max(s.gain for s in efforts) > max([*sensors, found]) - INDIFFERENT
 
 
 def _withdraw(result: Explanation, best: Ranked) -> None:
@@ -188,14 +190,14 @@ def _as_much(result: Explanation) -> str:
     law = _rival_law(result)
     if law is not None:
         return f"a term {law_at(law.attachment, law.fit.point)} at {law.attachment.location} explains as much"
-    place = next(s.location for s in result.opened.sites if s.place is not None)
-    return f"an effort at {place} explains as much, for which no law was found"
+    return f"an effort at {_efforts(result)[0].location} explains as much, for which no law was found"
 
 
 def _rival_law(result: Explanation) -> Candidate | None:
     """The best law in the equations, where the data does not tell it from what was found. Which law it is does not
     matter: that it was picked among many is no reason against that one of them holds."""
-    base, final, laws = result.base, result.final, result.opened.laws
+    base, final, places = result.base, result.final, {s.location for s in _efforts(result)}
+    laws = [law for law in result.opened.laws if law.attachment.location in places]
     if not laws:
         return None
     correlation = laws[0].fit.correlation()

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from lacuna.discovery.case.cases import DEFAULT_UNCERTAINTY, Case, Recording
+from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.case.noise import Noise, correlation_time, sample_weights
 from lacuna.discovery.case.values import own_name
 from lacuna.discovery.fit.kept.store import remembered
@@ -21,12 +21,11 @@ from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import STAGES, Objective, alike, anneal
 from lacuna.discovery.fit.solver.free import Free, clipped
 from lacuna.discovery.fit.solver.least_squares import Estimate, Problem
-from lacuna.discovery.fit.starts import as_known_to, uncertain_starts, with_starts
+from lacuna.discovery.fit.starts import as_known_to, own_beliefs, uncertain, uncertain_starts, with_starts
 from lacuna.discovery.fit.tracking import noise_bandwidth
 from lacuna.runtime import Variable
 
 FALLING = (1.0, 1 / 8, 1 / 16, 1 / 50, 0.0)  # bandwidths of trackers, of the largest that noise allows
-LOWER_SHARE = 0.02  # of its believed value, below which no positive parameter is tried
 
 
 @dataclass
@@ -121,28 +120,21 @@ def believed(case: Case, machine: Machine) -> tuple[list[Free], dict[str, float]
     return free + [s for recording in case.fit for s in uncertain_starts(machine, recording, {})], fixed
 
 
-def _believe(
-    name: str, value: float, sigma: float, variable: Variable, free: list[Free], fixed: dict[str, float]
-) -> None:  # fmt: skip
+def _believe(name: str, value: float, sigma: float, variable: Variable, free: list[Free], fixed: dict[str, float]):
     """Add a parameter with its belief to the free ones, or to the exact ones."""
-    if sigma <= 0:
+    if sigma > 0:
+        free.append(uncertain(name, value, sigma, variable))
+    else:
         fixed[name] = value
-        return
-    low, high = (LOWER_SHARE * value, np.inf) if value > 0 else (-np.inf, np.inf)
-    step = min(1e-2, 3e-4 * abs(value) / sigma)
-    free.append(Free(name, value, sigma, max(low, variable.min), min(high, variable.max), sigma, step=step))
 
 
 def _believe_own(case: Case, machine: Machine, free: list[Free], fixed: dict[str, float]) -> None:
     """Parameters with a value of their own in one recording; what only validates keeps what is believed of it."""
     fitted = {r.file for r in case.fit}
-    for recording, own in case.own.items():
-        for name in dict.fromkeys([*own.parameters, *own.uncertainty]):
-            variable = machine.model.variables[name]
-            value = own.parameters.get(name, case.parameters.get(name, variable.start))
-            share = own.uncertainty.get(name, case.uncertainty.get(name, DEFAULT_UNCERTAINTY))
-            sigma = share * abs(value) if recording in fitted else 0.0
-            _believe(own_name(name, recording), value, sigma, variable, free, fixed)
+    for recording in case.own:
+        for name, (value, sigma) in own_beliefs(machine, recording).items():
+            known = sigma if recording in fitted else 0.0
+            _believe(own_name(name, recording), value, known, machine.model.variables[name], free, fixed)
 
 
 def fit(

@@ -1,9 +1,11 @@
-"""Values of states at the first sample of a recording that nobody knows, or only as well as its noise lets them.
+"""What holds in one recording only: states at its first sample that nobody knows, or only as well as noise lets them,
+and parameters with a value of their own there.
 
 They are fitted with the parameters where a recording may be fitted. Of one that only judges they are the least that has
-to be known before it can be simulated at all: with the parameters as they are, they are fitted to it alone. One that is
-recorded is believed to be what the first sample says, within the noise of its column: a state that nothing brings back,
-an angle, would carry the noise of that one sample to the end.
+to be known before it can be simulated, and no other recording tells them: with the parameters as they are, they are
+fitted to it alone, within what is believed of them. A state that is recorded is believed to be what the first sample
+says, within the noise of its column: one that nothing brings back, an angle, would carry the noise of that one sample
+to the end.
 """
 
 from __future__ import annotations
@@ -14,16 +16,45 @@ from itertools import islice
 
 import numpy as np
 
-from lacuna.discovery.case.cases import Recording
+from lacuna.discovery.case.cases import DEFAULT_UNCERTAINTY, Recording
 from lacuna.discovery.case.gaps import JOINED, cut
 from lacuna.discovery.case.noise import Noise
-from lacuna.discovery.case.values import is_start, start_name, state_of
+from lacuna.discovery.case.values import is_start, own_name, start_name, state_of
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import Objective, noise_of
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.fit.solver.least_squares import Problem, solve
+from lacuna.runtime import Variable
 
+LOWER_SHARE = 0.02  # of its believed value, below which no positive parameter is tried
 STEP = 1e-3  # of what a state changes by, for differences
+
+
+def uncertain(name: str, value: float, sigma: float, variable: Variable) -> Free:
+    """A parameter with its belief."""
+    low, high = (LOWER_SHARE * value, np.inf) if value > 0 else (-np.inf, np.inf)
+    step = min(1e-2, 3e-4 * abs(value) / sigma)
+    return Free(name, value, sigma, max(low, variable.min), min(high, variable.max), sigma, step=step)
+
+
+def own_beliefs(machine: Machine, file: str) -> dict[str, tuple[float, float]]:
+    """Of each parameter that has a value of its own in a recording: that, and how far it may be off (one sigma)."""
+    case, own, found = machine.case, machine.case.own[file], {}
+    for name in dict.fromkeys([*own.parameters, *own.uncertainty]):
+        value = own.parameters.get(name, case.parameters.get(name, machine.model.variables[name].start))
+        share = own.uncertainty.get(name, case.uncertainty.get(name, DEFAULT_UNCERTAINTY))
+        found[name] = value, share * abs(value)
+    return found
+
+
+def _own(machine: Machine, recording: Recording) -> list[Free]:
+    """The uncertain parameters of its own of a recording that only judges."""
+    if recording.file not in machine.case.own or any(r.file == recording.file for r in machine.case.fit):
+        return []
+    return [
+        uncertain(own_name(name, recording.file), value, sigma, machine.model.variables[name])
+        for name, (value, sigma) in own_beliefs(machine, recording.file).items() if sigma > 0
+    ]  # fmt: skip
 
 
 def uncertain_starts(machine: Machine, recording: Recording, given: Mapping[str, float]) -> list[Free]:
@@ -48,15 +79,16 @@ def _start(
 
 
 def with_starts(machine: Machine, recording: Recording, values: Mapping[str, float]) -> dict[str, float]:
-    """The values with the start values that they lack for this recording, fitted to it; unchanged where none is."""
-    missing = begun(machine, recording, uncertain_starts(machine, recording, values), values)
+    """The values with those of this recording only that no other one tells, fitted to it; unchanged where none is."""
+    missing = [*uncertain_starts(machine, recording, values), *_own(machine, recording)]
+    missing = begun(machine, recording, missing, values)
     return dict(values) | {f.name: f.centre if f.start is None else f.start for f in missing}
 
 
 def begun(
     machine: Machine, recording: Recording, missing: list[Free], values: Mapping[str, float]
 ) -> list[Free]:  # fmt: skip
-    """Missing start values, with those to start from that fit the recording: its beginning, and then all of it."""
+    """Missing values, with those to start from that fit the recording: its beginning, and then all of it."""
     parts = [
         *islice(cut(recording, machine.case.inputs, JOINED), int(any(f.sigma is None for f in missing))),
         recording,

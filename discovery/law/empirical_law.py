@@ -23,7 +23,7 @@ from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.law.law import Law, attach, component_of, own_values
 from lacuna.discovery.law.law_screen import Effort, Proposal, screened, sites
-from lacuna.discovery.law.law_terms import Group, Variable, exponent
+from lacuna.discovery.law.law_terms import Group, Variable, exponent, stribeck
 from lacuna.discovery.naming.comparison import best_correlation, score
 from lacuna.discovery.naming.race import ROUNDS, run_round, still_in
 from lacuna.discovery.naming.screen import Candidate
@@ -168,10 +168,10 @@ def _with_fixed(law: Law, values: dict[str, float], name: str, value: float) -> 
 
 
 def varied(best: Proposal) -> list[Proposal]:
-    """A fitted law with any exponent in the place of one that physics has, or with dry friction that truly sticks in
-    that of a steep one; one group at a time."""
+    """A fitted law with any exponent in the place of one that physics has, with dry friction that truly sticks in that
+    of a steep one, or with one that falls from rest on in that of a level one; one group at a time."""
     law, values = best.law, own_values(best.candidate.attachment, best.candidate.fit.point)
-    found = _stuck(law, values)
+    found = [*_stuck(law, values), *_falling(law, values)]
     for n, group in enumerate(law.groups):
         text = group.texts[0]
         linear = re.fullmatch(r"\((\w+)/\w+_ref\)", text)
@@ -190,6 +190,26 @@ def _stuck(law: Law, values: dict[str, float]) -> list[Proposal]:
         _sticking(law, values, n, v) for n, g in enumerate(law.groups) for v in law.site.variables
         if v.sticks and g.texts == (f"tanh({{q}}*{v.scaled})",)
     ]  # fmt: skip
+
+
+def _falling(law: Law, values: dict[str, float]) -> list[Proposal]:
+    """The law with a Stribeck curve in the place of dry friction of one level, which breaks away by a part higher, at
+    several speeds that it falls over: fits end in dips, where what sticks slips a sample later."""
+    found = []
+    for n, group in enumerate(law.groups):
+        for v in (v for v in law.site.variables if v.sticks and group.texts == (v.dry,)):
+            changed = Law(law.site, (*law.groups[:n], stribeck(v), *law.groups[n + 1 :]))
+            at = sum(len(g.texts) for g in law.groups[:n])  # of its terms
+            numbers = [values[c] for c, _, _ in law.numbered()]
+            numbers.insert(at + 1, numbers[at])
+            start = {n: x for n, x in values.items() if not n.startswith("c_")}
+            start |= {c: x for (c, _, _), x in zip(changed.numbered(), numbers, strict=True)}
+            higher, speed = changed.numbered()[at + 1][0], f"q_{n + 1}"
+            found += [
+                Proposal(changed, start | {higher: part * numbers[at], speed: q})
+                for part in (0.25, 0.5) for q in (0.03, 0.1, 0.3)
+            ]  # fmt: skip
+    return found
 
 
 def _sticking(law: Law, values: dict[str, float], n: int, speed: Variable) -> Proposal:

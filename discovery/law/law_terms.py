@@ -184,6 +184,11 @@ def exponent(start: float, step: float = 0.0) -> Shape:
     return Shape("p", "1", start, 0.1, 8.0, WHOLE, step)
 
 
+def stribeck(v: Variable) -> Group:
+    """Dry friction that falls, or grows, from rest on."""
+    return Group((v.dry, f"{v.dry}*exp(-abs{v.scaled}/{{q}})"), (Shape("q", "1", 0.1, 0.01, 1.0, (), 0.08),))
+
+
 def _order(start: float) -> Shape:
     return Shape("k", "1", start, 0.5 * start, 2.0 * start, tuple(range(1, 25)))
 

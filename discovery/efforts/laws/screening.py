@@ -40,10 +40,34 @@ def proposals(
     quantities = (site.place, *site.place.other)
     offered = [_offered(locator, place, guided) for place in quantities]
     ones = [_told_here(place, r, _refined(r, every)) for place, (r, every) in zip(quantities, offered, strict=True)]
-    yield _best([(r, groups) for (r, _), groups in zip(offered, ones, strict=True)], most)
+    first = _best([(r, groups) for (r, _), groups in zip(offered, ones, strict=True)], most)
+    yield [*first, *_held(locator, guided, offered, first)]
     if strained:
         yield _best([(r, _refined(r, every, strained=True)) for r, every in offered], most)
     yield _best([(r, _doubled(r, groups, every)) for (r, every), groups in zip(offered, ones, strict=True)], most)
+
+
+def _held(
+    locator: Locator, guided: Guided, offered: list[tuple[Regression, range]], others: list[Proposal]
+) -> list[Proposal]:  # fmt: skip
+    """Dry friction of what an effort at a place changes at once, where the effort is against it and no other law is of
+    it: at rest it is whatever holds, which a regression takes for its level."""
+    known = {law.law.text() for law in others}
+    found = []
+    for regression, every in offered:
+        for v in (v for v in regression.place.variables if v.sticks and v.turns):
+            level = _level(guided, v)
+            along = guided.pieces[0].along
+            sense = np.mean(along.direct[:, _unknowns(locator).index(f"der({v.name})"), regression.column])
+            laws = [_proposal(regression, (g,)) for g in every if regression.groups[g].texts == (v.dry,)]
+            found += [replace(p, start={"c_1": level}) for p in laws if level * sense < 0 and p.law.text() not in known]
+    return found
+
+
+def _level(guided: Guided, v: Variable) -> float:
+    """Of the effort along the way, with the sense of a speed, while that moves."""
+    sense = [np.tanh(50 * v.course(p.along.values) / v.size) for p in guided.pieces]  # as `law_terms.DRY`
+    return sum(float(e @ s) for e, s in zip(guided.efforts, sense, strict=True)) / sum(float(s @ s) for s in sense)
 
 
 def _told_here(place: Place, regression: Regression, laws: list[tuple[int, ...]]) -> list[tuple[int, ...]]:
@@ -153,9 +177,11 @@ def _distinct(found: Iterable[Scored], most: int) -> list[Scored]:
 
 def _answering(locator: Locator, along: Along, column: int) -> frozenset[str]:
     """Unknowns that an effort at a place changes at once."""
-    unknowns = locator.opened.linear.unknowns
-    names = [f"der({u.args[0].value})" if u.op == "der" else str(u.value) for u in unknowns]
-    return frozenset(n for k, n in enumerate(names) if np.any(along.direct[:, k, column] != 0))
+    return frozenset(n for k, n in enumerate(_unknowns(locator)) if np.any(along.direct[:, k, column] != 0))
+
+
+def _unknowns(locator: Locator) -> list[str]:
+    return [f"der({u.args[0].value})" if u.op == "der" else str(u.value) for u in locator.opened.linear.unknowns]
 
 
 def _refined(regression: Regression, every: range, strained: bool = False) -> list[tuple[int, ...]]:

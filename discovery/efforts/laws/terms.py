@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from lacuna.discovery.efforts.insertion import KEPT
-from lacuna.discovery.law.law_terms import EXPONENTS, Group, Shape, Variable, exponent
+from lacuna.discovery.law.law_terms import EXPONENTS, Group, Shape, Variable, exponent, stribeck
 
 LEAST = 1.5  # cycles over the range: less of a wave is a bend, which powers say with fewer numbers
 CYCLES = 30  # of a wave along a variable, over the range that it has
@@ -110,9 +110,8 @@ def _alone(v: Variable) -> list[Group]:
         Group((f"(abs({x} + {{q}}) - abs({x} - {{q}}))",), (Shape("q", "1", q, 0.01, 0.99, (), 0.25),))
         for q in (1 / 16, 0.25, 0.5, 0.75)
     ]  # up to a limit either way
-    stribeck = Group((v.dry, f"{v.dry}*exp(-abs{x}/{{q}})"), (Shape("q", "1", 0.1, 0.01, 1.0, (), 0.08),))
     plain = [Group((x,)), Group((f"abs{x}",)), Group((f"{x}^2",)), Group((v.dry,))]
-    return [*plain, *power, *bend, *reach, *ends, stribeck]
+    return [*plain, *power, *bend, *reach, *ends, stribeck(v)]
 
 
 def _contacts(v: Variable, rate: Variable, both: bool) -> list[Group]:
