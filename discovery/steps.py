@@ -16,9 +16,9 @@ from lacuna.discovery.catalogue import catalogue, places
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.find import places_of
-from lacuna.discovery.efforts.moved import sensor_instead
 from lacuna.discovery.efforts.switches import switched, switches
 from lacuna.discovery.explanation.explanation import Explanation
+from lacuna.discovery.explanation.moved import sensor_instead
 from lacuna.discovery.fit.evidence import astray, is_noise
 from lacuna.discovery.fit.fit import believed, carried, falling_bandwidths, linearised
 from lacuna.discovery.fit.lead import ROUGH, Lead, fit_believed

@@ -198,7 +198,7 @@ def _begun(case: Case, amendment: Amendment, base: Fit, proposal: Proposal, led:
 
 
 def _near(fitted: list[Proposal], best: Proposal, base: Fit) -> list[Proposal]:
-    """The best law and those that are still in the race with it: which of them has the right form, their variants say."""
+    """The best law and those still in the race with it: which of them has the right form, their variants say."""
     correlation = best.candidate.fit.correlation()
     least = score(best.candidate, base, correlation)
     return [p for p in fitted if score(p.candidate, base, correlation) < (1 - NEAR) * least]

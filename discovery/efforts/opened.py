@@ -29,8 +29,8 @@ from lacuna.discovery.efforts.insertion import probe
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.latent.linear import Linear
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
-from lacuna.discovery.efforts.laws.variables import MOST
-from lacuna.discovery.efforts.sites import Site, exchanges, read, renames, varying
+from lacuna.discovery.efforts.reading import read
+from lacuna.discovery.efforts.sites import Site, exchanges, renames, varying
 from lacuna.discovery.fit.machine import Machine, richer
 from lacuna.units import Unit
 
@@ -160,7 +160,7 @@ def _own_name(place: Place, taken: list[str]) -> str:
         name = max(dict.fromkeys(owners), key=owners.count)
     elif site.kind == "equation":
         name = site.label.replace(": ", ".", 1) if site.instance else site.label
-        name = name.partition("=")[0].strip()
+        name = site.left or name.partition("=")[0].strip()
     return name if re.fullmatch(r"[\w.\[\]]+", name) and name not in taken else place.location
 
 
@@ -212,7 +212,7 @@ def _declared_unit(variables: Mapping, name: str) -> object:
 
 def _touches(site: Site, location: str) -> bool:
     if site.kind == "equation":
-        return f"der({location})" in site.label or site.instance == location
+        return f"der({location})" in (site.left or site.label) or site.instance == location
     return any(end.rpartition(".")[0] == location for end in site.ends)
 
 
@@ -220,10 +220,10 @@ def opened(
     case: Case, amendment: Amendment, library: Library, parameters: list[str], base: Machine | None = None
 ) -> Opened:
     """The amended model, simulated as `base` is, with an input at every site where one can act."""
-    found = read(library, amendment.structure.model, MOST)
+    found = read(library, amendment.structure.model)
     closed = list(found.closed)
     believed, _ = translate(str(write_source(amendment)), search_path=case.search_path)
-    between = exchanges(found.places, lambda site: unit_of(site, believed), MOST)
+    between = exchanges(found.places, lambda site: unit_of(site, believed))
     vary = varying(found.places, _read(believed, _scalars(believed)))
     told = [s.variable for s in case.inputs]
     acting = varying(found.places, _read(believed, told), "input")

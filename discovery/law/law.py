@@ -93,7 +93,7 @@ class Law:
 
 
 def component_of(law: Law) -> str:
-    return f"law_{law.site.location.replace('.', '_').replace(':', '_')}"
+    return f"law_{re.sub(r'[^A-Za-z0-9]+', '_', law.site.location).strip('_')}"
 
 
 def law_at(attachment: Attachment, point: Mapping[str, float]) -> str:
@@ -151,7 +151,7 @@ _BASE = {
 
 
 def class_name(law: Law) -> str:
-    return "Law" + "".join(part.capitalize() for part in law.site.location.replace(".", "_").split("_"))
+    return "Law" + "".join(part.capitalize() for part in re.split(r"[^A-Za-z0-9]+", law.site.location))
 
 
 def _source(law: Law, signals: tuple[tuple[str, str], ...]) -> str:

@@ -12,7 +12,7 @@ from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as read_structure
 from lacuna.discovery.efforts.opened import opened
-from lacuna.discovery.efforts.sites import read
+from lacuna.discovery.efforts.reading import read
 from lacuna.discovery.explain import explain
 
 from .recorded import record, truth

@@ -16,7 +16,8 @@ from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.copied import copied, right_side
 from lacuna.discovery.efforts.find import located
 from lacuna.discovery.efforts.laws.screening import proposals
-from lacuna.discovery.efforts.sites import read, varying
+from lacuna.discovery.efforts.reading import read
+from lacuna.discovery.efforts.sites import varying
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import outside_belief
 from lacuna.discovery.fit.machine import Machine

@@ -9,7 +9,7 @@ import pytest
 
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue import catalogue
-from lacuna.discovery.efforts.moved import sensor_instead
+from lacuna.discovery.explanation.moved import sensor_instead
 from lacuna.discovery.naming.judge import noise_floor
 from lacuna.discovery.naming.search import Search
 from lacuna.discovery.steps import fitted

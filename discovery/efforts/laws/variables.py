@@ -12,11 +12,11 @@ import numpy as np
 
 from lacuna.codegen.units.inference import SECOND
 from lacuna.discovery.efforts.latent.along import Along
+from lacuna.discovery.efforts.sites import MOST
 from lacuna.discovery.law.law_terms import Variable
 from lacuna.runtime.model import Variable as ModelVariable
 from lacuna.units import parse_unit
 
-MOST = 12  # variables at a place, the nearest first: their pairs are what a search costs
 APART = 6  # differences of variables at most: of three places with their surroundings all
 SAME = 1e-3  # of their largest value, within which a variable is a polynomial of another one
 DEGREE = 3  # of that polynomial

@@ -1,0 +1,222 @@
+"""The places of a class, read from how it is written: connections, equations, those of its components' classes."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from pathlib import Path
+import re
+
+from lacuna.codegen.flatten.classes.inheritance import written
+from lacuna.codegen.flatten.classes.instance import Instance
+from lacuna.codegen.flatten.classes.leaf import Leaf
+from lacuna.codegen.flatten.connections.connectors import Connector, connectors
+from lacuna.codegen.flatten.equations.equations import unroll
+from lacuna.codegen.flatten.expressions.lower import lower
+from lacuna.codegen.flatten.language import LOWERING
+from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.flatten.names.values import indices, scalars, shape_of
+from lacuna.codegen.library.classes import Library
+from lacuna.codegen.symbolic.expr import Expr
+from lacuna.codegen.syntax import ast
+from lacuna.discovery.efforts.sites import MOST, Port, Site, Sites, root
+
+DEFINITION = "it only says that one variable is the rate of another"
+
+
+def read(library: Library, name: str) -> Sites:
+    """The places of class `name`. Raises Diagnostic."""
+    cls = library.find(name)
+    top = Instance(Context(library, Path(cls.span.file).resolve().parent, LOWERING), cls, "", None, None)
+    found: list[Site] = []
+    closed: list[tuple[str, str]] = []
+    group: dict[str, str] = {}
+    ports: dict[str, Port] = {}
+    states = _states(section for section, _ in top.sections)
+    for section, owner in top.sections:
+        if section.algorithm or section.initial:
+            continue
+        for item, scope, loops in _each(section.items, Scope(top.context, owner, top)):
+            if isinstance(item, ast.Connect):
+                found += _connection(item, scope, bool(loops), group, ports, closed)
+            elif _is_definition(item, states):
+                closed.append((item.text, DEFINITION))
+            elif owner is cls:
+                found += _elements(Site("equation", item.text, span=item.span), item, scope, loops)
+            else:
+                closed.append((item.text, f"the equation stands in {owner.path}"))
+    found += _inside(top)
+    joined: dict[str, list[str]] = {}
+    for end in ports:
+        joined.setdefault(root(group, end), []).append(end)
+    nodes = [
+        Site("node", root, (root, *(e for e in ends if e != root)), ports[root])
+        for root, ends in joined.items() if root in ports
+    ]  # fmt: skip
+    return _few(cls, [*nodes, *_branches(group, ports), *found], dict.fromkeys(closed))
+
+
+def _few(cls: ast.Class, places: list[Site], closed: Iterable[tuple[str, str]]) -> Sites:
+    """The places, but equations of an array that has too many of them."""
+    sizes = Counter((s.span, s.instance) for s in places if s.term != "@")
+    many = [s for s in places if sizes[s.span, s.instance] > MOST]
+    said = dict.fromkeys((s.label.rpartition(" [")[0], f"it is one of more than {MOST} equations") for s in many)
+    return Sites(cls, tuple(s for s in places if s not in many), (*closed, *said))
+
+
+def _each(
+    items: Iterable[ast.Item], scope: Scope, loops: tuple[str, ...] = ()
+) -> Iterator[tuple[ast.Equality | ast.Connect, Scope, tuple[str, ...]]]:
+    """Equalities and connections with the loops that they are in, a pass at a time: `i == 2`."""
+    for item in items:
+        if isinstance(item, ast.Equality | ast.Connect):
+            yield item, scope, loops
+        elif isinstance(item, ast.For):
+            for inner in unroll(item, scope):
+                here = (f"{i.name} == {inner.locals[i.name].value}" for i in item.iterators)
+                yield from _each(item.body, inner, (*loops, *here))
+
+
+def _elements(site: Site, item: ast.Equality, scope: Scope, loops: tuple[str, ...]) -> list[Site]:
+    """The place of an equation, or of each element of an array of them."""
+    if isinstance(item.left, ast.Tuple):
+        return [site]
+    value = lower(item.left, scope)
+    shape = shape_of(value)
+    if not shape and not loops:
+        return [site]
+    found = []
+    for element, left in zip(indices(shape), scalars(value), strict=True):
+        term, none = _within(shape, element, "@"), _within(shape, element, "0")
+        term = f"(if {' and '.join(loops)} then {term} else {none})" if loops else term
+        which = [p.replace("==", "=") for p in loops] + [", ".join(map(str, element))] * bool(element)
+        found.append(replace(site, label=f"{site.label} [{', '.join(which)}]", term=term, left=_name(left)))
+    return found
+
+
+def _name(e: Expr) -> str:
+    """A variable, or the rate of one; "" for what is neither."""
+    return str(e.value) if e.op == "var" else f"der({_name(e.args[0])})" if e.op == "der" else ""
+
+
+def _within(shape: tuple[int, ...], element: tuple[int, ...], text: str) -> str:
+    """An array of zeros with a text as one element."""
+    if not shape:
+        return text
+    rows = (_within(shape[1:], element[1:], text if k == element[0] else "0") for k in range(1, shape[0] + 1))
+    return "{" + ", ".join(rows) + "}"
+
+
+def _branches(group: dict[str, str], ports: dict[str, Port]) -> list[Site]:
+    """Past every component that joins two nodes: what goes on between them may have been left out. Its ports are of one
+    kind where the language lets them be connected: their variables have the same names (specification 9.3)."""
+    of: dict[tuple[str, str, str], list[str]] = {}
+    for end, port in ports.items():
+        of.setdefault((end.rpartition(".")[0], port.flow, port.potential), []).append(end)
+    return [
+        Site("branch", name, (ends[0], ends[1]), ports[ends[0]]) for (name, *_), ends in of.items()
+        if len(ends) == 2 and root(group, ends[0]) != root(group, ends[1])
+    ]  # fmt: skip
+
+
+def _inside(top: Instance) -> list[Site]:
+    """Equations of the components' classes: of those that the class itself declares and uses once, and of others that
+    stand in its file."""
+    users: dict[ast.Class, list[Instance]] = {}
+    for name in top.elements:
+        node = top.child(name)
+        if isinstance(node, Instance) and node.cls.kind in ("model", "block"):
+            users.setdefault(node.cls, []).append(node)
+    own, found = {c.name for c in top.cls.components}, []
+    for cls, nodes in users.items():
+        nested = cls.parent is top.cls and len(nodes) == 1
+        if nested or cls.span.file == top.cls.span.file:
+            for node in (n for n in nodes if nested or n.name in own):
+                found += _balances(node, None if nested else cls)
+    return found
+
+
+def _balances(node: Instance, of: ast.Class | None) -> list[Site]:
+    sections = [s for s in node.cls.sections if not s.algorithm and not s.initial]
+    states, found = _states(sections), []
+    for section in sections:
+        for item, scope, loops in _each(section.items, Scope(node.context, node.cls, node)):
+            if isinstance(item, ast.Equality) and not _is_definition(item, states):
+                label = f"{node.name}: {item.text}"
+                site = Site("equation", label, span=item.span, instance=node.name, of=of)
+                found += _elements(site, item, scope, loops)
+    return found
+
+
+def _is_definition(item: ast.Equality, states: set[str]) -> bool:
+    """Whether an equation only says that one variable is the rate of another, which has a balance of its own: nothing
+    of a machine is in it."""
+    sides = [item.left, item.right]
+    rates = [s for s in sides if isinstance(s, ast.Call) and written(s.function) == "der"]
+    return len(rates) == 1 and any(isinstance(s, ast.Ref) and ".".join(s.names) in states for s in sides)
+
+
+def _states(sections: Iterable[ast.Section]) -> set[str]:
+    """Names that occur differentiated in these sections."""
+    texts = [i.text for s in sections for i in _flat(s.items) if isinstance(i, ast.Equality)]
+    return {name for text in texts for name in re.findall(r"\bder\(\s*([\w.]+)(?:\[[^\]]*\])?\s*\)", text)}
+
+
+def _flat(items: Iterable[ast.Item]) -> Iterator[ast.Item]:
+    for item in items:
+        yield from _flat(item.body) if isinstance(item, ast.For) else (item,)
+
+
+def _connection(
+    item: ast.Connect, scope: Scope, loops: bool, group: dict[str, str], ports: dict[str, Port],
+    closed: list[tuple[str, str]],
+) -> list[Site]:  # fmt: skip
+    """What a connection joins; itself a place where nothing but it is written there."""
+    top, found = scope.instance, []
+    pairs = list(zip(connectors(item.left, scope), connectors(item.right, scope), strict=False))
+    for pair in pairs:
+        left, right = names = [_path(node) for node in pair]
+        alone = not loops and len(pairs) == 1 and names == [written(item.left), written(item.right)]
+        into = [end for end, node in zip(names, pair, strict=True) if "." in end and _causality(node) == "input"]
+        if len(into) == 1 and all(map(_causality, pair)):
+            source = right if into == [left] else left
+            found += [Site("signal", f"{source} to {into[0]}", (left, right), into=into[0])] if alone else []
+            continue
+        kinds = [_port(top, end, node) for end, node in zip(names, pair, strict=True)]
+        if None in kinds:
+            closed.append((f"{left}, {right}", "its connectors are not one flow and one potential"))
+            continue
+        ports[left], ports[right] = kinds
+        group[root(group, right)] = root(group, left)
+        found += [Site("edge", f"{left} to {right}", (left, right), kinds[0])] if alone else []
+    return found
+
+
+def _path(node: Connector) -> str:
+    if not isinstance(node, tuple):
+        return node.name
+    leaf, position = node
+    return leaf.name + (f"[{', '.join(map(str, indices(leaf.shape)[position]))}]" if leaf.shape else "")
+
+
+def _causality(node: Connector) -> str:
+    """Of a signal: input | output; "" of anything else."""
+    return node[0].causality if isinstance(node, tuple) else node.causality if isinstance(node, Leaf) else ""
+
+
+def _port(top: Instance, end: str, node: Connector) -> Port | None:
+    if not isinstance(node, Instance) or "." not in end or node.cls.kind != "connector":
+        return None
+    flows = [n for n, e in node.elements.items() if e.declaration.flow]
+    others = [n for n, e in node.elements.items() if not e.declaration.flow and not e.declaration.variability]
+    plain = all(not isinstance(node.child(n), Instance) for n in (*flows, *others))
+    if not plain or len(flows) != 1 or len(others) != 1:
+        return None
+    return Port(_seen_from(top.cls, node.cls.path), flows[0], others[0])
+
+
+def _seen_from(model: ast.Class, path: str) -> str:
+    """A class as a model that extends `model` names it: what that declares is inherited, all else has its full name."""
+    return path.removeprefix(f"{model.path}.")
