@@ -19,7 +19,7 @@ from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import indices, scalars, shape_of
 from lacuna.codegen.library.classes import Library
-from lacuna.codegen.symbolic.expr import Expr
+from lacuna.codegen.symbolic.expr import Expr, walk
 from lacuna.codegen.syntax import ast
 from lacuna.discovery.efforts.sites import MOST, Port, Site, Sites, root
 
@@ -97,8 +97,10 @@ def _elements(site: Site, item: ast.Equality, scope: Scope, loops: tuple[str, ..
 
 
 def _name(e: Expr) -> str:
-    """A variable, or the rate of one; "" for what is neither."""
-    return str(e.value) if e.op == "var" else f"der({_name(e.args[0])})" if e.op == "der" else ""
+    """A variable, or else the first rate inside; "" where there is neither."""
+    if e.op == "var":
+        return str(e.value)
+    return next((f"der({_name(x.args[0])})" for x in walk(e) if x.op == "der"), "")
 
 
 def _within(shape: tuple[int, ...], element: tuple[int, ...], text: str) -> str:

@@ -38,8 +38,8 @@ class Site:
     of a signal, the second one is what it goes `into`, or the first. `span` is where its equation stands, in the class,
     in one that it declares and has one `instance` of, or in the class `of` an instance that its file holds elsewhere;
     `parts` are the two equations of an exchange, and those in which a parameter or an input stands. Of an array of
-    equations, or one in a loop, it is one: `term` is what is added to all, with @ for what this one lacks, `left` its
-    left side."""
+    equations, or one in a loop, it is one: `term` is what is added to all, with @ for what this one lacks, `left` the
+    variable or rate on its left side."""
 
     kind: str  # node | edge | branch | signal | equation | exchange | parameter | input
     label: str
