@@ -110,16 +110,22 @@ class Opened:
         location = name.rpartition(".")[0] or name
         order = sorted(group, key=lambda k: (not _touches(self.sites[k], location), _ORDER[self.sites[k].kind]))
         chosen = order[0]
-        if all(
-            self.sites[k].kind in ("branch", "parameter", "input") for k in group
-        ):  # of several balances: it is named itself
-            location = self.sites[chosen].label
+        if (own := self._of_several(order)) is not None:
+            location = own
         sites, reading = tuple(self.sites[k] for k in order), changed is not states
         place = Place(location, sites, chosen, self._unit(chosen), reading=reading)
         told = [k for k in order[1:] if self.sites[k].kind == "input"]
         apart = _other(effect, [chosen, *told, *(k for k in order[1:] if k not in told)])
         inputs = [k for k in told if k not in apart]
         return replace(place, other=tuple(self._quantity(place, k, k in inputs) for k in (*apart, *inputs)))
+
+    def _of_several(self, order: list[int]) -> str | None:
+        """The name of a place of several balances: its own, or that of the component that it goes past."""
+        sites = [self.sites[k] for k in order]
+        past = {s.label for s in sites if s.kind == "branch"}
+        if any(s.kind not in ("branch", "parameter", "input") and s.instance not in past for s in sites):
+            return None
+        return next((s.label for s in sites if s.label in past), sites[0].label)
 
     def _quantity(self, place: Place, k: int, proportional: bool) -> Place:
         """A place by another one of its sites."""

@@ -198,13 +198,13 @@ def _falling(law: Law, values: dict[str, float]) -> list[Proposal]:
     found = []
     for n, group in enumerate(law.groups):
         for v in (v for v in law.site.variables if v.sticks and group.texts == (v.dry,)):
-            changed = Law(law.site, (*law.groups[:n], stribeck(v), *law.groups[n + 1 :]))
+            changed = Law(law.site, (*law.groups[:n], stribeck(v, steep=True), *law.groups[n + 1 :]))
             at = sum(len(g.texts) for g in law.groups[:n])  # of its terms
             numbers = [values[c] for c, _, _ in law.numbered()]
             numbers.insert(at + 1, numbers[at])
             start = {n: x for n, x in values.items() if not n.startswith("c_")}
             start |= {c: x for (c, _, _), x in zip(changed.numbered(), numbers, strict=True)}
-            higher, speed = changed.numbered()[at + 1][0], f"q_{n + 1}"
+            start[f"p_{n + 1}"], higher, speed = 1.5, changed.numbered()[at + 1][0], f"q_{n + 1}"
             found += [
                 Proposal(changed, start | {higher: part * numbers[at], speed: q})
                 for part in (0.25, 0.5) for q in (0.03, 0.1, 0.3)

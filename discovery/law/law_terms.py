@@ -184,9 +184,12 @@ def exponent(start: float, step: float = 0.0) -> Shape:
     return Shape("p", "1", start, 0.1, 8.0, WHOLE, step)
 
 
-def stribeck(v: Variable) -> Group:
-    """Dry friction that falls, or grows, from rest on."""
-    return Group((v.dry, f"{v.dry}*exp(-abs{v.scaled}/{{q}})"), (Shape("q", "1", 0.1, 0.01, 1.0, (), 0.08),))
+def stribeck(v: Variable, steep: bool = False) -> Group:
+    """Dry friction that falls, or grows, from rest on: exponentially, or with an exponent of any steepness, as B.
+    Armstrong-Helouvry, P. Dupont, C. Canudas de Wit (Automatica 30, 1994) collect them: from a half to two and more."""
+    speed, falls = Shape("q", "1", 0.1, 0.01, 1.0, (), 0.08), Shape("p", "1", 1.5, 0.5, 3.0, (1.0, 2.0))
+    exponent = f"-(abs{v.scaled}/{{q}})^{{p}}" if steep else f"-abs{v.scaled}/{{q}}"
+    return Group((v.dry, f"{v.dry}*exp({exponent})"), (speed, falls) if steep else (speed,))
 
 
 def _order(start: float) -> Shape:
