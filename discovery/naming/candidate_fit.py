@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.attachment import Attachment
@@ -54,7 +56,8 @@ def nearest(case: Case, base: Fit, candidate: Candidate, *starts: dict[str, floa
 
     def missed(start: dict[str, float]) -> float:
         residual = objective.weighted(start | candidate.fixed, weights)
-        return float("inf") if residual is None else float(residual @ residual)
+        with np.errstate(over="ignore"):  # a run that goes away misses by any number
+            return float("inf") if residual is None else float(residual @ residual)
 
     return min(starts, key=missed)
 
