@@ -69,7 +69,8 @@ def _few(cls: ast.Class, places: list[Site], closed: Iterable[tuple[str, str]]) 
 def _each(
     items: Iterable[ast.Item], scope: Scope, loops: tuple[str, ...] = ()
 ) -> Iterator[tuple[ast.Equality | ast.Connect, Scope, tuple[str, ...]]]:
-    """Equalities and connections with the loops that they are in, a pass at a time: `i == 2`."""
+    """Equalities and connections with the loops that they are in, a pass at a time: `i == 2`; under conditions, which
+    may change, equalities."""
     for item in items:
         if isinstance(item, ast.Equality | ast.Connect):
             yield item, scope, loops
@@ -77,6 +78,9 @@ def _each(
             for inner in unroll(item, scope):
                 here = (f"{i.name} == {inner.locals[i.name].value}" for i in item.iterators)
                 yield from _each(item.body, inner, (*loops, *here))
+        elif isinstance(item, ast.If):
+            under = (found for _, body in item.branches for found in _each(body, scope, loops))
+            yield from (found for found in under if isinstance(found[0], ast.Equality))
 
 
 def _elements(site: Site, item: ast.Equality, scope: Scope, loops: tuple[str, ...]) -> list[Site]:
@@ -168,7 +172,10 @@ def _states(sections: Iterable[ast.Section]) -> set[str]:
 
 def _flat(items: Iterable[ast.Item]) -> Iterator[ast.Item]:
     for item in items:
-        yield from _flat(item.body) if isinstance(item, ast.For) else (item,)
+        if isinstance(item, ast.If):
+            yield from (inner for _, body in item.branches for inner in _flat(body))
+        else:
+            yield from _flat(item.body) if isinstance(item, ast.For) else (item,)
 
 
 def _connection(

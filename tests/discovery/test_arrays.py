@@ -52,6 +52,7 @@ WALL = """package Building "A wall in layers"
     Real x[2](each start=0, each fixed=true);
     Real y[2](each start=0, each fixed=true);
     Real many[13](each start=0, each fixed=true);
+    Real z(start=0, fixed=true);
   equation
     for i in 1:n - 1 loop
       connect(layer[i].port, link[i].a);
@@ -64,6 +65,11 @@ WALL = """package Building "A wall in layers"
       50*der(y[i]) = -y[i];
     end for;
     der(many) = -many;
+    if time < 50 then
+      der(z) = -0.02*z;
+    else
+      der(z) = -0.1*z;
+    end if;
   end Wall;
 end Building;
 """
@@ -120,6 +126,12 @@ def test_a_term_in_one_pass_of_a_loop_acts_there_alone(wall: Path) -> None:
     first, second = opened(wall, places(wall)["50*der(y[i]) = -y[i] [i = 1]"], ["y[1]", "y[2]"])
     assert first == pytest.approx(5.0 * (1 - np.exp(-TIME / 50)), abs=1e-6)
     assert second == pytest.approx(0.0)
+
+
+def test_a_term_under_a_condition_acts_while_that_holds(wall: Path) -> None:
+    (found,) = opened(wall, places(wall)["der(z) = -0.02*z"], ["z"])
+    before = 250.0 * (1 - np.exp(-0.02 * np.minimum(TIME, 50)))
+    assert found == pytest.approx(before * np.exp(-0.1 * np.maximum(TIME - 50, 0)), abs=1e-5)
 
 
 def test_what_flows_into_one_component_of_an_array_goes_on_to_the_others(wall: Path) -> None:
