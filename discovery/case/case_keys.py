@@ -120,7 +120,10 @@ CASE = Table(
             "the files",
             {
                 "fit": Key(FILES, "may be fitted to", needed=True),
-                "validate": Key(FILES, "only judge: nothing is chosen or fitted on them", needed=True),
+                "validate": Key(
+                    FILES, "only judge: nothing is chosen or fitted on them but what one alone has, as the next tables say",
+                    needed=True,
+                ),
             },
             needed=True,
         ),
