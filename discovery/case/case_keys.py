@@ -121,7 +121,7 @@ CASE = Table(
             {
                 "fit": Key(FILES, "may be fitted to", needed=True),
                 "validate": Key(
-                    FILES, "only judge: nothing is chosen or fitted on them but what one alone has, as the next tables say",
+                    FILES, "only judge: nothing is chosen or fitted on them but what one of them alone has",
                     needed=True,
                 ),
             },
