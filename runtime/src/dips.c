@@ -125,7 +125,9 @@ int rt_follow_switches(rt_session *s, double since) {
     int status = looked ? 0 : look_ahead(s, since);
     if (status) return status;
     looked = true;
-    if (is_thrown_back(s, r)) s->due_back[r] = s->t + interval;
+    if (!is_thrown_back(s, r)) continue;
+    s->due_back[r] = s->t + interval;
+    s->last_due_back = rt_max(s->last_due_back, s->due_back[r]);
   }
   return 0;
 }

@@ -129,6 +129,7 @@ rt_session *rt_session_new(const rt_model *model, const rt_options *options, cha
     s->atol_given = s->options.atol > 0;
     if (!s->atol_given) s->options.atol = 0.01 * s->options.rtol;
     s->memory = s->method->create(s);
+    s->slopes = rt_slopes_new(s->d);
   }
   if (s->memory) return s;
   snprintf(message, size, "cannot set up solver %s: out of memory", method->name);
@@ -142,6 +143,7 @@ void rt_session_free(rt_session *s) {
   rt_delays_free(s);
   rt_transports_free(s);
   if (s->memory) s->method->destroy(s->memory);
+  rt_slopes_free(s->slopes);
   free(s->inputs);
   free(s->held);
   free(s->clock.next);

@@ -23,6 +23,7 @@ void rt_record_begin(rt_session *s) {
 }
 
 static rt_status reserve(rt_session *s, size_t rows) {
+  if (s->result->rows + rows <= s->result->capacity) return RT_OK;
   if ((double)(s->result->rows + rows) * (s->recorder.n + 2) > RT_MOST_VALUES)
     return rt_fail(s, RT_MEMORY, s->t, -1, NULL, "more than %.0g values are recorded up to time %.9g s", RT_MOST_VALUES,
                    s->t);
