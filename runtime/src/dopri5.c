@@ -24,7 +24,7 @@ static const double d[STAGES] = {-12715105075. / 11282082432.,  0,
 static inline __attribute__((always_inline)) int stages(rt_session *s, rt_onestep *o, double h, int n) {
 #pragma GCC unroll 6
   for (int j = 1; j < STAGES; j++) {
-    int status = rt_explicit_stage(s, o, h, n, j, c[j], a[j]);
+    int status = rt_explicit_stage(s, o, h, n, j, c[j], a[j], j == STAGES - 1);
     if (status) return status;
   }
   const double *k = o->k;

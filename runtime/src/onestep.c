@@ -74,7 +74,7 @@ static double first_step(rt_session *s, rt_onestep *o) {
   if (!(h0 > 0)) return 0;
   for (int i = 0; i < s->d->n_x; i++)
     o->x1[i] = o->x0[i] + h0 * o->f0[i];
-  if (rt_rhs(s, s->t + h0, o->x1, o->f1, s->v_trial)) return h0;
+  if (rt_derivatives(s, s->t + h0, o->x1, o->f1, s->v_trial)) return h0;
   for (int i = 0; i < s->d->n_x; i++)
     o->error[i] = (o->f1[i] - o->f0[i]) / h0;
   double d2 = sqrt(mean_square(s, o, o->error)), speed = rt_max(d1, d2 * h0);

@@ -96,11 +96,12 @@ static inline __attribute__((always_inline)) const double *rt_stage(rt_onestep *
   return x1;
 }
 
-/* Explicit stage j at t0 + c h: k_j = f(t0 + c h, x0 + h sum_l a_l k_l), l < j. */
+/* Explicit stage j at t0 + c h: k_j = f(t0 + c h, x0 + h sum_l a_l k_l), l < j; v too of the last one, the end. */
 static inline __attribute__((always_inline)) int rt_explicit_stage(rt_session *s, rt_onestep *o, double h, int n_x,
-                                                                   int j, double c, const double *a) {
+                                                                   int j, double c, const double *a, bool last) {
   const double *x = rt_stage(o, h, n_x, j, a);
-  int status = rt_rhs(s, o->t0 + c * h, x, o->k + j * n_x, s->data.v);
+  double t = o->t0 + c * h, *k = o->k + j * n_x;
+  int status = last || o->tangent ? rt_rhs(s, t, x, k, s->data.v) : rt_derivatives(s, t, x, k, s->data.v);
   if (o->tangent) rt_onestep_keep_stage(s, o, j);
   return status;
 }

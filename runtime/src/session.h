@@ -233,6 +233,7 @@ void rt_append_equation(rt_session *s, int equation);
 
 /* evaluate.c: the model's functions, counted and guarded; > 0 recoverable, < 0 not, m->failure says why */
 int rt_rhs(rt_session *s, double t, const double *x, double *xdot, double *v);
+int rt_derivatives(rt_session *s, double t, const double *x, double *xdot, double *v);
 int rt_check_finite(rt_session *s, const double *x);
 int rt_evaluate(rt_session *s), rt_evaluate_into(rt_session *s, double *v);
 void rt_residual_point(rt_session *s);

@@ -127,12 +127,16 @@ class StepWriter:
             self._assignment(a)
 
     def _quotient(self, step: LinearBlock, name: str, matrix: str) -> None:
-        """One equation; 0 x = 0 leaves x open, see emit/functions/linear.py."""
+        """One equation; 0 x = 0 leaves x open, see emit/functions/linear.py. A divisor that no state decides is
+        inverted while the right side is computed: what waits for x would wait for the division too."""
         body, row, (right,) = self._body, step.residuals[0], step.right
-        nominal = self._nominal(step.tears[0])
+        nominal, ahead = self._nominal(step.tears[0]), body.is_given(step.matrix[0][0])
         body.line(f"const double {name}_divisor = {matrix};")
+        if ahead:
+            body.line(f"const double {name}_inverse = 1.0 / {name}_divisor;")
         body.line(f"double {name} = {body.value(right)};")
-        body.line(f"if ({name}_divisor != 0.0) {name} /= {name}_divisor;")
+        by = f"*= {name}_inverse" if ahead else f"/= {name}_divisor"
+        body.line(f"if ({name}_divisor != 0.0) {name} {by};")
         body.line(f"else if ({name} != 0.0) {self._fail('SINGULAR', row)}")
         with body.scope("else", [nominal]):
             body.line(f"{name} = m->shift * {body.value(nominal, 7)};")

@@ -393,10 +393,12 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
   }
   /* Diode.mo:16  C*der(u_C) = i */
   const double der_u_C = i * inverse_of_C;
-  v[0] = u;
   v[1] = v_2;
   v[2] = i;
   xdot[0] = der_u_C;
+  if (!m->brief) {
+    v[0] = u;
+  }
   return 0;
 }
 
