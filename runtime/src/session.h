@@ -22,6 +22,7 @@ typedef struct {
   const double *time, *values;
   int n, cursor, ahead;
   rt_interpolation interpolation;
+  double from, span, until, base, rise; /* the line on which the input was last; until <= from: not known */
 } rt_input;
 
 /* Time events: the next tick of each sample(), the next time relation, and the grid of a fixed step. */
