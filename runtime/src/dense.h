@@ -19,14 +19,4 @@ void rt_dense_prepare(rt_session *s);
 void rt_dense_point(rt_session *s, double t, double *x);
 void rt_dense_eval(const rt_dense *dense, int n, double t, double *x);
 
-/* State i of n where (t - t0) / h is theta; written out for the degree of dopri5, of which a run records the most. */
-static inline double rt_dense_state(const rt_dense *dense, int n, int i, double theta) {
-  const double *c = dense->c + i;
-  if (dense->degree == 4) return (((c[4 * n] * theta + c[3 * n]) * theta + c[2 * n]) * theta + c[n]) * theta + c[0];
-  double sum = *(c += dense->degree * n);
-  for (int k = dense->degree; k > 0; k--)
-    sum = sum * theta + *(c -= n);
-  return sum;
-}
-
 #endif

@@ -36,7 +36,8 @@ typedef struct {
 
 typedef struct {
   mdl_storage storage;
-  int index, sign;
+  int index;
+  double sign;
 } rt_output;
 
 typedef struct {
@@ -118,6 +119,7 @@ struct rt_session {
   bool in_pieces, resume;           /* the last step is longer; go on in it, for no state or slope has changed at t */
   double look, look_curved;         /* longest piece of the last step to be looked at at once, of any step (s) */
   double *phase, *phase_start, *shape, *rates; /* [n_phases] rad; [(RT_DENSE_DEGREE + 1) * n_rel] of swings.c */
+  double *swing, *bound; /* [(RT_DENSE_DEGREE + 1) * n_rel], [n_rel] of guards that come near in a step that is tried */
   rt_clock clock;
   rt_dense dense;
   double *g, *g_previous;                          /* [n_rel] guards at t and t_previous */

@@ -110,17 +110,19 @@ static double allowed(const rt_session *s, int r, int n, const double *p, bool *
   return rt_max(rt_max(share * swing, clear * low), rt_max(rt_hysteresis(s, r), DBL_MIN));
 }
 
-/* The error estimate of the step to `to`, over what it may be, of the guard for which that is most; *near: one is. */
+/* The error estimate of the step to `to`, over what it may be, of the guard for which that is most; *near: one is. Its
+ * polynomial and its bound are kept. */
 static double estimated(rt_session *s, double to, bool *near) {
-  double largest = 0, p[MOST];
+  double largest = 0;
   *near = false;
   s->quiet = s->t_previous == s->dense.t0;
   for (int r = 0; r < s->d->n_rel; r++) {
+    s->bound[r] = 0;
     if (!s->d->affine_guards[r] || is_far(s, r)) continue;
     bool here;
-    int n = polynomial(s, r, s->g[r], to, p);
-    double bound = allowed(s, r, n, p, &here);
+    double *p = s->swing + r * MOST, bound = allowed(s, r, polynomial(s, r, s->g[r], to, p), p, &here);
     largest = rt_max(largest, fabs(s->shape[r]) / bound);
+    if (here) s->bound[r] = bound;
     *near |= here;
     s->quiet &= least(s, r, s->g[r]) >= 0;
   }
@@ -133,18 +135,15 @@ static double estimated(rt_session *s, double to, bool *near) {
  * 0.57 amplitudes pass, these three one of 0.027 at most. */
 static double compared(rt_session *s, double to) {
   const mdl_descriptor *d = s->d;
-  double largest = 0, p[MOST], h = to - s->t_previous;
+  double largest = 0, h = to - s->t_previous;
   if (!rt_look_along(s, to, between, BETWEEN)) return INFINITY;
   for (int r = 0; r < d->n_rel; r++) {
-    if (!d->affine_guards[r] || is_far(s, r)) continue;
-    bool near;
-    int n = polynomial(s, r, s->g[r], to, p);
-    double bound = allowed(s, r, n, p, &near), sign = s->data.rel[r] ? 1 : -1;
-    for (int i = 0; i < BETWEEN && near; i++) {
+    const double *p = s->swing + r * MOST, sign = s->data.rel[r] ? 1 : -1;
+    for (int i = 0; i < BETWEEN && s->bound[r] > 0; i++) {
       double slope = 0;
-      for (int k = n; k > 0; k--)
+      for (int k = s->dense.degree; k > 0; k--)
         slope = slope * between[i] + k * p[k];
-      largest = rt_max(largest, of_slope * fabs(slope - h * sign * s->rates[i * d->n_rel + r]) / bound);
+      largest = rt_max(largest, of_slope * fabs(slope - h * sign * s->rates[i * d->n_rel + r]) / s->bound[r]);
     }
   }
   return largest;
@@ -163,10 +162,7 @@ static double difference(int k, double *f) {
 /* Of guard r in a first step, from its rates along it: they must be a parabola nearly, so that the step is none of its
  * whole swings; and the error must be small beside the swing that such a bend of the rates is the beginning of. */
 static double rough(const rt_session *s, int r, double to) {
-  double p[MOST], f[PLACES], most = 0, h = to - s->t_previous;
-  bool near;
-  double bound = allowed(s, r, polynomial(s, r, s->g[r], to, p), p, &near);
-  if (!near) return 0;
+  double f[PLACES], bound = s->bound[r], most = 0, h = to - s->t_previous;
   for (int i = 0; i < PLACES; i++) {
     f[i] = s->rates[i * s->d->n_rel + r];
     most = rt_max(most, fabs(f[i]));
@@ -206,7 +202,7 @@ double rt_swing_roughness(rt_session *s, double to, const double *error) {
   if (!rt_look_along(s, to, along, PLACES)) return INFINITY;
   double largest = 0;
   for (int r = 0; r < d->n_rel; r++)
-    if (d->affine_guards[r] && !is_far(s, r)) largest = rt_max(largest, rough(s, r, to));
+    if (s->bound[r] > 0) largest = rt_max(largest, rough(s, r, to));
   return largest;
 }
 
