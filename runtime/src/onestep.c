@@ -42,7 +42,8 @@ void rt_onestep_destroy(void *memory) {
   free(o);
 }
 
-/* Mean square of e_i / (atol_i + rtol max(|x0_i|, |x1_i|)). Divisions that need not wait for e, which comes last, do not. */
+/* Mean square of e_i / (atol_i + rtol max(|x0_i|, |x1_i|)). Divisions that need not wait for e, which comes last, do
+ * not. */
 static double mean_square(const rt_session *s, const rt_onestep *o, const double *e) {
   double sum = 0;
   int n = s->d->n_x;
