@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import _signal  # signal without its enumerations, which take longer than a short run
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 import ctypes
 from dataclasses import dataclass
 from functools import partial
-import signal
+from signal import SIGINT, default_int_handler
 import threading
 from typing import Literal
 import weakref
@@ -21,6 +22,7 @@ from lacuna.runtime.result import Result
 
 ADAPTIVE, FIXED_STEP = ("ida", "dopri5", "rodas4"), ("rk4", "euler")  # these need a step, those choose theirs
 SOLVERS = (*ADAPTIVE, *FIXED_STEP)
+_NEVER = INTERRUPTED()
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,6 +146,9 @@ class Session:
 
     def _assign(self, function, values: Mapping[str, float], what: str, among) -> None:
         n = len(values)
+        if not n:
+            self._check(function(self._handle, 0, None, None))
+            return
         rows = [self.model.variable(name, what, among).row for name in values]
         self._check(function(self._handle, n, (ctypes.c_int * n)(*rows), (ctypes.c_double * n)(*values.values())))
 
@@ -190,7 +195,8 @@ class Session:
 def _watched(lib: ctypes.CDLL, session: int, watch: Callable[[float], object] | None) -> Iterator[None]:
     """The runtime comes back to Python now and then: to tell `watch` the time, and for Ctrl-C, which is delivered to
     the main thread alone. Who has a handler of his own keeps it. What ended the run is raised after it."""
-    if watch is None and not _hears_ctrl_c():
+    hears = _hears_ctrl_c()
+    if watch is None and not hears:
         yield
         return
     raised: list[BaseException] = []
@@ -205,11 +211,13 @@ def _watched(lib: ctypes.CDLL, session: int, watch: Callable[[float], object] | 
 
     callback = INTERRUPTED(look)
     lib.rt_session_watch(session, callback)
+    before = _signal.signal(SIGINT, lambda *_: raised.append(KeyboardInterrupt())) if hears else None
     try:
-        with _ctrl_c(raised):
-            yield
+        yield
     finally:
-        lib.rt_session_watch(session, INTERRUPTED())
+        if hears:
+            _signal.signal(SIGINT, before)
+        lib.rt_session_watch(session, _NEVER)
     if raised:
         raise raised[0]
 
@@ -217,20 +225,7 @@ def _watched(lib: ctypes.CDLL, session: int, watch: Callable[[float], object] | 
 def _hears_ctrl_c() -> bool:
     """This is the thread that signals come to, and nobody else has asked for this one."""
     main = threading.current_thread() is threading.main_thread()
-    return main and signal.getsignal(signal.SIGINT) is signal.default_int_handler
-
-
-@contextmanager
-def _ctrl_c(raised: list[BaseException]) -> Iterator[None]:
-    """Ctrl-C is added to `raised`, where it is Python's own handler that would raise it."""
-    if not _hears_ctrl_c():
-        yield
-        return
-    before = signal.signal(signal.SIGINT, lambda *_: raised.append(KeyboardInterrupt()))
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
+    return main and _signal.getsignal(SIGINT) is default_int_handler
 
 
 def simulate(

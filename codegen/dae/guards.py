@@ -9,7 +9,7 @@ taken by them. Any other guard is curved: nothing tells how fast it may come and
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 from lacuna.codegen import flat
@@ -22,6 +22,7 @@ from lacuna.codegen.structure.causal import (  # fmt: skip
     Step,
     expressions_of,
     unknowns_of,
+    upstream,
 )
 from lacuna.codegen.symbolic.differentiate import Differentiator
 from lacuna.codegen.symbolic.expr import ZERO, Expr, add, is_const, node, sub, walk
@@ -52,7 +53,10 @@ def guard_shapes(
     for step in steps:
         shapes.add(step)
     phases: dict[Expr, None] = {}
-    for e in (*guards, *(e for step in _upstream(steps, guards) for e in expressions_of(step))):
+    for e in (
+        *guards,
+        *(e for step in upstream(steps, (n for g in guards for n in leaves(g))) for e in expressions_of(step)),
+    ):
         for n in walk(e):
             if n.op == "call" and n.value in PERIODIC and shapes.of(n.args[0]) != FIXED:
                 phases[shapes.varying_part(n.args[0])] = None
@@ -60,17 +64,6 @@ def guard_shapes(
     return GuardShapes(
         list(phases), any(shapes.of(g) == CURVED for g in guards), moving, shapes.moving_steps(steps, moving.values())
     )
-
-
-def _upstream(steps: Sequence[Step], guards: Iterable[Expr]) -> Iterator[Step]:
-    """What is computed on the way from the states to the guards, from behind."""
-    wanted = {n for g in guards for n in leaves(g)}
-    for step in reversed(steps):
-        if wanted.isdisjoint(unknowns_of(step)):
-            continue
-        for e in expressions_of(step):
-            wanted |= leaves(e)
-        yield step
 
 
 class _Shapes:

@@ -5,7 +5,7 @@ The same procedure serves the explicit form (states known) and the initial syste
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from lacuna.codegen.structure.reach import Reach, users_of
@@ -159,6 +159,17 @@ def expressions_of(step: Step) -> list[Expr]:
         case NonlinearBlock():
             own = [*(a for line in step.jacobian for a in line), *(row.residual for row in step.residuals)]
     return own + [a.value for a in step.assignments]
+
+
+def upstream(steps: Sequence[Step], wanted: Iterable[Expr]) -> Iterator[Step]:
+    """What is computed on the way to the wanted unknowns, from behind."""
+    wanted = set(wanted)
+    for step in reversed(steps):
+        if wanted.isdisjoint(unknowns_of(step)):
+            continue
+        for e in expressions_of(step):
+            wanted |= leaves(e)
+        yield step
 
 
 def of_nonlinear(steps: Sequence[Step]) -> set[Expr]:

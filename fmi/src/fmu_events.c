@@ -59,6 +59,7 @@ static bool reset_clocks(fmu *f) {
     if (!(c->interval[i] > 0)) return fmu_refuse(f, "sample() number %d has interval %.9g s", i + 1, c->interval[i]);
     c->next[i] = (long)rt_max(0, ceil((s->t - c->tolerance - c->first[i]) / c->interval[i]));
   }
+  rt_clock_look(s);
   return true;
 }
 

@@ -10,6 +10,7 @@
 #include "fmu.h"
 #include "onestep.h"
 #include "past.h"
+#include "swings.h"
 
 /* One pass over everything: with `into` it is read, with `from` written, with `judged` looked at, with none counted. */
 typedef struct {
@@ -71,9 +72,10 @@ static void pass_session(stream *w, rt_session *s) {
   PASS(s->steps_taken), PASS(s->pieces_taken), PASS(s->tiny_steps), PASS(s->futile_events), PASS(s->pending),
       PASS(s->last_event);
   PASS(s->t_before), PASS(s->t_oldest), pass_flag(w, &s->resume), pass_flag(w, &s->reinitialised);
+  PASS(s->last_due_back), pass_flag(w, &s->growing);
   pass_within(w, &s->n_initial, 0, s->d->n_x);
   PASS(s->recorder.next), PASS(s->look_curved);
-  PASS(s->clock.next_relation), PASS(s->clock.tolerance), PASS(s->clock.step);
+  PASS(s->clock.next_relation), PASS(s->clock.next_tick), PASS(s->clock.tolerance), PASS(s->clock.step);
   PASS(s->data.initial), PASS(s->data.terminal), PASS(s->data.reinitialised);
   pass_within(w, &s->data.terminated, 0, s->d->n_messages);
   PASS(s->data.start_time), PASS(s->options.rtol), PASS(s->options.atol);
@@ -86,6 +88,7 @@ static void pass_session(stream *w, rt_session *s) {
   judge_flags(w, w->size + signs, s->n_flags - signs, true);
   pass(w, s->flags, s->n_flags);
   pass_guards(w, s);
+  if (w->from) rt_slopes_forget(s);
 }
 
 /* How many pieces each delay has come first, so that a state can be judged before anything is taken from it. */

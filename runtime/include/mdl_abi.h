@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 16
+#define MDL_ABI_VERSION 17
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
@@ -65,6 +65,7 @@ typedef struct mdl_data {
   int undetermined;  /* set by rhs(): 1 + an equation of a linear block that leaves unknowns open in this mode */
   void *transports;  /* the runtime's; what the model reads there by */
   double (*carried)(const struct mdl_data *m, int k, double end, double x, int order);
+  int brief;    /* 1: rhs() may write no more of v than what it starts from at the next point */
   double shift; /* 0; by as many nominal values rhs() moves what is open away from the solution next to zero */
 } mdl_data;
 

@@ -8,6 +8,13 @@ static double tick_time(const rt_clock *c, int i) {
   return c->first[i] + (double)c->next[i] * c->interval[i];
 }
 
+/* After the number of a tick has changed. */
+void rt_clock_look(rt_session *s) {
+  s->clock.next_tick = INFINITY;
+  for (int i = 0; i < s->d->n_sample; i++)
+    s->clock.next_tick = rt_min(s->clock.next_tick, tick_time(&s->clock, i));
+}
+
 rt_status rt_clock_begin(rt_session *s) {
   rt_clock *c = &s->clock;
   c->tolerance = rt_max(1e-13 * (s->stop - s->start), rt_time_resolution(s));
@@ -24,6 +31,7 @@ rt_status rt_clock_begin(rt_session *s) {
                      i + 1, c->interval[i], rt_time_resolution(s));
     c->next[i] = (long)rt_max(0, ceil((s->start - c->tolerance - c->first[i]) / c->interval[i]));
   }
+  rt_clock_look(s);
   if (s->d->time_relations(&s->data, s->start)) return rt_fail_model(s, s->start, "evaluating time relations");
   c->next_relation = s->d->next_time_event(&s->data, s->start);
   return RT_OK;
@@ -31,10 +39,7 @@ rt_status rt_clock_begin(rt_session *s) {
 
 /* The next tick or time relation. */
 double rt_clock_next(const rt_session *s) {
-  double next = s->clock.next_relation;
-  for (int i = 0; i < s->d->n_sample; i++)
-    next = rt_min(next, tick_time(&s->clock, i));
-  return next;
+  return rt_min(s->clock.next_relation, s->clock.next_tick);
 }
 
 /* The next instant that the step may not pass: where something happens at a known time. */
@@ -55,8 +60,7 @@ double rt_clock_limit(rt_session *s) {
 int rt_clock_due(rt_session *s) {
   double now = s->t + s->clock.tolerance;
   int pending = s->clock.next_relation <= now ? RT_PENDING_TIME : 0;
-  for (int i = 0; i < s->d->n_sample; i++)
-    if (tick_time(&s->clock, i) <= now) pending |= RT_PENDING_SAMPLE;
+  if (s->clock.next_tick <= now) pending |= RT_PENDING_SAMPLE;
   return s->d->n_u ? pending | rt_inputs_due(s) : pending;
 }
 
@@ -98,4 +102,5 @@ void rt_clock_tick(rt_session *s) {
     while (tick_time(c, i) <= now)
       c->next[i]++;
   }
+  rt_clock_look(s);
 }

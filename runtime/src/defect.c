@@ -39,7 +39,7 @@ bool rt_look_along(rt_session *s, double to, const double *places, int count) {
   for (int i = 0; i < count; i++) {
     double t = s->t_previous + places[i] * (to - s->t_previous);
     rt_dense_eval(&s->dense, d->n_x, t, s->x_trial);
-    if (rt_rhs(s, t, s->x_trial, s->xdot_trial, s->v_trial)) return false;
+    if (rt_derivatives(s, t, s->x_trial, s->xdot_trial, s->v_trial)) return false;
     if (s->method->filter) filter(s, t);
     if (d->guard_rates(&s->data, 1, s->xdot_trial, s->rates + i * d->n_rel)) return false;
   }

@@ -24,12 +24,3 @@ void rt_dense_eval(const rt_dense *dense, int n, double t, double *x) {
     x[i] = sum;
   }
 }
-
-/* State i of n where (t - t0) / h is theta. */
-double rt_dense_state(const rt_dense *dense, int n, int i, double theta) {
-  const double *c = dense->c + dense->degree * n + i;
-  double sum = *c;
-  for (int k = dense->degree; k > 0; k--)
-    sum = sum * theta + *(c -= n);
-  return sum;
-}

@@ -12,13 +12,20 @@ static double lowest(double a, double b, double c, double *where) {
   return a + *where * (slope + 0.5 * c * *where);
 }
 
-/* How much the curvature of a guard, as h^2 times its second derivative, was another one a step earlier. Steps of which
- * this is large do not resolve the guard: what swings once in a step has ends that look as if it were at rest. */
-static double bent(const rt_session *s, int r, double sign, double h, double c) {
-  if (isnan(s->t_oldest)) return 0;
-  double late = s->t_previous - s->t_before, early = s->t_before - s->t_oldest, middle = sign * s->g_before[r];
-  double slope = (sign * s->g_previous[r] - middle) / late - (middle - sign * s->g_oldest[r]) / early;
-  return fabs(c - 2 * h * h * slope / (late + early));
+/* What tells curvatures, as h^2 times the second derivative, of the last three steps: by the differences of a guard. */
+typedef struct {
+  double ahead, back; /* now: of this step's and the last one's */
+  double late, early; /* a step earlier: of the last one's and the one before it; 0: not known */
+} weights;
+
+static weights weigh(const rt_session *s, double h) {
+  double before = s->t_previous - s->t_before, ahead = 2 * h / (h + before);
+  weights w = {.ahead = ahead, .back = ahead * h / before};
+  if (isnan(s->t_oldest)) return w;
+  double early = s->t_before - s->t_oldest, scale = 2 * h * h / (before + early);
+  w.late = scale / before;
+  w.early = scale / early;
+  return w;
 }
 
 /* Could a guard have crossed twice in the step up to `end`, besides those that cross there? Judged by the parabola
@@ -27,15 +34,15 @@ static double bent(const rt_session *s, int r, double sign, double h, double c) 
 bool rt_may_dip(const rt_session *s, double end) {
   if (s->shaped && s->all_affine) return false;
   if (isnan(s->t_before)) return true;
-  double h = end - s->t_previous, before = s->t_previous - s->t_before, where;
-  double weight = 2 * h / (h + before), back = weight * h / before;
+  const weights w = weigh(s, end - s->t_previous);
+  double where;
   for (int r = 0; r < s->d->n_rel; r++) {
+    if (s->flip[r] || rt_is_shaped(s, r)) continue;
     double sign = s->data.rel[r] ? 1 : -1, a = sign * s->g_previous[r], b = sign * s->g[r];
-    double c = weight * (b - a) - back * (a - sign * s->g_before[r]);
+    double step = a - sign * s->g_before[r], c = w.ahead * (b - a) - w.back * step;
+    if (w.late > 0) c = rt_max(c, fabs(c - w.late * step + w.early * sign * (s->g_before[r] - s->g_oldest[r])));
     double least = a < b ? a : b;
-    c = rt_max(c, bent(s, r, sign, h, c));
-    if (c > 1.5 * least && c > 0 && rt_is_state_relation(s, r) && !s->flip[r] && !rt_is_shaped(s, r) &&
-        lowest(a, b, 4 * c, &where) < 0.25 * least)
+    if (c > 1.5 * least && c > 0 && rt_is_state_relation(s, r) && lowest(a, b, 4 * c, &where) < 0.25 * least)
       return true;
   }
   return false;
@@ -125,7 +132,9 @@ int rt_follow_switches(rt_session *s, double since) {
     int status = looked ? 0 : look_ahead(s, since);
     if (status) return status;
     looked = true;
-    if (is_thrown_back(s, r)) s->due_back[r] = s->t + interval;
+    if (!is_thrown_back(s, r)) continue;
+    s->due_back[r] = s->t + interval;
+    s->last_due_back = rt_max(s->last_due_back, s->due_back[r]);
   }
   return 0;
 }

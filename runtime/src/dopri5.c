@@ -20,23 +20,43 @@ static const double d[STAGES] = {-12715105075. / 11282082432.,  0,
                                  701980252875. / 199316789632., -1453857185. / 822651844.,
                                  69997945. / 29380423.};
 
-static inline int stage(rt_session *s, rt_onestep *o, double h, int j) {
-  return rt_explicit_stage(s, o, h, j, c[j], a[j]);
-}
-
-static int attempt(rt_session *s, rt_onestep *o, double h) {
-  int n = s->d->n_x, status;
-  if ((status = stage(s, o, h, 1)) || (status = stage(s, o, h, 2)) || (status = stage(s, o, h, 3)) ||
-      (status = stage(s, o, h, 4)) || (status = stage(s, o, h, 5)) || (status = stage(s, o, h, 6)))
-    return status;
+/* The stages, of n states, and the error. */
+static inline __attribute__((always_inline)) int stages(rt_session *s, rt_onestep *o, double h, int n) {
+#pragma GCC unroll 6
+  for (int j = 1; j < STAGES; j++) {
+    int status = rt_explicit_stage(s, o, h, n, j, c[j], a[j], j == STAGES - 1);
+    if (status) return status;
+  }
+  const double *k = o->k;
+  double *error = o->error;
   for (int next = 0; next < n; next += 2) {
     int i = rt_pair_at(n, next);
-    rt_pair sum = e[0] * rt_load(o->k + i);
+    rt_pair sum = e[0] * rt_load(k + i);
     for (int j = 2; j < STAGES - 1; j++)
-      sum += e[j] * rt_load(o->k + j * n + i);
-    rt_store(o->error + i, h * (sum + e[STAGES - 1] * rt_load_fresh(o->f1 + i)));
+      sum += e[j] * rt_load(k + j * n + i);
+    rt_store(error + i, h * (sum + e[STAGES - 1] * rt_load_fresh(k + (STAGES - 1) * n + i)));
   }
   return 0;
+}
+
+/* Of few states, as most models have, the loops over them are a third of all work: their number is known to each. */
+static int attempt(rt_session *s, rt_onestep *o, double h) {
+  switch (s->d->n_x) {
+  case 1:
+    return stages(s, o, h, 1);
+  case 2:
+    return stages(s, o, h, 2);
+  case 3:
+    return stages(s, o, h, 3);
+  case 4:
+    return stages(s, o, h, 4);
+  case 5:
+    return stages(s, o, h, 5);
+  case 6:
+    return stages(s, o, h, 6);
+  default:
+    return stages(s, o, h, s->d->n_x);
+  }
 }
 
 /* x0 + s (r1 + (1 - s) (r2 + s (r3 + (1 - s) r4))), expanded in powers of s, which are written in rising order: of a

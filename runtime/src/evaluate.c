@@ -32,6 +32,14 @@ int rt_rhs(rt_session *s, double t, const double *x, double *xdot, double *v) {
   return s->d->rhs(&s->data, t, x, xdot, v);
 }
 
+/* x' alone: of v, it is enough to have what the next point starts from. */
+int rt_derivatives(rt_session *s, double t, const double *x, double *xdot, double *v) {
+  s->data.brief = 1;
+  int status = rt_rhs(s, t, x, xdot, v);
+  s->data.brief = 0;
+  return status;
+}
+
 /* x', v and the guards at the present point; v wherever it is to be kept. */
 int rt_evaluate_into(rt_session *s, double *v) {
   mdl_data *m = &s->data;

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "sensitivity.h"
+#include "swings.h"
 #include "transport.h"
 #include "undetermined.h"
 
@@ -238,6 +239,7 @@ rt_status rt_event(rt_session *s) {
   double since = s->t - s->last_event;
   s->last_event = s->t;
   s->shaped = false; /* with other relations, guards are made of the states in another way */
+  rt_slopes_forget(s);
   remember(s);
   if ((status = rt_jump_measure(s))) return status;
   size_t logged = s->result->n_events;

@@ -3,7 +3,7 @@
 
 static int euler_attempt(rt_session *s, rt_onestep *o, double h) {
   static const double b[] = {1};
-  return rt_explicit_stage(s, o, h, 1, 1, b);
+  return rt_explicit_stage(s, o, h, s->d->n_x, 1, 1, b, true);
 }
 
 static void euler_dense(int n, const rt_onestep *o, rt_dense *dense) {
@@ -17,10 +17,11 @@ static void euler_dense(int n, const rt_onestep *o, rt_dense *dense) {
 static int rk4_attempt(rt_session *s, rt_onestep *o, double h) {
   static const double a1[] = {0.5}, a2[] = {0, 0.5}, a3[] = {0, 0, 1}, b[] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
   int status;
-  if ((status = rt_explicit_stage(s, o, h, 1, 0.5, a1)) || (status = rt_explicit_stage(s, o, h, 2, 0.5, a2)) ||
-      (status = rt_explicit_stage(s, o, h, 3, 1, a3)))
+  if ((status = rt_explicit_stage(s, o, h, s->d->n_x, 1, 0.5, a1, false)) ||
+      (status = rt_explicit_stage(s, o, h, s->d->n_x, 2, 0.5, a2, false)) ||
+      (status = rt_explicit_stage(s, o, h, s->d->n_x, 3, 1, a3, false)))
     return status;
-  return rt_explicit_stage(s, o, h, 4, 1, b);
+  return rt_explicit_stage(s, o, h, s->d->n_x, 4, 1, b, true);
 }
 
 /* Cubic Hermite polynomial through both ends of the step: local error O(h^4), so one event does not cost the order. */

@@ -34,7 +34,7 @@ static void clear(rt_session *s) {
   memset(s->division_sign, 0, (size_t)d->n_divisions);
   for (int r = 0; r < d->n_rel; r++) {
     s->changed_at[0][r] = s->changed_at[1][r] = s->start;
-    s->due_back[r] = -INFINITY;
+    s->due_back[r] = s->last_due_back = -INFINITY;
   }
   memset(s->g_span, 0, (size_t)d->n_rel * sizeof *s->g_span);
   memset(s->g_travel, 0, (size_t)d->n_rel * sizeof *s->g_travel);

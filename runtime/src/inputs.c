@@ -15,17 +15,26 @@ static int sample_at(const rt_input *in, int guess, double t) {
   return k;
 }
 
-static double linear(rt_input *in, double t) {
+/* Beyond the line on which the input was last. */
+static double move_on(rt_input *in, double t) {
   int k = in->cursor = sample_at(in, in->cursor, t);
-  if (k + 1 == in->n || t <= in->time[k]) return in->values[k];
-  double fraction = (t - in->time[k]) / (in->time[k + 1] - in->time[k]);
-  return in->values[k] + fraction * (in->values[k + 1] - in->values[k]);
+  if (k + 1 == in->n || t < in->time[k]) return in->values[k];
+  in->from = in->time[k];
+  in->until = in->time[k + 1];
+  in->span = in->until - in->from;
+  in->base = in->values[k];
+  in->rise = in->values[k + 1] - in->base;
+  return in->base + (t - in->from) / in->span * in->rise;
+}
+
+static inline double linear(rt_input *in, double t) {
+  return t >= in->from && t < in->until ? in->base + (t - in->from) / in->span * in->rise : move_on(in, t);
 }
 
 /* A run begins: nothing is known of the samples to come. */
 void rt_inputs_reset(rt_session *s) {
   for (int i = 0; i < s->d->n_u; i++)
-    s->inputs[i].ahead = 0;
+    s->inputs[i].ahead = 0, s->inputs[i].from = s->inputs[i].until = 0;
 }
 
 /* Inputs from t on: samples at t itself have been reached. */

@@ -41,12 +41,13 @@ static bool allocate_numbers(rt_session *s) {
   double **unknowns[] = {&s->range, &s->outgrown, &s->atol, &s->y, &s->yp},
          **samples[] = {&s->clock.first, &s->clock.interval};
   double **algebraic[] = {&m->v, &s->v_trial, &s->v_before, &s->v_end, &s->v_agreed, &r->v}, **dense[] = {&s->dense.c},
-         **shapes[] = {&s->shape, &s->rates};
+         **shapes[] = {&s->shape, &s->rates, &s->swing};
   double **states[] = {&m->x,           &m->xdot,  &s->initial_value, &s->x_trial, &s->xdot_trial, &s->x_before,
                        &s->xdot_before, &s->x_end, &s->xdot_end,      &r->x,       &r->xdot,       &s->x_swept};
   double **sizes[] = {&s->nominal}, **division[] = {&s->division};
-  double **guards[] = {&s->g,       &s->g_previous, &s->g_low,    &s->g_trial,       &s->g_before,      &s->g_oldest,
-                       &s->g_reach, &s->g_span,     &s->g_travel, &s->changed_at[0], &s->changed_at[1], &s->due_back};
+  double **guards[] = {&s->g,       &s->g_previous, &s->g_low,  &s->g_trial,  &s->g_before,      &s->g_oldest,
+                       &s->g_reach, &s->bound,      &s->g_span, &s->g_travel, &s->changed_at[0], &s->changed_at[1],
+                       &s->due_back};
   double **turns[] = {&s->phase, &s->phase_start};
   const group groups[] = {{parameters, COUNT(parameters), d->n_p},
                           {inputs, COUNT(inputs), d->n_u},
@@ -129,6 +130,7 @@ rt_session *rt_session_new(const rt_model *model, const rt_options *options, cha
     s->atol_given = s->options.atol > 0;
     if (!s->atol_given) s->options.atol = 0.01 * s->options.rtol;
     s->memory = s->method->create(s);
+    s->slopes = rt_slopes_new(s->d);
   }
   if (s->memory) return s;
   snprintf(message, size, "cannot set up solver %s: out of memory", method->name);
@@ -142,6 +144,7 @@ void rt_session_free(rt_session *s) {
   rt_delays_free(s);
   rt_transports_free(s);
   if (s->memory) s->method->destroy(s->memory);
+  rt_slopes_free(s->slopes);
   free(s->inputs);
   free(s->held);
   free(s->clock.next);

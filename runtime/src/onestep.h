@@ -2,8 +2,6 @@
 #ifndef RT_ONESTEP_H
 #define RT_ONESTEP_H
 
-#include <string.h>
-
 #include "session.h"
 
 enum { RT_MOST_STAGES = 8 }; /* of any scheme */
@@ -52,6 +50,7 @@ int rt_onestep_tangent_step(rt_session *s, rt_onestep *o, double h, double *squa
 void rt_onestep_tangent_accept(rt_session *s, rt_onestep *o);
 void rt_onestep_dense_tangent(rt_session *s, void *memory, rt_dense *dense);
 void rt_onestep_tangent_free(rt_onestep *o);
+void rt_onestep_keep_stage(rt_session *s, rt_onestep *o, int j) __attribute__((noinline));
 
 /* States are taken in pairs, whose last one overlaps the one before where their number is odd. Arrays have room for one
  * more than n, so that a single state is a pair too; what is beyond n is computed from anything and used for nothing.
@@ -66,41 +65,44 @@ static inline rt_pair rt_load(const double *a) {
   return *(const rt_pair *)a;
 }
 
-/* The same, of two numbers that have just been written one by one, for which the processor would have to wait. */
+/* The same, of two numbers that have just been written one by one: for both at once the processor would have to wait.
+ */
 static inline rt_pair rt_load_fresh(const double *a) {
-  return (rt_pair){a[0], a[1]};
+  const volatile double *each = a;
+  return (rt_pair){each[0], each[1]};
 }
 
 static inline void rt_store(double *a, rt_pair pair) {
   *(rt_pair *)a = pair;
 }
 
-/* x1 = x0 + sum_j (h a_j) k_j over the first n stages. Inline, so that a known n unrolls. */
-static inline const double *rt_stage(const rt_session *s, rt_onestep *o, double h, int n, const double *a) {
-  int n_x = s->d->n_x;
-  double weight[RT_MOST_STAGES];
+/* x1 = x0 + sum_j (h a_j) k_j over the first n stages, of n_x states. Inline, so that a known n unrolls, and a known
+ * n_x too; what o points to is taken out of it first, as for all that is known a pair may be written over it. */
+static inline __attribute__((always_inline)) const double *rt_stage(rt_onestep *o, double h, int n_x, int n,
+                                                                    const double *a) {
+  const double *x0 = o->x0, *k = o->k;
+  double *x1 = o->x1;
+  rt_pair weight[RT_MOST_STAGES];
   for (int j = 0; j < n; j++)
-    weight[j] = h * a[j];
+    weight[j] = (rt_pair){h, h} * a[j];
   for (int next = 0; next < n_x; next += 2) {
     int i = rt_pair_at(n_x, next);
-    const double *k = o->k + i;
-    rt_pair sum = rt_load(o->x0 + i);
-    for (int j = 0; j < n - 1; j++, k += n_x)
-      sum += weight[j] * rt_load(k);
-    if (n > 0) sum += weight[n - 1] * rt_load_fresh(k);
-    rt_store(o->x1 + i, sum);
+    rt_pair sum = rt_load(x0 + i);
+    for (int j = 0; j < n - 1; j++)
+      sum += weight[j] * rt_load(k + j * n_x + i);
+    if (n > 0) sum += weight[n - 1] * rt_load_fresh(k + (n - 1) * n_x + i);
+    rt_store(x1 + i, sum);
   }
-  return o->x1;
+  return x1;
 }
 
-/* Explicit stage j at t0 + c h: k_j = f(t0 + c h, x0 + h sum_l a_l k_l), l < j. */
-static inline int rt_explicit_stage(rt_session *s, rt_onestep *o, double h, int j, double c, const double *a) {
-  const double *x = rt_stage(s, o, h, j, a);
-  int status = rt_rhs(s, o->t0 + c * h, x, o->k + j * s->d->n_x, s->data.v);
-  if (o->tangent) {
-    memcpy(o->stage_x + j * s->d->n_x, x, (size_t)s->d->n_x * sizeof *x);
-    memcpy(o->stage_v + j * s->d->n_v, s->data.v, (size_t)s->d->n_v * sizeof *x);
-  }
+/* Explicit stage j at t0 + c h: k_j = f(t0 + c h, x0 + h sum_l a_l k_l), l < j; v too of the last one, the end. */
+static inline __attribute__((always_inline)) int rt_explicit_stage(rt_session *s, rt_onestep *o, double h, int n_x,
+                                                                   int j, double c, const double *a, bool last) {
+  const double *x = rt_stage(o, h, n_x, j, a);
+  double t = o->t0 + c * h, *k = o->k + j * n_x;
+  int status = last || o->tangent ? rt_rhs(s, t, x, k, s->data.v) : rt_derivatives(s, t, x, k, s->data.v);
+  if (o->tangent) rt_onestep_keep_stage(s, o, j);
   return status;
 }
 

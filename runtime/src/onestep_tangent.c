@@ -2,6 +2,7 @@
  * once, at the points that the stages of the run itself have been at. So a step's tangents are exactly the derivative
  * of what the step computes. They come after the run's own error test, and may reject the step too. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "onestep.h"
 #include "sensitivity.h"
@@ -115,6 +116,12 @@ MDL_WIDE static double worst_column(const rt_session *s, const rt_onestep *t) {
       worst = sum[k] > worst ? sum[k] : worst;
   }
   return s->d->n_x ? worst / s->d->n_x : 0;
+}
+
+/* The point of stage j, at which the model is to be differentiated. */
+void rt_onestep_keep_stage(rt_session *s, rt_onestep *o, int j) {
+  memcpy(o->stage_x + j * s->d->n_x, o->x1, (size_t)s->d->n_x * sizeof *o->x1);
+  memcpy(o->stage_v + j * s->d->n_v, s->data.v, (size_t)s->d->n_v * sizeof *s->data.v);
 }
 
 /* Tangents of the step that the run's own error test has accepted; `square` (NULL: no error test) becomes that of the

@@ -31,8 +31,7 @@ double rt_spread(int n, const double *p) {
   return sum;
 }
 
-/* Between *low and *high are the values of p on [0, 1]: its coefficients in the basis of Bernstein. */
-void rt_enclose(int n, const double *p, double *low, double *high) {
+static inline __attribute__((always_inline)) void enclose(int n, const double *p, double *low, double *high) {
   static const double per_choice[][RT_MOST_COEFFICIENTS] = {{1},
                                                             {1, 1},
                                                             {1, 1. / 2, 1},
@@ -45,11 +44,21 @@ void rt_enclose(int n, const double *p, double *low, double *high) {
   for (int i = 1; i <= n; i++)
     for (int k = n; k >= i; k--)
       b[k] += b[k - 1];
-  *low = *high = b[0];
+  double least = b[0], most = b[0];
   for (int k = 1; k <= n; k++) {
-    *low = rt_min(*low, b[k]);
-    *high = rt_max(*high, b[k]);
+    least = rt_min(least, b[k]);
+    most = rt_max(most, b[k]);
   }
+  *low = least;
+  *high = most;
+}
+
+/* Between *low and *high are the values of p on [0, 1]: its coefficients in the basis of Bernstein. */
+void rt_enclose(int n, const double *p, double *low, double *high) {
+  if (n == 4) /* as of dopri5: unrolled */
+    enclose(4, p, low, high);
+  else
+    enclose(n, p, low, high);
 }
 
 /* The root of p between a and b in [0, 1], where its sign is another one, known as well as that: by Newton's steps,

@@ -23,6 +23,7 @@ void rt_record_begin(rt_session *s) {
 }
 
 static rt_status reserve(rt_session *s, size_t rows) {
+  if (s->result->rows + rows <= s->result->capacity) return RT_OK;
   if ((double)(s->result->rows + rows) * (s->recorder.n + 2) > RT_MOST_VALUES)
     return rt_fail(s, RT_MEMORY, s->t, -1, NULL, "more than %.0g values are recorded up to time %.9g s", RT_MOST_VALUES,
                    s->t);
@@ -99,21 +100,36 @@ static rt_status write_interpolated(rt_session *s, double t) {
   return status ? status : write_row(s, t, r->x, r->xdot, r->v, tangents, 0);
 }
 
-/* A row inside the last step where nothing but states changes inside a step. */
-static rt_status write_states(rt_session *s, double t) {
-  rt_status status = reserve(s, 1);
-  if (status) return status;
+/* What a state or what is constant inside a step is where (t - t0) / h is theta. */
+static inline double value_inside(const rt_session *s, const rt_output *o, double theta) {
+  const rt_dense *dense = &s->dense;
+  int n = s->d->n_x;
+  if (o->storage != MDL_STATE) return (o->storage == MDL_PARAMETER ? s->data.p : s->data.d)[o->index];
+  const double *c = dense->c + o->index;
+  if (dense->degree == 4) /* as that of dopri5, which most rows are from */
+    return (((c[4 * n] * theta + c[3 * n]) * theta + c[2 * n]) * theta + c[n]) * theta + c[0];
+  double sum = *(c += dense->degree * n);
+  for (int k = dense->degree; k > 0; k--)
+    sum = sum * theta + *(c -= n);
+  return sum;
+}
+
+/* Rows from grid point *t on that are before `inside`, of a step in which nothing but states changes; *t is the first
+ * grid point behind them. */
+static rt_status write_states(rt_session *s, double inside, double *t) {
   rt_dense_prepare(s);
   rt_result *result = s->result;
-  size_t row = result->rows++;
-  double theta = (t - s->dense.t0) / s->dense.h;
-  result->time[row] = t;
-  result->event[row] = 0;
-  for (int j = 0; j < s->recorder.n; j++) {
-    const rt_output *o = &s->recorder.outputs[j];
-    double value = o->storage == MDL_STATE ? rt_dense_state(&s->dense, s->d->n_x, o->index, theta)
-                                           : (o->storage == MDL_PARAMETER ? s->data.p : s->data.d)[o->index];
-    result->columns[j][row] = o->sign * value;
+  const int n = s->recorder.n;
+  for (; *t < inside; *t = grid_time(s, ++s->recorder.next)) {
+    rt_status status = reserve(s, 1);
+    if (status) return status;
+    const rt_output *o = s->recorder.outputs;
+    size_t row = result->rows++;
+    double theta = (*t - s->dense.t0) / s->dense.h;
+    result->time[row] = *t;
+    result->event[row] = 0;
+    for (double **column = result->columns, **end = column + n; column < end; column++, o++)
+      (*column)[row] = o->sign * value_inside(s, o, theta);
   }
   return RT_OK;
 }
@@ -126,14 +142,14 @@ static rt_status record_grid(rt_session *s, bool closed) {
   double inside = s->t - s->clock.tolerance, end = closed ? s->t + s->clock.tolerance : inside;
   double t = grid_time(s, r->next);
   if (t > end) return status;
-  bool short_way = !r->needs_point && !s->sensitivities;
+  if (t < inside && !r->needs_point && !s->sensitivities) status = write_states(s, inside, &t);
   for (; !status && t <= end; t = grid_time(s, ++r->next)) {
-    if (t >= inside) {
-      rt_inputs_at(s, s->t);
-      status = write_present(s, t, 0);
-    } else {
-      status = short_way ? write_states(s, t) : write_interpolated(s, t);
+    if (t < inside) {
+      status = write_interpolated(s, t);
+      continue;
     }
+    rt_inputs_at(s, s->t);
+    status = write_present(s, t, 0);
   }
   return status;
 }

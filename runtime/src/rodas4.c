@@ -174,10 +174,10 @@ static int attempt(rt_session *s, rt_onestep *o, double h) {
   if (status) return status;
   for (int j = 0; j < STAGES; j++) {
     double *k = o->k + j * n;
-    const double *x = rt_stage(s, o, 1, j, a[j]);
+    const double *x = rt_stage(o, 1, s->d->n_x, j, a[j]);
     if (j == 0)
       memcpy(k, o->f0, (size_t)n * sizeof *k);
-    else if ((status = rt_rhs(s, o->t0 + alpha[j] * h, x, k, s->data.v)))
+    else if ((status = rt_derivatives(s, o->t0 + alpha[j] * h, x, k, s->data.v)))
       return status;
     for (int i = 0; i < n; i++) {
       double sum = 0;

@@ -115,12 +115,17 @@ static rt_status move_back(rt_session *s, double t) {
   return rt_fail_model(s, t, "evaluating the model at an event");
 }
 
-/* Extremes of the guards. A guard that was thrown back and comes through again in time without having switched its
+/* Extremes of the guards. */
+static void extend(rt_session *s) {
+  for (int r = 0; r < s->d->n_rel; r++)
+    rt_extend_guard(s, r, fabs(s->g[r]));
+}
+
+/* A guard that was thrown back and comes through again in time without having switched its
  * relation has lost an event: the last hops of its series are smaller than the hysteresis. */
-static rt_status follow(rt_session *s) {
+static rt_status check_due_back(rt_session *s) {
   for (int r = 0; r < s->d->n_rel; r++) {
     double held = s->data.rel[r] ? s->g[r] : -s->g[r];
-    rt_extend_guard(s, r, fabs(held));
     if (s->due_back[r] < s->t_previous || !s->options.locate_events || held <= rt_hysteresis(s, r)) continue;
     s->due_back[r] = -INFINITY;
     return rt_fail(s, RT_CHATTERING, s->t_previous, -1, &s->d->relations[r].source,
@@ -130,6 +135,14 @@ static rt_status follow(rt_session *s) {
                    s->t_previous);
   }
   return RT_OK;
+}
+
+/* Whether no guard has come near zero in the step, nor is past it at its end. */
+static bool is_calm(const rt_session *s) {
+  if (!(s->shaped && s->far && s->all_affine)) return false;
+  for (int r = 0; r < s->d->n_rel; r++)
+    if (!(s->data.rel[r] ? s->g[r] > 0 : s->g[r] < 0) && rt_is_state_relation(s, r)) return false;
+  return true;
 }
 
 /* A guard that has been zero so far has the size that it reaches in the step, where it keeps its side: beside it, what
@@ -173,7 +186,20 @@ static rt_status fail_endless(rt_session *s) {
                  s->t_previous);
 }
 
-/* Guards at the end of the step; where a relation has changed, move the end of the step back to the first change. */
+/* Where a relation has changed in the step, move its end back to the first change. */
+static rt_status find_change(rt_session *s) {
+  foresee_sizes(s);
+  double crossing = s->t;
+  if (!s->shaped) rt_swing_shape(s, NULL);
+  int status = search(s, &crossing);
+  if (status) return status == ENDLESS ? fail_endless(s) : rt_fail_model(s, s->t, "locating an event");
+  if (!s->pending) return RT_OK;
+  for (int r = 0; r < s->d->n_rel; r++)
+    s->flip[r] = s->flip[r] && rt_margin(s, r, s->g[r]) < 0;
+  return crossing < s->t ? move_back(s, crossing) : RT_OK;
+}
+
+/* Guards at the end of the step, and the first change of a relation in it. */
 rt_status rt_find_state_event(rt_session *s) {
   const mdl_descriptor *d = s->d;
   if (!d->n_rel) return RT_OK;
@@ -185,17 +211,10 @@ rt_status rt_find_state_event(rt_session *s) {
   s->g = oldest;
   s->result->counters.root_evaluations++;
   if (d->roots(m, s->t, m->x, m->xdot, m->v, s->g)) return rt_fail_model(s, s->t, "evaluating relations");
-  foresee_sizes(s);
-  double crossing = s->t;
-  if (!s->shaped) rt_swing_shape(s, NULL);
-  int status = search(s, &crossing);
-  if (status) return status == ENDLESS ? fail_endless(s) : rt_fail_model(s, s->t, "locating an event");
-  if (s->pending) {
-    for (int r = 0; r < d->n_rel; r++)
-      s->flip[r] = s->flip[r] && rt_margin(s, r, s->g[r]) < 0;
-    if (crossing < s->t && move_back(s, crossing)) return s->failure.status;
-  }
+  rt_status status = is_calm(s) ? RT_OK : find_change(s);
+  if (status) return status;
   s->t_oldest = s->t_before;
   s->t_before = s->t_previous;
-  return follow(s);
+  extend(s);
+  return s->last_due_back < s->t_previous ? RT_OK : check_due_back(s);
 }

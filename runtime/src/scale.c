@@ -37,8 +37,12 @@ rt_status rt_scale_parameters(rt_session *s) {
 }
 
 static void set_tolerances(rt_session *s) {
-  for (int i = 0; i < s->d->n_x; i++)
-    s->outgrown[i] = s->range[i] < s->nominal[i] ? 2 * s->range[i] : INFINITY;
+  s->growing = false;
+  for (int i = 0; i < s->d->n_x; i++) {
+    bool grows = s->range[i] < s->nominal[i];
+    s->outgrown[i] = grows ? 2 * s->range[i] : INFINITY;
+    s->growing |= grows;
+  }
   double relative = s->options.atol, least = s->atol_given ? 1 : rt_min(1, rt_max(lowest, rounding / relative));
   for (int i = 0; i < s->d->n_x + s->d->n_z; i++)
     s->atol[i] = relative * rt_min(s->nominal[i], rt_max(s->range[i], least * s->nominal[i]));
@@ -55,8 +59,16 @@ void rt_scale_start(rt_session *s) {
   set_tolerances(s);
 }
 
-/* A state has outgrown what is known of its size. */
+/* Whether a state has outgrown what is known of its size. */
+static bool has_outgrown(const rt_session *s) {
+  for (int i = 0; i < s->d->n_x; i++)
+    if (fabs(s->data.x[i]) > s->outgrown[i]) return true;
+  return false;
+}
+
+/* After a step: sizes that are still followed. */
 void rt_scale_grow(rt_session *s) {
+  if (!has_outgrown(s)) return;
   for (int i = 0; i < s->d->n_x; i++)
     s->range[i] = rt_max(s->range[i], fabs(s->data.x[i]));
   set_tolerances(s);

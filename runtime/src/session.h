@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "dense.h"
 #include "lacuna_runtime.h"
 #include "result.h"
 
@@ -21,29 +22,22 @@ typedef struct {
   const double *time, *values;
   int n, cursor, ahead;
   rt_interpolation interpolation;
+  double from, span, until, base, rise; /* the line on which the input was last; until <= from: not known */
 } rt_input;
 
 /* Time events: the next tick of each sample(), the next time relation, and the grid of a fixed step. */
 typedef struct {
   double *first, *interval; /* [n_sample] s */
   long *next;               /* [n_sample] number of the next tick */
-  double next_relation;
+  double next_relation, next_tick;
   double tolerance; /* instants closer than this are one (s) */
   long step;        /* number of the next point of the fixed-step grid */
 } rt_clock;
 
-/* The last step as one polynomial for each state: x_i(t) = sum_k c[k * n_x + i] s^k, s = (t - t0) / h. */
-#define RT_DENSE_DEGREE 5
-typedef struct {
-  double t0, h;
-  int degree;
-  bool valid;
-  double *c; /* [(RT_DENSE_DEGREE + 1) * n_x] */
-} rt_dense;
-
 typedef struct {
   mdl_storage storage;
-  int index, sign;
+  int index;
+  double sign;
 } rt_output;
 
 typedef struct {
@@ -110,6 +104,7 @@ struct rt_session {
   double *g_nominal;
   double *range;    /* [n_x + n_z] largest size so far, followed up to the nominal value */
   double *outgrown; /* [n_x] size from which on range is to be followed again */
+  bool growing;     /* some are */
   bool atol_given;  /* by the caller: it stays as it is */
   double *atol;     /* [n_x + n_z] */
   double *y, *yp;   /* [n_x + n_z] scratch for the residual form */
@@ -124,6 +119,7 @@ struct rt_session {
   bool in_pieces, resume;           /* the last step is longer; go on in it, for no state or slope has changed at t */
   double look, look_curved;         /* longest piece of the last step to be looked at at once, of any step (s) */
   double *phase, *phase_start, *shape, *rates; /* [n_phases] rad; [(RT_DENSE_DEGREE + 1) * n_rel] of swings.c */
+  double *swing, *bound; /* [(RT_DENSE_DEGREE + 1) * n_rel], [n_rel] of guards that come near in a step that is tried */
   rt_clock clock;
   rt_dense dense;
   double *g, *g_previous;                          /* [n_rel] guards at t and t_previous */
@@ -132,6 +128,7 @@ struct rt_session {
   double *g_reach; /* [n_rel] swings.c: no affine guard moves further in the last step from where it was at its start */
   double *g_span, *g_travel; /* [n_rel] largest |g| of the run, and since the relation last switched */
   double *changed_at[2];     /* [n_rel] when the relation last became false, true (s) */
+  double last_due_back;      /* the latest of */
   double *due_back;          /* [n_rel] until when it must switch back, having been thrown back; else -INFINITY */
   double *x_trial, *xdot_trial, *v_trial;
   double *x_before, *xdot_before, *v_before, *v_agreed; /* v_agreed: v as it follows what an event sets (events.c) */
@@ -140,7 +137,8 @@ struct rt_session {
   unsigned char *rel_swept, *when_before; /* relations before a sweep, when conditions before its pass */
   unsigned char *rel_before, *rel_trial;  /* [n_rel] */
   bool reinitialised, shaped; /* the last event did; shape is of the last step, with the present relations */
-  bool quiet, all_affine;     /* no affine guard crosses in the last step; all guards of state relations are affine */
+  bool far, quiet;            /* no affine guard comes near zero in the last step (reach.c), or crosses */
+  bool all_affine;            /* all guards of state relations are affine */
   unsigned char *flip;        /* [n_rel] relations that switch at t */
   int pending;
   double last_event;          /* time of the last event (s) */
@@ -148,6 +146,7 @@ struct rt_session {
   double *division;           /* [2 n_divisions] numerators and divisors */
   signed char *division_sign; /* [n_divisions] of their products when they were last looked at; 0 not known */
   int undetermined, n_held;   /* mdl_data.undetermined since the last event; terms that hold what it leaves open */
+  struct rt_slopes *slopes;   /* reach.c; NULL: there are none */
   struct rt_held *held;       /* [n_x + n_z], undetermined.h */
   rt_recorder recorder;
   struct rt_delays *delays;         /* delay.c; NULL: the model has none */
@@ -180,10 +179,14 @@ static inline bool rt_has_type(const mdl_variable *v, double value) {
 }
 
 static inline bool rt_finite(int n, const double *a) {
-  double sum = 0;
-  for (int i = 0; i < n; i++)
+  double sum = 0, beside = 0; /* two, because each waits for its last addition */
+  int i = 0;
+  for (; i + 1 < n; i += 2) {
     sum += a[i] - a[i];
-  return sum == 0;
+    beside += a[i + 1] - a[i + 1];
+  }
+  if (i < n) sum += a[i] - a[i];
+  return sum + beside == 0;
 }
 
 /* Rounding of time in this run (s): the same for seconds since the start and for seconds since 1970. */
@@ -233,6 +236,7 @@ void rt_append_equation(rt_session *s, int equation);
 
 /* evaluate.c: the model's functions, counted and guarded; > 0 recoverable, < 0 not, m->failure says why */
 int rt_rhs(rt_session *s, double t, const double *x, double *xdot, double *v);
+int rt_derivatives(rt_session *s, double t, const double *x, double *xdot, double *v);
 int rt_check_finite(rt_session *s, const double *x);
 int rt_evaluate(rt_session *s), rt_evaluate_into(rt_session *s, double *v);
 void rt_residual_point(rt_session *s);
@@ -259,13 +263,8 @@ double rt_clock_next(const rt_session *s);
 double rt_clock_limit(rt_session *s);
 int rt_clock_due(rt_session *s);
 void rt_clock_tick(rt_session *s);
+void rt_clock_look(rt_session *s);
 bool rt_clock_relations(rt_session *s);
-/* dense.c */
-void rt_dense_prepare(rt_session *s);
-void rt_dense_point(rt_session *s, double t, double *x);
-void rt_dense_eval(const rt_dense *dense, int n, double t, double *x);
-double rt_dense_state(const rt_dense *dense, int n, int i, double theta);
-
 /* guards.c, roots.c and dips.c */
 double rt_margin(const rt_session *s, int r, double g);
 int rt_guards_at(rt_session *s, double t, double *g);

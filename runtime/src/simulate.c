@@ -6,6 +6,7 @@
 #include "delay.h"
 #include "looks.h"
 #include "sensitivity.h"
+#include "swings.h"
 #include "transport.h"
 #include "undetermined.h"
 
@@ -85,6 +86,7 @@ rt_status rt_begin(rt_session *s) {
   if (status) return status;
   rt_scale_start(s);
   rt_looks_begin(s);
+  rt_slopes_forget(s);
   if (!status && s->sensitivities) status = rt_tangent_begin(s);
   if (!status) status = rt_check_asserts(s);
   if (!status) status = rt_follow_undetermined(s);
@@ -112,11 +114,7 @@ static rt_status step(rt_session *s) {
   rt_looks_start(s);
   rt_status status = s->method->step(s, s->memory, rt_clock_limit(s));
   s->t_end = s->t;
-  for (int i = 0; i < s->d->n_x; i++)
-    if (fabs(s->data.x[i]) > s->outgrown[i]) {
-      rt_scale_grow(s);
-      break;
-    }
+  if (s->growing) rt_scale_grow(s);
   s->tiny_steps = s->t - s->t_previous < rt_smallest_step(s) ? s->tiny_steps + 1 : 0;
   if (s->tiny_steps > MAX_TINY_STEPS) return rt_fail_collapse(s, s->t - s->t_previous, "its steps vanish");
   if (!status) status = rt_check_undetermined(s);

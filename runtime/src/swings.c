@@ -30,7 +30,7 @@ static const double smooth = 0.04;   /* error of the parabola, of the rates: a s
  * cannot be computed, guards are looked at as those that are not affine. */
 void rt_swing_shape(rt_session *s, const double *error) {
   const mdl_descriptor *d = s->d;
-  s->shaped = false;
+  s->shaped = s->far = false;
   if (!d->guard_rates || !s->options.locate_events) return;
   rt_dense_prepare(s);
   mdl_failure before = s->data.failure;
@@ -76,13 +76,14 @@ static int polynomial(const rt_session *s, int r, double g, double to, double *p
   int n = s->dense.degree;
   double sign = s->data.rel[r] ? 1 : -1, power = 1;
   double start = (s->t_previous - s->dense.t0) / s->dense.h, span = (to - s->t_previous) / s->dense.h;
+  const double *shape = s->shape + r;
   for (int k = 1; k <= n; k++)
-    p[k] = sign * s->shape[k * s->d->n_rel + r];
+    p[k] = *(shape += s->d->n_rel);
   for (int i = 0; i < n && start != 0; i++)
     for (int k = n - 1; k >= (i > 0 ? i : 1); k--)
       p[k] += start * p[k + 1];
   for (int k = 1; k <= n; k++)
-    p[k] *= power *= span;
+    p[k] *= sign * (power *= span);
   p[0] = sign * g;
   return n;
 }
@@ -109,17 +110,19 @@ static double allowed(const rt_session *s, int r, int n, const double *p, bool *
   return rt_max(rt_max(share * swing, clear * low), rt_max(rt_hysteresis(s, r), DBL_MIN));
 }
 
-/* The error estimate of the step to `to`, over what it may be, of the guard for which that is most; *near: one is. */
+/* The error estimate of the step to `to`, over what it may be, of the guard for which that is most; *near: one is. Its
+ * polynomial and its bound are kept. */
 static double estimated(rt_session *s, double to, bool *near) {
-  double largest = 0, p[MOST];
+  double largest = 0;
   *near = false;
   s->quiet = s->t_previous == s->dense.t0;
   for (int r = 0; r < s->d->n_rel; r++) {
+    s->bound[r] = 0;
     if (!s->d->affine_guards[r] || is_far(s, r)) continue;
     bool here;
-    int n = polynomial(s, r, s->g[r], to, p);
-    double bound = allowed(s, r, n, p, &here);
+    double *p = s->swing + r * MOST, bound = allowed(s, r, polynomial(s, r, s->g[r], to, p), p, &here);
     largest = rt_max(largest, fabs(s->shape[r]) / bound);
+    if (here) s->bound[r] = bound;
     *near |= here;
     s->quiet &= least(s, r, s->g[r]) >= 0;
   }
@@ -132,18 +135,15 @@ static double estimated(rt_session *s, double to, bool *near) {
  * 0.57 amplitudes pass, these three one of 0.027 at most. */
 static double compared(rt_session *s, double to) {
   const mdl_descriptor *d = s->d;
-  double largest = 0, p[MOST], h = to - s->t_previous;
+  double largest = 0, h = to - s->t_previous;
   if (!rt_look_along(s, to, between, BETWEEN)) return INFINITY;
   for (int r = 0; r < d->n_rel; r++) {
-    if (!d->affine_guards[r] || is_far(s, r)) continue;
-    bool near;
-    int n = polynomial(s, r, s->g[r], to, p);
-    double bound = allowed(s, r, n, p, &near), sign = s->data.rel[r] ? 1 : -1;
-    for (int i = 0; i < BETWEEN && near; i++) {
+    const double *p = s->swing + r * MOST, sign = s->data.rel[r] ? 1 : -1;
+    for (int i = 0; i < BETWEEN && s->bound[r] > 0; i++) {
       double slope = 0;
-      for (int k = n; k > 0; k--)
+      for (int k = s->dense.degree; k > 0; k--)
         slope = slope * between[i] + k * p[k];
-      largest = rt_max(largest, of_slope * fabs(slope - h * sign * s->rates[i * d->n_rel + r]) / bound);
+      largest = rt_max(largest, of_slope * fabs(slope - h * sign * s->rates[i * d->n_rel + r]) / s->bound[r]);
     }
   }
   return largest;
@@ -162,10 +162,7 @@ static double difference(int k, double *f) {
 /* Of guard r in a first step, from its rates along it: they must be a parabola nearly, so that the step is none of its
  * whole swings; and the error must be small beside the swing that such a bend of the rates is the beginning of. */
 static double rough(const rt_session *s, int r, double to) {
-  double p[MOST], f[PLACES], most = 0, h = to - s->t_previous;
-  bool near;
-  double bound = allowed(s, r, polynomial(s, r, s->g[r], to, p), p, &near);
-  if (!near) return 0;
+  double f[PLACES], bound = s->bound[r], most = 0, h = to - s->t_previous;
   for (int i = 0; i < PLACES; i++) {
     f[i] = s->rates[i * s->d->n_rel + r];
     most = rt_max(most, fabs(f[i]));
@@ -176,12 +173,21 @@ static double rough(const rt_session *s, int r, double to) {
   return rt_max(off * h / rt_max(bound, smooth * most * h), fabs(s->shape[r]) / rt_max(bound, share * swing));
 }
 
+/* The shape of the last step, as far as it is wanted; whether guards come near zero in it, or may. */
+static bool come_near(rt_session *s, const double *error) {
+  s->far = s->options.locate_events && rt_keep_away(s, error, 0.1 * clear);
+  if (s->far)
+    s->shaped = true;
+  else
+    rt_swing_shape(s, error);
+  return s->shaped && !s->far;
+}
+
 /* How much too large the step from t_previous to `to` is for the guards, where its error in the states is known: up to
  * 1 it is not. s->g belongs to its start. */
 double rt_swing_error(rt_session *s, double to, const double *error) {
   bool near;
-  rt_swing_shape(s, error);
-  if (!s->shaped) return 0;
+  if (!come_near(s, error)) return 0;
   double largest = estimated(s, to, &near);
   return near && largest <= 1 ? rt_max(largest, compared(s, to)) : largest;
 }
@@ -192,12 +198,11 @@ double rt_swing_error(rt_session *s, double to, const double *error) {
 double rt_swing_roughness(rt_session *s, double to, const double *error) {
   const mdl_descriptor *d = s->d;
   bool near;
-  rt_swing_shape(s, error);
-  if (!s->shaped || !(estimated(s, to, &near) >= 0 && near)) return 0;
+  if (!come_near(s, error) || !(estimated(s, to, &near) >= 0 && near)) return 0;
   if (!rt_look_along(s, to, along, PLACES)) return INFINITY;
   double largest = 0;
   for (int r = 0; r < d->n_rel; r++)
-    if (d->affine_guards[r] && !is_far(s, r)) largest = rt_max(largest, rough(s, r, to));
+    if (s->bound[r] > 0) largest = rt_max(largest, rough(s, r, to));
   return largest;
 }
 
@@ -240,6 +245,7 @@ static double first_bottom(rt_session *s, int r, double to) {
 /* The first crossing of guard r, which is past zero at `to`; how far it went before counts as its travel. */
 double rt_swing_crossing(rt_session *s, int r, double to) {
   double p[MOST], root[MOST], place[MOST];
+  if (s->far) rt_swing_shape(s, NULL);
   int n = polynomial(s, r, s->g_previous[r], to, p), count = rt_extremes(n, p, place);
   p[0] = rt_margin(s, r, s->g_previous[r]);
   double first = rt_roots_between(n, p, count, place, root) ? root[0] : 1;
@@ -251,7 +257,7 @@ double rt_swing_crossing(rt_session *s, int r, double to) {
 /* Look in the step up to *inside for guards that cross and come back, or cross before they do at its end. Where there
  * is one s->g belongs to *inside, where it is past zero; otherwise *inside stays as it is. */
 int rt_find_swing(rt_session *s, double *inside) {
-  if (!s->shaped || (s->quiet && s->t_previous == s->dense.t0)) return 0;
+  if (!s->shaped || s->far || (s->quiet && s->t_previous == s->dense.t0)) return 0;
   memcpy(s->v_trial, s->data.v, (size_t)s->d->n_v * sizeof *s->v_trial);
   for (int r = 0; r < s->d->n_rel; r++) {
     if (!s->d->affine_guards[r]) continue;

@@ -5,6 +5,12 @@
 #include "session.h"
 
 void rt_swing_shape(rt_session *s, const double *error);
+/* reach.c */
+struct rt_slopes *rt_slopes_new(const mdl_descriptor *d);
+void rt_slopes_free(struct rt_slopes *slopes);
+void rt_slopes_forget(rt_session *s);
+bool rt_keep_away(rt_session *s, const double *error, double share);
+
 bool rt_is_shaped(const rt_session *s, int r);
 bool rt_all_affine(const mdl_descriptor *d);
 double rt_swing_error(rt_session *s, double to, const double *error);

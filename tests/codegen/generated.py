@@ -26,6 +26,9 @@ class Data(Structure):
         *((name, c_double) for name in ("start_time", "homotopy")),
         *((name, c_long) for name in ("stack", "rounds")),
         ("undetermined", c_int),
+        ("transports", c_void_p),
+        ("carried", c_void_p),
+        ("brief", c_int),
         ("shift", c_double),
     ]
 

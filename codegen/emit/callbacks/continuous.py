@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 import re
 
 from lacuna.codegen.dae.prepared import Prepared
@@ -11,7 +11,7 @@ from lacuna.codegen.emit.callbacks.equations import EquationTable
 from lacuna.codegen.emit.text.body import Body
 from lacuna.codegen.emit.text.names import Names
 from lacuna.codegen.emit.text.steps import StepWriter, comment, place
-from lacuna.codegen.structure.causal import Step, expressions_of, unknowns_of
+from lacuna.codegen.structure.causal import Division, NonlinearBlock, Step, expressions_of, unknowns_of, upstream
 from lacuna.codegen.structure.residual_form import CJ, needed
 from lacuna.codegen.structure.sizes import told
 from lacuna.codegen.structure.sorting.tearing import Assignment
@@ -50,6 +50,10 @@ def c_function(signature: str, text: str) -> str:
     return "\n".join([*parts, *([text] if text else []), f"  return {result};", "}"])
 
 
+def _starts_from_values(step: Step) -> bool:
+    return isinstance(step, NonlinearBlock) or (isinstance(step, Division) and step.guess)
+
+
 class Continuous:
     """Writes the callbacks for continuous time of one model."""
 
@@ -69,12 +73,26 @@ class Continuous:
         return told(size) if size else ONE
 
     def rhs(self) -> str:
-        body = Body(self._names, self._storage.explicit)
-        self._steps(body, self._p.explicit, self._storage.place)
-        for step in self._p.explicit:
-            for u in unknowns_of(step):
-                body.line(f"{self._storage.place(u)} = {self._names.leaf(u)};")
+        """What x' follows from first, with the values that the next solutions start from; then the rest."""
+        body, steps = Body(self._names, self._storage.explicit), self._p.explicit
+        writer = StepWriter(body, self._equations.index, self._storage.place, self.nominal)
+        derivatives = set(self._p.system.derivatives)
+        first = set(map(id, upstream(steps, derivatives)))
+        needed, rest = ([s for s in steps if (id(s) in first) == own] for own in (True, False))
+        kept = derivatives.union(*(unknowns_of(s) for s in needed if _starts_from_values(s)))
+        body.plan(writer.plan(steps))
+        writer.write(needed)
+        self._store(body, [u for s in needed for u in unknowns_of(s) if u in kept])
+        later = [u for s in steps for u in unknowns_of(s) if u not in kept]
+        if later:
+            with body.scope("if (!m->brief)", writer.plan(rest)):
+                writer.write(rest)
+                self._store(body, later)
         return function(RHS, body)
+
+    def _store(self, body: Body, unknowns: Iterable[Expr]) -> None:
+        for u in unknowns:
+            body.line(f"{self._storage.place(u)} = {self._names.leaf(u)};")
 
     def initial_system(self) -> str:
         body = Body(self._names, self._storage.frozen)

@@ -8,12 +8,14 @@ Modelica tools do. The model notes it, and the runtime sees to it that no deriva
 
 from __future__ import annotations
 
-SOLVE = """\
+SOLVE_OF = """\
 /* Solve a x = b in place (row-major, n x n) by Gaussian elimination with scaled partial pivoting; b becomes x. Where a
  * is singular to working precision, 1 + the unknown that it does not determine: rows and columns have no scale. b has
- * 2 n places: behind the right sides come the sizes of what is summed up in them. */
-static int mdl_solve(int n, double *a, double *b) {
+ * 2 n places: behind the right sides come the sizes of what is summed up in them. Of the few unknowns that most blocks
+ * have all loops are written out. */
+static inline __attribute__((always_inline)) int mdl_solve_of(int n, double *a, double *b) {
   double size[n];
+#pragma GCC unroll 4
   for (int i = 0; i < n; ++i) {
     double largest = 0.0;
     for (int j = 0; j < n; ++j)
@@ -23,11 +25,13 @@ static int mdl_solve(int n, double *a, double *b) {
     b[i] *= scale;
     b[n + i] = fabs(b[i]);
   }
+#pragma GCC unroll 4
   for (int j = 0; j < n; ++j) {
     size[j] = 0.0;
     for (int i = 0; i < n; ++i)
       if (fabs(a[i * n + j]) > size[j]) size[j] = fabs(a[i * n + j]);
   }
+#pragma GCC unroll 4
   for (int k = 0; k < n; ++k) {
     int pivot = k;
     for (int i = k + 1; i < n; ++i)
@@ -53,12 +57,27 @@ static int mdl_solve(int n, double *a, double *b) {
       b[n + i] += fabs(factor) * b[n + k];
     }
   }
+#pragma GCC unroll 4
   for (int i = n - 1; i >= 0; --i) {
     for (int j = i + 1; j < n; ++j) b[i] -= a[i * n + j] * b[j];
     b[i] /= a[i * n + i];
   }
   return 0;
 }"""
+
+UNROLLED = (2, 3, 4)  # unknowns of blocks that are solved without loops
+SOLVES = {
+    "mdl_solve_of": SOLVE_OF,
+    "mdl_solve": "static int mdl_solve(int n, double *a, double *b) { return mdl_solve_of(n, a, b); }",
+    **{f"mdl_solve_{n}": f"static int mdl_solve_{n}(double *a, double *b) {{ return mdl_solve_of({n}, a, b); }}"
+       for n in UNROLLED},
+}  # fmt: skip
+
+
+def solved(n: int, a: str, b: str) -> str:
+    """The call that solves a x = b."""
+    return f"mdl_solve_{n}({a}, {b})" if n in UNROLLED else f"mdl_solve({n}, {a}, {b})"
+
 
 LEAST = """\
 static void mdl_swap(double *a, double *b) {

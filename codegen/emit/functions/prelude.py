@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from lacuna.codegen.emit.functions.function_body import ROUNDS, STACK
-from lacuna.codegen.emit.functions.linear import FACTOR, LEAST, SOLVE, SUBSTITUTE
+from lacuna.codegen.emit.functions.linear import FACTOR, LEAST, SOLVES, SUBSTITUTE
 from lacuna.codegen.emit.functions.newton import NEWTON
 from lacuna.codegen.emit.functions.random_numbers import NATIVE, WORDS
 from lacuna.codegen.emit.text.expression import HELPERS
@@ -57,7 +57,7 @@ _HELPERS = {
     "mdl_fail": _FAIL,
     "mdl_index": _INDEX,
     "mdl_enter": _ENTER,
-    "mdl_solve": SOLVE,
+    **SOLVES,
     "mdl_least": LEAST,
     "mdl_factor": FACTOR,
     "mdl_substitute": SUBSTITUTE,

@@ -8,9 +8,11 @@ from contextlib import contextmanager
 from lacuna.codegen.emit.text.expression import c_type, is_trivial, lower_powers, to_c
 from lacuna.codegen.emit.text.names import Names
 from lacuna.codegen.symbolic.expr import BOOLEAN, Expr
-from lacuna.codegen.symbolic.leaves import LEAF_OPS, depends
+from lacuna.codegen.symbolic.leaves import LEAF_OPS, depends, leaves
 
 Access = Callable[[Expr], str | None]  # C text that loads a leaf from memory, None where it must be computed
+
+_GIVEN = tuple(f"m->{array}[" for array in ("p", "u", "d", "pre_d", "rel"))  # constant between events, or recorded
 
 
 class Body:
@@ -88,6 +90,10 @@ class Body:
 
     def _name(self, n: Expr) -> str | None:
         return self._defined.get(n) or self.names.table(n)
+
+    def is_given(self, e: Expr) -> bool:
+        """Whether `e` follows from the data of the run alone, not from what the function is given or computes."""
+        return all((self._access(n) or "").startswith(_GIVEN) for n in leaves(e))
 
     def let(self, leaf: Expr, value: Expr, declare: bool = True) -> None:
         """Define the local of a leaf; where `declare` is false it was declared before (and may change)."""

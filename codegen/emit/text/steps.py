@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from lacuna.codegen import flat
+from lacuna.codegen.emit.functions.linear import solved
 from lacuna.codegen.emit.text.body import Body
 from lacuna.codegen.emit.text.c_text import c_comment
 from lacuna.codegen.errors import Span
@@ -71,7 +72,7 @@ class StepWriter:
     def _solve(self, block: str, step: LinearBlock) -> None:
         """A singular matrix is told at the equation that comes with the unknown that it does not determine."""
         body, size = self._body, len(step.tears)
-        body.line(f"const int {block}_singular = mdl_solve({size}, {block}_a, {block}_b);")
+        body.line(f"const int {block}_singular = {solved(size, f'{block}_a', f'{block}_b')};")
         sizes = [self._nominal(u) for u in step.tears]
         with body.scope(f"if ({block}_singular)", sizes):
             equation = self._equation_of(step.residuals, f"{block}_singular")
@@ -127,12 +128,16 @@ class StepWriter:
             self._assignment(a)
 
     def _quotient(self, step: LinearBlock, name: str, matrix: str) -> None:
-        """One equation; 0 x = 0 leaves x open, see emit/functions/linear.py."""
+        """One equation; 0 x = 0 leaves x open, see emit/functions/linear.py. A divisor that no state decides is
+        inverted while the right side is computed: what waits for x would wait for the division too."""
         body, row, (right,) = self._body, step.residuals[0], step.right
-        nominal = self._nominal(step.tears[0])
+        nominal, ahead = self._nominal(step.tears[0]), body.is_given(step.matrix[0][0])
         body.line(f"const double {name}_divisor = {matrix};")
+        if ahead:
+            body.line(f"const double {name}_inverse = 1.0 / {name}_divisor;")
         body.line(f"double {name} = {body.value(right)};")
-        body.line(f"if ({name}_divisor != 0.0) {name} /= {name}_divisor;")
+        by = f"*= {name}_inverse" if ahead else f"/= {name}_divisor"
+        body.line(f"if ({name}_divisor != 0.0) {name} {by};")
         body.line(f"else if ({name} != 0.0) {self._fail('SINGULAR', row)}")
         with body.scope("else", [nominal]):
             body.line(f"{name} = m->shift * {body.value(nominal, 7)};")
@@ -176,5 +181,5 @@ class StepWriter:
         body.line(f"if ({block}_looked) continue;")
         matrix = ", ".join(body.value(j) for line in step.jacobian for j in line)
         body.line(f"double {block}_a[{size * size}] = {{{matrix}}};")
-        body.line(f"const int {block}_singular = mdl_solve({size}, {block}_a, {block}_r);")
+        body.line(f"const int {block}_singular = {solved(size, f'{block}_a', f'{block}_r')};")
         body.line(f"mdl_newton_step(&{block}, {block}_r, {block}_singular);")

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.codegen.generated import Generated
+from tests.codegen.generated import Generated, write_model
 
 ROOT = Path(__file__).parents[3]
 MODELS = [
@@ -37,6 +37,43 @@ def test_explicit_point_has_no_residual(points: tuple[Generated, list]) -> None:
         # rounding: the largest terms of a row are its Jacobian times the point
         terms = np.abs(model.jacobian(0.1, y, yp, CJ)) @ (np.maximum(np.abs(y), 1) + np.abs(yp) / CJ)
         assert np.all(np.abs(model.residual(0.1, y, yp)) <= 1e-13 * terms)
+
+
+def test_a_brief_look_gives_the_same_derivatives_and_leaves_alone_what_it_does_not_compute(
+    points: tuple[Generated, list],
+) -> None:
+    model, states = points
+    at_start = model.arrays["v"][: model.descriptor.n_v]
+    for x, rel in states:
+        model.arrays["rel"][: len(rel)] = rel
+        xdot, v = model.rhs(0.1, x)
+        model.data.brief = 1
+        xdot_alone, v_alone = model.rhs(0.1, x)
+        model.data.brief = 0
+        np.testing.assert_array_equal(xdot_alone, xdot)
+        assert np.all((v_alone == v) | (v_alone == at_start))
+
+
+def test_what_the_next_solution_starts_from_is_written_in_a_brief_look_too(tmp_path: Path) -> None:
+    """One of two nonlinear equations decides x'; the other decides an output alone, so a brief look passes it over."""
+    text = """model Both
+  Real x(start = 2, fixed = true), q, r, y;
+equation
+  q + 0.5*sin(q) = x;
+  r + 0.3*sin(r) = 2*x;
+  der(x) = -q;
+  y = r + q;
+end Both;
+"""
+    model = Generated(write_model(tmp_path, text), tmp_path)
+    n_v, at_start = model.descriptor.n_v, model.arrays["v"].copy()
+    _, v = model.rhs(0.0, np.array([2.0]))
+    model.data.brief = 1
+    _, alone = model.rhs(0.0, np.array([2.0]))
+    written = alone != at_start[:n_v]
+    assert np.count_nonzero(written) == 1
+    q = alone[written][0]
+    assert q in v and q + 0.5 * np.sin(q) == pytest.approx(2, rel=1e-12)
 
 
 def test_jacobian_is_the_derivative_of_the_residual(points: tuple[Generated, list]) -> None:

@@ -166,19 +166,14 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
   const double w1 = x[1];
   /* Shaft.mo:15  w1 = der(phi1) */
   const double der_phi1 = w1;
-  /* Shaft.mo:17  d/dt of phi1 = ratio*phi2 */
-  const double der_phi2_ = der_phi1 * inverse_of_ratio;
-  /* Shaft.mo:16  w2 = der(phi2) */
-  const double w2 = der_phi2_;
-  /* Shaft.mo:17  phi1 = ratio*phi2 */
-  const double phi2 = phi1 * inverse_of_ratio;
   /* Shaft.mo:18  drive = min(k*(w_ref - w1), tau_max) */
   const double drive = !rel0 ? k * (w_ref - w1) : tau_max;
   /* linear block of 5, torn to 1 */
   /* Shaft.mo:17  dd/dtdt of phi1 = ratio*phi2 */
   const double der_w1_divisor = 1.0 + ratio * (ratio * J1 * inverse_of_J2);
+  const double der_w1_inverse = 1.0 / der_w1_divisor;
   double der_w1 = ratio * (ratio * drive * inverse_of_J2);
-  if (der_w1_divisor != 0.0) der_w1 /= der_w1_divisor;
+  if (der_w1_divisor != 0.0) der_w1 *= der_w1_inverse;
   else if (der_w1 != 0.0) return mdl_fail(m, MDL_FAILURE_SINGULAR, 2, 0.0);
   else {
     const double tmp1 = fabs(k) * fabs(w_ref) / fabs(J1);
@@ -194,15 +189,23 @@ static int mdl_rhs(mdl_data *m, double t, const double *x, double *xdot, double 
   /* Shaft.mo:16  d/dt of w2 = der(phi2) */
   const double der_der_phi2_ = der_w2_;
   xdot[0] = der_phi1;
-  v[5] = der_phi2_;
-  v[1] = w2;
-  v[0] = phi2;
-  v[2] = drive;
   xdot[1] = der_w1;
-  v[3] = tau;
-  v[4] = der_der_phi1_;
-  v[7] = der_w2_;
-  v[6] = der_der_phi2_;
+  if (!m->brief) {
+    /* Shaft.mo:17  d/dt of phi1 = ratio*phi2 */
+    const double der_phi2_ = der_phi1 * inverse_of_ratio;
+    /* Shaft.mo:16  w2 = der(phi2) */
+    const double w2 = der_phi2_;
+    /* Shaft.mo:17  phi1 = ratio*phi2 */
+    const double phi2 = phi1 * inverse_of_ratio;
+    v[5] = der_phi2_;
+    v[1] = w2;
+    v[0] = phi2;
+    v[2] = drive;
+    v[3] = tau;
+    v[4] = der_der_phi1_;
+    v[7] = der_w2_;
+    v[6] = der_der_phi2_;
+  }
   return 0;
 }
 
