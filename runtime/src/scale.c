@@ -8,10 +8,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "session.h"
+#include "swings.h"
 
-static const double rounding = 1e-14; /* of the nominal value: no absolute tolerance is below it */
-static const double lowest = 1e-3;    /* of the nominal value: where a tolerance by the largest size begins */
+static const double lowest = 1e-3; /* of the nominal value: where a tolerance by the largest size begins */
 
 static double sized(double nominal, double start) {
   double size = nominal > 0 && isfinite(nominal) ? nominal : 0;
@@ -39,7 +38,7 @@ rt_status rt_scale_parameters(rt_session *s) {
 static void set_tolerances(rt_session *s) {
   for (int i = 0; i < s->d->n_x; i++)
     s->outgrown[i] = s->range[i] < s->nominal[i] ? 2 * s->range[i] : INFINITY;
-  double relative = s->options.atol, least = s->atol_given ? 1 : rt_min(1, rt_max(lowest, rounding / relative));
+  double relative = s->options.atol, least = s->atol_given ? 1 : rt_min(1, rt_max(lowest, RT_ROUNDING / relative));
   for (int i = 0; i < s->d->n_x + s->d->n_z; i++)
     s->atol[i] = relative * rt_min(s->nominal[i], rt_max(s->range[i], least * s->nominal[i]));
 }

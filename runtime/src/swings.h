@@ -4,6 +4,8 @@
 
 #include "session.h"
 
+#define RT_ROUNDING 1e-14 /* of a state's nominal value: no absolute tolerance is below it */
+
 void rt_swing_shape(rt_session *s, const double *error);
 bool rt_is_shaped(const rt_session *s, int r);
 bool rt_all_affine(const mdl_descriptor *d);
