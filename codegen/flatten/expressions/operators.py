@@ -53,11 +53,17 @@ def _pre(e: ast.Call, scope: Scope) -> Value:
 
 def _edge(e: ast.Call, scope: Scope) -> Value:
     (written,) = _take(e, 1)
-    x = lower_scalar(written, scope, BOOLEAN)
-    if x.op != "var":
-        hint = "give the expression a Boolean variable of its own"
-        raise Diagnostic("R052", "edge is of a Boolean variable", written.span, hint)
-    return ex.special("edge", x)
+
+    def build(x: Expr) -> Expr:
+        if x.type != BOOLEAN:
+            hint = "change(x) is of any variable"
+            raise Diagnostic("R020", f"this is {x.type}, Boolean is needed", written.span, hint)
+        if x.op != "var":
+            hint = "give the expression a Boolean variable of its own"
+            raise Diagnostic("R052", "edge is of a Boolean variable", written.span, hint)
+        return ex.special("edge", x)
+
+    return elementwise(build, [lower(written, scope)], e.span, "edge")
 
 
 def _change(e: ast.Call, scope: Scope) -> Value:

@@ -116,7 +116,10 @@ def construct(cls: ast.Class, e: ast.Call, scope: Scope) -> Value:
         each = [_call_one(CONSTRUCTOR, [cls], row, e.span, scope) for row in zip(*rows, strict=True)]
         if all(made is not None for made in each):
             return Array(arrays[0].shape, tuple(each))
-    return _from_fields(cls, e, scope) if found is None else found
+    if found is None:
+        hint = f"declare a function for it in {cls.name}.{CONSTRUCTOR}, or give what one of them takes"
+        raise Diagnostic("R079", f"no constructor of {cls.name} takes these arguments (14.3)", e.span, hint)
+    return found
 
 
 def _from_fields(cls: ast.Class, e: ast.Call, scope: Scope) -> Value:
@@ -175,7 +178,11 @@ def _call_one(
     function, bound = fitting[0]
     _check_results(name, function, classes[0], span, scope)
     call = ast.Call(span, ast.Ref(span, (function.name,), (None,)), [], {})
-    return call_function(function, call, scope, bound)[0]
+    results = call_function(function, call, scope, bound)
+    if not results:
+        hint = "a constructor gives its result by its fields: output R result(x = x)"
+        raise Diagnostic("R079", f"{function.name} of {name} calls itself for its result", function.span, hint)
+    return results[0]
 
 
 def _functions(name: str, classes: Sequence[ast.Class], scope: Scope) -> Iterator[ast.Class]:

@@ -183,7 +183,8 @@ def _emit(
     function = flat.Function(name, names, (), {}, {}, {}, [], cls.span)
     context.functions[name] = function
     source = context.table(Sources)[name] = Source(signature, inputs, fixed, [])
-    writer = Writer(function, Scope(context, cls, None, dict(fixed), in_function=True, pure=not cls.impure))
+    scope = Scope(context, signature.written_in, None, dict(fixed), in_function=True, pure=not cls.impure)
+    writer = Writer(function, scope)
     try:
         for local in (x for x in signature.in_order if x.name not in fixed):
             number = _settled(local, signature, writer.scope)
