@@ -30,6 +30,7 @@ from lacuna.codegen.flatten.equations.variables import (
 )
 from lacuna.codegen.flatten.experiment import experiment_of
 from lacuna.codegen.flatten.expressions.derivative import derivative_variables
+from lacuna.codegen.flatten.expressions.operators import Required
 from lacuna.codegen.flatten.language import LOWERING
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier
@@ -78,7 +79,7 @@ def flatten(
     context.finish()
     _check_connections(leaves, buses, body, context)
     model.whens, model.algorithms, model.initial_equations = body.whens, body.algorithms, initial.equations
-    model.asserts = body.asserts + initial.asserts
+    model.asserts = body.asserts + initial.asserts + context.table(Required)
     model.functions, model.derivatives = context.functions, context.derivatives
     at_events = [*assigned(model.whens), *(n for a in model.algorithms for n in a.targets)]
     with context.attempt():

@@ -188,7 +188,7 @@ def _check_bases(cls: ast.Class, context: Context) -> None:
     if cls.alias is not None and str(cls.alias.base) in PRIMITIVES and cls.kind not in ("type", "connector", "class"):
         hint = f"write: type {cls.name} = {cls.alias.base}"
         raise Diagnostic("R071", f"the {cls.kind} {cls.name} is a {cls.alias.base}", cls.alias.base.span, hint)
-    allowed = MAY_EXTEND.get(cls.kind, ()) if cls.alias is None or cls.kind != "type" else MAY_EXTEND["class"]
+    allowed = MAY_EXTEND.get(cls.kind, ())
     for reference, tree in base_clauses(cls):
         base = base_class(context.library, cls, reference, tree)
         if base is not None and cls.alias is None:
@@ -196,7 +196,10 @@ def _check_bases(cls: ast.Class, context: Context) -> None:
         if base is not None and cls.kind == base.kind == "function" and base.impure and not (cls.impure or cls.alias):
             hint = f"write impure before function {cls.name}"
             raise Diagnostic("R082", f"{cls.name} extends the impure function {base.name} (12.3)", cls.span, hint)
-        if base is None or base.kind in (*allowed, "class"):
+        any_class = (
+            base is not None and base.kind == "class" and (cls.kind != "type" or _is_simple(reference, cls, context))
+        )
+        if base is None or base.kind in allowed or any_class:
             continue
         if cls.kind == "function" and base.kind == "class":
             continue

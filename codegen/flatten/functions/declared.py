@@ -183,7 +183,8 @@ def bind_arguments(
             elif default is not None:
                 if _asks_for(default, open_, local):
                     continue
-                value, span = lower(default, local.around_default(inner)), default.span
+                meant = function_value if _takes_function(local) else lower
+                value, span = meant(default, local.around_default(inner)), default.span
             else:
                 value, span = _by_its_fields(cls, local, inner), local.declaration.span
             if value is None:

@@ -30,7 +30,7 @@ def call_external(signature: Signature, arguments: dict[str, Value], e: ast.Call
         return column_of_file(list(arguments.values()), scope.context, e.span)
     if external.language == "builtin" and external.function in scope.context.lowering.functions:
         call = ast.Call(e.span, ast.Ref(e.span, (external.function,), (None,)), external.args)
-        return [lower(call, inner)]
+        return [scope.context.lowering.functions[external.function](call, inner)]
     handler = HANDLERS.get(external.function or cls.name)
     if handler is None:
         check_foreign(signature, scope, e.span)
