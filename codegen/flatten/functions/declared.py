@@ -15,7 +15,7 @@ from lacuna.codegen.flatten.expressions.constants import AtRunTime
 from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.functions.annotated import with_derivatives
 from lacuna.codegen.flatten.functions.effort import is_small
-from lacuna.codegen.flatten.functions.fitting import SizeVaries, blank, evaluated, fit
+from lacuna.codegen.flatten.functions.fitting import SizeVaries, blank, counts_evaluated, evaluated, fit
 from lacuna.codegen.flatten.functions.interpret import interpret
 from lacuna.codegen.flatten.functions.kept.code import emitted_call
 from lacuna.codegen.flatten.functions.library.external import call_external
@@ -138,7 +138,13 @@ def _results(signature: Signature, arguments: dict[str, Value], e: ast.Call, sco
                 raise
         finally:
             context.call_depth -= 1
-    return emitted_call(signature, arguments, context, e.span)
+    try:
+        return emitted_call(signature, arguments, context, e.span)
+    except Diagnostic as error:
+        given = counts_evaluated(arguments, scope, e.span)
+        if error.code != "F036" or scope.in_function or given == arguments:
+            raise
+        return _results(signature, given, e, scope)  # parameters that decide how far it goes become structural
 
 
 def written_arguments(

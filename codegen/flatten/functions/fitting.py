@@ -203,6 +203,15 @@ def unknown_target(target: ast.Ref, names: dict[str, Value]) -> Diagnostic:
     return Diagnostic("R002", f"there is no variable {target.names[0]}", target.span, hint)
 
 
+def counts_evaluated(arguments: dict[str, Value], scope: Scope, span: Span) -> dict[str, Value]:
+    """Arguments with the values of parameters in the place of whole numbers."""
+
+    def whole(value: Value) -> bool:
+        return all(isinstance(s, Expr) and s.type == INTEGER for s in scalars(value))
+
+    return {n: evaluated(a, scope, span, n) if whole(a) else a for n, a in arguments.items()}
+
+
 def result_of(local: Local, value: Value, cls: ast.Class, context: Context) -> Value:
     """The value of an output. What some case alone leaves unassigned is no value: a run that meets the case ends, and a
     warning says so (12.4.4). Raises F033 for what no case assigns."""
