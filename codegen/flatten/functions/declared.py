@@ -14,7 +14,7 @@ from lacuna.codegen.flatten.classes.types import EXTERNAL
 from lacuna.codegen.flatten.expressions.constants import AtRunTime
 from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.functions.annotated import with_derivatives
-from lacuna.codegen.flatten.functions.effort import is_small
+from lacuna.codegen.flatten.functions.effort import MAX_INLINE_DEPTH, is_small
 from lacuna.codegen.flatten.functions.fitting import SizeVaries, blank, counts_evaluated, evaluated, fit
 from lacuna.codegen.flatten.functions.interpret import interpret
 from lacuna.codegen.flatten.functions.kept.code import emitted_call
@@ -39,7 +39,6 @@ from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.references import references
 from lacuna.suggest import did_you_mean
 
-MAX_INLINE_DEPTH = 12
 Written = dict[str, tuple[Value, Span]]  # arguments with their places, by the name of the input
 _EVENTFUL = ("abs", "sign", "floor", "ceil", "integer", "mod", "rem", "div")
 

@@ -13,6 +13,7 @@ from lacuna.codegen.symbolic.expr import Expr
 
 MAX_NESTED_STEPS = 100_000  # statements of a call and all calls inside it
 MAX_CALLS = 100  # inside each other
+MAX_INLINE_DEPTH = 12  # of inlined calls inside each other
 MAX_INLINE_NODES = 250  # of the expressions that an inlined call becomes
 
 
