@@ -30,6 +30,7 @@ from lacuna.codegen.flatten.equations.variables import (
 )
 from lacuna.codegen.flatten.experiment import experiment_of
 from lacuna.codegen.flatten.expressions.derivative import derivative_variables
+from lacuna.codegen.flatten.expressions.operators import Required
 from lacuna.codegen.flatten.language import LOWERING
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier
@@ -78,7 +79,7 @@ def flatten(
     context.finish()
     _check_connections(leaves, buses, body, context)
     model.whens, model.algorithms, model.initial_equations = body.whens, body.algorithms, initial.equations
-    model.asserts = body.asserts + initial.asserts
+    model.asserts = body.asserts + initial.asserts + context.table(Required)
     model.functions, model.derivatives = context.functions, context.derivatives
     at_events = [*assigned(model.whens), *(n for a in model.algorithms for n in a.targets)]
     with context.attempt():
@@ -189,6 +190,16 @@ def _leaves_of(nodes: Iterable[Node]) -> Iterator[Leaf]:
             yield from _leaves_of(node.child(name) for name in node.present)
 
 
+def _refuse_lasting(initial: Collected) -> None:
+    """Raises F031 for what goes on after the start, in an initial section."""
+    places = [w.span for w in initial.whens] + [connect.span for connect, _ in initial.connections]
+    places += [s.span for a in initial.algorithms for s in a.statements if isinstance(s, flat.When)]
+    if places:
+        initial.whens, initial.connections, initial.algorithms = [], [], []
+        hint = "write equations between initial values"
+        raise Diagnostic("F031", "'when' or 'connect' in an initial section", places[0], hint)
+
+
 def _sections(sections: list[tuple[ast.Section, ast.Class, Instance]]) -> tuple[Collected, Collected]:
     body, initial = Collected(), Collected()
     for section, cls, instance in sections:
@@ -200,9 +211,8 @@ def _sections(sections: list[tuple[ast.Section, ast.Class, Instance]]) -> tuple[
                 flatten_algorithm(section, scope, out)
             else:
                 flatten_items(section.items, scope, out)
-            if initial.whens or initial.algorithms or initial.connections:
-                hint = "write equations between initial values"
-                raise Diagnostic("F031", "'when' or 'connect' in an initial section", section.span, hint)
+            if section.initial:
+                _refuse_lasting(initial)
     return body, initial
 
 

@@ -13,9 +13,11 @@ from pathlib import Path
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.library.access import NONE, Access
+from lacuna.codegen.library.folders import only_class, refuse_both, refuse_twice
 from lacuna.codegen.library.search_path import (
     MODEL_FOLDER,
     PACKAGE_FILE,
+    holds_packages,
     is_file,
     is_folder,
     known_classes,
@@ -69,9 +71,11 @@ class Library:
         self.kept: list[object] = []  # whose identities are keys of those above
 
     def _package(self, folder: Path) -> ast.Class:
-        classes = self.parse_file(folder / PACKAGE_FILE)
-        self._folders[id(classes[0])] = folder
-        return classes[0]
+        package = only_class(self.parse_file(folder / PACKAGE_FILE), folder / PACKAGE_FILE)
+        if id(package) not in self._folders:
+            refuse_twice(package, folder)
+        self._folders[id(package)] = folder
+        return package
 
     @property
     def folders(self) -> list[Path]:
@@ -144,16 +148,17 @@ class Library:
 
     def _from_folder(self, cls: ast.Class, folder: Path, name: str) -> ast.Class | None:
         file = folder / f"{name}.mo"
+        package = folder / name / PACKAGE_FILE
         if is_file(file):
-            classes = self.parse_file(file)
-        elif is_file(folder / name / PACKAGE_FILE):
-            classes = [self._package(folder / name)]
+            found = only_class(self.parse_file(file), file)
+            refuse_both(found, [package] if is_file(package) else [])
+        elif is_file(package):
+            found = self._package(folder / name)
         elif is_folder(folder / name):
-            hint = f"a folder is a package when it holds one: add {folder / name / PACKAGE_FILE}"
+            hint = f"a folder is a package when it holds one: add {package}"
             raise Diagnostic("F002", f"the folder {folder / name} holds no package.mo", cls.span, hint)
         else:
             return None
-        found = classes[0]
         if found.name != name:
             put_right = f"rename the class to {name}, or the file to {found.name}.mo"
             raise Diagnostic("F003", f"{file.name} declares {found.name}", found.span, put_right)
@@ -169,7 +174,7 @@ class Library:
         if cls is self.root:
             for place in self._places:
                 names.update(
-                    names_in(place) if _holds_packages(place) else [c.name for c in self._classes_at(place, "")]
+                    names_in(place) if holds_packages(place) else [c.name for c in self._classes_at(place, "")]
                 )
         elif id(cls) in self._folders:
             names.update(names_in(self._folders[id(cls)]))
@@ -293,7 +298,3 @@ class Library:
         """Full names of the models below `cls` (default: everywhere) that can be simulated by themselves as far as
         their kind tells: no functions, connectors, records, nothing partial. Reads all files."""
         return [c.path for c in self.all_classes(cls) if c.kind in MODEL_KINDS and not c.partial and not c.alias]
-
-
-def _holds_packages(place: Path) -> bool:
-    return place.is_dir() and not (place / PACKAGE_FILE).is_file()

@@ -68,6 +68,11 @@ def is_file(path: Path) -> bool:
         return False
 
 
+def holds_packages(place: Path) -> bool:
+    """Whether a folder is no package by itself."""
+    return place.is_dir() and not (place / PACKAGE_FILE).is_file()
+
+
 def is_folder(path: Path) -> bool:
     """As `is_file`."""
     try:

@@ -114,6 +114,15 @@ def const(value: float | int | bool) -> Expr:
     return node("const", (), value, kind)
 
 
+def nothing(type: str) -> Expr:
+    """What is no value of a type: where a run computes it, the run ends."""
+    return node("const", (), math.nan, type)
+
+
+def is_nothing(e: Expr) -> bool:
+    return e.op == "const" and e.value != e.value
+
+
 def var(name: str, type: str = REAL) -> Expr:
     return node("var", (), name, type)
 

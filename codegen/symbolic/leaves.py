@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from lacuna.codegen.symbolic.expr import Expr, table, transform
 
 LEAF_OPS = frozenset(("var", "der", "pre", "time", "rel", "tick", "initial", "terminal"))
@@ -48,3 +50,14 @@ def parts(e: Expr, operators: tuple[str, ...]) -> list[Expr]:
             else:
                 found.append(n)
     return found
+
+
+def always_reads(e: Expr, wanted: Collection[Expr]) -> bool:
+    """Does the value of `e` take one of these, whatever conditions hold?"""
+    waiting = [e]
+    while waiting:
+        n = waiting.pop()
+        if n in wanted:
+            return True
+        waiting += n.args[:1] if n.op == "if" else n.args
+    return False

@@ -151,6 +151,9 @@ class _Check:
                     for condition, inner in s.branches:
                         self._guarded(s.span, lambda c=condition: inference.of(c))
                         self._statements(inference, inner)
+                case flat.While():
+                    self._guarded(s.span, lambda c=s.condition: inference.of(c))
+                    self._statements(inference, s.body)
 
     def _note_inferred(self) -> None:
         """The SI units that were found for variables that declare none."""

@@ -34,11 +34,19 @@ static rt_status check_guards(rt_session *s) {
   return RT_OK;
 }
 
-/* An Integer that grew beyond what is exact, as by overflow in other tools. */
+static const double no_boolean = -1; /* what generated code gives a Boolean without a value */
+
+/* An Integer that grew beyond what is exact, as by overflow in other tools; a Boolean without a value: an element of an
+ * array by a subscript outside of it. */
 static rt_status check_integers(rt_session *s) {
   for (int i = 0; i < s->d->n_d; i++) {
-    if (!(fabs(s->data.d[i]) > RT_LARGEST_INTEGER)) continue;
+    bool nothing = s->data.d[i] == no_boolean;
+    if (!nothing && !(fabs(s->data.d[i]) > RT_LARGEST_INTEGER)) continue;
     int row = rt_find_row(s, MDL_DISCRETE, i);
+    if (nothing && row >= 0 && s->d->variables[row].type == MDL_BOOLEAN)
+      return rt_fail(s, RT_NONFINITE, s->t, row, NULL, "at time %.9g s the Boolean %s has no value", s->t,
+                     s->d->variables[row].name);
+    if (nothing) continue;
     if (row >= 0 && s->d->variables[row].type == MDL_INTEGER)
       return rt_fail(s, RT_DOMAIN, s->t, row, NULL,
                      "at time %.9g s the Integer %s is %.17g: beyond 2^53 not all are told apart", s->t,

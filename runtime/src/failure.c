@@ -44,7 +44,7 @@ static const char *describe(mdl_failure_kind kind) {
   case MDL_FAILURE_BOUND:
     return "parameter outside its bounds";
   case MDL_FAILURE_LOOP:
-    return "a function ran too long";
+    return "a loop or a function ran too long";
   case MDL_FAILURE_STACK:
     return "functions called each other too deep, or their arrays are too large";
   case MDL_FAILURE_FOREIGN:

@@ -45,9 +45,9 @@ static bool allocate_numbers(rt_session *s) {
   double **states[] = {&m->x,           &m->xdot,  &s->initial_value, &s->x_trial, &s->xdot_trial, &s->x_before,
                        &s->xdot_before, &s->x_end, &s->xdot_end,      &r->x,       &r->xdot,       &s->x_swept};
   double **sizes[] = {&s->nominal}, **division[] = {&s->division};
-  double **guards[] = {&s->g,       &s->g_previous, &s->g_low,  &s->g_trial,  &s->g_before,      &s->g_oldest,
-                       &s->g_reach, &s->bound,      &s->g_span, &s->g_travel, &s->changed_at[0], &s->changed_at[1],
-                       &s->due_back};
+  double **guards[] = {&s->g,        &s->g_previous,    &s->g_low,         &s->g_trial, &s->g_before,
+                       &s->g_oldest, &s->g_reach,       &s->bound,         &s->g_span,  &s->g_travel,
+                       &s->g_floor,  &s->changed_at[0], &s->changed_at[1], &s->due_back};
   double **turns[] = {&s->phase, &s->phase_start};
   const group groups[] = {{parameters, COUNT(parameters), d->n_p},
                           {inputs, COUNT(inputs), d->n_u},

@@ -8,10 +8,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "session.h"
+#include "swings.h"
 
-static const double rounding = 1e-14; /* of the nominal value: no absolute tolerance is below it */
-static const double lowest = 1e-3;    /* of the nominal value: where a tolerance by the largest size begins */
+static const double lowest = 1e-3; /* of the nominal value: where a tolerance by the largest size begins */
 
 static double sized(double nominal, double start) {
   double size = nominal > 0 && isfinite(nominal) ? nominal : 0;
@@ -43,7 +42,7 @@ static void set_tolerances(rt_session *s) {
     s->outgrown[i] = grows ? 2 * s->range[i] : INFINITY;
     s->growing |= grows;
   }
-  double relative = s->options.atol, least = s->atol_given ? 1 : rt_min(1, rt_max(lowest, rounding / relative));
+  double relative = s->options.atol, least = s->atol_given ? 1 : rt_min(1, rt_max(lowest, RT_ROUNDING / relative));
   for (int i = 0; i < s->d->n_x + s->d->n_z; i++)
     s->atol[i] = relative * rt_min(s->nominal[i], rt_max(s->range[i], least * s->nominal[i]));
 }

@@ -126,10 +126,10 @@ struct rt_session {
   double *g_low, *g_trial;                         /* [n_rel] while locating a crossing */
   double *g_before, *g_oldest, t_before, t_oldest; /* [n_rel] guards one and two steps earlier; NAN after a restart */
   double *g_reach; /* [n_rel] swings.c: no affine guard moves further in the last step from where it was at its start */
-  double *g_span, *g_travel; /* [n_rel] largest |g| of the run, and since the relation last switched */
-  double *changed_at[2];     /* [n_rel] when the relation last became false, true (s) */
-  double last_due_back;      /* the latest of */
-  double *due_back;          /* [n_rel] until when it must switch back, having been thrown back; else -INFINITY */
+  double *g_span, *g_travel, *g_floor; /* [n_rel] largest |g| in the run, since it switched; what rounding leaves */
+  double *changed_at[2];               /* [n_rel] when the relation last became false, true (s) */
+  double last_due_back;                /* the latest of */
+  double *due_back; /* [n_rel] until when it must switch back, having been thrown back; else -INFINITY */
   double *x_trial, *xdot_trial, *v_trial;
   double *x_before, *xdot_before, *v_before, *v_agreed; /* v_agreed: v as it follows what an event sets (events.c) */
   double *d_before, *d_after;             /* discrete variables before an event; and aside while it is differentiated */

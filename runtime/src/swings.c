@@ -107,7 +107,22 @@ static double allowed(const rt_session *s, int r, int n, const double *p, bool *
   rt_enclose(n, p, &low, &high);
   *near = low < high - low + fabs(s->shape[r]) / clear;
   double swing = s->method->multistep ? tenth * recent(s, r, low, high) : high - low;
-  return rt_max(rt_max(share * swing, clear * low), rt_max(rt_hysteresis(s, r), DBL_MIN));
+  return rt_max(rt_max(share * swing, clear * low), rt_max(rt_max(rt_hysteresis(s, r), s->g_floor[r]), DBL_MIN));
+}
+
+/* What the least tolerances of the states leave of the guards: no step is asked to be more exact. A guard that rises
+ * from zero as a power of time bends alike in every step, however small: only this ends it. Two weightings, as what
+ * one leaves of a sum may cancel. */
+static bool set_floors(rt_session *s) {
+  double *size = s->x_trial, *reach = s->g_trial;
+  for (int weighting = 1; weighting <= 2; weighting++) {
+    for (int i = 0; i < s->d->n_x; i++)
+      size[i] = RT_ROUNDING * s->nominal[i] * (1.5 + cos(weighting * (i + 1)));
+    if (s->d->guard_rates(&s->data, 0, size, reach)) return false;
+    for (int r = 0; r < s->d->n_rel; r++)
+      s->g_floor[r] = rt_max(s->g_floor[r], fabs(reach[r]));
+  }
+  return true;
 }
 
 /* The error estimate of the step to `to`, over what it may be, of the guard for which that is most; *near: one is. Its
@@ -183,27 +198,42 @@ static bool come_near(rt_session *s, const double *error) {
   return s->shaped && !s->far;
 }
 
+static double excess(rt_session *s, double to) {
+  bool near;
+  double largest = estimated(s, to, &near);
+  return near && largest <= 1 ? rt_max(largest, compared(s, to)) : largest;
+}
+
+static double roughness(rt_session *s, double to) {
+  const mdl_descriptor *d = s->d;
+  bool near;
+  if (!(estimated(s, to, &near) >= 0 && near)) return 0;
+  if (!rt_look_along(s, to, along, PLACES)) return INFINITY;
+  double largest = 0;
+  for (int r = 0; r < d->n_rel; r++)
+    if (s->bound[r] > 0) largest = rt_max(largest, rough(s, r, to));
+  return largest;
+}
+
+/* By a test that says how much too large a step is; beyond 1 it is asked again without what is below the floors. */
+static double tested(rt_session *s, double to, const double *error, double (*test)(rt_session *, double)) {
+  if (!come_near(s, error)) return 0;
+  memset(s->g_floor, 0, (size_t)s->d->n_rel * sizeof *s->g_floor);
+  double largest = test(s, to);
+  return largest > 1 && set_floors(s) ? test(s, to) : largest;
+}
+
 /* How much too large the step from t_previous to `to` is for the guards, where its error in the states is known: up to
  * 1 it is not. s->g belongs to its start. */
 double rt_swing_error(rt_session *s, double to, const double *error) {
-  bool near;
-  if (!come_near(s, error)) return 0;
-  double largest = estimated(s, to, &near);
-  return near && largest <= 1 ? rt_max(largest, compared(s, to)) : largest;
+  return tested(s, to, error, excess);
 }
 
 /* The same of the first steps of a method of rising order, whose polynomials are straight lines as yet, and err by as
  * much as what they begin with: the rates of the guards that are near must be smooth, so that the step is none of their
  * whole swings. */
 double rt_swing_roughness(rt_session *s, double to, const double *error) {
-  const mdl_descriptor *d = s->d;
-  bool near;
-  if (!come_near(s, error) || !(estimated(s, to, &near) >= 0 && near)) return 0;
-  if (!rt_look_along(s, to, along, PLACES)) return INFINITY;
-  double largest = 0;
-  for (int r = 0; r < d->n_rel; r++)
-    if (s->bound[r] > 0) largest = rt_max(largest, rough(s, r, to));
-  return largest;
+  return tested(s, to, error, roughness);
 }
 
 /* No tolerance is small enough for a guard: the one that the step to `to` errs in by most. */

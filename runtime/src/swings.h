@@ -4,6 +4,8 @@
 
 #include "session.h"
 
+#define RT_ROUNDING 1e-14 /* of a state's nominal value: no absolute tolerance is below it */
+
 void rt_swing_shape(rt_session *s, const double *error);
 /* reach.c */
 struct rt_slopes *rt_slopes_new(const mdl_descriptor *d);

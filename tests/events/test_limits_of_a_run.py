@@ -125,3 +125,18 @@ def test_a_guard_that_jumps_right_behind_time_zero_is_found(tmp_path: Path, solv
     result = simulated(tmp_path, model, solver=solver, stop=1.0)
     assert result.complete, result.failure
     assert result["z"][-1] == pytest.approx(-1, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("text", "parameter", "line", "why"),
+    [
+        (CLOCK, "interval", 6, "the interval of sample is positive"),
+        ("model Late\n  parameter Real T = 1;\n  Real x = delay(time, T);\nend Late;\n", "T", 3,
+         "the time of delay is not negative"),
+    ],
+)  # fmt: skip
+def test_a_parameter_that_no_operator_takes_is_told_with_its_line(
+    tmp_path: Path, text: str, parameter: str, line: int, why: str
+) -> None:
+    failure = simulated(tmp_path, text, parameters={parameter: -1.0}, stop=3.0).failure
+    assert failure.line == line and why in failure.message

@@ -96,3 +96,27 @@ end Stiff;
 def test_what_fast_rates_make_of_rounding_is_no_swing(tmp_path: Path, solver: str) -> None:
     """v = 0.5e-3 sin(300 t + 1): it rises at the start, and at 300 t + 1 = 2 pi, 4 pi, 6 pi, 8 pi."""
     counted(tmp_path, STIFF, solver, 0.1, (1e-4, 1e-6), n=5)
+
+
+STARTS = """model Starts
+  "an induction machine with a fan, from rest: the torque is a difference of products that are all but equal"
+  parameter Integer p = 2;
+  parameter Real Rs = 0.5, Rr = 0.4, L = 0.06, Lm = 0.057, J = 0.02;
+  Real s[2](each start=0, each fixed=true), r[2](each start=0, each fixed=true), is[2], ir[2];
+  Real w(start=0, fixed=true), v[3] = {310*cos(314*time - k*2.0943951023931953) for k in 0:2};
+equation
+  s = L*is + Lm*ir;
+  r = L*ir + Lm*is;
+  der(s) = [2/3, -1/3, -1/3; 0, sqrt(3)/3, -sqrt(3)/3]*v - Rs*is;
+  der(r) = p*w*{-r[2], r[1]} - Rr*ir;
+  J*der(w) = 1.5*p*(s[1]*is[2] - s[2]*is[1]) - 0.001*w*abs(w);
+end Starts;
+"""
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_noise_of_what_is_zero_as_yet_is_no_swing(tmp_path: Path, solver: str) -> None:
+    """The speed is of the size of rounding at first, and moves to and fro within it; against SciPy at the end."""
+    result = runtime.simulate(compiled(tmp_path, STARTS), solver=solver, rtol=1e-9, stop=0.1)
+    assert result.complete, result.failure
+    assert result["w"][-1] == pytest.approx(160.57559, rel=1e-6)

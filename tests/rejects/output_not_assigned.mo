@@ -4,10 +4,10 @@
 function f
   input Real a;
   output Real b;
+protected
+  Real c;
 algorithm
-  if a > 0 then
-    b := a;
-  end if;
+  c := a + b;
 end f;
 model M
   Real x = f(time);

@@ -10,6 +10,7 @@ from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.relations import Relation
 from lacuna.codegen.emit.callbacks.asserts import assert_index, of_parameters, write_assert
 from lacuna.codegen.emit.callbacks.continuous import function
+from lacuna.codegen.emit.functions.function_body import ROUNDS
 from lacuna.codegen.emit.text.body import Body
 from lacuna.codegen.emit.text.names import Names
 from lacuna.codegen.emit.text.steps import comment, place
@@ -17,6 +18,7 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.constants import dependency_order
 from lacuna.codegen.symbolic.expr import relation, sub, var, walk
 from lacuna.codegen.symbolic.leaves import leaves
+from lacuna.codegen.symbolic.rewrite import assigned
 
 EVENT = "static int mdl_event(mdl_data *m, double t, double *x, const double *xdot, const double *v)"
 TIME_RELATIONS = "static int mdl_time_relations(mdl_data *m, double t)"
@@ -34,7 +36,7 @@ class Discrete:
         self._p, self._names, self._rows = prepared, names, rows
         self._storage = prepared.storage
         self.messages: list[str] = []
-        self.when_count = 0
+        self.when_count = self.loop_count = 0
 
     # -- event ------------------------------------------------------------------------------------------------
 
@@ -104,6 +106,10 @@ class Discrete:
                 self._branches([(body.value(c), b) for c, b in s.branches])
             case flat.When():
                 self._when(s)
+            case flat.While():
+                self._while(s)
+            case flat.Break():
+                body.line("break;")
             case _:
                 raise Diagnostic("C003", f"{type(s).__name__.lower()} is not supported in an event section", s.span)
 
@@ -120,6 +126,19 @@ class Discrete:
             with self._body.scope(header, ()):
                 self._statements(statements)
             word = "else if"
+
+    def _while(self, s: flat.While) -> None:
+        """Expressions computed before the loop from what it assigns are not those of a later round."""
+        body, rounds = self._body, f"rounds{self.loop_count}"
+        self.loop_count += 1
+        body.line(f"int {rounds} = 0;")
+        with body.loop(var(name, self._type(name)) for name in assigned(s.body)):
+            body.line(f"if (!({body.value(s.condition)})) break;")
+            body.line(f"if (++{rounds} > {ROUNDS}) {{")
+            body.line("  (void)mdl_fail(m, MDL_FAILURE_LOOP, -1, 0.0);")
+            body.line("  return -1;")
+            body.line("}")
+            self._statements(s.body)
 
     def _when(self, w: flat.When) -> None:
         """A branch fires where its condition has become true; during initialisation only through initial()."""

@@ -14,7 +14,8 @@ from lacuna.codegen.emit.text.expression import function_name, lower_powers, to_
 from lacuna.codegen.emit.text.names import Names
 from lacuna.codegen.emit.text.steps import place
 from lacuna.codegen.errors import Diagnostic
-from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr, const, is_const
+from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr, is_const
+from lacuna.codegen.symbolic.expr import nothing as no_value
 from lacuna.codegen.symbolic.function_tangent import by_name
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import all_statements, expressions
@@ -74,13 +75,18 @@ class FunctionBody:
     # -- declarations and results -----------------------------------------------------------------------------
 
     def _declare(self, name: str) -> None:
+        """A variable that nothing was assigned to has no value (12.4.4): what comes of it ends the run."""
         shape, default = self._f.shapes[name], self._f.defaults.get(name)
-        c_name = self.c_name(name)
+        c_name, nothing = self.c_name(name), to_c(no_value(self._f.types[name]), lambda n: None)
         if not shape:
-            self._line(f"{c_type(self._f, name)} {c_name} = {self._text(default) if default is not None else '0'};")
-            return
-        elements = default.args if default is not None and default.args else (const(0.0),)
-        self._line(f"double {c_name}[{max(1, math.prod(shape))}] = {{{', '.join(map(self._text, elements))}}};")
+            self._line(f"{c_type(self._f, name)} {c_name} = {nothing if default is None else self._text(default)};")
+        elif default is not None and default.args:
+            elements = ", ".join(map(self._text, default.args))
+            self._line(f"double {c_name}[{math.prod(shape)}] = {{{elements}}};")
+        else:
+            size = max(1, math.prod(shape))
+            self._line(f"double {c_name}[{size}];")
+            self._line(f"for (int next = 0; next < {size}; next++) {c_name}[next] = {nothing};")
 
     def _leave(self) -> str:
         """Statements that hand over the results and return."""

@@ -141,6 +141,13 @@ class Body:
         self._defined, self._uses = {**outer_defined, **loaded}, outer_uses
         self._forget(self._changed[before:])
 
+    @contextmanager
+    def loop(self, changed: Iterable[Expr]) -> Iterable[None]:
+        """A block that is run until something leaves it; `changed` are the locals that it assigns."""
+        self._forget(changed)
+        with self.scope("for (;;)", ()):
+            yield
+
 
 def _natural(load: str) -> tuple:
     """Loads sorted by array, then index."""

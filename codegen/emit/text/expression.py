@@ -24,6 +24,7 @@ HELPERS = {
 }
 
 Lookup = Callable[[Expr], str | None]
+NO_BOOLEAN = "-1"  # what a Boolean is that has no value, as NaN is of a number; the runtime looks for it
 
 
 def number(value: float | int | bool) -> str:
@@ -62,7 +63,7 @@ def _print(e: Expr, name: Lookup) -> tuple[str, int]:
     if known is not None:
         return known, _PRIMARY
     if e.op == "const":
-        text = number(e.value)
+        text = number(e.value) if e.type != BOOLEAN or e.value in (0, 1) else NO_BOOLEAN
         return text, _UNARY if text.startswith("-") else _PRIMARY
     if e.op in _BINARY:
         return _print_binary(e, name)

@@ -11,6 +11,7 @@ from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier, from_tree, merge, same_modifier
 from lacuna.codegen.flatten.names.scope import PRIMITIVES, Scope, base_class, base_clauses, find_class, own_or_inherited
 from lacuna.codegen.flatten.names.unknown import unknown_class
+from lacuna.codegen.flatten.names.views import constraints_of
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.alike import alike
 from lacuna.suggest import did_you_mean
@@ -106,11 +107,11 @@ class Inheritance:
         self.sections += [(section, cls) for section in cls.sections]
 
     def _constraint(self, cls: ast.Class) -> Modifier | None:
-        """The modification of the constraining clause that `cls` was chosen under."""
-        if cls.constrained is None:
-            return None
-        tree, around = cls.constrained
-        return from_tree(tree, Scope(self._context, around, self._instance.parent))
+        """The modification of the constraining clauses that `cls` keeps to."""
+        found: Modifier | None = None
+        for tree, around in constraints_of(cls):
+            found = merge(found, from_tree(tree, Scope(self._context, around, self._instance.parent)))
+        return found
 
     def _leave_out(self, left_out: list[ast.Ref | ast.Connect], first: int, base: ast.Class) -> None:
         """Selective extension (Modelica 3.6, 7.4): drop inherited components with their connections, or connections."""

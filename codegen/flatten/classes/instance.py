@@ -15,12 +15,12 @@ from lacuna.codegen.flatten.classes.leaf import Leaf
 from lacuna.codegen.flatten.classes.prefixes import (
     check_block,
     check_component,
+    check_flow_record,
     check_outer,
     check_prefixes,
     varies_more,
 )
 from lacuna.codegen.flatten.classes.redeclared import check_modifier, check_redeclared, redeclaration, seen
-from lacuna.codegen.flatten.classes.restrictions import check_flow_record
 from lacuna.codegen.flatten.classes.subtypes import mismatch
 from lacuna.codegen.flatten.classes.types import Type, causality_of, resolve_type
 from lacuna.codegen.flatten.expressions.enumerations import IndexType, index_type
@@ -33,7 +33,9 @@ from lacuna.codegen.flatten.names.modifiers import (
     merge,
     narrow,
     refuse_each,
+    weakened,
     within_array,
+    without_attributes,
     without_removed,
 )
 from lacuna.codegen.flatten.names.scope import Scope
@@ -192,6 +194,7 @@ class Instance:
             message = f"{declaration.name} is modified, and {self.name} has a value as a whole"
             raise Diagnostic("R030", message, outside.span, hint)
         if given:
+            modifier = merge(outside, weakened(own)) or own
             modifier = replace(modifier, value=record.fields[declaration.name], index=())
         sizes = evaluate_dimensions([*declaration.dimensions], size_scope, modifier, declaration.name)
         index_types = tuple(index_type(d, size_scope) for d in declaration.dimensions)
@@ -202,7 +205,7 @@ class Instance:
         name = self.path_of(declaration.name)
         if found.primitive is not None:
             attributes = for_each(found.modifier) if sizes else found.modifier
-            complete = merge(modifier, attributes) or modifier
+            complete = without_attributes(merge(modifier, attributes) or modifier)
             return Leaf(self.context, self, declaration, name, found, tuple(sizes), complete, index_types)
         check_component(self.cls, declaration, found, self.context)
         if not sizes:

@@ -14,7 +14,7 @@ from lacuna.codegen.flatten.names.component import Component
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier
 from lacuna.codegen.flatten.names.scope import Scope
-from lacuna.codegen.flatten.names.values import Array, Record, Value, indices, shape_of, shape_text
+from lacuna.codegen.flatten.names.values import Array, Record, Value, indices, items_of, shape_of, shape_text
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.syntax import ast
@@ -67,6 +67,10 @@ class Leaf:
             if name not in ATTRIBUTES[self.primitive]:
                 hint = did_you_mean(name, ATTRIBUTES[self.primitive], "see the attributes in docs/language.md")
                 raise Diagnostic("R035", f"{self.primitive} has no attribute {name}", child.span, hint)
+            inner = next(iter(child.children), None)
+            if inner is not None:
+                message = f"{name} of {self.name} is a value and has no {inner}"
+                raise Diagnostic("R035", message, child.span, f"{inner} is an attribute of the variable")
         fixed = self.modifier.children.get("fixed")
         if self.variability == "constant" and self._is_false(fixed):
             hint = "declare it as a parameter, or leave fixed out"
@@ -164,6 +168,9 @@ class Leaf:
             raise Diagnostic("R036", message, modifier.span, "remove 'each', or give the value of one element")
         if shape_of(value) == self.shape:
             return value
+        own = shape_of(value)
+        if modifier.each and own and self.type.dimensions and self.shape[-len(own) :] == own:  # a type that is an array
+            return Array(self.shape, items_of(value) * (prod(self.shape) // max(prod(own), 1)))
         if not isinstance(value, Array) and modifier.each:
             return Array(self.shape, (value,) * prod(self.shape))
         sizes = f"{self.name} has size {shape_text(self.shape)}, {what} {shape_text(shape_of(value))}"

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.inheritance import Element
 from lacuna.codegen.flatten.classes.types import Type, is_partial
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.modifiers import Modifier
+from lacuna.codegen.flatten.names.scope import own_or_inherited
 from lacuna.codegen.symbolic.expr import REAL
 from lacuna.codegen.syntax import ast
 
@@ -113,3 +114,13 @@ def check_component(holder: ast.Class, declaration: ast.Component, found: Type, 
         if declaration.replaceable:
             hint = f"redeclare it: {declaration.name}(redeclare CLASS {declaration.name})"
         raise Diagnostic("R015", f"{cls.name} is partial and cannot be a component", declaration.span, hint)
+
+
+def check_flow_record(cls: ast.Class, span: Span, context: Context) -> None:
+    """An operator record that flows has '+', '-' and '0': what connections add up (9.2). Raises R079."""
+    if not (cls.operator and cls.kind == "record"):
+        return
+    for name in ("'+'", "'-'", "'0'"):
+        if own_or_inherited(context.library, cls, name) is None:
+            hint = "declare it in the operator record"
+            raise Diagnostic("R079", f"{cls.name} is a flow and has no operator {name}", span, hint)

@@ -10,7 +10,14 @@ from collections.abc import Iterator
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.imports import check_imports
 from lacuna.codegen.flatten.names.context import Context
-from lacuna.codegen.flatten.names.scope import PRIMITIVES, base_class, base_classes, base_clauses, own_or_inherited
+from lacuna.codegen.flatten.names.scope import (
+    PRIMITIVES,
+    base_class,
+    base_classes,
+    base_clauses,
+    find_first,
+    own_or_inherited,
+)
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.alike import alike
 
@@ -137,6 +144,10 @@ def _sections(cls: ast.Class) -> Iterator[Diagnostic]:
         section = cls.sections[0]
         what = "algorithm" if section.algorithm else "equations"
         yield Diagnostic("R070", f"a {cls.kind} has no {what}", section.span, "write a model or a block")
+    if cls.external is not None and cls.kind != "function":
+        yield Diagnostic("R070", f"a {cls.kind} has no external code (12.9)", cls.external.span, "call a function")
+    if cls.kind == "type" and cls.alias is None and cls.literals is None and not cls.extends and not cls.components:
+        yield Diagnostic("R070", f"the type {cls.name} is of nothing (4.7)", cls.span, "type T = Real")
     for place in (place for section in cls.sections for place in section.stray_breaks):
         yield Diagnostic("R059", "'break' outside of a loop", place, "it ends the loop around it")
 
@@ -177,7 +188,7 @@ def _check_bases(cls: ast.Class, context: Context) -> None:
     if cls.alias is not None and str(cls.alias.base) in PRIMITIVES and cls.kind not in ("type", "connector", "class"):
         hint = f"write: type {cls.name} = {cls.alias.base}"
         raise Diagnostic("R071", f"the {cls.kind} {cls.name} is a {cls.alias.base}", cls.alias.base.span, hint)
-    allowed = MAY_EXTEND.get(cls.kind, ()) if cls.alias is None or cls.kind != "type" else MAY_EXTEND["class"]
+    allowed = MAY_EXTEND.get(cls.kind, ())
     for reference, tree in base_clauses(cls):
         base = base_class(context.library, cls, reference, tree)
         if base is not None and cls.alias is None:
@@ -185,13 +196,17 @@ def _check_bases(cls: ast.Class, context: Context) -> None:
         if base is not None and cls.kind == base.kind == "function" and base.impure and not (cls.impure or cls.alias):
             hint = f"write impure before function {cls.name}"
             raise Diagnostic("R082", f"{cls.name} extends the impure function {base.name} (12.3)", cls.span, hint)
-        if base is None or base.kind in (*allowed, "class"):
+        any_class = (
+            base is not None and base.kind == "class" and (cls.kind != "type" or _is_simple(reference, cls, context))
+        )
+        if base is None or base.kind in allowed or any_class:
             continue
         if cls.kind == "function" and base.kind == "class":
             continue
         hint = f"a {cls.kind} extends {' or '.join(allowed)}"
         raise Diagnostic("R071", f"the {cls.kind} {cls.name} extends the {base.kind} {base.name}", reference.span, hint)
     _check_replaceable_bases(cls, context)
+    _check_names_of_bases(cls, context)
     _check_hidden(cls, context)
     if cls.alias is None and len(cls.extends) + len(cls.components) > 1:
         for clause in cls.extends:
@@ -210,22 +225,25 @@ def _check_operators(cls: ast.Class, base: ast.Class, reference: ast.Ref) -> Non
         raise Diagnostic("R071", f"{cls.name} extends {what}", reference.span, hint)
 
 
-def check_flow_record(cls: ast.Class, span: Span, context: Context) -> None:
-    """An operator record that flows has '+', '-' and '0': what connections add up (9.2). Raises R079."""
-    if not (cls.operator and cls.kind == "record"):
-        return
-    for name in ("'+'", "'-'", "'0'"):
-        if own_or_inherited(context.library, cls, name) is None:
-            hint = "declare it in the operator record"
-            raise Diagnostic("R079", f"{cls.name} is a flow and has no operator {name}", span, hint)
-
-
 def _check_replaceable_bases(cls: ast.Class, context: Context) -> None:
     for clause in cls.extends:
         base = base_class(context.library, cls, clause.base, clause.modification)
         if base is not None and ((base.replaceable and base.alias is None) or (base.origin or base).replaceable):
             hint = "extend a class that is not replaceable (7.1.4)"
             raise Diagnostic("R071", f"{cls.name} extends the replaceable {base.name}", clause.base.span, hint)
+
+
+def _check_names_of_bases(cls: ast.Class, context: Context) -> None:
+    """What an extends clause names is the same with and without what the clauses bring in (7.1). Raises R071."""
+    library = context.library
+    for clause, base in ((c, b) for c in cls.extends if not c.base.absolute for b in base_classes(library, cls)):
+        name = clause.base.names[0]
+        meant, other = find_first(library, cls, name, of_base=True), own_or_inherited(library, base, name)
+        if other is not None and meant is not None and (other.origin or other) is not (meant.origin or meant):
+            hint = f"write its full name, or rename {name}"
+            error = Diagnostic("R071", f"{name} is inherited from {base.name}, too", clause.base.span, hint)
+            error.notes.append((other.span, "the inherited one"))
+            raise error
 
 
 def _check_hidden(cls: ast.Class, context: Context) -> None:

@@ -8,9 +8,10 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.restrictions import check_class
 from lacuna.codegen.flatten.expressions.evaluate import evaluate_dimensions
 from lacuna.codegen.flatten.names.context import Context
-from lacuna.codegen.flatten.names.modifiers import Modifier, from_tree, merge
+from lacuna.codegen.flatten.names.modifiers import Modifier, for_each, from_tree, merge
 from lacuna.codegen.flatten.names.scope import PRIMITIVES, Scope, base_class, find_class, meant_class
 from lacuna.codegen.flatten.names.unknown import unknown_class
+from lacuna.codegen.flatten.names.views import constraints_of
 from lacuna.codegen.syntax import ast
 
 EXTERNAL = "ExternalObject"
@@ -63,8 +64,9 @@ def type_of(cls: ast.Class, context: Context, depth: int = 0) -> Type:
         found = _of_alias(cls, context, depth)
         if found.primitive is None and not cls.alias.dimensions:
             return Type(None, cls)
-        if cls.constrained is not None:
-            tree, around = cls.constrained
+        if cls.alias.dimensions:  # what the type says is said of each element of this one
+            found.modifier = for_each(found.modifier)
+        for tree, around in reversed(constraints_of(cls)):
             found.modifier = merge(from_tree(tree, Scope(context, around, None)), found.modifier)
         found.modifier = merge(from_tree(cls.alias.modification, inside), found.modifier)
         found.dimensions = evaluate_dimensions(cls.alias.dimensions, inside, None, cls.name) + found.dimensions

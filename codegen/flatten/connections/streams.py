@@ -10,6 +10,7 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.leaf import Leaf
 from lacuna.codegen.flatten.connections.connection_sets import ConnectionSets
 from lacuna.codegen.flatten.connections.connectors import End
+from lacuna.codegen.flatten.expressions.constants import evaluate, is_known
 from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
@@ -108,8 +109,12 @@ def stream_variables(model: flat.FlatModel, context: Context) -> None:
 
 def _mixture(end: End, group: list[End], span: Span, context: Context) -> Expr:
     """What the other connectors of a set bring to `end`: the mean, weighted by their flows into the set."""
-    inside = [e for e in group if not e.outside and e != end]
-    outside = [e for e in group if e.outside and e != end]
+    others = [e for e in group if e != end]
+    if len(others) > 1:
+        feeding = [e for e in others if _may_feed(e, span, context)]
+        others = feeding if feeding or not end.outside else others
+    inside = [e for e in others if not e.outside]
+    outside = [e for e in others if e.outside]
     contents = [ex.var(e.name) for e in inside] + [_incoming(e.name, span, context) for e in outside]
     if not contents:
         return ex.var(end.name)
@@ -122,6 +127,16 @@ def _mixture(end: End, group: list[End], span: Span, context: Context) -> Expr:
     for weight, content in zip(weights[1:], contents[1:], strict=True):
         total, carried = ex.add(total, weight), ex.add(carried, ex.mul(weight, content))
     return ex.div(carried, total)
+
+
+def _may_feed(end: End, span: Span, context: Context) -> bool:
+    """Does a connector ever bring something to the set? None does whose flow is bound to one direction (15.2)."""
+    leaf, position = context.scalars[str(_flow_of(end.name, context).value)]
+    bound = leaf.element(leaf.attribute("max" if end.outside else "min"), position)
+    if not isinstance(bound, Expr) or not is_known(bound, context):
+        return True
+    least = evaluate(bound, context, span, "a bound of a flow").value
+    return least > 0 if end.outside else least < 0
 
 
 def _at_least(flow: Expr, small: Expr) -> Expr:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from lacuna.codegen import flat
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.equations.equations import Collected, check_target, check_types, origin_of, unroll
+from lacuna.codegen.flatten.equations.equations import Collected, check_target, check_types, origin_of, pairs, unroll
 from lacuna.codegen.flatten.equations.mixed import lasting_targets, split_by_time
 from lacuna.codegen.flatten.equations.symbolic_run import SymbolicRun
 from lacuna.codegen.flatten.equations.when import procedure, when_conditions
@@ -15,7 +15,7 @@ from lacuna.codegen.flatten.expressions.constants import is_known, known
 from lacuna.codegen.flatten.expressions.lower import NOT_THERE, lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
-from lacuna.codegen.flatten.names.values import scalars, shape_of, shape_text
+from lacuna.codegen.flatten.names.values import shape_of, shape_text
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, TRUE, Expr
 from lacuna.codegen.symbolic.leaves import leaves
@@ -89,10 +89,10 @@ def _statements(items: list[ast.Item], scope: Scope, in_when: bool) -> list[flat
                 result.append(flat.While(TRUE, [*once, flat.Break(item.span)], item.span))
             else:
                 result += [s for body in passes for s in body]
-        elif isinstance(item, ast.While) and not in_when:
+        elif isinstance(item, ast.While):
             condition = lower_scalar(item.condition, scope, BOOLEAN)
             result.append(flat.While(condition, _statements(item.body, scope, in_when), item.span))
-        elif isinstance(item, ast.Break) and not in_when:
+        elif isinstance(item, ast.Break):
             result.append(flat.Break(item.span))
         elif isinstance(item, ast.When):
             result.append(_when(item, scope, in_when))
@@ -156,15 +156,15 @@ def assignment(item: ast.Assignment, scope: Scope) -> list[flat.Statement]:
     """target := value, scalar by scalar; values are read before any is assigned."""
     if isinstance(item.target, ast.Tuple):
         values = lower_results(item.value, scope, len(item.target.items))
-        pairs = [(lower(t, scope), v) for t, v in zip(item.target.items, values, strict=False) if t is not None]
+        sides = [(lower(t, scope), v) for t, v in zip(item.target.items, values, strict=False) if t is not None]
     else:
-        pairs = [(lower(item.target, scope), lower(item.value, scope))]
+        sides = [(lower(item.target, scope), lower(item.value, scope))]
     result: list[flat.Statement] = []
-    for target, value in pairs:
+    for target, value in sides:
         if shape_of(target) != shape_of(value):
             message = f"{shape_text(shape_of(target))} := {shape_text(shape_of(value))}"
             raise Diagnostic("R042", f"the sides differ in size: {message}", item.span, "both need the same size")
-        for t, v in zip(scalars(target), scalars(value), strict=True):
+        for t, v in pairs(target, value, item.span, scope):
             for chosen, new in _chosen(t, v):
                 check_target(chosen, item.span, scope)
                 check_types(chosen, v, item.span, scope)

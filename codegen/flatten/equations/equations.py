@@ -13,7 +13,16 @@ from lacuna.codegen.flatten.expressions.enumerations import require_same
 from lacuna.codegen.flatten.expressions.lower import lower, lower_results
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
-from lacuna.codegen.flatten.names.values import ChosenText, Record, Value, holds_records, items_of, shape_of, shape_text
+from lacuna.codegen.flatten.names.values import (
+    ChosenText,
+    Record,
+    Value,
+    holds_records,
+    items_of,
+    scalars,
+    shape_of,
+    shape_text,
+)
 from lacuna.codegen.flatten.references.iterators import iterate
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr, to_text, walk
 from lacuna.codegen.syntax import ast
@@ -53,7 +62,7 @@ def equate(left: Value, right: Value, span: Span, scope: Scope, text: str) -> li
         message = f"{shape_text(shape_of(left))} = {shape_text(shape_of(right))}"
         raise Diagnostic("R042", f"the sides differ in size: {message}", span, "both sides need the same size")
     result = []
-    for a, b in _pairs(left, right, span):
+    for a, b in pairs(left, right, span, scope):
         if isinstance(a, str | ChosenText) and a == b:
             continue  # what gives a String its value
         check_types(a, b, span, scope)
@@ -61,18 +70,29 @@ def equate(left: Value, right: Value, span: Span, scope: Scope, text: str) -> li
     return result
 
 
-def _pairs(left: Value, right: Value, span: Span) -> Iterator[tuple[Expr | str, Expr | str]]:
-    """Corresponding scalars; the fields of records by their names."""
+def pairs(left: Value, right: Value, span: Span, scope: Scope) -> Iterator[tuple[Expr | str, Expr | str]]:
+    """Corresponding scalars; the fields of records by their names, but for constants: no constructor takes them, and
+    nothing sets them (12.6)."""
+
+    def fields(record: Value) -> dict[str, Value]:
+        found = record.fields if isinstance(record, Record) else {}
+        return {n: v for n, v in found.items() if not all(_is_constant(s, scope) for s in scalars(v))}
+
     for a, b in zip(items_of(left), items_of(right), strict=True):
-        if not isinstance(a, Record):
+        if not isinstance(a, Record) and not isinstance(b, Record):
             yield a, b
             continue
-        if not isinstance(b, Record) or set(a.fields) != set(b.fields):
+        both, own = isinstance(a, Record) and isinstance(b, Record), fields(a)
+        if not both or own.keys() != fields(b).keys() - (a.fields.keys() - own.keys()):
             raise Diagnostic("R042", "records of different kind", span, "both sides need the same fields")
-        for name, part in a.fields.items():
+        for name, part in own.items():
             if shape_of(part) != shape_of(b.fields[name]):
                 raise Diagnostic("R042", f"the sides differ in size: {name}", span, "both sides need the same size")
-            yield from _pairs(part, b.fields[name], span)
+            yield from pairs(part, b.fields[name], span, scope)
+
+
+def _is_constant(s: Expr | str | ChosenText, scope: Scope) -> bool:
+    return isinstance(s, Expr) and s.op == "var" and variability(s, scope.context) == "constant"
 
 
 def check_types(a: Expr | str, b: Expr | str, span: Span, scope: Scope) -> None:

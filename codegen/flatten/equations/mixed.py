@@ -47,6 +47,8 @@ def split_by_time(
     for k, s in enumerate(statements):
         names, behind = set(assigned([s])), after | _at_every_pass(statements[k + 1 :])
         if isinstance(s, flat.When) or not (names & set(lasting) or isinstance(s, flat.Assert)):
+            if not isinstance(s, flat.When):
+                _refuse_loop(s)
             kept.append(_at_this_point(lasting, run).statement(s))
         else:
             _refuse_passing(s, lasting, before & behind)
@@ -81,6 +83,14 @@ def _refuse_passing(s: flat.Statement, lasting: Collection[str], passing: frozen
         name = min(found)
         hint = f"give what {name} is here a variable of its own"
         raise Diagnostic("R059", f"{name} is read between two of its assignments", s.span, hint)
+
+
+def _refuse_loop(s: flat.Statement) -> None:
+    """Raises R059 for a loop beside when-clauses that is not unrolled: its relations change while it runs."""
+    loop = next((inner for inner in all_statements([s]) if isinstance(inner, flat.While)), None)
+    if loop is not None:
+        hint = "write it inside of when, or put it in a function and call it"
+        raise Diagnostic("R059", "a loop beside when-clauses that sets what is discrete", loop.span, hint)
 
 
 def _split_choice(

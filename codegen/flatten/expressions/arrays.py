@@ -124,6 +124,9 @@ def _reduction(join: Callable[[Expr, Expr], Expr], empty: Expr | None) -> Callab
                 return (ex.logical_and if str(e.function) == "min" else ex.logical_or)(*arguments)
             return join(*arguments)
         values = _array(arguments[0], e)
+        own = values.shape[len(e.args[0].iterators) :] if isinstance(e.args[0], ast.Comprehension) else ()
+        if own:
+            return _of_arrays(values, own, join, e)
         if holds_records(values) and str(e.function) == "sum":
             return fold(lambda a, b: scope.context.lowering.overloaded("+", [a, b], e.span, scope), list(values.items))
         if empty is None and values.items and all(isinstance(i, Expr) and i.type == BOOLEAN for i in values.items):
@@ -137,6 +140,17 @@ def _reduction(join: Callable[[Expr, Expr], Expr], empty: Expr | None) -> Callab
         return fold(join, items) if items else empty
 
     return build
+
+
+def _of_arrays(values: Array, own: tuple[int, ...], join: Callable[[Expr, Expr], Expr], e: ast.Call) -> Value:
+    """sum of `e for i in r` where e is an array; other reductions are of scalars (10.3.4.1). Raises R051."""
+    if str(e.function) != "sum":
+        message = f"{e.function} of arrays {shape_text(own)}"
+        raise Diagnostic("R051", message, e.span, f"what {e.function}(e for i in r) goes over is a scalar")
+    need_numbers(values, e.span, "sum")
+    step = prod(own)
+    columns = [list(values.items[k::step]) for k in range(step)]
+    return Array(own, tuple(fold(join, column) if column else ex.const(0) for column in columns))
 
 
 _GREATEST = {INTEGER: 2**31 - 1, REAL: float_info.max}
@@ -169,7 +183,12 @@ def _first_of(written: ast.Expression | None, scope: Scope) -> Value:
 
 
 def _transpose(e: ast.Call, scope: Scope) -> Value:
-    return transpose(_array(_arguments(e, scope, 1, 1)[0], e, (2,)))
+    """The first two dimensions change places (10.3.5)."""
+    value = _array(_arguments(e, scope, 1, 1)[0], e)
+    if len(value.shape) < 2:
+        hint = "it needs two dimensions: docs/language.md"
+        raise Diagnostic("R051", f"transpose of {shape_text(value.shape)}", e.span, hint)
+    return transpose(value)
 
 
 def _cross(e: ast.Call, scope: Scope) -> Value:

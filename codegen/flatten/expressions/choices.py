@@ -46,3 +46,16 @@ def chosen_value(condition: Expr, then: Value, otherwise: Value, span: Span, sco
         return ex.if_else(condition, a, b)
 
     return elementwise(pick, [then, otherwise], span, "alternatives")
+
+
+def merged_value(condition: Expr, then: Value, otherwise: Value, span: Span) -> Value:
+    """What a variable of a function holds after an if-statement, by the condition of its branch."""
+    if isinstance(then, Record) and isinstance(otherwise, Record):
+        fields = {n: merged_value(condition, v, otherwise.fields[n], span) for n, v in then.fields.items()}
+        return Record(then.name, fields, then.cls)
+    if isinstance(then, Array) and holds_records(then) and shape_of(then) == shape_of(otherwise):
+        pairs = zip(then.items, otherwise.items, strict=True)
+        return Array(then.shape, tuple(merged_value(condition, a, b, span) for a, b in pairs))
+    if isinstance(then, str | ChosenText) and isinstance(otherwise, str | ChosenText):
+        return choose(condition, then, otherwise)
+    return elementwise(lambda a, b: ex.if_else(condition, a, b), [then, otherwise], span, "alternatives")

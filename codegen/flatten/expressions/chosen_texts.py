@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.names.values import ChosenText
+from lacuna.codegen.flatten.names.values import Array, ChosenText, Value, items_of
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import FALSE, TRUE, Expr
 
@@ -35,6 +35,15 @@ def joined(left: Text, right: Text, span: Span) -> Text:
         return left + right
     pairs = _pairs(left, right, span)
     return ChosenText(tuple((condition, a + b) for condition, a, b in pairs))
+
+
+def are_texts(value: Value) -> bool:
+    return all(isinstance(item, str | ChosenText) for item in items_of(value))
+
+
+def joined_arrays(left: Array, right: Array, span: Span) -> Array:
+    """left + right, element by element."""
+    return Array(left.shape, tuple(joined(a, b, span) for a, b in zip(left.items, right.items, strict=True)))
 
 
 def compared(op: str, left: Text, right: Text, span: Span) -> Expr:

@@ -40,7 +40,7 @@ def enumeration_of(e: Expr, context: Context) -> str | None:
         kind = context.scalars[str(e.value)][0].type
         return (kind.cls.origin or kind.cls).path if kind.literals else ""
     if e.op in ("pre", "if", "min", "max"):
-        return enumeration_of(e.args[-1], context)
+        return enumeration_of(e.args[1 if e.op == "if" else -1], context)
     if e.op == "call" and e.type == INTEGER and e.value not in BUILTINS:
         return enumeration_of(e.args[0], context) if e.value == "[]" else None
     return "" if e.op != "array" else enumeration_of(e.args[0], context)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.expressions.choices import chosen_value
-from lacuna.codegen.flatten.expressions.chosen_texts import compared, joined
+from lacuna.codegen.flatten.expressions.chosen_texts import are_texts, compared, joined, joined_arrays
 from lacuna.codegen.flatten.expressions.constants import is_known, known
 from lacuna.codegen.flatten.expressions.enumerations import enumeration_of, require_same
 from lacuna.codegen.flatten.names.context import Context
@@ -143,6 +143,8 @@ def _binary(e: ast.Binary, scope: Scope) -> Value:
     texts = isinstance(left, str | ChosenText) and isinstance(right, str | ChosenText)
     if texts and (e.op == "+" or e.op in ex.RELATIONS):
         return joined(left, right, e.span) if e.op == "+" else compared(e.op, left, right, e.span)
+    if e.op in ("+", ".+") and shape_of(left) == shape_of(right) != () and are_texts(left) and are_texts(right):
+        return joined_arrays(left, right, e.span)
     if e.op in ex.RELATIONS:
         return _relation(e, left, right, scope)
     for value in (left, right):
@@ -259,7 +261,10 @@ def _array(e: ast.ArrayLiteral, scope: Scope) -> Value:
 
 
 def _matrix(e: ast.MatrixLiteral, scope: Scope) -> Value:
-    rows = [concatenate(2, [promote(lower(x, scope), 2) for x in row], e.span) for row in e.rows]
+    """[A, B; C, D]: each with as many dimensions as the one that has most, two at least (10.4.2.1)."""
+    values = [[lower(x, scope) for x in row] for row in e.rows]
+    dimensions = max(2, *(len(shape_of(v)) for row in values for v in row))
+    rows = [concatenate(2, [promote(v, dimensions) for v in row], e.span) for row in values]
     return concatenate(1, rows, e.span)
 
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen import flat
+from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.expressions.arrays import map_call, size_of_array
 from lacuna.codegen.flatten.expressions.constants import is_parameter, known, variability
 from lacuna.codegen.flatten.expressions.derivative import time_derivative
@@ -53,11 +54,17 @@ def _pre(e: ast.Call, scope: Scope) -> Value:
 
 def _edge(e: ast.Call, scope: Scope) -> Value:
     (written,) = _take(e, 1)
-    x = lower_scalar(written, scope, BOOLEAN)
-    if x.op != "var":
-        hint = "give the expression a Boolean variable of its own"
-        raise Diagnostic("R052", "edge is of a Boolean variable", written.span, hint)
-    return ex.special("edge", x)
+
+    def build(x: Expr) -> Expr:
+        if x.type != BOOLEAN:
+            hint = "change(x) is of any variable"
+            raise Diagnostic("R020", f"this is {x.type}, Boolean is needed", written.span, hint)
+        if x.op != "var":
+            hint = "give the expression a Boolean variable of its own"
+            raise Diagnostic("R052", "edge is of a Boolean variable", written.span, hint)
+        return ex.special("edge", x)
+
+    return elementwise(build, [lower(written, scope)], e.span, "edge")
 
 
 def _change(e: ast.Call, scope: Scope) -> Value:
@@ -158,6 +165,8 @@ def _delay(e: ast.Call, scope: Scope) -> Value:
         message = f"a delay of {ex.to_text(seconds)} s where the longest is {ex.to_text(longest[0])} s"
         raise Diagnostic("R053", message, e.args[1].span, "delayMax is not below delayTime (3.7.4.1)")
 
+    _require(">=", seconds, "the time of delay is not negative", e.args[1].span, scope)
+
     def build(x: Expr) -> Expr:
         passes = x.op == "const" or is_parameter(x, scope.context) or ex.is_const(seconds, 0)
         return x if passes else ex.special("delay", x, seconds, *longest, type=REAL)
@@ -173,7 +182,19 @@ def _sample(e: ast.Call, scope: Scope) -> Value:
             raise Diagnostic("R053", "sample at times that vary", written.span, hint)
     if parts[1].op == "const" and not parts[1].value > 0:
         raise Diagnostic("R053", f"sample each {ex.to_text(parts[1])} s", e.args[1].span, "an interval is positive")
+    _require(">", parts[1], "the interval of sample is positive", e.args[1].span, scope)
     return ex.special("sample", *parts)
+
+
+class Required(list[flat.Assert]):
+    """What operators ask of parameters, whose values a run gives."""
+
+
+def _require(op: str, value: Expr, message: str, span: Span, scope: Scope) -> None:
+    condition = ex.relation(op, value, ex.ZERO)
+    known = scope.context.table(Required)
+    if condition.op != "const" and all(condition is not k.condition for k in known):
+        known.append(flat.Assert(condition, message, span, "error"))
 
 
 def _phase(op: str) -> Callable[[ast.Call, Scope], Value]:

@@ -15,9 +15,19 @@ from lacuna.codegen.flatten.functions.declared import bind_arguments, call_funct
 from lacuna.codegen.flatten.functions.kept.code import is_done
 from lacuna.codegen.flatten.functions.locals import signature_of
 from lacuna.codegen.flatten.names.component import Component
-from lacuna.codegen.flatten.names.scope import Scope, base_class, find_class, find_first, meant_class, own_or_inherited
+from lacuna.codegen.flatten.names.index_types import plain_type
+from lacuna.codegen.flatten.names.scope import (
+    Scope,
+    base_class,
+    find_class,
+    find_first,
+    meant_class,
+    own_or_inherited,
+    refuse_protected,
+)
 from lacuna.codegen.flatten.names.unknown import visible_classes
 from lacuna.codegen.flatten.names.values import FunctionValue, Value, elementwise
+from lacuna.codegen.flatten.names.views import constraints_of
 from lacuna.codegen.flatten.references.references import refuse_conditional
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.differentiate import Differentiator
@@ -99,8 +109,9 @@ def call_of_model(e: ast.Call, scope: Scope) -> list[Value]:
         return call_function(own_or_inherited(scope.context.library, cls, "constructor"), e, scope)
     if cls is not None and cls.kind == "record":
         return [scope.context.lowering.construct(cls, e, scope)]
-    if cls is not None and cls.literals is not None:
-        return [_literal_by_number(cls, e, scope)]
+    kind = plain_type(scope.context.library, cls) if cls is not None else None
+    if kind is not None and kind.literals is not None:
+        return [_literal_by_number(kind, e, scope)]
     if cls is not None:
         raise Diagnostic("R004", f"{name} is a {cls.kind} and cannot be called", e.function.span, "call a function")
     if name in _OUTSIDE or name.startswith("Connections."):
@@ -123,13 +134,15 @@ def _taken_as_pure(e: ast.Call, scope: Scope) -> list[Value]:
 
 
 def _literal_by_number(cls: ast.Class, e: ast.Call, scope: Scope) -> Expr:
-    """E(n): the literal with that number, from 1 (4.9.5.3). Raises R045 for one without, R091 where it varies."""
+    """E(n): the literal with that number, from 1 (4.9.5.3); of one that varies and is none, no value. Raises R045."""
     if len(e.args) != 1 or e.named:
         raise Diagnostic("R050", f"{cls.name} takes one number", e.span, f"{cls.name}(1)")
     number, count = lower_scalar(e.args[0], scope, INTEGER), len(cls.literals)
     if number.op != "const" and not is_known(number, scope.context):
-        hint = f"choose one: if n == 1 then {cls.name}.{cls.literals[0][0]} else ..."
-        raise Diagnostic("R091", f"{cls.name}(n) of a number that varies is outside the subset", e.span, hint)
+        chosen = ex.nothing(INTEGER)
+        for k in range(count, 0, -1):
+            chosen = ex.if_else(ex.relation("==", number, ex.const(k)), literal(cls, k), chosen)
+        return chosen
     found = int(known(number, scope, e.span, f"the number of a {cls.name}").value)
     if not 1 <= found <= count:
         hint = f"{cls.name} has the literals 1 to {count}"
@@ -157,8 +170,7 @@ def _defaults_of(cls: ast.Class, e: ast.Call, holder: Component | None, scope: S
         around = current.parent if current is not None else None
         same = around is not None and (around.origin or around) is (where.cls.origin or where.cls)
         where = replace(where, instance=where.instance if same else None)
-    if cls.constrained is not None:
-        tree, around = cls.constrained
+    for tree, around in constraints_of(cls):
         take(tree, Scope(scope.context, around, holder))
     return found
 
@@ -181,10 +193,8 @@ def _of_component(ref: ast.Ref, scope: Scope) -> tuple[ast.Class | None, Compone
 def _public_class(cls: ast.Class, name: str, ref: ast.Ref, scope: Scope) -> ast.Class | None:
     """What `cls` holds under a name. Raises R017 where it is protected (4.1)."""
     found = own_or_inherited(scope.context.library, cls, name)
-    if found is not None and found.protected:
-        error = Diagnostic("R017", f"{name} is protected in {cls.name}", ref.span, "make it public to use it here")
-        error.notes.append((found.span, "declared here"))
-        raise error
+    if found is not None:
+        refuse_protected(scope.context.library, cls, found, ref)
     return found
 
 

@@ -14,7 +14,8 @@ from lacuna.codegen.flatten.classes.types import EXTERNAL
 from lacuna.codegen.flatten.expressions.constants import AtRunTime
 from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.functions.annotated import with_derivatives
-from lacuna.codegen.flatten.functions.fitting import SizeVaries, evaluated, fit
+from lacuna.codegen.flatten.functions.effort import MAX_INLINE_DEPTH, is_small
+from lacuna.codegen.flatten.functions.fitting import SizeVaries, blank, counts_evaluated, evaluated, fit
 from lacuna.codegen.flatten.functions.interpret import interpret
 from lacuna.codegen.flatten.functions.kept.code import emitted_call
 from lacuna.codegen.flatten.functions.library.external import call_external
@@ -38,8 +39,6 @@ from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.references import references
 from lacuna.suggest import did_you_mean
 
-MAX_INLINE_NODES = 250
-MAX_INLINE_DEPTH = 12
 Written = dict[str, tuple[Value, Span]]  # arguments with their places, by the name of the input
 _EVENTFUL = ("abs", "sign", "floor", "ceil", "integer", "mod", "rem", "div")
 
@@ -119,7 +118,7 @@ def _results(signature: Signature, arguments: dict[str, Value], e: ast.Call, sco
         context.call_depth += 1
         try:
             results = interpret(signature, arguments, context, e.span)
-            if known or makes_events or _is_small(results, arguments):
+            if known or makes_events or is_small(results, arguments):
                 results = results if makes_events else [_without_events(r) for r in results]
                 if not scope.in_function:
                     results = with_literal_units(signature, arguments, results, context, e.span)
@@ -138,7 +137,13 @@ def _results(signature: Signature, arguments: dict[str, Value], e: ast.Call, sco
                 raise
         finally:
             context.call_depth -= 1
-    return emitted_call(signature, arguments, context, e.span)
+    try:
+        return emitted_call(signature, arguments, context, e.span)
+    except Diagnostic as error:
+        given = counts_evaluated(arguments, scope, e.span)
+        if error.code != "F036" or scope.in_function or given == arguments:
+            raise
+        return _results(signature, given, e, scope)  # parameters that decide how far it goes become structural
 
 
 def written_arguments(
@@ -183,8 +188,11 @@ def bind_arguments(
             elif default is not None:
                 if _asks_for(default, open_, local):
                     continue
-                value, span = lower(default, local.around_default(inner)), default.span
+                meant = function_value if _takes_function(local) else lower
+                value, span = meant(default, local.around_default(inner)), default.span
             else:
+                value, span = _by_its_fields(cls, local, inner), local.declaration.span
+            if value is None:
                 hint = f"{cls.name}({', '.join(i.name for i in inputs)})"
                 raise Diagnostic("R050", f"the input {local.name} of {cls.name} is not given", e.span, hint)
             bound[local.name] = _fitted(local, value, inner, span)
@@ -197,6 +205,14 @@ def bind_arguments(
         names = ", ".join(i.name for i in open_)
         raise Diagnostic("F022", f"the defaults of {names} depend on each other", e.span, "give one of them")
     return {i.name: bound[i.name] for i in inputs}
+
+
+def _by_its_fields(cls: ast.Class, local: Local, scope: Scope) -> Value | None:
+    """What a record that is a field of a record holds by the defaults of its own fields; None where one has none."""
+    if cls.kind != "record" or local.type.cls is None or local.type.primitive is not None:
+        return None
+    value = blank(local, scope)
+    return None if any(isinstance(s, Expr) and s.op == "unset" for s in scalars(value)) else value
 
 
 def _asks_for(default: ast.Expression, open_: list[Local], local: Local) -> bool:
@@ -282,17 +298,3 @@ def _makes_events(cls: ast.Class) -> bool:
         hint = "remove one of them"
         raise Diagnostic("R066", f"{cls.name} has GenerateEvents = true and Inline = false (12.8.3)", cls.span, hint)
     return said.get("GenerateEvents") is True
-
-
-def _is_small(results: list[Value], arguments: dict[str, Value]) -> bool:
-    given = {a for v in arguments.values() for a in scalars(v)}
-    seen: set[Expr] = set()
-    stack = [s for r in results for s in scalars(r) if isinstance(s, Expr)]
-    while stack:
-        n = stack.pop()
-        if n not in seen and n not in given:
-            seen.add(n)
-            stack.extend(n.args)
-        if len(seen) > MAX_INLINE_NODES:
-            return False
-    return True

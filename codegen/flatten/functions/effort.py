@@ -8,9 +8,13 @@ import threading
 
 from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.expressions.constants import AtRunTime
+from lacuna.codegen.flatten.names.values import Value, scalars
+from lacuna.codegen.symbolic.expr import Expr
 
 MAX_NESTED_STEPS = 100_000  # statements of a call and all calls inside it
 MAX_CALLS = 100  # inside each other
+MAX_INLINE_DEPTH = 12  # of inlined calls inside each other
+MAX_INLINE_NODES = 250  # of the expressions that an inlined call becomes
 
 
 class _Effort(threading.local):
@@ -44,3 +48,18 @@ def nested_call(symbolic: bool, span: Span) -> Iterator[None]:
         _effort.calls -= 1
         if not _effort.calls:
             _effort.steps = 0
+
+
+def is_small(results: list[Value], arguments: dict[str, Value]) -> bool:
+    """Is what a call becomes small enough to stand in its place?"""
+    given = {a for v in arguments.values() for a in scalars(v)}
+    seen: set[Expr] = set()
+    stack = [s for r in results for s in scalars(r) if isinstance(s, Expr)]
+    while stack:
+        n = stack.pop()
+        if n not in seen and n not in given:
+            seen.add(n)
+            stack.extend(n.args)
+        if len(seen) > MAX_INLINE_NODES:
+            return False
+    return True

@@ -24,10 +24,13 @@ from lacuna.codegen.flatten.names.values import (
     scalars,
     shape_of,
     shape_text,
+    with_scalars,
 )
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, INTEGER, REAL, Expr
+from lacuna.codegen.symbolic.leaves import always_reads
 from lacuna.codegen.syntax import ast
+from lacuna.suggest import did_you_mean
 
 
 def fit(local: Local, value: Value, scope: Scope, span: Span) -> Value:
@@ -143,24 +146,38 @@ def unset(kind: str) -> Expr:
     return ex.node("unset", (), None, kind)
 
 
-def blank(local: Local, scope: Scope) -> Value:
+_Given = dict[str, tuple[ast.Modification, Scope]]  # what is said of fields, and where
+
+
+def blank(local: Local, scope: Scope, given: _Given | None = None) -> Value:
     """What a variable holds before anything is assigned, in the sizes that it is declared with."""
     shape = tuple(0 if local.is_flexible else n for n in declared_sizes(local, scope, local.nothing))
-    nothing = unset(local.type.primitive) if local.type.primitive else _blank_record(local, scope)
+    nothing = unset(local.type.primitive) if local.type.primitive else _blank_record(local, scope, given or {})
     return Array(shape, (nothing,) * prod(shape)) if shape else nothing
 
 
-def _blank_record(local: Local, scope: Scope) -> Record:
-    """A record whose fields hold what its declaration, or that of its class, gives them."""
-    given = {a.name: a.modification.value for a in local.declaration.modification.arguments}
+def _blank_record(local: Local, scope: Scope, outer: _Given) -> Record:
+    """A record whose fields hold what is `given` from outside, or by its declaration, or by that of its class."""
+    given = _parts(local.declaration.modification, scope) | outer
     fields: dict[str, Value] = {}
     for part in signature_of(local.type.cls, scope.context).locals:
         inner = replace(part.scope, locals=dict(fields))
-        value, where = given.get(part.name), scope
+        said, where = given.get(part.name, (ast.Modification(local.declaration.span), scope))
+        value, default = said.value, part.declaration.modification.value
+        if value is None and default is not None:
+            if said.arguments and part.type.primitive is None:
+                message = f"parts of {part.name} are modified, which has a value as a whole"
+                raise Diagnostic("R030", message, said.span, f"give {part.name} another value")
+            value, where = default, part.around_default(inner)
         if value is None:
-            value, where = part.declaration.modification.value, part.around_default(inner)
-        fields[part.name] = blank(part, inner) if value is None else fit(part, lower(value, where), inner, value.span)
-    return Record(local.name, fields, local.type.cls)
+            fields[part.name] = blank(part, inner, _parts(said, where))
+        else:
+            fields[part.name] = fit(part, lower(value, where), inner, value.span)
+    return Record(local.type.cls.path, fields, local.type.cls)
+
+
+def _parts(tree: ast.Modification, where: Scope) -> _Given:
+    return {a.name: (a.modification, where) for a in tree.arguments}
 
 
 class SizeVaries(Diagnostic):
@@ -179,3 +196,36 @@ def evaluated(value: Value, scope: Scope, span: Span, name: str) -> Value:
         return value
     items = tuple(evaluate(s, scope.context, span, f"the argument {name}") for s in scalars(value))
     return Array(value.shape, items) if isinstance(value, Array) else items[0]
+
+
+def unknown_target(target: ast.Ref, names: dict[str, Value]) -> Diagnostic:
+    hint = did_you_mean(target.names[0], names, "declare it under 'protected'")
+    return Diagnostic("R002", f"there is no variable {target.names[0]}", target.span, hint)
+
+
+def counts_evaluated(arguments: dict[str, Value], scope: Scope, span: Span) -> dict[str, Value]:
+    """Arguments with the values of parameters in the place of whole numbers."""
+
+    def whole(value: Value) -> bool:
+        return all(isinstance(s, Expr) and s.type == INTEGER for s in scalars(value))
+
+    return {n: evaluated(a, scope, span, n) if whole(a) else a for n, a in arguments.items()}
+
+
+def result_of(local: Local, value: Value, cls: ast.Class, context: Context) -> Value:
+    """The value of an output. What some case alone leaves unassigned is no value: a run that meets the case ends, and a
+    warning says so (12.4.4). Raises F033 for what no case assigns."""
+    span = local.declaration.span
+
+    def assigned(s: Expr | str) -> Expr | str:
+        missing = [n for n in ex.walk(s) if n.op == "unset"] if isinstance(s, Expr) else []
+        if missing and (always_reads(s, missing) or any(n.type == BOOLEAN for n in missing)):
+            message = f"the output {local.name} of {cls.name} is not assigned in every case"
+            raise Diagnostic("F033", message, span, "assign it, or give it a value first")
+        if missing and all(w.span != span for w in context.warnings):
+            message = f"the output {local.name} of {cls.name} is not assigned where no condition holds"
+            hint = "the run ends where that is met: give it a value first, or write else"
+            context.warnings.append(Diagnostic("W011", message, span, hint, severity="warning"))
+        return ex.substitute(s, {n: ex.nothing(n.type) for n in missing}) if missing else s
+
+    return with_scalars(value, map(assigned, scalars(value)))

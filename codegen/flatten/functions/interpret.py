@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from math import prod
 
 from lacuna.codegen import flat
@@ -11,22 +12,19 @@ from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.instance import package_of
 from lacuna.codegen.flatten.equations.asserts import lower_assert
 from lacuna.codegen.flatten.equations.effects import effect
-from lacuna.codegen.flatten.expressions.chosen_texts import choose
+from lacuna.codegen.flatten.expressions.choices import merged_value
 from lacuna.codegen.flatten.expressions.constants import AtRunTime
 from lacuna.codegen.flatten.expressions.lower import lower, lower_results, lower_scalar
 from lacuna.codegen.flatten.functions.effort import MAX_NESTED_STEPS, nested_call, one_more_step
-from lacuna.codegen.flatten.functions.fitting import SizeVaries, blank, conform, fit
+from lacuna.codegen.flatten.functions.fitting import SizeVaries, blank, conform, fit, result_of, unknown_target
 from lacuna.codegen.flatten.functions.library.random_numbers import GENERATORS
 from lacuna.codegen.flatten.functions.locals import Local, Signature, signature_of
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import (
     Array,
-    ChosenText,
     Record,
     Value,
-    elementwise,
-    holds_records,
     integers,
     items_of,
     scalars,
@@ -38,17 +36,21 @@ from lacuna.codegen.flatten.references.references import apply_subscripts
 from lacuna.codegen.symbolic import expr as ex
 from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr
 from lacuna.codegen.syntax import ast
-from lacuna.suggest import did_you_mean
 
+Named = Callable[[Local, Value], Value]
 MAX_STEPS = 50_000
 MAX_SYMBOLIC_STEPS = 400
 
 
-def interpret(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> list[Value]:
-    """Results of the function on `arguments`. Raises AtRunTime where its course depends on unknown values."""
+def interpret(
+    signature: Signature, arguments: dict[str, Value], context: Context, span: Span, named: Named | None = None
+) -> list[Value]:
+    """Results of the function on `arguments`. Raises AtRunTime where its course depends on unknown values. `named`
+    gives what stands for the value of a variable that declares a unit."""
     if signature.external is not None:
         return _native(signature, arguments, span)
-    run = _Run(signature.cls, context, dict(arguments), span)
+    run = _Run(signature, context, dict(arguments), span)
+    run.named = {local.name: partial(named, local) for local in signature.locals if named is not None and local.unit}
     run.inputs = frozenset(arguments)
     run.kinds = {local.name: local.type.primitive for local in signature.locals}
     for local in signature.in_order:
@@ -59,18 +61,14 @@ def interpret(signature: Signature, arguments: dict[str, Value], context: Contex
         if default is not None:
             value = fit(local, lower(default, local.around_default(scope)), scope, default.span)
             run.locals[local.name] = _named_constant(local, signature.cls, value, context) if run.symbolic else value
+            run.name(local.name)
         else:
             if local.is_flexible:
                 run.flexible.add(local.name)
             run.locals[local.name] = blank(local, scope)
     with nested_call(run.symbolic, span):
         run.block(signature.body)
-    results = [run.locals[local.name] for local in signature.outputs]
-    for local, value in zip(signature.outputs, results, strict=True):
-        if any(isinstance(s, Expr) and any(n.op == "unset" for n in ex.walk(s)) for s in scalars(value)):
-            message = f"the output {local.name} of {signature.cls.name} is not assigned in every case"
-            raise Diagnostic("F033", message, local.declaration.span, "assign it, or give it a value first")
-    return results
+    return [result_of(local, run.locals[local.name], signature.cls, context) for local in signature.outputs]
 
 
 def _native(signature: Signature, arguments: dict[str, Value], span: Span) -> list[Value]:
@@ -91,12 +89,14 @@ def _named_constant(local: Local, cls: ast.Class, value: Value, context: Context
 
 
 class _Run:
-    def __init__(self, cls: ast.Class, context: Context, values: dict[str, Value], span: Span) -> None:
-        self.scope = Scope(context, cls, None, values, in_function=True, pure=not cls.impure)
+    def __init__(self, signature: Signature, context: Context, values: dict[str, Value], span: Span) -> None:
+        pure = not signature.cls.impure
+        self.scope = Scope(context, signature.written_in, None, values, in_function=True, pure=pure)
         self.locals = values
         self.span = span
         self.inputs: frozenset[str] = frozenset()
         self.kinds: dict[str, str | None] = {}  # what is declared: a Real may hold the text of an Integer
+        self.named: dict[str, Callable[[Value], Value]] = {}
         self.flexible: set[str] = set()  # arrays declared with `:`, which take the size of what is assigned (12.4.5)
         self.steps = 0
         symbolic = any(isinstance(s, Expr) and s.op != "const" for v in values.values() for s in scalars(v))
@@ -215,7 +215,7 @@ class _Run:
                 if name in merged and merged[name] is not value:
                     if name in self.flexible and shape_of(value) != shape_of(merged[name]):
                         raise SizeVaries(name, item.span)
-                    merged[name] = _choose(condition, value, merged[name], item.span)
+                    merged[name] = merged_value(condition, value, merged[name], item.span)
         self._set(merged)
         return ""
 
@@ -239,6 +239,12 @@ class _Run:
         if name in self.inputs:
             raise Diagnostic("R058", f"the input {name} is assigned", span, "copy it to a variable first")
         self.locals[name] = self._updated(self.locals[name], target, 0, value, span, self.kinds.get(name))
+        self.name(name)
+
+    def name(self, variable: str) -> None:
+        """Have what stands for its value in place of it, where the variable declares a unit."""
+        if variable in self.named:
+            self.locals[variable] = self.named[variable](self.locals[variable])
 
     def _updated(self, old: Value, target: ast.Ref, at: int, value: Value, span: Span, kind: str | None) -> Value:
         """`old`, of the type `kind`, with the part that `target` names, from name number `at` on, as `value`."""
@@ -274,20 +280,3 @@ class _Run:
         kinds = {local.name: local.type.primitive for local in signature_of(old.cls, self.scope.context).locals}
         changed = self._updated(old.fields[name], target, at, value, span, kinds[name])
         return Record(old.name, old.fields | {name: changed}, old.cls)
-
-
-def unknown_target(target: ast.Ref, names: dict[str, Value]) -> Diagnostic:
-    hint = did_you_mean(target.names[0], names, "declare it under 'protected'")
-    return Diagnostic("R002", f"there is no variable {target.names[0]}", target.span, hint)
-
-
-def _choose(condition: Expr, then: Value, otherwise: Value, span: Span) -> Value:
-    if isinstance(then, Record) and isinstance(otherwise, Record):
-        fields = {n: _choose(condition, v, otherwise.fields[n], span) for n, v in then.fields.items()}
-        return Record(then.name, fields, then.cls)
-    if isinstance(then, Array) and holds_records(then) and shape_of(then) == shape_of(otherwise):
-        pairs = zip(then.items, items_of(otherwise), strict=True)
-        return Array(then.shape, tuple(_choose(condition, a, b, span) for a, b in pairs))
-    if isinstance(then, str | ChosenText) and isinstance(otherwise, str | ChosenText):
-        return choose(condition, then, otherwise)
-    return elementwise(lambda a, b: ex.if_else(condition, a, b), [then, otherwise], span, "alternatives")

@@ -1,4 +1,5 @@
-"""Numbers given to inputs that declare a unit: they have it, though the call may become an expression in mere numbers.
+"""Numbers given to variables of a function that declare a unit, its inputs first: they have it, though the call may
+become an expression in mere numbers.
 
 The value of such a call is marked with the same expression over names that have the units; the unit check looks at
 that one, and nothing is left of it afterwards.
@@ -22,10 +23,16 @@ def with_literal_units(
 ) -> list[Value]:
     """`results`, which the function gives of `arguments`, marked where a number among these has a unit."""
     named = {local.name: _named(local, arguments[local.name], signature, context) for local in signature.inputs}
-    if all(named[n] is v for n, v in arguments.items()) or all(map(_is_number, _scalars(results))):
+    own = any(local.unit for local in signature.locals if local.declaration.causality != "input")
+    given = any(named[n] is not v for n, v in arguments.items())
+    if not (given or own) or all(map(_is_number, _scalars(results))):
         return results
+
+    def inside(local: Local, value: Value) -> Value:
+        return _named(local, value, signature, context)
+
     try:
-        meant = iter(_scalars(interpret(signature, named, context, span)))
+        meant = iter(_scalars(interpret(signature, named, context, span, inside)))
     except (AtRunTime, Diagnostic):  # the course depends on the number: what it is made of has no unit then
         return results
     return [with_scalars(r, iter([_marked(s, next(meant)) for s in scalars(r)])) for r in results]

@@ -71,6 +71,7 @@ class Signature:
     cls: ast.Class
     locals: tuple[Local, ...]
     body: tuple[ast.Item, ...]
+    written_in: ast.Class  # the class, itself or a base, whose text the body is: its names are looked up there (5.6)
     external: ast.Class | None = None  # the class, itself or a base, that names external code
 
     @property
@@ -167,7 +168,8 @@ def signature_of(cls: ast.Class, context: Context) -> Signature:
         fixed = {d.name: f"the {d.declaration.variability}" for d in declared if d.declaration.variability in FIXED}
         _check_targets(body, fixed if cls.kind == "function" else {})
         external = next((c for c in instance.classes if c.external is not None), None)
-        found = signatures[id(cls)] = Signature(cls, tuple(declared), body, external)
+        written_in = next((c for section, c in instance.sections if section.items), cls)
+        found = signatures[id(cls)] = Signature(cls, tuple(declared), body, written_in, external)
     return found
 
 
@@ -180,7 +182,7 @@ def _check_function(cls: ast.Class, instance: Instance, declared: list[Local]) -
         hint = "a function has one algorithm section, or is external"
         raise Diagnostic("R066", f"the function {cls.name} has {what}", wrong.span, hint)
     for name, d in ((local.name, local.declaration) for local in declared):
-        if not (d.causality or d.protected or d.variability):
+        if not (d.causality or d.protected or d.variability == "constant"):
             hint = "declare it input or output, or under 'protected'"
             raise Diagnostic("R066", f"{name} of the function {cls.name} is public", d.span, hint)
         if d.causality and d.protected:

@@ -30,16 +30,17 @@ CONSTRUCTOR, TEXT = "'constructor'", "'String'"
 _OPERANDS = {"'not'": (1,), "'-'": (1, 2), "'0'": (0,), TEXT: (1,)}  # other operators have two (14.5, 14.6)
 
 
-def operator_record(value: Value) -> ast.Class | None:
-    """The operator record that `value`, or each element of it, is of."""
+def operator_record(value: Value, scope: Scope) -> ast.Class | None:
+    """The operator record that `value`, or each element of it, is of: by any name, as connector V = input Complex."""
     first = next(iter(items_of(value)), None)
     cls = first.cls if isinstance(first, Record) else None
-    return cls if isinstance(cls, ast.Class) and (cls.origin or cls).operator else None
+    plain = _declared(cls, scope)
+    return cls if isinstance(plain, ast.Class) and plain.operator else None
 
 
 def overloaded(op: str, operands: Sequence[Value], span: Span, scope: Scope) -> Value:
     """The value of an operator of which one operand at least is an operator record. Raises R079."""
-    classes = [cls for cls in map(operator_record, operands) if cls is not None]
+    classes = [cls for cls in (operator_record(v, scope) for v in operands) if cls is not None]
     if op.startswith(".") and any(map(shape_of, operands)):
         return _element_by_element(op, operands, span, scope)  # never a product of whole arrays (10.6.2)
     found = _call_one(f"'{op}'", classes, operands, span, scope)
@@ -92,9 +93,9 @@ def _product(a: Array, b: Array, span: Span, scope: Scope) -> Value:
 def _converted(name: str, operands: Sequence[Value], span: Span, scope: Scope) -> Value | None:
     """With the operand that is no operator record made one by its constructor (14.4)."""
     results = []
-    for k, cls in enumerate(map(operator_record, operands)):
+    for k, cls in enumerate(operator_record(v, scope) for v in operands):
         other = operands[1 - k]
-        if cls is None or operator_record(other) is not None:
+        if cls is None or operator_record(other, scope) is not None:
             continue
         made = _call_one(CONSTRUCTOR, [cls], [other], span, scope) if not shape_of(other) else None
         if made is not None:
@@ -116,7 +117,10 @@ def construct(cls: ast.Class, e: ast.Call, scope: Scope) -> Value:
         each = [_call_one(CONSTRUCTOR, [cls], row, e.span, scope) for row in zip(*rows, strict=True)]
         if all(made is not None for made in each):
             return Array(arrays[0].shape, tuple(each))
-    return _from_fields(cls, e, scope) if found is None else found
+    if found is None:
+        hint = f"declare a function for it in {cls.name}.{CONSTRUCTOR}, or give what one of them takes"
+        raise Diagnostic("R079", f"no constructor of {cls.name} takes these arguments (14.3)", e.span, hint)
+    return found
 
 
 def _from_fields(cls: ast.Class, e: ast.Call, scope: Scope) -> Value:
@@ -149,7 +153,7 @@ def _cast(cls: ast.Class, whole: Record, span: Span, scope: Scope) -> Record:
 
 def text_by_operator(value: Record, e: ast.Call, scope: Scope) -> Value | None:
     """String(value, ...) by the operator 'String' of its record (14.4); None where it has none."""
-    cls = operator_record(value)
+    cls = operator_record(value, scope)
     if cls is None:
         return None
     named = {name: lower(option, scope) for name, option in e.named.items()}
@@ -175,7 +179,11 @@ def _call_one(
     function, bound = fitting[0]
     _check_results(name, function, classes[0], span, scope)
     call = ast.Call(span, ast.Ref(span, (function.name,), (None,)), [], {})
-    return call_function(function, call, scope, bound)[0]
+    results = call_function(function, call, scope, bound)
+    if not results:
+        hint = "a constructor gives its result by its fields: output R result(x = x)"
+        raise Diagnostic("R079", f"{function.name} of {name} calls itself for its result", function.span, hint)
+    return results[0]
 
 
 def _functions(name: str, classes: Sequence[ast.Class], scope: Scope) -> Iterator[ast.Class]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from lacuna.codegen.flatten.names.scope import Scope, base_class, find_class, own_or_inherited
+from lacuna.codegen.flatten.names.scope import Scope, base_class, base_clauses, find_class, own_or_inherited
+from lacuna.codegen.library.classes import Library
 from lacuna.codegen.syntax import ast
 
 _MOST_NAMES = 30  # of one type: a circle of them is refused where it is declared
@@ -27,11 +28,16 @@ def _is_element(ref: ast.Ref, scope: Scope) -> bool:
 
 def _plain_type(ref: ast.Ref, scope: Scope) -> ast.Class | None:
     """The class that `ref` names, of `type A = B` the one that B names; None where it names none."""
-    cls = None if _is_element(ref, scope) else find_class(scope.context.library, scope.cls, ref)
+    found = None if _is_element(ref, scope) else find_class(scope.context.library, scope.cls, ref)
+    return plain_type(scope.context.library, found) if found is not None else None
+
+
+def plain_type(library: Library, cls: ast.Class) -> ast.Class:
+    """`cls`, or what it is another name of: type A = B; type A extends B; end A."""
     for _ in range(_MOST_NAMES):
-        if cls is None or cls.alias is None or cls.alias.dimensions:
-            break
-        base = base_class(scope.context.library, cls, cls.alias.base, cls.alias.modification)
+        named = cls.alias is not None and not cls.alias.dimensions
+        clauses = base_clauses(cls) if named or (cls.kind == "type" and len(cls.extends) == 1) else []
+        base = base_class(library, cls, *clauses[0]) if clauses else None
         if base is None:
             break
         cls = base

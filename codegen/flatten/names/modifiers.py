@@ -110,13 +110,15 @@ def _inner_children(outer: Modifier, inner: Modifier, again: bool) -> dict[str, 
         clause = inner.redeclare.constraint
         return from_tree(clause.modification, inner.redeclared_in).children if clause is not None else {}
     if outer.value is not None:
-        return {name: child if child.weak else _weakened(child) for name, child in inner.children.items()}
+        return weakened(inner).children
     return dict(inner.children)
 
 
-def _weakened(m: Modifier) -> Modifier:
+def weakened(m: Modifier) -> Modifier:
+    """`m` whose parts stand behind those of a value that the whole has."""
     weak = m.copy()
     weak.weak = True
+    weak.children = {name: child if child.weak else weakened(child) for name, child in m.children.items()}
     return weak
 
 
@@ -150,12 +152,14 @@ def for_each(modifier: Modifier | None) -> Modifier | None:
 
 
 def without_removed(modifier: Modifier) -> Modifier:
-    """A modifier in which `break` has taken away what was declared further inside (7.2.7)."""
-    parts = {n: c for n, c in modifier.children.items() if not isinstance(c.value, ast.NoValue) or c.children}
-    gone = isinstance(modifier.value, ast.NoValue)
-    if not gone and len(parts) == len(modifier.children):
-        return modifier
-    return replace(modifier, value=None if gone else modifier.value, children=parts)
+    """A modifier in which `break` has taken away the value that was declared further inside (7.2.7)."""
+    return replace(modifier, value=None) if isinstance(modifier.value, ast.NoValue) else modifier
+
+
+def without_attributes(modifier: Modifier) -> Modifier:
+    """The modifier of a variable without the attributes that `break` has taken away."""
+    kept = {n: c for n, c in modifier.children.items() if not isinstance(c.value, ast.NoValue)}
+    return modifier if len(kept) == len(modifier.children) else replace(modifier, children=kept)
 
 
 def same_modifier(one: Modifier | None, other: Modifier | None) -> bool:

@@ -190,16 +190,25 @@ def find_first(
     found = library.meanings.get(key)
     if found is None:
         found = _look_outwards(library, cls, name, of_base, outermost)
-        if found is not None:
+        if found is not None and not _is_open(library, cls.parent):
             library.meanings[key] = found
             library.kept.append(cls)
     return found
 
 
+def _is_open(library: Library, cls: ast.Class | None) -> bool:
+    """Are the bases of the class or of one around it being looked up? What it inherits has no meaning yet (5.6.1)."""
+    while cls is not None and library.resolving:
+        if id(cls) in library.resolving:
+            return True
+        cls = cls.parent
+    return False
+
+
 def _look_outwards(library: Library, cls: ast.Class, name: str, of_base: bool, outermost: bool) -> ast.Class | None:
     current: ast.Class | None = cls
     while current is not None:
-        if current is cls and of_base:
+        if (current is cls and of_base) or (id(current) in library.resolving and current.alias is None):
             found = member(library, current, name)
         else:
             found = own_or_inherited(library, current, name)
@@ -234,6 +243,8 @@ def meant_class(cls: ast.Class, span: Span, scope: Scope) -> ast.Class:
     """
     if not cls.outer or scope.instance is None:
         return cls
+    if cls.alias is not None and cls.alias.modification.arguments and not cls.inner:
+        raise Diagnostic("R076", f"the outer class {cls.name} is modified (5.4)", cls.span, "modify the inner one")
     above: Component | None = scope.instance
     while above is not None:
         found = own_or_inherited(scope.context.library, above.cls, cls.name)
@@ -249,10 +260,7 @@ def class_inside(library: Library, cls: ast.Class, name: str, ref: ast.Ref) -> a
     found = own_or_inherited(library, cls, name)
     if found is None:
         return None
-    if found.protected:
-        error = Diagnostic("R017", f"{name} is protected in {cls.name}", ref.span, "make it public to use it here")
-        error.notes.append((found.span, "declared here"))
-        raise error
+    refuse_protected(library, cls, found, ref)
     if cls.partial:
         hint = f"name it in a class that extends {cls.name}"
         raise Diagnostic("R075", f"{cls.name} is partial, {name} cannot be named in it (5.3.2)", ref.span, hint)
@@ -260,6 +268,25 @@ def class_inside(library: Library, cls: ast.Class, name: str, ref: ast.Ref) -> a
         hint = f"declare {name} in a package, or write 'encapsulated' before it"
         raise Diagnostic("R075", f"{cls.name} is no package, {name} cannot be named from outside", ref.span, hint)
     return found
+
+
+def refuse_protected(library: Library, cls: ast.Class, found: ast.Class, ref: ast.Ref) -> None:
+    """Raises R017 for a class of `cls` that is protected, or inherited by a protected extends clause (4.1, 7.1.2)."""
+    if found.protected or _hidden_by_extends(library, cls, found.name):
+        error = Diagnostic(
+            "R017", f"{found.name} is protected in {cls.name}", ref.span, "make it public to use it here"
+        )
+        error.notes.append((found.span, "declared here"))
+        raise error
+
+
+def _hidden_by_extends(library: Library, cls: ast.Class, name: str, depth: int = 0) -> bool:
+    """Does a class of that name come to `cls` by protected extends clauses only?"""
+    if depth > 30 or not cls.extends or member(library, cls, name) is not None:
+        return False
+    bases = [(e.protected, base_class(library, cls, e.base, e.modification)) for e in cls.extends]
+    having = [(p, b) for p, b in bases if b is not None and own_or_inherited(library, b, name) is not None]
+    return bool(having) and all(p or _hidden_by_extends(library, b, name, depth + 1) for p, b in having)
 
 
 def is_package_like(library: Library, cls: ast.Class, depth: int = 0) -> bool:

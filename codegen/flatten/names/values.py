@@ -180,8 +180,11 @@ def fold(join: Callable[[Expr, Expr], Expr], items: list[Expr]) -> Expr:
 
 
 def transpose(a: Array) -> Array:
-    rows, columns = a.shape
-    return Array((columns, rows), tuple(a.items[i * columns + j] for j in range(columns) for i in range(rows)))
+    """The first two dimensions in each other's place."""
+    (rows, columns), rest = a.shape[:2], a.shape[2:]
+    step = prod(rest)
+    places = ((i * columns + j) * step for j in range(columns) for i in range(rows))
+    return Array((columns, rows, *rest), tuple(item for at in places for item in a.items[at : at + step]))
 
 
 def integers(values: list[int]) -> Array:

@@ -99,6 +99,14 @@ def _as_far(library: Library, new: ast.Class, old: ast.Class) -> ast.Class:
     return found
 
 
+def constraints_of(cls: ast.Class) -> list[tuple[ast.Modification, ast.Class]]:
+    """What constraining clauses say of `cls`, with where it stands: its own, then that of the class it stands for. The
+    declared class keeps to its clause as those do that are redeclared in its place (7.3.2)."""
+    own = cls.constraint
+    found = [(own.modification, cls.parent)] if own is not None and cls.parent is not None else []
+    return [*found, *([cls.constrained] if cls.constrained is not None else [])]
+
+
 def constrain(library: Library, new: ast.Class, old: ast.Class, by_element: bool) -> ast.Class:
     """`new` in place of the replaceable class `old`: the modifications of the constraining clause hold for it.
 

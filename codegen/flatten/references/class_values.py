@@ -8,6 +8,7 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.instance import Node, package_of
 from lacuna.codegen.flatten.expressions.enumerations import literal
 from lacuna.codegen.flatten.names.context import Context
+from lacuna.codegen.flatten.names.index_types import plain_type
 from lacuna.codegen.flatten.names.scope import (
     Scope,
     class_inside,
@@ -18,7 +19,6 @@ from lacuna.codegen.flatten.names.scope import (
     own_or_inherited,
 )
 from lacuna.codegen.flatten.names.unknown import visible_classes
-from lacuna.codegen.library.classes import Library
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.syntax import ast
 from lacuna.suggest import did_you_mean
@@ -34,9 +34,9 @@ def from_class(ref: ast.Ref, scope: Scope) -> tuple[Node, int] | Expr:
     for at, name in enumerate(ref.names[1:], 1):
         if cls is None:
             break
-        literals = _enumeration_of(library, cls)
-        if literals is not None:
-            return _literal(literals, name, ref)
+        kind = plain_type(library, cls)
+        if kind.literals is not None:
+            return _literal(kind, name, ref)
         inner = class_inside(library, cls, name, ref)
         if inner is None:
             return _constant_of(cls, name, ref, scope.context), at
@@ -45,18 +45,6 @@ def from_class(ref: ast.Ref, scope: Scope) -> tuple[Node, int] | Expr:
         hint = "use one of its components or constants"
         raise Diagnostic("R018", f"{ref} is a {cls.kind}, not a value", ref.span, hint)
     raise unknown_name(ref, scope)
-
-
-def _enumeration_of(library: Library, cls: ast.Class) -> ast.Class | None:
-    """The enumeration that `cls` is, or is a short definition of."""
-    for _ in range(20):
-        if cls.literals is not None or cls.alias is None:
-            return cls if cls.literals is not None else None
-        base = cls.alias.target or find_class(library, cls.parent or library.root, cls.alias.base)
-        if base is None:
-            return None
-        cls = base
-    return None
 
 
 def _constant_of(cls: ast.Class, name: str, ref: ast.Ref, context: Context) -> Node:

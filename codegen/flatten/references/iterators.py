@@ -12,7 +12,7 @@ from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Array, Value, shape_of, stack
 from lacuna.codegen.flatten.references.references import node_of
 from lacuna.codegen.symbolic import expr as ex
-from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, TRUE, Expr
+from lacuna.codegen.symbolic.expr import BOOLEAN, FALSE, REAL, TRUE, Expr
 from lacuna.codegen.syntax import ast
 from lacuna.codegen.syntax.references import references
 
@@ -89,15 +89,17 @@ def range_values(e: ast.Range, scope: Scope) -> Array:
         known(v, scope, p.span, "a bound of the range") if p else None for v, p in zip(lowered, parts, strict=True)
     ]
     first, step, last = values
-    if first.type == BOOLEAN or last.type == BOOLEAN:
+    given = [v for v in values if v is not None]
+    if BOOLEAN in {v.type for v in given}:
         return _booleans(e, first, step, last)
-    kinds = {enumeration_of(v, scope.context) for v in (first, last)}
+    kinds = {enumeration_of(v, scope.context) for v in given}
     if kinds != {""}:
         if len(kinds) > 1 or step is not None:
             raise Diagnostic("R025", "a range of one enumeration goes from literal to literal", e.span, "E.a:E.c")
         return Array((max(0, last.value - first.value + 1),), tuple(
             ex.const(type(first.value)(n)) for n in range(first.value, last.value + 1)))  # fmt: skip
-    return _numbers(e, first.value, 1 if step is None else step.value, last.value, scope)
+    kind = float if REAL in {v.type for v in given} else int  # one Real makes all of them Reals (10.4.3)
+    return _numbers(e, kind(first.value), 1 if step is None else kind(step.value), last.value, scope)
 
 
 def _booleans(e: ast.Range, first: Expr, step: Expr | None, last: Expr) -> Array:

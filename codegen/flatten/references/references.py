@@ -28,7 +28,7 @@ from lacuna.codegen.flatten.names.values import (
 )
 from lacuna.codegen.flatten.references.class_values import from_class
 from lacuna.codegen.symbolic import expr as ex
-from lacuna.codegen.symbolic.expr import BOOLEAN, REAL, Expr
+from lacuna.codegen.symbolic.expr import BOOLEAN, Expr
 from lacuna.codegen.syntax import ast
 from lacuna.suggest import did_you_mean
 
@@ -43,7 +43,7 @@ def read(ref: ast.Ref, scope: Scope) -> Value:
             raise Diagnostic(
                 "R070", f"time in a {scope.cls.kind}", ref.span, "models and blocks know the time; hand it on"
             )
-        return ex.TIME
+        return apply_subscripts(ex.TIME, ref.subscripts[0], scope, ref)
     node = None
     if scope.instance is not None and not ref.absolute and scope.instance.sees(first, scope.cls):
         node = scope.instance.meant(first)
@@ -52,7 +52,9 @@ def read(ref: ast.Ref, scope: Scope) -> Value:
         _refuse_beyond_outer(node, ref, scope)
         return _walk(node, ref, 0, scope)
     found = from_class(ref, scope)
-    return found if isinstance(found, Expr) else _walk(found[0], ref, found[1], scope)
+    if isinstance(found, Expr):  # a literal
+        return apply_subscripts(found, ref.subscripts[-1], scope, ref)
+    return _walk(found[0], ref, found[1], scope)
 
 
 def _refuse_beyond_outer(node: Node, ref: ast.Ref, scope: Scope) -> None:
@@ -166,7 +168,11 @@ def _walk_array(node: Node, ref: ast.Ref, at: int, scope: Scope) -> Value:
 
 
 def _numbered(node: ArrayNode, number: Expr, ref: ast.Ref, at: int, scope: Scope) -> Value:
-    """From the element of that number; where it changes at run time, `number` chooses among constants."""
+    """From the element of that number; where it changes at run time, `number` chooses among constants, of which one may
+    be that of no element."""
+    if ex.is_nothing(number):
+        value = _walk(node.items[0], ref, at, scope)
+        return with_scalars(value, (ex.nothing(s.type) if isinstance(s, Expr) else s for s in scalars(value)))
     if number.op == "const":
         return _walk(node.items[number.value - 1], ref, at, scope)
     condition, *numbers = number.args
@@ -240,13 +246,13 @@ def _row(array: Array, index: Expr, scope: Scope, ref: ast.Ref, written: ast.Exp
 
 
 def _choose(rows: list[Value], index: Expr, written: ast.Expression, scope: Scope) -> Value:
-    """An element by a number known only at run time: an if-expression over all of them, and not a number outside."""
+    """An element by a number known only at run time: an if-expression over all of them, and no value outside."""
     if not rows:
         raise Diagnostic("R045", "a subscript of an empty array", written.span, "it has no element")
     is_last = ex.relation("==", index, ex.const(len(rows)))
 
     def inside(a: Expr | str) -> Expr | str:
-        return ex.if_else(is_last, a, ex.const(math.nan)) if isinstance(a, Expr) and a.type == REAL else a
+        return ex.if_else(is_last, a, ex.nothing(a.type)) if isinstance(a, Expr) else a
 
     result = with_scalars(rows[-1], map(inside, scalars(rows[-1])))
     for number in range(len(rows) - 1, 0, -1):

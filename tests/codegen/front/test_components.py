@@ -76,7 +76,7 @@ def test_an_index_that_changes_chooses_among_components(tmp_path: Path) -> None:
     model M Part p[3](k = {1, 2, 3}); Integer n(start = 1); Real y = p[n].x;
     equation when time > 1 then n = 3; end when; end M;"""
     found = equations(flatten_text(tmp_path, text))
-    assert found[-1] == "y = if n == 1 then p[1].x else if n == 2 then p[2].x else p[3].x"
+    assert found[-1] == "y = if n == 1 then p[1].x else if n == 2 then p[2].x else if n == 3 then p[3].x else nan"
 
 
 def test_redeclaration_keeps_the_constraint(tmp_path: Path) -> None:

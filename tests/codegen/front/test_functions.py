@@ -208,3 +208,10 @@ def test_functions_inherit_declarations_and_statements(tmp_path: Path) -> None:
     function steeper extends line(gain = 7); end steeper;
     model M Real a = line(time), b = steep(time), c = steeper(time, 2); end M;"""
     assert equations(flatten_text(tmp_path, text)) == ["a = time", "b = 5.0 * time", "c = 2.0 * time"]
+
+
+def test_an_output_that_no_branch_may_assign_is_a_warning(tmp_path: Path) -> None:
+    text = """
+    function f input Real u; output Real y; algorithm if u > 0 then y := u; elseif u <= 0 then y := -u; end if; end f;
+    model M Real x = f(time), z = f(2*time); end M;"""
+    assert [w.code for w in flatten_text(tmp_path, text).warnings] == ["W011"]

@@ -73,6 +73,7 @@ def test_an_unknown_name_is_answered_with_known_ones(tree: Path, name: str, hint
         ("Shaft.mo", "within Lacuna; model Axle end Axle;", "Shaft", "F003"),
         ("Shaft.mo", "model Shaft end Shaft;", "Shaft", "F004"),
         ("Parts/Hub.mo", "within Lacuna; model Hub end Hub;", "Parts.Hub", "F004"),
+        ("Two.mo", "within Lacuna; model Two end Two; model Three end Three;", "Two", "F003"),
         ("Half.mo", "within Lacuna; partial model Half end Half;", "Half", "F003"),
     ],
 )

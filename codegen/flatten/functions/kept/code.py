@@ -141,8 +141,22 @@ def _argument(name: str, function: flat.Function) -> Expr:
 
 
 def _base(signature: Signature, arguments: dict[str, Value], context: Context, span: Span) -> str:
-    cls, kinds = signature.cls, {local.name: local.type for local in signature.inputs}
+    """The name of the function made for arguments of these sizes, and anew for what its sizes follow; where its course
+    follows whole numbers that are known, for each of them."""
     fixed = {n: v for n, v in arguments.items() if _is_fixed(signature, n, v)}
+    try:
+        return _made(signature, arguments, fixed, context, span)
+    except Diagnostic as error:
+        whole = {n: v for n, v in arguments.items() if n not in fixed and _are_counts(v)}
+        if error.code != "F036" or not whole:
+            raise
+        return _made(signature, arguments, fixed | whole, context, span)
+
+
+def _made(
+    signature: Signature, arguments: dict[str, Value], fixed: dict[str, Value], context: Context, span: Span
+) -> str:
+    cls, kinds = signature.cls, {local.name: local.type for local in signature.inputs}
     numbers = {n: v for n, v in arguments.items() if n not in fixed}
     inputs = {n: variables_of(n, kinds[n], v, context, span) for n, v in numbers.items()}
     shapes = [shape_of(v) for n, whole in inputs.items() for v in parts(n, whole).values()]
@@ -166,6 +180,11 @@ def _is_fixed(signature: Signature, name: str, value: Value) -> bool:
     return name in signature.sizing and bool(items) and all(isinstance(s, Expr) and s.op == "const" for s in items)
 
 
+def _are_counts(value: Value) -> bool:
+    items = scalars(value)
+    return bool(items) and all(isinstance(s, Expr) and s.op == "const" and s.type == INTEGER for s in items)
+
+
 def _listed(fixed: dict[str, Value]) -> str:
     return ", ".join(repr(s) if isinstance(s, str) else ex.to_text(s) for v in fixed.values() for s in scalars(v))
 
@@ -183,7 +202,8 @@ def _emit(
     function = flat.Function(name, names, (), {}, {}, {}, [], cls.span)
     context.functions[name] = function
     source = context.table(Sources)[name] = Source(signature, inputs, fixed, [])
-    writer = Writer(function, Scope(context, cls, None, dict(fixed), in_function=True, pure=not cls.impure))
+    scope = Scope(context, signature.written_in, None, dict(fixed), in_function=True, pure=not cls.impure)
+    writer = Writer(function, scope)
     try:
         for local in (x for x in signature.in_order if x.name not in fixed):
             number = _settled(local, signature, writer.scope)

@@ -11,8 +11,7 @@ from lacuna.codegen.flatten.equations.asserts import lower_assert
 from lacuna.codegen.flatten.equations.effects import effect
 from lacuna.codegen.flatten.expressions.elements import local_value
 from lacuna.codegen.flatten.expressions.lower import lower, lower_results, lower_scalar
-from lacuna.codegen.flatten.functions.fitting import blank, declared_sizes, fit, typed
-from lacuna.codegen.flatten.functions.interpret import unknown_target
+from lacuna.codegen.flatten.functions.fitting import blank, declared_sizes, fit, typed, unknown_target
 from lacuna.codegen.flatten.functions.kept.parts import matched, parts, variables_of
 from lacuna.codegen.flatten.functions.kept.whole_calls import called
 from lacuna.codegen.flatten.functions.locals import Local

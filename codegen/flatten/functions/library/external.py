@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.functions.kept.code import emitted_call
 from lacuna.codegen.flatten.functions.library import impure, linear_equations, objects, spectrum, streams, strings
@@ -29,7 +30,7 @@ def call_external(signature: Signature, arguments: dict[str, Value], e: ast.Call
         return column_of_file(list(arguments.values()), scope.context, e.span)
     if external.language == "builtin" and external.function in scope.context.lowering.functions:
         call = ast.Call(e.span, ast.Ref(e.span, (external.function,), (None,)), external.args)
-        return [lower(call, inner)]
+        return [scope.context.lowering.functions[external.function](call, inner)]
     handler = HANDLERS.get(external.function or cls.name)
     if handler is None:
         check_foreign(signature, scope, e.span)
@@ -41,5 +42,8 @@ def call_external(signature: Signature, arguments: dict[str, Value], e: ast.Call
     results = handler(values, ExternalCall(cls, scope, e.span))
     outputs = [local.name for local in signature.outputs]
     places = [str(a) for a in (external.result, *external.args) if a is not None and str(a) in outputs] or outputs
+    if len(places) != len(results):
+        hint = f"declare {len(results)} outputs, as the Modelica Standard Library does"
+        raise Diagnostic("R094", f"{cls.name} has {len(places)} results of {len(results)}", e.span, hint)
     found = dict(zip(places, results, strict=True))
     return [found[name] for name in outputs]

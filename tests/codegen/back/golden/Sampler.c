@@ -22,7 +22,12 @@ static const mdl_relation mdl_relations[] = {
   {{"x < 0.2", "Sampler.mo", 16, ""}, 0}
 };
 
+static const int mdl_assert_values[] = {
+  0
+};
+
 static const mdl_assert mdl_asserts[] = {
+  {{"the interval of sample is positive", "Sampler.mo", 12, ""}, 1, mdl_assert_values + 0},
   {{"too many saturations", "Sampler.mo", 18, ""}, 0, NULL}
 };
 
@@ -75,7 +80,12 @@ static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double val
 }
 
 static int mdl_parameters(mdl_data *m) {
-  (void)m;
+  const double Ts = m->p[0];
+  /* Sampler.mo:12  assert */
+  if (!(Ts > 0.0)) {
+    (void)mdl_fail(m, MDL_FAILURE_ASSERT, 0, 0.0);
+    return -1;
+  }
   return 0;
 }
 
@@ -184,7 +194,7 @@ static int mdl_event(mdl_data *m, double t, double *x, const double *xdot, const
   if (when1 && !m->when[1] && !m->initial) {
     n = n + 1.0;
     if (!(n < 100.0)) {
-      (void)mdl_fail(m, MDL_FAILURE_ASSERT, 0, 0.0);
+      (void)mdl_fail(m, MDL_FAILURE_ASSERT, 1, 0.0);
       return -1;
     }
   }
@@ -240,7 +250,7 @@ static const mdl_descriptor mdl_model = {
   .name = "Sampler",
   .hash = "",
   .jac_nnz = 1,
-  .n_asserts = 1,
+  .n_asserts = 2,
   .n_computed = 1,
   .n_d = 3,
   .n_divisions = 0,
