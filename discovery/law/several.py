@@ -9,10 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
+
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.amend import Amendment
-from lacuna.discovery.efforts.find import find
+from lacuna.discovery.efforts.find import INDIFFERENT, add_laws, find, places_of, simplest
 from lacuna.discovery.efforts.located import Site
 from lacuna.discovery.fit.evidence import pays, within_instruments
 from lacuna.discovery.fit.fit import Fit, linearised
@@ -32,7 +34,12 @@ def go_on(search: Search, library: Library, progress: Progress) -> None:
     anew."""
     while len(search.findings) < MAX_FINDINGS and not within_instruments(search.fit):
         progress("looking for a law at another place")
-        law = _best(search, search.amendment, search.fit, library, progress, _elsewhere(search.amendment))
+        found = places_of(search.case, search.amendment, search.fit, library, progress)
+        free = _elsewhere(search.amendment)
+        if _is_of_form(found.sites, free):
+            return
+        add_laws(found, search.case, search.amendment, search.fit, progress, free)
+        law = found.laws[0] if found.laws else None
         if law is None or not _pays(search, search.fit, law):
             return
         after = try_judge(law.machine, law.fit.point)
@@ -100,6 +107,14 @@ def _find_anew(search: Search, k: int, library: Library, progress: Progress) -> 
         return
     search.findings[k] = finding(law, base, search.findings[k].before, after)
     search.take([*amendment.attachments, law.attachment], law.fit, after)
+
+
+def _is_of_form(sites: list[Site], free: Callable[[Site], bool]) -> bool:
+    """Whether an effort where a law is already tells what is left better than one at any place that is free: that law
+    has another form than what is missing there, and laws elsewhere would stand for the difference."""
+    efforts = simplest(sites)
+    best = max((s.gain for s in efforts if free(s)), default=-np.inf)
+    return max((s.gain for s in efforts if not free(s)), default=-np.inf) > best + INDIFFERENT
 
 
 def _elsewhere(amendment: Amendment) -> Callable[[Site], bool]:

@@ -23,7 +23,7 @@ from lacuna.discovery.fit.fit import believed, fit
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import noise_of
 from lacuna.discovery.law.pairs import Place, paired
-from lacuna.discovery.law.several import without
+from lacuna.discovery.law.several import _is_of_form, without
 from lacuna.discovery.naming.foretold import DRAWS, foretold
 from lacuna.discovery.steps import fitted
 
@@ -63,6 +63,19 @@ def test_places_that_leave_as_little_are_tried_beside_the_best_one() -> None:
     near = Place(None, ranked[0], ranked).alike(car)
     assert [p.site.location for p in near] == ["sheave"]
     assert Place(None, ranked[0], ranked).alike(ranked[1]) == []
+
+
+def test_what_is_told_best_where_a_law_is_already_is_that_laws_form() -> None:
+    """Laws at other places would stand for the difference, as two terms of a valve did for a Stribeck curve."""
+
+    def left(here: float, elsewhere: float) -> bool:
+        place = SimpleNamespace(sites=[SimpleNamespace(kind="node")])
+        sites = [Site("slide", "effort", here, 0.9, place), Site("valve", "effort", elsewhere, 0.8, place)]
+        return _is_of_form(sites, lambda site: site.location != "slide")
+
+    assert left(here=1000.0, elsewhere=900.0)
+    assert not left(here=1000.0, elsewhere=998.0)
+    assert not left(here=900.0, elsewhere=1000.0)
 
 
 def test_a_slope_that_is_infinite_at_a_sample_is_that_beside_it() -> None:
