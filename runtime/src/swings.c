@@ -191,10 +191,8 @@ static double rough(const rt_session *s, int r, double to) {
 /* The shape of the last step, as far as it is wanted; whether guards come near zero in it, or may. */
 static bool come_near(rt_session *s, const double *error) {
   s->far = s->options.locate_events && rt_keep_away(s, error, 0.1 * clear);
-  if (s->far)
-    s->shaped = true;
-  else
-    rt_swing_shape(s, error);
+  s->shaped = s->far;
+  if (!s->far) rt_swing_shape(s, error);
   return s->shaped && !s->far;
 }
 
@@ -205,12 +203,11 @@ static double excess(rt_session *s, double to) {
 }
 
 static double roughness(rt_session *s, double to) {
-  const mdl_descriptor *d = s->d;
   bool near;
   if (!(estimated(s, to, &near) >= 0 && near)) return 0;
   if (!rt_look_along(s, to, along, PLACES)) return INFINITY;
   double largest = 0;
-  for (int r = 0; r < d->n_rel; r++)
+  for (int r = 0; r < s->d->n_rel; r++)
     if (s->bound[r] > 0) largest = rt_max(largest, rough(s, r, to));
   return largest;
 }
