@@ -17,7 +17,7 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.find import INDIFFERENT, add_laws, find, places_of, simplest
 from lacuna.discovery.efforts.located import Site
 from lacuna.discovery.fit.evidence import pays, within_instruments
-from lacuna.discovery.fit.fit import Fit, linearised
+from lacuna.discovery.fit.fit import Fit, fit, linearised
 from lacuna.discovery.law.beyond import MARGIN
 from lacuna.discovery.naming.comparison import MIN_GAIN, Ranked, price, score, told_by_data
 from lacuna.discovery.naming.judge import Judgement, try_judge
@@ -31,24 +31,27 @@ Progress = Callable[[str], None]
 
 def go_on(search: Search, library: Library, progress: Progress) -> None:
     """Add laws at other places while the model leaves more than instruments are off by and they pay; find earlier ones
-    anew."""
+    anew, and drop what these do without."""
+    known = len(search.findings)
     while len(search.findings) < MAX_FINDINGS and not within_instruments(search.fit):
         progress("looking for a law at another place")
         found = places_of(search.case, search.amendment, search.fit, library, progress)
         free = _elsewhere(search.amendment)
         if _is_of_form(found.sites, free):
-            return
+            break
         add_laws(found, search.case, search.amendment, search.fit, progress, free)
         law = found.laws[0] if found.laws else None
         if law is None or not _pays(search, search.fit, law):
-            return
+            break
         after = try_judge(law.machine, law.fit.point)
         if after is None:
-            return
+            break
         search.findings.append(finding(law, search.fit, search.judgement, after))
         search.take([*search.amendment.attachments, law.attachment], law.fit, after)
         for k in range(len(search.findings) - 1):
             _find_anew(search, k, library, progress)
+    if len(search.findings) > known:
+        _drop_needless(search, progress)
 
 
 def apart(search: Search, unbegun: Search, single: Candidate, library: Library, progress: Progress) -> None:
@@ -107,6 +110,28 @@ def _find_anew(search: Search, k: int, library: Library, progress: Progress) -> 
         return
     search.findings[k] = finding(law, base, search.findings[k].before, after)
     search.take([*amendment.attachments, law.attachment], law.fit, after)
+
+
+def _drop_needless(search: Search, progress: Progress) -> None:
+    """Drop findings that the others do without: the first of several stood for all as well as it could."""
+    for old in list(search.findings):
+        if len(search.findings) < 2:
+            return
+        attachments = [a for a in search.amendment.attachments if a is not old.ranked.attachment]
+        there = without(search.fit, old.ranked, replace(search.amendment, attachments=attachments))
+        if there is None:
+            continue
+        progress(f"without {old.ranked.attachment.label}")
+        free, correlation = there.estimate.free, search.fit.correlation()
+        found = fit(there.machine, search.case.fit, there.noise, free, there.fixed, start=there.point)
+        paid_for = price(len(old.ranked.candidate.free), search.fit, correlation)
+        if found is None or found.deviance(correlation) > search.fit.deviance(correlation) + paid_for:
+            continue
+        after = try_judge(found.machine, found.point)
+        told = pays(left_out(search.case, found), left_out(search.case, search.fit), search.floor)
+        if after is not None and not told:
+            search.findings.remove(old)
+            search.take(attachments, found, after)
 
 
 def _is_of_form(sites: list[Site], free: Callable[[Site], bool]) -> bool:

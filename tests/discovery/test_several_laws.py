@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -11,7 +12,9 @@ import pytest
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.symbolic.expr import const, mul, power, var
 from lacuna.discovery.case.cases import load
+from lacuna.discovery.catalogue import catalogue
 from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.catalogue.places import read as read_structure
 from lacuna.discovery.efforts.find import Found
 from lacuna.discovery.efforts.latent.numeric import Evaluator, NotNumeric, table
@@ -22,9 +25,12 @@ from lacuna.discovery.explain import explain
 from lacuna.discovery.fit.fit import believed, fit
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import noise_of
+from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.law.pairs import Place, paired
-from lacuna.discovery.law.several import _is_of_form, without
+from lacuna.discovery.law.several import _drop_needless, _is_of_form, finding, without
 from lacuna.discovery.naming.foretold import DRAWS, foretold
+from lacuna.discovery.naming.screen import Candidate
+from lacuna.discovery.naming.search import Search
 from lacuna.discovery.steps import fitted
 
 from .test_efforts import BELIEVED, TORRICELLI, cascade
@@ -63,6 +69,26 @@ def test_places_that_leave_as_little_are_tried_beside_the_best_one() -> None:
     near = Place(None, ranked[0], ranked).alike(car)
     assert [p.site.location for p in near] == ["sheave"]
     assert Place(None, ranked[0], ranked).alike(ranked[1]) == []
+
+
+def test_a_finding_that_the_others_do_without_is_dropped(tmp_path: Path) -> None:
+    """An offset of a sensor that is found first, and is nothing once the law stands."""
+    case = load(cascade(tmp_path, TORRICELLI))
+    result = explain(case)
+    offsets = [e for e in catalogue.read(case.library()) if e.identifier == "sensor.offset"]
+    offset = enumerate_attachments(result.case, result.amendment.structure, offsets, result.amendment)[0]
+    own = Free(offset.full_name(offset.effect.parameters[0].name), 0.0, 1e-3)
+    amendment = replace(result.amendment, attachments=[*result.amendment.attachments, offset])
+    machine = result.final.machine.amended(amendment)
+    free = [*result.final.estimate.free, own]
+    both = fit(machine, result.case.fit, result.final.noise, free, result.final.fixed, start=result.final.point)
+    first = finding(Candidate(offset, machine, [own], fit=both), result.base, result.before, result.after)
+    search = Search(
+        result.case, [], result.lead, result.floor, amendment, both, result.after, [first, *result.findings]
+    )
+    _drop_needless(search, lambda text: None)
+    assert [f.ranked.attachment.effect.identifier for f in search.findings] == ["unknown"]
+    assert search.fit.deviance() == pytest.approx(result.final.deviance(), abs=0.1)  # as near as a fit ends
 
 
 def test_what_is_told_best_where_a_law_is_already_is_that_laws_form() -> None:
