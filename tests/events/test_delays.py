@@ -96,7 +96,7 @@ def test_the_longest_time_is_kept_to(tmp_path: Path) -> None:
     failure = simulated(tmp_path, LAG.replace("delay(x, T)", "delay(x, T, 0.1)")).failure
     assert "delayTime is longer than delayMax" in str(failure)
     negative = simulated(tmp_path, LAG.replace("0.25", "-0.25")).failure
-    assert "delay() number 1 is by -0.25 s" in str(negative)
+    assert "the time of delay is not negative (T = -0.25)" in str(negative)
 
 
 def test_no_sensitivities_through_a_delay(tmp_path: Path) -> None:
