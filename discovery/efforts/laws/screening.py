@@ -17,7 +17,7 @@ from lacuna.discovery.efforts.opened import Place
 from lacuna.discovery.law.law import Law
 from lacuna.discovery.law.law import Site as LawSite
 from lacuna.discovery.law.law_screen import Proposal
-from lacuna.discovery.law.law_terms import Group, Variable
+from lacuna.discovery.law.law_terms import DRY, Group, Variable, evaluate
 
 Scored = tuple[float, Regression, tuple[int, ...]]  # deviance and prices, groups of a regression
 
@@ -55,9 +55,9 @@ def _held(
     known = {law.law.text() for law in others}
     found = []
     for regression, every in offered:
+        along = guided.pieces[0].along
         for v in (v for v in regression.place.variables if v.sticks and v.turns):
             level = _level(guided, v)
-            along = guided.pieces[0].along
             sense = np.mean(along.direct[:, _unknowns(locator).index(f"der({v.name})"), regression.column])
             laws = [_proposal(regression, (g,)) for g in every if regression.groups[g].texts == (v.dry,)]
             found += [replace(p, start={"c_1": level}) for p in laws if level * sense < 0 and p.law.text() not in known]
@@ -66,7 +66,10 @@ def _held(
 
 def _level(guided: Guided, v: Variable) -> float:
     """Of the effort along the way, with the sense of a speed, while that moves."""
-    sense = [np.tanh(50 * v.course(p.along.values) / v.size) for p in guided.pieces]  # as `law_terms.DRY`
+    sense = []
+    for along in (piece.along for piece in guided.pieces):
+        path = {v.local: v.course(along.values), "time": along.time}
+        sense.append(evaluate(DRY.format(x=v.scaled), path, {v.local: v.size}))
     return sum(float(e @ s) for e, s in zip(guided.efforts, sense, strict=True)) / sum(float(s @ s) for s in sense)
 
 
