@@ -1,12 +1,13 @@
 """Many independent jobs, each in a process of its own: a crash, a loop without end or a lack of memory costs one job.
 
-Results are JSON files in one folder, named by job; a job whose result is there and was made by the same generator is
-not run again. What a job may take is processor time, its compiler's included, so that a busy machine ends none.
+Results are JSON files in one folder, named by job; a job whose result is there and was made by the same generator and
+runtime is not run again. What a job may take is processor time, its compiler's included: a busy machine ends none.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+import hashlib
 import json
 import os
 from pathlib import Path
@@ -19,6 +20,7 @@ import traceback
 import psutil
 
 from lacuna.codegen.cache import generator_version
+from lacuna.runtime.library import library_path
 
 Outcome = dict[str, object]
 MEMORY = 4 << 30  # bytes of address space for one job
@@ -37,7 +39,7 @@ def run_all(
 ) -> dict[str, Outcome]:
     """The outcome of every job, by its name. `keep` takes any result that is there, whatever generator made it."""
     folder.mkdir(parents=True, exist_ok=True)
-    version = generator_version()
+    version = f"{generator_version()} {hashlib.sha256(library_path().read_bytes()).hexdigest()}"
     results: dict[str, Outcome] = {}
     waiting: list[str] = []
     for job in jobs:

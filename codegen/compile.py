@@ -105,7 +105,8 @@ def prepare(declared: flat.FlatModel, report: Report) -> Prepared:
     matrix = report.run("jacobian", jacobian, residual, system)
     initial = report.run("initial system", initial_system, system, system.model.initial_equations, tearing)
     explicit, system = report.run("matching, BLT, tearing", precompute_inverses, explicit, system)
-    sizes = report.run("nominal values", infer, system, [(r.left, r.right, _line(r)) for r in relations])
+    compared = [(r.left, r.right, _line(r)) for r in relations]
+    sizes = report.run("nominal values", infer, system, compared, delayed)
     quotients = report.run("divisions", divisions, explicit, system.model)
     shapes = report.run("guards", guard_shapes, explicit, relations, system.model, system.states)
     report.warnings += [*declared.warnings, *initial.warnings]

@@ -25,6 +25,7 @@ from collections.abc import Iterable, Sequence
 from functools import reduce
 
 from lacuna.codegen import flat
+from lacuna.codegen.dae.operators.delays import Delay
 from lacuna.codegen.structure.sizes import Size, combined, largest, named, raised, sized
 from lacuna.codegen.structure.system import DeclaredValues, System
 from lacuna.codegen.symbolic.expr import BOOLEAN, ONE, ZERO, Expr, add, call, const, der, is_const, var, walk
@@ -35,22 +36,28 @@ ANGLES = frozenset(("sin", "cos", "tan", "tanh", "exp"))  # their argument is of
 _SUMS = ("+", "-")
 
 
-def infer(system: System, relations: Sequence[tuple[Expr, Expr, str]]) -> dict[Expr, Size]:
+def infer(
+    system: System, relations: Sequence[tuple[Expr, Expr, str]], delays: Sequence[Delay] = ()
+) -> dict[Expr, Size]:  # fmt: skip
     """Sizes by variable and derivative. `relations`: (left, right, where), each compares two quantities of one size.
+    `delays`: what was is as large as what is.
 
     A limit may lie far beyond what a quantity ever reaches (one that is switched off, 1e60): what the equations alone
     make of a size, or 1 where they make nothing, limits make smaller, never larger. What is compared with another
     variable is no limit: the potential of an open leg with that of a rail."""
-    sizes = _balanced(system, relations, False)
-    for e, size in _balanced(system, relations, True).items() if relations else ():
+    sizes = _balanced(system, relations, delays, False)
+    for e, size in _balanced(system, relations, delays, True).items() if relations else ():
         if size.smaller(sizes[e]) if e in sizes else size.value < 1:
             sizes[e] = size
     return {e: _angle(size, e, system.model) for e, size in sizes.items()}
 
 
-def _balanced(system: System, relations: Sequence[tuple[Expr, Expr, str]], count: bool) -> dict[Expr, Size]:
+def _balanced(
+    system: System, relations: Sequence[tuple[Expr, Expr, str]], delays: Sequence[Delay], count: bool
+) -> dict[Expr, Size]:  # fmt: skip
     """`count`: limits are balances, too."""
     balances = [(row.lhs, row.rhs, f"line {row.source.span.line}") for row in system.rows]
+    balances += [(var(d.input), var(d.past), d.input) for d in delays]
     for left, right, where in relations:
         if count or (_varies(left, system.model) and _varies(right, system.model)):
             balances.append((left, right, where) if count else (_quantities(left), _quantities(right), where))

@@ -127,7 +127,7 @@ static bool append(rt_session *s, double begin, double length) {
       p->value[i] = d->at_node[i * d->n + k];
       h->size = rt_max(h->size, fabs(p->value[i]));
     }
-    d->largest[k] = h->size;
+    d->largest[k] = rt_max(d->largest[k], h->size);
     compare_ends(s, h, d->fresh);
   }
   d->fresh = false;
@@ -140,7 +140,7 @@ rt_status rt_delays_follow(rt_session *s) {
   if (!d || !(s->t > s->t_previous)) return RT_OK;
   memcpy(d->at_node, d->left, (size_t)d->n * sizeof *d->left);
   for (int k = 0; k < d->n; k++)
-    d->largest[k] = d->past[k].size;
+    d->largest[k] = rt_max(d->past[k].size, rt_least_share(s->options.rtol) * s->delay_nominal[k]);
   rt_kept kept = {s->d->delays, append, d->n, d->at_node, d->test, d->largest};
   return rt_keep_step(s, &kept, "keeping what is delayed");
 }

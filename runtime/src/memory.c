@@ -58,7 +58,7 @@ static bool allocate_numbers(rt_session *s) {
                           {dense, COUNT(dense), (RT_DENSE_DEGREE + 1) * d->n_x},
                           {shapes, COUNT(shapes), (RT_DENSE_DEGREE + 1) * d->n_rel},
                           {states, COUNT(states), d->n_x},
-                          {sizes, COUNT(sizes), d->n_x + d->n_z + d->n_rel},
+                          {sizes, COUNT(sizes), d->n_x + d->n_z + d->n_rel + d->n_delay},
                           {division, COUNT(division), 2 * d->n_divisions},
                           {guards, COUNT(guards), d->n_rel},
                           {turns, COUNT(turns), d->n_phases}};
@@ -70,6 +70,7 @@ static bool allocate_numbers(rt_session *s) {
     for (size_t j = 0; j < groups[i].count; j++, next += groups[i].n)
       *groups[i].places[j] = next;
   s->g_nominal = s->nominal + d->n_x + d->n_z;
+  s->delay_nominal = s->g_nominal + d->n_rel;
   return s->numbers != NULL;
 }
 

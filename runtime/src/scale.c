@@ -18,22 +18,25 @@ static double sized(double nominal, double start) {
   return size > 0 ? size : 1;
 }
 
-/* Sizes that follow from the parameters; those of guards are complete, 0 where the model does not tell. */
+/* Sizes that follow from the parameters; those of guards and of what is delayed are complete, 0 where the model does not tell. */
 rt_status rt_scale_parameters(rt_session *s) {
   const mdl_descriptor *d = s->d;
-  size_t n = (size_t)(d->n_x + d->n_z + d->n_rel);
+  size_t n = (size_t)(d->n_x + d->n_z + d->n_rel + d->n_delay);
   memset(s->nominal, 0, n * sizeof *s->nominal);
   if (d->nominals && d->nominals(&s->data, s->nominal)) return rt_fail_model(s, s->start, "computing nominal values");
   for (int i = 0; i < d->n_variables; i++) { /* hand-written models declare theirs in the table alone */
     const mdl_variable *v = &d->variables[i];
     if (!d->nominals && v->storage == MDL_STATE && v->nominal > 0) s->nominal[v->index] = v->nominal;
   }
-  for (int r = 0; r < d->n_rel; r++)
+  for (int r = 0; r < d->n_rel + d->n_delay; r++)
     if (!(s->g_nominal[r] > 0) || !isfinite(s->g_nominal[r])) s->g_nominal[r] = 0;
   for (int i = 0; i < d->n_x + d->n_z; i++) /* until the start is known */
     s->atol[i] = s->options.atol * sized(s->nominal[i], 0);
   return RT_OK;
 }
+
+/* The share of a nominal value up from which sizes count, where what is asked for is so much of them. */
+double rt_least_share(double tolerance) { return rt_min(1, rt_max(lowest, RT_ROUNDING / tolerance)); }
 
 static void set_tolerances(rt_session *s) {
   s->growing = false;
@@ -42,7 +45,7 @@ static void set_tolerances(rt_session *s) {
     s->outgrown[i] = grows ? 2 * s->range[i] : INFINITY;
     s->growing |= grows;
   }
-  double relative = s->options.atol, least = s->atol_given ? 1 : rt_min(1, rt_max(lowest, RT_ROUNDING / relative));
+  double relative = s->options.atol, least = s->atol_given ? 1 : rt_least_share(relative);
   for (int i = 0; i < s->d->n_x + s->d->n_z; i++)
     s->atol[i] = relative * rt_min(s->nominal[i], rt_max(s->range[i], least * s->nominal[i]));
 }

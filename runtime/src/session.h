@@ -100,8 +100,8 @@ struct rt_session {
   double *initial_value;
   rt_input *inputs;  /* [n_u]; n = 0: constant at its start value */
   double input_time; /* where data.u was last computed */
-  double *nominal;   /* [n_x + n_z + n_rel] sizes of unknowns and, g_nominal, of guards (0: not known) */
-  double *g_nominal;
+  double *nominal;   /* [n_x + n_z + n_rel + n_delay] sizes of unknowns, of guards and of what is delayed (0: not known) */
+  double *g_nominal, *delay_nominal;
   double *range;    /* [n_x + n_z] largest size so far, followed up to the nominal value */
   double *outgrown; /* [n_x] size from which on range is to be followed again */
   bool growing;     /* some are */
@@ -247,6 +247,7 @@ rt_status rt_check_forms(rt_session *s);
 rt_status rt_scale_parameters(rt_session *s);
 void rt_scale_start(rt_session *s);
 void rt_scale_grow(rt_session *s);
+double rt_least_share(double tolerance);
 rt_status rt_check_parameters(rt_session *s);
 rt_status rt_check_values(rt_session *s, double t, const double *x, const double *xdot, const double *v);
 rt_status rt_check_point(rt_session *s, bool fresh);

@@ -92,6 +92,31 @@ def test_a_jump_without_an_event_is_one_and_what_is_too_fast_is_refused(tmp_path
     assert "varies too fast" in str(simulated(tmp_path, text, stop=0.6).failure)
 
 
+MATCHED = """model Matched
+  parameter Real V = 310e3, Z = 258.2, T = 1.936e-4;
+  Real v1, v2, es, er, i1, i2;
+equation
+  v1 = V*sin(314.16*time);
+  v1 - es = Z*i1;
+  v2 - er = Z*i2;
+  es = 2*delay(v2, T) - delay(er, T);
+  er = 2*delay(v1, T) - delay(es, T);
+  v2 = -Z*i2;
+end Matched;
+"""
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1.0])
+def test_what_cancels_is_delayed_to_a_thousandth_of_its_size(tmp_path: Path, scale: float) -> None:
+    """Nothing comes back from a line that ends in its own resistance: a difference of equal voltages."""
+    result = simulated(tmp_path, MATCHED.replace("310e3", str(310e3 * scale)), stop=0.01, interval=1e-4)
+    assert result.complete, result.failure
+    arrived = result.time >= 1.936e-4
+    expected = np.where(arrived, 310e3 * scale * np.sin(314.16 * (result.time - 1.936e-4)), 0.0)
+    assert result["v2"] == pytest.approx(expected, abs=1e-6 * 310e3 * scale)
+    assert np.abs(result["es"]).max() < 1e-9 * 310e3 * scale
+
+
 def test_the_longest_time_is_kept_to(tmp_path: Path) -> None:
     failure = simulated(tmp_path, LAG.replace("delay(x, T)", "delay(x, T, 0.1)")).failure
     assert "delayTime is longer than delayMax" in str(failure)

@@ -83,6 +83,7 @@ class Checks:
         unknowns = [*map(var, self.prepared.storage.states), *self.prepared.residual.tears]
         found = [sizes.get(u) for u in unknowns]
         found += [difference(r.left, r.right, sizes, model) for r in self.prepared.relations]
+        found += [sizes.get(var(d.past)) for d in self.prepared.delays]
         rows = [(f"nominal[{k}]", told(size) if size else ZERO, "") for k, size in enumerate(found)]
         return self._write(NOMINALS, rows, self.prepared.storage.frozen)
 

@@ -11,8 +11,7 @@ from __future__ import annotations
 SOLVE_OF = """\
 /* Solve a x = b in place (row-major, n x n) by Gaussian elimination with scaled partial pivoting; b becomes x. Where a
  * is singular to working precision, 1 + the unknown that it does not determine: rows and columns have no scale. b has
- * 2 n places: behind the right sides come the sizes of what is summed up in them. Of the few unknowns that most blocks
- * have all loops are written out. */
+ * 2 n places: behind the right sides come the sizes of what is summed up in them. */
 static inline __attribute__((always_inline)) int mdl_solve_of(int n, double *a, double *b) {
   double size[n];
 #pragma GCC unroll 4
@@ -65,10 +64,14 @@ static inline __attribute__((always_inline)) int mdl_solve_of(int n, double *a, 
   return 0;
 }"""
 
+# Of a size that the compiler sees, it would write out rows that are not there, and say so.
+WITH_LOOPS = SOLVE_OF.replace("#pragma GCC unroll 4\n", "").replace(
+    "static inline __attribute__((always_inline)) int mdl_solve_of", "static int mdl_solve"
+)
 UNROLLED = (2, 3, 4)  # unknowns of blocks that are solved without loops
 SOLVES = {
     "mdl_solve_of": SOLVE_OF,
-    "mdl_solve": "static int mdl_solve(int n, double *a, double *b) { return mdl_solve_of(n, a, b); }",
+    "mdl_solve": WITH_LOOPS,
     **{f"mdl_solve_{n}": f"static int mdl_solve_{n}(double *a, double *b) {{ return mdl_solve_of({n}, a, b); }}"
        for n in UNROLLED},
 }  # fmt: skip

@@ -37,7 +37,7 @@ def piecewise(x: Sequence[float], y: Sequence[float], smoothness: int, extrapola
     if not segments:
         return [(x[-1], y[-1], 0.0, 0.0, 0.0)]
     first, last = segments[0], segments[-1]
-    before = (first[0], first[1], first[2] if extrapolation == EXTEND else 0.0, 0.0, 0.0)
+    before = (*first[:3], 0.0, 0.0) if extrapolation == EXTEND else (x[0], y[0], 0.0, 0.0, 0.0)
     width = x[-1] - last[0]
     slope = last[2] + (2 * last[3] + 3 * last[4] * width) * width
     after = (x[-1], y[-1], slope if extrapolation == EXTEND else 0.0, 0.0, 0.0)
