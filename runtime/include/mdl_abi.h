@@ -192,8 +192,8 @@ typedef struct mdl_descriptor {
   const int *equation_first;     /* [n_equations + 1] where the variables of an equation begin in */
   const int *equation_variables; /* rows of `variables` */
 
-  /* Sizes of the unknowns [n_x + n_z], of the guards [n_rel] and of what is delayed [n_delay] for the present parameters,
-   * as far as the model tells; 0 where it does not. */
+  /* Sizes of the unknowns [n_x + n_z], of the guards [n_rel] and of what is delayed [n_delay] for the present
+   * parameters, as far as the model tells; 0 where it does not. */
   int (*nominals)(mdl_data *m, double *nominal);
 
   /* value[2 k], value[2 k + 1]: numerator and divisor of division k, at a complete point; NAN where the division is in

@@ -18,7 +18,8 @@ static double sized(double nominal, double start) {
   return size > 0 ? size : 1;
 }
 
-/* Sizes that follow from the parameters; those of guards and of what is delayed are complete, 0 where the model does not tell. */
+/* Sizes that follow from the parameters; those of guards and of what is delayed are complete, 0 where the model does
+ * not tell. */
 rt_status rt_scale_parameters(rt_session *s) {
   const mdl_descriptor *d = s->d;
   size_t n = (size_t)(d->n_x + d->n_z + d->n_rel + d->n_delay);
@@ -36,7 +37,9 @@ rt_status rt_scale_parameters(rt_session *s) {
 }
 
 /* The share of a nominal value up from which sizes count, where what is asked for is so much of them. */
-double rt_least_share(double tolerance) { return rt_min(1, rt_max(lowest, RT_ROUNDING / tolerance)); }
+double rt_least_share(double tolerance) {
+  return rt_min(1, rt_max(lowest, RT_ROUNDING / tolerance));
+}
 
 static void set_tolerances(rt_session *s) {
   s->growing = false;

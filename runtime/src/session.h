@@ -100,7 +100,7 @@ struct rt_session {
   double *initial_value;
   rt_input *inputs;  /* [n_u]; n = 0: constant at its start value */
   double input_time; /* where data.u was last computed */
-  double *nominal;   /* [n_x + n_z + n_rel + n_delay] sizes of unknowns, of guards and of what is delayed (0: not known) */
+  double *nominal;   /* [n_x + n_z + n_rel + n_delay] sizes, 0: not known */
   double *g_nominal, *delay_nominal;
   double *range;    /* [n_x + n_z] largest size so far, followed up to the nominal value */
   double *outgrown; /* [n_x] size from which on range is to be followed again */
