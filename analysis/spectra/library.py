@@ -124,10 +124,15 @@ _FUNCTIONS = {
     "lacuna_lognormals_reached": (None, [*[DOUBLES] * 3, _SIZE, _SIZE, DOUBLES, _SIZE, DOUBLES]),
     "lacuna_latent_evidence": (ctypes.c_int, [*_LATENT, DOUBLES, _ADDRESS, _SIZE, DOUBLES, DOUBLES]),
     "lacuna_latent_whiten": (ctypes.c_int, [*_LATENT, DOUBLES, _ADDRESS, _SIZE]),
+    "lacuna_latent_whiten_transposed": (ctypes.c_int, [*_LATENT, DOUBLES, _ADDRESS, _SIZE]),
     "lacuna_latent_smooth": (ctypes.c_int, [*_LATENT, DOUBLES, _ADDRESS, DOUBLES, DOUBLES]),
     "lacuna_linear_response": (
         None,
         [ctypes.POINTER(CLinearModel), INTEGERS, DOUBLES, _SIZE, ctypes.c_int, _SIZE, DOUBLES],
+    ),
+    "lacuna_linear_response_transposed": (
+        None,
+        [ctypes.POINTER(CLinearModel), _SIZE, DOUBLES, _SIZE, _SIZE, DOUBLES],
     ),
     "lacuna_table_new": (_ADDRESS, [_TEXT, _SIZE, *_MESSAGE]),
     "lacuna_table_free": (None, [_ADDRESS]),

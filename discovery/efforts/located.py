@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -47,6 +48,11 @@ class Guided:
     mean: np.ndarray
     latent: Latent
 
+    @cached_property
+    def thin(self) -> list[Piece]:
+        """The pieces for a search over many laws."""
+        return thinned_all(self.pieces)
+
 
 class Locator:
     """Places of an opened model on a case; `base` is the fit of the model without any effort, `point` the parameters
@@ -75,8 +81,7 @@ class Locator:
         )
         left = left + _response(along, efforts)
         inputs, count = len(opened.linear.inputs), sum(not is_start(f.name) for f in self.free)
-        columns = np.arange(inputs, inputs + count)
-        answers = along.response(columns, np.ones((len(time), count)))
+        answers = along.response(np.arange(inputs, inputs + count), np.ones((len(time), count)))
         answers = np.concatenate([answers, self._from_starts(along, recording)], axis=2) * self.sigma
         believed = np.array([(f.centre - point[f.name]) for f in self.free]) / self.sigma
         data = np.concatenate([(left - answers @ believed)[:, :, None], -answers], axis=2)

@@ -117,11 +117,12 @@ def lagged(time: np.ndarray, values: np.ndarray, tau: complex) -> np.ndarray:
     keeps = np.exp(-np.diff(time) / tau)
     mean = (1 - keeps) / (np.diff(time) / tau)  # of what is kept over an interval
     added = (1 - mean) * values[1:] + (mean - keeps) * values[:-1]
-    result = np.empty(len(values), dtype=np.result_type(values, keeps))
-    result[0] = state = values[0]
-    for k, (keep, more) in enumerate(zip(keeps, added, strict=True), start=1):
-        result[k] = state = keep * state + more
-    return result
+    state = values[0].item()
+    result = [state]
+    for keep, more in zip(keeps.tolist(), added.tolist(), strict=True):
+        state = keep * state + more
+        result.append(state)
+    return np.array(result)
 
 
 def swinging(time: np.ndarray, values: np.ndarray, w: float, z: float) -> np.ndarray:

@@ -83,6 +83,9 @@ def two_places(
         best = joining.elsewhere(best, pair) if best is not None else None
     except (NotNumeric, SimulationError, np.linalg.LinAlgError):
         return None
+    finally:
+        for place in pair:
+            place.offered.close()  # what they were screened along is wanted no more
     trial = best and joining.found(best)
     if trial is None:
         return None

@@ -43,7 +43,7 @@ def piece(n: int, missing: int = 0, scale: float = 1.0) -> Piece:
         random.normal(size=(n - 1, 2, 2)),
         scale * random.normal(size=(n, 2, 2)),
         scale * random.normal(size=(n, 2, 2)),
-        np.zeros((n, 2, 2)),
+        *(np.zeros((n, 2, 2)), np.zeros((2, 2), dtype=bool)),
         {},
     )
     data = scale * random.normal(size=(n, 2, 3))

@@ -17,7 +17,7 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.catalogue.places import read as read_structure
 from lacuna.discovery.efforts.find import Found
-from lacuna.discovery.efforts.latent.numeric import Evaluator, NotNumeric, table
+from lacuna.discovery.efforts.latent.numeric import Evaluator, NotNumeric, finite, table
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.efforts.opened import opened
@@ -27,7 +27,8 @@ from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import noise_of
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.law.pairs import Place, paired
-from lacuna.discovery.law.several import _drop_needless, _is_of_form, finding, without
+from lacuna.discovery.law.several import _is_of_form, finding
+from lacuna.discovery.naming.candidate_fit import without
 from lacuna.discovery.naming.foretold import DRAWS, foretold
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.discovery.naming.search import Search
@@ -86,7 +87,7 @@ def test_a_finding_that_the_others_do_without_is_dropped(tmp_path: Path) -> None
     search = Search(
         result.case, [], result.lead, result.floor, amendment, both, result.after, [first, *result.findings]
     )
-    _drop_needless(search, lambda text: None)
+    search.drop_needless(lambda text: None)
     assert [f.ranked.attachment.effect.identifier for f in search.findings] == ["unknown"]
     assert search.fit.deviance() == pytest.approx(result.final.deviance(), abs=0.1)  # as near as a fit ends
 
@@ -107,10 +108,10 @@ def test_what_is_told_best_where_a_law_is_already_is_that_laws_form() -> None:
 def test_a_slope_that_is_infinite_at_a_sample_is_that_beside_it() -> None:
     level = np.array([0.0, 0.25, 1.0, 0.0])
     slope = mul(const(0.5), power(var("h"), const(-0.5)))
-    rows = table([{0: slope}], 1, Evaluator(lambda n: level), 4)
-    assert rows[:, 0, 0] == pytest.approx([1.0, 1.0, 0.5, 0.5])
+    rows = table([{0: slope}], 1, finite(Evaluator(lambda n: level), 4), slice(1, 4))
+    assert rows[:, 0, 0] == pytest.approx([1.0, 0.5, 0.5])
     with pytest.raises(NotNumeric):
-        table([{0: slope}], 1, Evaluator(lambda n: 0.0 * level), 4)
+        table([{0: slope}], 1, finite(Evaluator(lambda n: 0.0 * level), 4), slice(0, 4))
 
 
 def test_what_is_foretold_is_the_response_to_the_drawn_parameters(tmp_path: Path) -> None:

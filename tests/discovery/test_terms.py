@@ -31,7 +31,7 @@ def known(**units: str) -> dict[str, SimpleNamespace]:
 
 def along(**values: np.ndarray | float) -> list[Along]:
     empty = np.zeros((0, 0, 0))
-    return [Along(TIME, empty, empty, empty, empty, empty, dict(values))]
+    return [Along(TIME, empty, empty, empty, empty, empty, empty, dict(values))]
 
 
 def found(**more: np.ndarray | float) -> list[Variable]:

@@ -151,6 +151,11 @@ int lacuna_latent_evidence(const lacuna_linear_model *model, const lacuna_latent
 int lacuna_latent_whiten(const lacuna_linear_model *model, const lacuna_latent *latent, double *data,
                          const unsigned char *seen, size_t columns);
 
+/* The transpose of that, as a matrix of readings by readings, times columns of whitened readings, in the place of
+ * `data`; zero where not `seen`. */
+int lacuna_latent_whiten_transposed(const lacuna_linear_model *model, const lacuna_latent *latent, double *data,
+                                    const unsigned char *seen, size_t columns);
+
 /* Mean and standard deviation [forces][samples] of the forces of the first hypothesis, given `readings`
  * [samples][outputs]. */
 int lacuna_latent_smooth(const lacuna_linear_model *model, const lacuna_latent *latent, const double *readings,
@@ -160,6 +165,11 @@ int lacuna_latent_smooth(const lacuna_linear_model *model, const lacuna_latent *
  * [samples][count] in input `columns` [count], held from sample to sample or linear between them. */
 void lacuna_linear_response(const lacuna_linear_model *model, const int *columns, const double *courses, size_t count,
                             int hold, size_t every, double *outputs);
+
+/* The transpose of that of courses in one input, linear between samples: `courses` [samples][count] from `outputs`
+ * [samples / every, rounded up][outputs][count]. */
+void lacuna_linear_response_transposed(const lacuna_linear_model *model, size_t column, const double *outputs,
+                                       size_t count, size_t every, double *courses);
 
 /* The implementation of the Fourier transform that this library was built with: "FFTW" or "Eigen". */
 const char *lacuna_transform_name(void);

@@ -21,7 +21,8 @@ class Along:
     drive: np.ndarray  # (n - 1, x, b)
     read: np.ndarray  # (n, y, x)
     feed: np.ndarray  # (n, y, b)
-    direct: np.ndarray  # (n, u, b): du / dq, of derivatives first
+    direct: np.ndarray  # (n, x, inputs): rates of the states to inputs, at once
+    answering: np.ndarray  # (u, inputs): whether an unknown, the derivatives first, ever answers to an input at once
     values: dict[str, np.ndarray]  # of every variable, (n,); of parameters a number
 
     def __post_init__(self) -> None:
@@ -48,6 +49,16 @@ class Along:
         result = np.empty((-(-len(self.time) // every), self.read.shape[1], len(columns)))
         library().lacuna_linear_response(
             self.model(), columns.ctypes.data_as(INTEGERS), pointer(courses), len(columns), hold, every, pointer(result)
+        )
+        return result
+
+    def response_transposed(self, column: int, outputs: np.ndarray, every: int = 1) -> np.ndarray:
+        """(n, j): courses in a column whose products with any other course there are those of outputs (n/every, y, j)
+        with the response to that."""
+        outputs = np.ascontiguousarray(outputs, dtype=float)
+        result = np.empty((len(self.time), outputs.shape[2]))
+        library().lacuna_linear_response_transposed(
+            self.model(), column, pointer(outputs), outputs.shape[2], every, pointer(result)
         )
         return result
 

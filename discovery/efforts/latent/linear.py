@@ -18,11 +18,12 @@ from lacuna.codegen.symbolic.differentiate import Differentiator, partial
 from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, var
 from lacuna.discovery.case.cases import Recording
 from lacuna.discovery.efforts.latent.along import Along
-from lacuna.discovery.efforts.latent.numeric import Evaluator, NotNumeric, Value, table
+from lacuna.discovery.efforts.latent.numeric import Evaluator, NotNumeric, Value, finite, table
 from lacuna.discovery.fit.machine import Machine
 from lacuna.runtime import RecordedInput
 
 ROUNDING = 1e-9  # of the terms of a sum that cancels: far above what double precision leaves, far below any answer
+NUMBERS = 1_000_000  # in an array of unknowns by all that they answer to, at as many samples as are solved together
 NEWTON = 4  # rounds at most; the trajectory solves the equations, only the derivatives are to be found
 
 
@@ -67,19 +68,32 @@ class Linear:
     ) -> Along:
         """The linear model along the trajectory from `point`. Raises SimulationError, NotNumeric."""
         values, fixed = self._trajectory(point, recording, efforts)
-        evaluator = self._solved(values, fixed, recording.time)
+        course = finite(self._solved(values, fixed, recording.time), len(recording.time))
         n, states, columns = len(recording.time), len(self.states), len(self.inputs) + len(self.parameters)
-        matrix = table(self._by_unknown, len(self.unknowns), evaluator, n)
-        right = np.concatenate(
-            [table(self._by_state, states, evaluator, n), table(self._by_column, columns, evaluator, n)], axis=2
+        acting, outputs = slice(states, states + len(self.inputs)), len(self.machine.columns)
+        rates, answering = (
+            np.empty((n, states, states + columns)),
+            np.zeros((len(self.unknowns), len(self.inputs)), bool),
         )
-        answer = -np.linalg.solve(matrix, right)
-        acting = slice(states, states + len(self.inputs))
-        answer[:, :, acting] = _without_rounding(answer[:, :, acting], matrix, right[:, :, acting])
-        a, b = answer[:, :states, :states], answer[:, :states, states:]
-        step, drive = _discrete(a, b, np.diff(recording.time))
-        read, feed = self._outputs(answer, n)
-        return Along(recording.time, step, drive, read, feed, answer[:, :, states:], {**fixed, **values})
+        read, feed = np.empty((n, outputs, states)), np.empty((n, outputs, columns))
+        for block in self._blocks(n):
+            matrix = table(self._by_unknown, len(self.unknowns), course, block)
+            right = [table(self._by_state, states, course, block), table(self._by_column, columns, course, block)]
+            right = np.concatenate(right, axis=2)
+            answer = -np.linalg.solve(matrix, right)
+            answer[:, :, acting] = _without_rounding(answer[:, :, acting], matrix, right[:, :, acting])
+            answering |= np.any(answer[:, :, acting] != 0, axis=0)
+            rates[block] = answer[:, :states]
+            read[block], feed[block] = self._outputs(answer)
+        step, drive = self._discrete(rates[:, :, :states], rates[:, :, states:], np.diff(recording.time))
+        direct = rates[:, :, acting].copy()
+        return Along(recording.time, step, drive, read, feed, direct, answering, {**fixed, **values})
+
+    def _blocks(self, samples: int) -> list[slice]:
+        """Samples in blocks, of which arrays of unknowns by unknowns take little."""
+        unknowns = len(self.unknowns)
+        size = max(1, NUMBERS // (unknowns * (unknowns + len(self.states) + len(self.inputs) + len(self.parameters))))
+        return [slice(first, min(first + size, samples)) for first in range(0, samples, size)]
 
     def of(self, name: str, along: Along) -> np.ndarray:
         """(n,) of a variable, by any of its names, along a run."""
@@ -103,9 +117,11 @@ class Linear:
             values[name] = np.zeros(len(time))
         for _ in range(NEWTON):
             evaluator = Evaluator(self._leaf(values, fixed, time))
-            matrix = table(self._by_unknown, len(names), evaluator, len(time))
-            miss = np.stack([np.broadcast_to(evaluator(r), time.shape) for r in self.residuals], axis=1)
-            change = -np.linalg.solve(matrix, miss[:, :, None])[:, :, 0]
+            course, change = finite(evaluator, len(time)), np.empty((len(time), len(names)))
+            for block in self._blocks(len(time)):
+                matrix = table(self._by_unknown, len(names), course, block)
+                miss = np.stack([np.broadcast_to(evaluator(r), time.shape)[block] for r in self.residuals], axis=1)
+                change[block] = -np.linalg.solve(matrix, miss[:, :, None])[:, :, 0]
             for k, name in enumerate(names):
                 values[name] = values[name] + change[:, k]
             size = np.array([np.abs(values[name]).max(initial=0.0) for name in names])
@@ -141,9 +157,23 @@ class Linear:
 
         return leaf
 
-    def _outputs(self, answer: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
+    def _discrete(self, a: np.ndarray, b: np.ndarray, intervals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """(step (n-1, x, x), drive (n-1, x, b)): exact for what is constant from sample to sample."""
+        x = a.shape[1]
+        step, drive = np.empty((len(intervals), x, x)), np.empty((len(intervals), *b.shape[1:]))
+        for block in self._blocks(len(intervals)):
+            after = slice(block.start + 1, block.stop + 1)
+            mean, source = 0.5 * (a[block] + a[after]), 0.5 * (b[block] + b[after])
+            both = np.zeros((len(mean), 2 * x, 2 * x))
+            both[:, :x, :x] = mean * intervals[block, None, None]
+            both[:, :x, x:] = np.eye(x) * intervals[block, None, None]
+            exponential = expm(both)
+            step[block], drive[block] = exponential[:, :x, :x], exponential[:, :x, x:] @ source
+        return step, drive
+
+    def _outputs(self, answer: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         states, names = len(self.states), list(self.machine.columns.values())
-        both = np.zeros((n, len(names), answer.shape[2]))
+        both = np.zeros((len(answer), len(names), answer.shape[2]))
         place = {str(u.value): k for k, u in enumerate(self.unknowns) if u.op == "var"}
         for i, name in enumerate(names):
             kept, sign = self.prepared.aliases.get(name, (name, 1))
@@ -166,14 +196,3 @@ def _without_rounding(answer: np.ndarray, matrix: np.ndarray, right: np.ndarray)
 def _partials(residual: Expr, leaves: list[Expr]) -> dict[int, Expr]:
     found = {k: partial(residual, leaf) for k, leaf in enumerate(leaves)}
     return {k: d for k, d in found.items() if d is not ZERO and not (d.op == "const" and d.value == 0)}
-
-
-def _discrete(a: np.ndarray, b: np.ndarray, intervals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(step (n-1, x, x), drive (n-1, x, b)): exact for matrices and inputs that are constant between two samples."""
-    mean, source = 0.5 * (a[:-1] + a[1:]), 0.5 * (b[:-1] + b[1:])
-    x = a.shape[1]
-    block = np.zeros((len(mean), 2 * x, 2 * x))
-    block[:, :x, :x] = mean * intervals[:, None, None]
-    block[:, :x, x:] = np.eye(x) * intervals[:, None, None]
-    exponential = expm(block)
-    return exponential[:, :x, :x], exponential[:, :x, x:] @ source

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import cache
 
 import numpy as np
 
@@ -60,16 +61,27 @@ class Evaluator:
         raise NotNumeric(f"{e.value or e.op} cannot be linearised here")
 
 
-def table(rows: list[Mapping[int, Expr]], columns: int, value: Callable[[Expr], Value], samples: int) -> np.ndarray:
-    """(samples, rows, columns) of expressions given by row and column; zero elsewhere.
-
-    A slope that is infinite at single samples (a root where its argument is zero) is that of the sample beside it."""
-    result = np.zeros((samples, len(rows), columns))
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        for i, row in enumerate(rows):
-            for j, e in row.items():
-                result[:, i, j] = _finite(np.broadcast_to(value(e), samples))
+def table(
+    rows: list[Mapping[int, Expr]], columns: int, course: Callable[[Expr], np.ndarray], block: slice
+) -> np.ndarray:  # fmt: skip
+    """(samples, rows, columns) of expressions given by row and column, at a block of samples; zero elsewhere."""
+    result = np.zeros((block.stop - block.start, len(rows), columns))
+    for i, row in enumerate(rows):
+        for j, e in row.items():
+            result[:, i, j] = course(e)[block]
     return result
+
+
+def finite(value: Callable[[Expr], Value], samples: int) -> Callable[[Expr], np.ndarray]:
+    """The courses (samples,) of expressions, memoised. A slope that is infinite at single samples (a root where its
+    argument is zero) is that of the sample beside it."""
+
+    @cache
+    def course(e: Expr) -> np.ndarray:
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            return _finite(np.broadcast_to(value(e), samples))
+
+    return course
 
 
 def _finite(course: np.ndarray) -> np.ndarray:

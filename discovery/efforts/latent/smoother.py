@@ -44,6 +44,25 @@ class Whitener:
             result.append(white)
         return result
 
+    def transposed(self, rows: np.ndarray) -> list[np.ndarray]:
+        """(n, y, j) on each recording: readings whose products with any others are those of whitened rows (rows, j)
+        with those others whitened."""
+        forces, _forces = self.latent.of_library()
+        result, at = [], 0
+        for piece in self.pieces:
+            seen = np.ascontiguousarray(piece.seen)
+            count = int(seen.sum())
+            data = np.zeros((*seen.shape, rows.shape[1]))
+            data[seen] = rows[at : at + count]
+            at += count
+            model = piece.along.model(piece.noise, piece.start)
+            failed = library().lacuna_latent_whiten_transposed(
+                model, forces, pointer(data), seen.ctypes.data, rows.shape[1]
+            )
+            _checked(failed)
+            result.append(data)
+        return result
+
     @property
     def logdet(self) -> float:
         """Logarithm of the determinant of the innovations' covariance, in units of the noise."""

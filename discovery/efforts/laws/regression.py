@@ -8,20 +8,21 @@ covariance, since the outputs are all that is known of it.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from itertools import groupby
+from operator import itemgetter
 
 import numpy as np
 
-from lacuna.discovery.efforts.latent.chains import Latent, Piece
-from lacuna.discovery.efforts.latent.smoother import Whitener
-from lacuna.discovery.efforts.located import Guided, thinned_all
+from lacuna.discovery.efforts.latent.chains import Piece
+from lacuna.discovery.efforts.laws.metric import Bases, Metric, least_squares
+from lacuna.discovery.efforts.located import Guided
 from lacuna.discovery.law.law import Law, Site
 from lacuna.discovery.law.law_terms import Group
 
 DISCREPANCIES = (0.3, 0.03)  # of the located effort's size, that a law may leave
 NEAR = 5.0  # believed sigmas, within which parameters are looked for
 FURTHER = 2.0  # times as far as beside an effort of any course, that a law may leave them; as that, where none else is
-DEPENDENT = 1e-6  # share of a column that is left beside the others, below which it is none of its own
+BLOCK = 128  # terms that are looked at together: many beside the work that a filter has of its own, little memory
 
 
 class Regression:
@@ -29,49 +30,122 @@ class Regression:
 
     What a law leaves is an effort at the same place of one of a few sizes (the discrepancy), so that a term counts by
     what it explains of the effort where the data tells it. Parameters in their beliefs are projected out.
+
+    Of each group only products are kept. Its columns, one number for each sample of each output, are found again where
+    they are wanted: thousands of groups would take gigabytes.
     """
 
     def __init__(self, guided: Guided, place: Site, column: int) -> None:
         self.guided, self.place, self.column = guided, place, column
-        self.thin = thinned_all(guided.pieces)
-        self.every = -(-len(guided.pieces[0].along.time) // len(self.thin[0].along.time))
+        thin = guided.thin
+        self.every = -(-len(guided.pieces[0].along.time) // len(thin[0].along.time))
         self.groups: list[Group] = []
         self._picks: dict[tuple[str, ...], float] = {}
-        self.metrics = [_Metric(self.thin, guided.latent, share) for share in DISCREPANCIES]
+        self.metrics = [Metric(thin, guided.latent, share) for share in DISCREPANCIES]
         self.rows = len(self.metrics[0].target)
         self.driven = np.abs(guided.mean)
         self.alone = np.zeros((len(self.metrics), 0))  # (metrics, groups) deviances of each group alone
         self._strains: dict[tuple[int, ...], float] = {}
+        self._kept: dict[int, list[np.ndarray]] = {}  # (rows, terms) in each metric, of the groups that were used last
 
-    def add(self, groups: list[Group]) -> range:
-        """Take groups in; their numbers."""
-        answers = []
-        for piece in self.guided.pieces:
-            path = {v.local: v.course(piece.along.values) for v in self.place.variables} | {"time": piece.along.time}
-            with np.errstate(all="ignore"):
-                courses = np.column_stack([c for group in groups for c in group.values(path, self.place.sizes)])
-            courses = np.nan_to_num(courses, nan=0.0, posinf=0.0, neginf=0.0)
-            answers.append(piece.along.response(self.column, courses, every=self.every))
-        for metric in self.metrics:
-            metric.add(answers, [len(group.texts) for group in groups])
-        begin = len(self.groups)
+    def add(self, groups: list[Group], wanted: bool = False) -> range:
+        """Take groups in; their numbers. `wanted`: what is next asked of them takes their columns."""
+        added = range(len(self.groups), len(self.groups) + len(groups))
         self.groups += groups
-        added = range(begin, len(self.groups))
-        self.alone = np.hstack([self.alone, [metric.deviances((), added) for metric in self.metrics]])
+        for block in self._blocks(added):
+            counts = [len(self.groups[g].texts) for g in block]
+            answers = self._answers(block)
+            found = [metric.add(answers, counts) for metric in self.metrics]
+            if wanted:
+                self._keep(block, found)
+        self.alone = np.hstack([self.alone, [metric.deviances_alone(added) for metric in self.metrics]])
         return added
 
-    def _deviances(self, chosen: tuple[int, ...], others: Sequence[int]) -> np.ndarray:
-        """(metrics, others) of the chosen groups with each of the others."""
-        if not chosen:
-            return self.alone[:, list(others)]
-        return np.array([metric.deviances(chosen, others) for metric in self.metrics])
+    def _blocks(self, numbers: Sequence[int]) -> list[list[int]]:
+        """Groups in blocks of so many terms."""
+        first = np.cumsum([0, *(len(self.groups[g].texts) for g in numbers)])[:-1]
+        parted = zip(first // BLOCK, numbers, strict=True)
+        return [[g for _, g in block] for _, block in groupby(parted, key=itemgetter(0))]
+
+    def _answers(self, numbers: Sequence[int]) -> list[np.ndarray]:
+        """(n, y, terms) of the outputs on each recording."""
+        answers = []
+        for piece in self.guided.pieces:
+            answers.append(piece.along.response(self.column, self._courses(numbers, piece), every=self.every))
+        return answers
+
+    def _courses(self, numbers: Sequence[int], piece: Piece) -> np.ndarray:
+        """(n, terms) along a recording."""
+        path = {v.local: v.course(piece.along.values) for v in self.place.variables} | {"time": piece.along.time}
+        with np.errstate(all="ignore"):
+            courses = np.column_stack([c for g in numbers for c in self.groups[g].values(path, self.place.sizes)])
+        courses[~np.isfinite(courses)] = 0.0
+        return courses
+
+    def _keep(self, numbers: Sequence[int], found: Sequence[np.ndarray]) -> None:
+        """Columns of a block, for the next that want them, in place of those used longest ago."""
+        at = 0
+        for g in numbers:
+            count = len(self.groups[g].texts)
+            self._kept[g] = [columns[:, at : at + count].copy() for columns in found]
+            at += count
+        held = sum(len(self.groups[g].texts) for g in self._kept)
+        for g in list(self._kept):
+            if held <= 2 * BLOCK or g in numbers:
+                break
+            held -= len(self.groups[g].texts)
+            del self._kept[g]
+
+    def forget(self) -> None:
+        """Keep no columns: no more is asked for the time being."""
+        self._kept.clear()
+
+    def _columns(self, numbers: Sequence[int]) -> list[np.ndarray]:
+        """(rows, terms) of some groups, of no more than a block's terms, in each metric."""
+        self._kept |= {g: self._kept.pop(g) for g in dict.fromkeys(numbers) if g in self._kept}  # now used last
+        for block in self._blocks([g for g in dict.fromkeys(numbers) if g not in self._kept]):
+            answers = self._answers(block)
+            self._keep(block, [metric.beside_parameters(answers)[0] for metric in self.metrics])
+        return [np.column_stack([self._kept[g][k] for g in numbers]) for k in range(len(self.metrics))]
+
+    def _deviances(self, several: Sequence[tuple[int, ...]], others: Sequence[int]) -> np.ndarray:
+        """(several, metrics, others) of each of several choices of groups with each of the others."""
+        if not any(several):
+            return np.repeat(self.alone[None, :, list(others)], len(several), axis=0)
+        chosen = [self._columns(groups) for groups in several]
+        bases = [metric.bases([c[k] for c in chosen]) for k, metric in enumerate(self.metrics)]
+        blocks = self._blocks(others)
+        if len(blocks) > 1:
+            products = self._products(bases, blocks)
+        else:
+            products = [b.whole.T @ columns for b, columns in zip(bases, self._columns(others), strict=True)]
+        found = (m.deviances(own, others, p) for m, own, p in zip(self.metrics, bases, products, strict=True))
+        return np.stack(list(found), axis=1)
+
+    def _products(self, bases: list[Bases], blocks: list[list[int]]) -> list[np.ndarray]:
+        """(all, terms) in each metric: products of bases with the columns of groups, which are not found for that:
+        those of courses are the same with what the bases are to courses, by the transposes of filter and response."""
+        turned = [m.transposed(b, self.guided.pieces, self.column, self.every)
+                  for m, b in zip(self.metrics, bases, strict=True)]  # fmt: skip
+        result: list[list[np.ndarray]] = [[] for _ in self.metrics]
+        for block in blocks:
+            courses = [self._courses(block, piece) for piece in self.guided.pieces]
+            for k, metric in enumerate(self.metrics):
+                whole = sum(t.T @ c for t, c in zip(turned[k], courses, strict=True))
+                shares = np.column_stack([metric.shares[g] for g in block])
+                result[k].append(whole - (metric.basis.T @ bases[k].whole).T @ shares)
+        return [np.concatenate(parts, axis=1) for parts in result]
 
     def scores(self, chosen: tuple[int, ...], others: Sequence[int]) -> list[float]:
         """Deviance of the chosen groups with each of `others`, and their prices: ln(rows) for each number in them, and
         for having been picked among many."""
-        base = sum(map(self._price, chosen))
-        best = np.min(self._deviances(chosen, others), axis=0)
-        return [float(d) + base + self._price(g) for d, g in zip(best, others, strict=True)]
+        return self.scores_of([chosen], others)[0]
+
+    def scores_of(self, several: Sequence[tuple[int, ...]], others: Sequence[int]) -> list[list[float]]:
+        """The same of several choices of groups, whose products with the others are found all at once."""
+        best = np.min(self._deviances(several, others), axis=1) if others else np.zeros((len(several), 0))
+        prices = np.array([self._price(g) for g in others])
+        return [(d + sum(map(self._price, chosen)) + prices).tolist() for chosen, d in zip(several, best, strict=True)]
 
     def _price(self, number: int) -> float:
         group = self.groups[number]
@@ -80,15 +154,21 @@ class Regression:
         return (len(group.texts) + len(group.shapes)) * float(np.log(self.rows)) + 2 * self._picks[group.texts]
 
     def coefficients(self, chosen: tuple[int, ...]) -> np.ndarray:
-        return self._best_metric(chosen).coefficients(chosen)
+        return self._solved(self._best_metric(chosen), chosen)
 
     def explained(self, chosen: tuple[int, ...]) -> np.ndarray:
         """(rows,) what the groups explain, where a law may leave most."""
-        metric = self.metrics[0]
-        return np.column_stack([metric.columns[g] for g in chosen]) @ metric.coefficients(chosen)
+        return self._columns(chosen)[0] @ self._solved(0, chosen)
 
-    def _best_metric(self, chosen: tuple[int, ...]) -> _Metric:
-        return self.metrics[int(np.argmin(self._deviances(chosen[:-1], chosen[-1:])))]
+    def _solved(self, k: int, chosen: tuple[int, ...]) -> np.ndarray:
+        """Coefficients in a metric; of one group from what is kept of it."""
+        metric = self.metrics[k]
+        if len(chosen) == 1:
+            return least_squares(metric.triangles[chosen[0]], metric.onto[chosen[0]])
+        return least_squares(self._columns(chosen)[k], metric.target)
+
+    def _best_metric(self, chosen: tuple[int, ...]) -> int:
+        return int(np.argmin(self._deviances([chosen[:-1]], chosen[-1:])))
 
     def strain(self, chosen: tuple[int, ...]) -> float:
         """How far the parameters go from what is believed of them, in parts of how far they may. To first order
@@ -96,84 +176,7 @@ class Regression:
         it. Where an effort of any course at this place leaves them further off (what else is missing drives them), a
         law may as well."""
         if chosen not in self._strains:
-            moved = np.abs(self._best_metric(chosen).parameters(chosen))
+            k = self._best_metric(chosen)
+            moved = np.abs(self.metrics[k].parameters(chosen, self._solved(k, chosen)))
             self._strains[chosen] = float(np.max(moved / np.maximum(NEAR, FURTHER * self.driven), initial=0.0))
         return self._strains[chosen]
-
-
-class _Metric:
-    """The regression with what a law leaves as an effort of `share` of the size of the one that was located."""
-
-    def __init__(self, pieces: list[Piece], located: Latent, share: float) -> None:
-        latent = replace(located, size=share * located.size)
-        self.whitener = Whitener(pieces, latent)
-        self.logdet = self.whitener.logdet
-        rows = self.whitener([p.data for p in pieces])
-        count = rows.shape[1] - 1
-        self.basis, self.triangle = np.linalg.qr(np.vstack([-rows[:, 1:], np.eye(count)]))
-        target, share = self._beside(rows[:, :1])
-        self.target, self.target_share = target[:, 0], share[:, 0]
-        self.columns: list[np.ndarray] = []  # (rows, terms) of each group
-        self.together: dict[range, np.ndarray] = {}  # (rows, terms) of groups that were added together
-        self.grams: list[np.ndarray] = []  # (terms, terms), their products
-        self.shares: list[np.ndarray] = []  # (parameters, terms): what the parameters' basis has of each
-
-    def _beside(self, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """(what is left beside the parameters, what their basis takes)."""
-        count = self.basis.shape[1]
-        share = self.basis[: len(rows)].T @ rows
-        full = np.vstack([rows, np.zeros((count, rows.shape[1]))])
-        full -= self.basis @ share
-        return full, share
-
-    def coefficients(self, chosen: tuple[int, ...]) -> np.ndarray:
-        columns = np.column_stack([self.columns[g] for g in chosen])
-        size = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
-        return np.linalg.lstsq(columns / size, self.target, rcond=1e-9)[0] / size
-
-    def parameters(self, chosen: tuple[int, ...]) -> np.ndarray:
-        """Where the parameters go with these groups, in believed sigmas from what is believed."""
-        taken = np.column_stack([self.shares[g] for g in chosen]) @ self.coefficients(chosen)
-        return np.linalg.solve(self.triangle, self.target_share - taken)
-
-    def add(self, answers: list[np.ndarray], terms: list[int]) -> None:
-        columns, shares = self._beside(self.whitener(answers))
-        self.together[range(len(self.columns), len(self.columns) + len(terms))] = columns
-        at = 0
-        for count in terms:
-            own = columns[:, at : at + count]
-            self.columns.append(own)
-            self.grams.append(own.T @ own)
-            self.shares.append(shares[:, at : at + count])
-            at += count
-
-    def deviances(self, chosen: tuple[int, ...], others: Sequence[int]) -> np.ndarray:
-        """(len(others),) of the chosen groups with each of the others."""
-        if not others:
-            return np.zeros(0)
-        target, basis = self.target, np.zeros((len(self.target), 0))
-        if chosen:
-            basis, _ = np.linalg.qr(np.column_stack([self.columns[g] for g in chosen]))
-            target = target - basis @ (basis.T @ target)
-        terms = self.together.get(others) if isinstance(others, range) else None
-        terms = np.concatenate([self.columns[g] for g in others], axis=1) if terms is None else terms
-        right, crossed = terms.T @ target, (basis.T @ terms).T
-        counts = np.array([self.columns[g].shape[1] for g in others])
-        first, taken = np.cumsum(counts) - counts, np.zeros(len(others))
-        for count in np.unique(counts):
-            alike = np.flatnonzero(counts == count)
-            at = first[alike, None] + np.arange(count)
-            taken[alike] = _taken(np.stack([self.grams[others[k]] for k in alike]), right[at], crossed[at])
-        return float(target @ target) + self.logdet - taken
-
-
-def _taken(gram: np.ndarray, right: np.ndarray, crossed: np.ndarray) -> np.ndarray:
-    """Square sums (k,) that k blocks of j columns each take away beside a basis of c columns: from their products with
-    themselves (k, j, j), with the target (k, j), and with the basis (k, j, c)."""
-    rest = gram - crossed @ np.swapaxes(crossed, 1, 2)
-    own = np.trace(rest, axis1=1, axis2=2) > DEPENDENT * np.trace(gram, axis1=1, axis2=2)  # not where one runs away
-    rest, right = np.where(own[:, None, None], rest, np.eye(gram.shape[1])), np.where(own[:, None], right, 0.0)
-    size = np.sqrt(np.maximum(np.diagonal(rest, axis1=1, axis2=2), 1e-300))
-    inverse = np.linalg.pinv(rest / (size[:, :, None] * size[:, None]), rcond=1e-9, hermitian=True)
-    right = right / size
-    return np.sum(right * (inverse @ right[:, :, None])[:, :, 0], axis=1)

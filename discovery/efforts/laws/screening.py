@@ -41,10 +41,19 @@ def proposals(
     offered = [_offered(locator, place, guided) for place in quantities]
     ones = [_told_here(place, r, _refined(r, every)) for place, (r, every) in zip(quantities, offered, strict=True)]
     first = _best([(r, groups) for (r, _), groups in zip(offered, ones, strict=True)], most)
-    yield [*first, *_held(locator, guided, offered, first)]
+    first += _held(locator, guided, offered, first)
+    yield _forgetting(offered, first)
     if strained:
-        yield _best([(r, _refined(r, every, strained=True)) for r, every in offered], most)
-    yield _best([(r, _doubled(r, groups, every)) for (r, every), groups in zip(offered, ones, strict=True)], most)
+        yield _forgetting(offered, _best([(r, _refined(r, every, strained=True)) for r, every in offered], most))
+    twos = [(r, _doubled(r, groups, every)) for (r, every), groups in zip(offered, ones, strict=True)]
+    yield _forgetting(offered, _best(twos, most))
+
+
+def _forgetting(offered: list[tuple[Regression, range]], found: list[Proposal]) -> list[Proposal]:
+    """What was found, regressions left with what little they need until they are asked again: fits come between."""
+    for regression, _ in offered:
+        regression.forget()
+    return found
 
 
 def _held(
@@ -168,8 +177,10 @@ def _distinct(found: Iterable[Scored], most: int) -> list[Scored]:
         _, regression, chosen = law
         texts = (text for g in chosen for text in regression.groups[g].kind)
         kind = regression.column, frozenset(text.replace("onset(", "delay(") for text in texts)
+        if kind in kinds:
+            continue
         course = regression.explained(chosen)
-        if kind not in kinds and all(np.sum((course - c) ** 2) > SAME * np.sum(c**2) for c in courses):
+        if all(np.sum((course - c) ** 2) > SAME * np.sum(c**2) for c in courses):
             kept.append(law)
             courses.append(course)
             kinds.add(kind)
@@ -180,7 +191,7 @@ def _distinct(found: Iterable[Scored], most: int) -> list[Scored]:
 
 def _answering(locator: Locator, along: Along, column: int) -> frozenset[str]:
     """Unknowns that an effort at a place changes at once."""
-    return frozenset(n for k, n in enumerate(_unknowns(locator)) if np.any(along.direct[:, k, column] != 0))
+    return frozenset(n for k, n in enumerate(_unknowns(locator)) if along.answering[k, column])
 
 
 def _unknowns(locator: Locator) -> list[str]:
@@ -232,10 +243,10 @@ def _doubled(regression: Regression, single: list[tuple[int, ...]], every: range
     finer = [g for (g,) in single if g not in every]
     level = next((g,) for g in every if regression.groups[g].texts == ("1",))
     beside = [] if _is_coefficient(regression.place.place) else single[:FAMILIES]
-    for first in dict.fromkeys([level, *beside]):
-        for others in (every, finer):
-            for other, score in zip(others, regression.scores(first, others), strict=True):
-                scored[(*first, other)] = score
+    firsts = list(dict.fromkeys([level, *beside]))
+    for others in (every, finer):
+        for first, scores in zip(firsts, regression.scores_of(firsts, others), strict=True):
+            scored |= {(*first, other): score for other, score in zip(others, scores, strict=True)}
     kinds: dict[frozenset, tuple[int, ...]] = {}
     for key in sorted(scored, key=lambda k: scored[k]):
         kinds.setdefault(frozenset(regression.groups[g].kind for g in key), key)
@@ -251,7 +262,7 @@ def _refined_pairs(
     for zoom in range(2):
         for k in (0, 1):
             finer = [_finer(regression.groups[pair[k]], zoom) for pair, _ in pairs]
-            added = iter(regression.add([g for group in finer for g in group]) if any(finer) else ())
+            added = iter(regression.add([g for group in finer for g in group], wanted=True) if any(finer) else ())
             for n, ((pair, score), group) in enumerate(zip(pairs, finer, strict=True)):
                 own = [next(added) for _ in group]
                 scores = regression.scores((pair[1 - k],), own) if own else [score]
