@@ -30,7 +30,7 @@ def copied(cls: ast.Class, edits: Mapping[Site, str]) -> tuple[str, list[str]]:
             span = component.type.span
             name = f"{site.of.name}_{site.instance}"
             where = inner.setdefault(starts[span.line - 1] + span.column - 1, (site.of, name, []))[2]
-        where += _added(site, variable, text, starts)
+        where += _added(site, variable, site.of or cls, text, starts)
     for at, (of, name, own) in inner.items():
         line = text.rfind("\n", 0, at) + 1
         own += _seen(of, text, starts)
@@ -40,8 +40,8 @@ def copied(cls: ast.Class, edits: Mapping[Site, str]) -> tuple[str, list[str]]:
     return cls.name, [f"  {line}" if line else "" for line in body.split("\n")]
 
 
-def _added(site: Site, variable: str, text: str, starts: list[int]) -> list[Change]:
-    """What declares a variable and puts it where a site is."""
+def _added(site: Site, variable: str, cls: ast.Class, text: str, starts: list[int]) -> list[Change]:
+    """What declares a variable in a class and puts it where a site is."""
     changes: list[Change] = []
     for part in site.parts or (site,):
         begin = starts[part.span.line - 1] + part.span.column - 1
@@ -52,7 +52,7 @@ def _added(site: Site, variable: str, text: str, starts: list[int]) -> list[Chan
                 changes += [(at, False, "(", at), (last, False, f" + {variable})", last)]
         else:
             changes += [(side, True, " (", side), (end, True, f") + {site.term.replace('@', variable)}", end)]
-    owner = _section(text, begin)
+    owner = _declarations_end(cls, text, starts)
     kind = "input Real" if site.instance else "Real"  # a component is given from outside what it does not say
     value = " = 0" if site.of else ""
     margin = _margin(text[owner:].lstrip("\n"))
@@ -82,8 +82,7 @@ def _seen(cls: ast.Class, text: str, starts: list[int]) -> list[Change]:
     while around is not None and around.name:
         seen += [f"import {around.path}.*;", *(f"import {_imported(i)};" for i in around.imports)]
         around = around.parent
-    span = next(item.span for s in cls.sections if not s.algorithm and not s.initial for item in s.items)
-    at = _section(text, starts[span.line - 1] + span.column - 1)
+    at = _declarations_end(cls, text, starts)
     margin = _margin(text[at:].lstrip("\n"))
     return [(at, False, "".join(f"\n{margin}{clause}" for clause in seen), at)]
 
@@ -110,7 +109,7 @@ def right_side(text: str, begin: int) -> tuple[int, int]:
             k = text.index("*/", k) + 2
             continue
         level += {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}.get(c, 0)
-        if level == 0 and side < 0 and c == "=" and text[k - 1] not in "<>=:" and text[k + 1] != "=":
+        if level == 0 and side < 0 and c == "=" and text[k - 1] not in "<>=" and text[k + 1] != "=":
             side = k + 1
         elif level == 0 and side >= 0 and (c in ';"' or re.match(r"annotation\b", text[k:])):
             return side, k
@@ -118,8 +117,9 @@ def right_side(text: str, begin: int) -> tuple[int, int]:
     raise ValueError("an equation without end")
 
 
-def _section(text: str, begin: int) -> int:
-    """Where the line ends before the section of the equation at `begin`; or where that starts, if it does so within a
-    line."""
-    found = [m.start() for m in re.finditer(r"\n[ \t]*equation\b", text[:begin])]
-    return found[-1] if found else [m.start() for m in re.finditer(r"\bequation\b", text[:begin])][-1]
+def _declarations_end(cls: ast.Class, text: str, starts: list[int]) -> int:
+    """Where the line ends before the first section of a class; or where that starts, if it does so within a line."""
+    span = cls.sections[0].span
+    begin = starts[span.line - 1] + span.column - 1
+    before = text[:begin].rstrip(" \t")
+    return len(before) - 1 if before.endswith("\n") else begin

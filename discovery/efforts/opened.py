@@ -166,7 +166,8 @@ def _own_name(place: Place, taken: list[str]) -> str:
         name = max(dict.fromkeys(owners), key=owners.count)
     elif site.kind == "equation":
         name = site.label.replace(": ", ".", 1) if site.instance else site.label
-        name = site.left or name.partition("=")[0].strip()
+        first = re.search(r"\bder\(([\w.]+)\)", site.label)  # its own coordinate, where masses are coupled
+        name = site.left or (first[1] if first and not site.instance else name.partition("=")[0].strip())
     return name if re.fullmatch(r"[\w.\[\]]+", name) and name not in taken else place.location
 
 
@@ -182,10 +183,10 @@ def unit_of(site: Site, prepared: Prepared) -> str:
     if site.kind == "signal":
         return prepared.declared.variables[site.into].unit
     site = site.parts[0] if site.parts else site
-    left = site.label.removeprefix(f"{site.instance}: ").partition("=")[0].strip()
+    left = _left(site.label.removeprefix(f"{site.instance}: "))
     declared = prepared.declared
     equation = next(
-        (e for e in declared.equations if e.origin == site.instance and e.text.partition("=")[0].strip() == left),
+        (e for e in declared.equations if e.origin == site.instance and _left(e.text) == left),
         None,
     )
     if equation is None:
@@ -193,6 +194,10 @@ def unit_of(site: Site, prepared: Prepared) -> str:
     inference = UnitInference(lambda e: _declared_unit(declared.variables, str(e.value)), lambda name: "")
     found = inference.of(equation.lhs)
     return str(found) if isinstance(found, Unit) and found.factor == 1.0 else ""
+
+
+def _left(text: str) -> str:
+    return text.partition("=")[0].strip(" :")
 
 
 def _other(effect: np.ndarray, order: list[int]) -> list[int]:

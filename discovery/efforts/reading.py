@@ -23,6 +23,7 @@ from lacuna.codegen.symbolic.expr import Expr, walk
 from lacuna.codegen.syntax import ast
 from lacuna.discovery.efforts.sites import MOST, Port, Site, Sites, root
 
+ALGORITHM = "it is a statement of an algorithm that other statements follow"
 DEFINITION = "it only says that one variable is the rate of another"
 
 
@@ -36,9 +37,8 @@ def read(library: Library, name: str) -> Sites:
     ports: dict[str, Port] = {}
     states = _states(section for section, _ in top.sections)
     for section, owner in top.sections:
-        if section.algorithm or section.initial:
-            continue
-        for item, scope, loops in _each(section.items, Scope(top.context, owner, top)):
+        closed += [(f"line {i.span.line}", ALGORITHM) for i in _passing(section)]
+        for item, scope, loops in _each(_equations(section), Scope(top.context, owner, top)):
             if isinstance(item, ast.Connect):
                 found += _connection(item, scope, bool(loops), group, ports, closed)
             elif _is_definition(item, states):
@@ -56,6 +56,29 @@ def read(library: Library, name: str) -> Sites:
         for root, ends in joined.items() if root in ports
     ]  # fmt: skip
     return _few(cls, [*nodes, *_branches(group, ports), *found], dict.fromkeys(closed))
+
+
+def _equations(section: ast.Section) -> list[ast.Item]:
+    """What holds at all times: equations, and in an algorithm the assignments of what nothing else there assigns."""
+    if section.initial:
+        return []
+    if not section.algorithm:
+        return section.items
+    passing = _passing(section)
+    lasting = (i for i in section.items if isinstance(i, ast.Assignment) and i not in passing)
+    return [ast.Equality(i.span, i.target, i.value, i.text.replace(":=", "=", 1)) for i in lasting]
+
+
+def _passing(section: ast.Section) -> list[ast.Item]:
+    """The statements of an algorithm that do not hold at all times, but from one to the next: all, where there are
+    loops, conditions or calls with several results, which may assign anything."""
+    if section.initial or not section.algorithm:
+        return []
+    steps = [i for i in section.items if not isinstance(i, ast.Procedure)]
+    if not all(isinstance(i, ast.Assignment) and isinstance(i.target, ast.Ref) for i in steps):
+        return steps
+    times = Counter(i.target.names[0] for i in steps)
+    return [i for i in steps if times[i.target.names[0]] > 1]
 
 
 def _few(cls: ast.Class, places: list[Site], closed: Iterable[tuple[str, str]]) -> Sites:
@@ -145,10 +168,10 @@ def _inside(top: Instance) -> list[Site]:
 
 
 def _balances(node: Instance, of: ast.Class | None) -> list[Site]:
-    sections = [s for s in node.cls.sections if not s.algorithm and not s.initial]
+    sections = node.cls.sections
     states, found = _states(sections), []
     for section in sections:
-        for item, scope, loops in _each(section.items, Scope(node.context, node.cls, node)):
+        for item, scope, loops in _each(_equations(section), Scope(node.context, node.cls, node)):
             if isinstance(item, ast.Equality) and not _is_definition(item, states):
                 label = f"{node.name}: {item.text}"
                 site = Site("equation", label, span=item.span, instance=node.name, of=of)
