@@ -10,11 +10,13 @@ import time
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.case.values import is_parameter
+from lacuna.discovery.catalogue.modifications import unsubscripted
 from lacuna.discovery.experiment.proposal import propose
 from lacuna.discovery.explanation.contenders import contenders
 from lacuna.discovery.explanation.explanation import Clock, Explanation
 from lacuna.discovery.explanation.verdict import conclude
 from lacuna.discovery.fit.evidence import is_noise
+from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.time_limit import within
 from lacuna.discovery.naming.judge import judge_file
 from lacuna.discovery.steps import add_effort, add_findings, add_fit, add_location, add_scatter, opened
@@ -74,6 +76,7 @@ def write_amended(result: Explanation, folder: Path) -> Path | None:
     believed_names = {f.name for f in result.base.estimate.free} | set(result.base.fixed)
     point = result.final.point
     parameters = {n: point[n] for n in believed_names if n in point and is_parameter(n)}
+    parameters = _whole_arrays(parameters, result.final)
     amendment = replace(result.amendment, parameters=dict(sorted(parameters.items())), trackers=[])
     name = amended_name(result.case)
     effects = {k: v for k, v in point.items() if k not in believed_names}
@@ -83,6 +86,13 @@ def write_amended(result: Explanation, folder: Path) -> Path | None:
     write_whole(path, amendment.text(name, effects, comment))
     _beside(result.case, folder)
     return path
+
+
+def _whole_arrays(parameters: dict[str, float], found: Fit) -> dict[str, float]:
+    """With the elements of arrays that are not among them: an array is modified as a whole."""
+    arrays = {unsubscripted(n) for n in parameters if "[" in n}
+    known = found.machine.constants(found.point) if arrays else {}
+    return {n: v for n, v in known.items() if "[" in n and unsubscripted(n) in arrays} | parameters
 
 
 def _beside(case: Case, folder: Path) -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from lacuna.discovery.catalogue.attachment import Attachment
+from lacuna.discovery.catalogue.modifications import entries, modified, wrapped
 from lacuna.discovery.catalogue.places import Line, Shaft, Structure
 from lacuna.discovery.efforts.copied import copied
 from lacuna.discovery.efforts.sites import Site
@@ -67,7 +68,7 @@ class _Writer:
         self._signals_changed()
         self._trackers()
         self._probes()
-        modification = [f"{n}={v:.10g}" for n, v in self.amendment.parameters.items()]
+        modification = modified(self.amendment.parameters)
         modification += [f"{variable}={' + '.join(terms)}" for variable, terms in self.sums.items()]
         modification += [*given, *(f"break {item}" for item in self.left_out)]
         self.declarations[:0] = [f"input Real {i};" for i in self.amendment.inputs]
@@ -78,7 +79,7 @@ class _Writer:
         lines = [
             f'model {name} "{comment or "Believed model with what was found missing"}"',
             *nested,
-            *_wrapped(inherited),
+            *wrapped(inherited),
         ]
         definitions = dict.fromkeys(a.definition for a in self.amendment.attachments if a.definition)
         lines += [f"  {line}" for text in definitions for line in text.split("\n")]
@@ -127,7 +128,7 @@ class _Writer:
         if friction is not None:
             self.left_out.append(friction.name)
             names = [p.name for p in attachment.effect.parameters]
-            bound = {n: v for n, v in _entries(friction.modification).items() if n in names}
+            bound = {n: v for n, v in entries(friction.modification).items() if n in names}
         self._declare(attachment, bound=bound)
         self.equations.append(f"connect({attachment.component}.flange, {attachment.shaft.flange});")
         self._signals(attachment)
@@ -253,25 +254,3 @@ def probe_name(k: int) -> str:
 
 def tracker_name(k: int) -> str:
     return f"tracker_{k + 1}"
-
-
-def _entries(modification: str) -> dict[str, str]:
-    """The plain `name=value` entries of a modification as written."""
-    entries, level, start, inside = [], 0, 0, modification[1:-1]
-    for k, c in enumerate(inside + ","):
-        level += {"(": 1, ")": -1}.get(c, 0)
-        if c == "," and level == 0:
-            entries.append(inside[start:k])
-            start = k + 1
-    return {n.strip(): v.strip() for n, _, v in (e.partition("=") for e in entries) if "(" not in n}
-
-
-def _wrapped(text: str, width: int = 110) -> list[str]:
-    """A clause over several lines, broken after commas."""
-    lines, line = [], " "
-    for piece in text.replace(", ", ",\0").split("\0"):
-        if len(line) + len(piece) > width:
-            lines.append(line)
-            line = "   "
-        line += " " + piece
-    return [*lines, line]
