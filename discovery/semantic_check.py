@@ -66,9 +66,24 @@ def check_against_model(machine: Machine, start: tuple[list[Free], dict[str, flo
     problems: list[Problem] = []
     for recording in machine.case.fit + machine.case.validate:
         simulated = machine.simulate(point, recording)
-        if simulated is not None:
+        if simulated is not None and _answers(machine, point, recording, simulated):
             problems += _check(machine, point, recording, simulated)
     return problems
+
+
+def _answers(machine: Machine, point: dict[str, float], recording: Recording, simulated: dict[str, np.ndarray]) -> bool:
+    """Whether the inputs move the outputs more than they would move alone: from a start that nobody knows, with any
+    sign and phase."""
+    if not machine.uncertain_states(recording):
+        return True
+    columns = recording.columns | {s.column: np.full_like(recording.time, recording.columns[s.column][0])
+                                   for s in machine.case.inputs}  # fmt: skip
+    drives = {c: (t, np.full_like(v, v[0])) for c, (t, v) in recording.drives.items()}
+    name = f"{recording.name}/undriven"
+    alone = machine.simulate(point, replace(recording, name=name, columns=columns, drives=drives))
+    if alone is None:
+        return True
+    return all(np.std(run - alone[c]) > np.std(alone[c]) for c, run in simulated.items())
 
 
 def _check(
