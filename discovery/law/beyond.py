@@ -63,6 +63,7 @@ def _beside(search: Search, progress: Progress) -> None:
         ranked.fit = polished
         search.findings.append(Finding(ranked, Naming([ranked], []), search.judgement, after))
         search.take([*search.amendment.attachments, candidate.attachment], polished, after)
+        search.drop_needless(progress)  # it may only have helped the findings out of a dip
 
 
 def _instead(search: Search, unbegun: Search, held: Fit, law: Candidate) -> bool:

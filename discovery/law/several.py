@@ -11,18 +11,19 @@ from dataclasses import replace
 
 import numpy as np
 
-from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.find import INDIFFERENT, add_laws, find, places_of, simplest
 from lacuna.discovery.efforts.located import Site
 from lacuna.discovery.fit.evidence import pays, within_instruments
-from lacuna.discovery.fit.fit import Fit, fit, linearised
+from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.law.beyond import MARGIN
-from lacuna.discovery.naming.comparison import MIN_GAIN, Ranked, price, score, told_by_data
+from lacuna.discovery.naming.candidate_fit import without
+from lacuna.discovery.naming.comparison import MIN_GAIN, TIE, Ranked, price, score, told_by_data
 from lacuna.discovery.naming.judge import Judgement, try_judge
 from lacuna.discovery.naming.left_out import left_out
-from lacuna.discovery.naming.name import Finding, Naming
+from lacuna.discovery.naming.name import Finding, Naming, compete, screen_all
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.discovery.naming.search import MAX_FINDINGS, Search
 
@@ -51,7 +52,7 @@ def go_on(search: Search, library: Library, progress: Progress) -> None:
         for k in range(len(search.findings) - 1):
             _find_anew(search, k, library, progress)
     if len(search.findings) > known:
-        _drop_needless(search, progress)
+        search.drop_needless(progress)
 
 
 def apart(search: Search, unbegun: Search, single: Candidate, library: Library, progress: Progress) -> None:
@@ -112,26 +113,36 @@ def _find_anew(search: Search, k: int, library: Library, progress: Progress) -> 
     search.take([*amendment.attachments, law.attachment], law.fit, after)
 
 
-def _drop_needless(search: Search, progress: Progress) -> None:
-    """Drop findings that the others do without: the first of several stood for all as well as it could."""
-    for old in list(search.findings):
-        if len(search.findings) < 2:
-            return
-        attachments = [a for a in search.amendment.attachments if a is not old.ranked.attachment]
-        there = without(search.fit, old.ranked, replace(search.amendment, attachments=attachments))
-        if there is None:
-            continue
-        progress(f"without {old.ranked.attachment.label}")
-        free, correlation = there.estimate.free, search.fit.correlation()
-        found = fit(there.machine, search.case.fit, there.noise, free, there.fixed, start=there.point)
-        paid_for = price(len(old.ranked.candidate.free), search.fit, correlation)
-        if found is None or found.deviance(correlation) > search.fit.deviance(correlation) + paid_for:
-            continue
-        after = try_judge(found.machine, found.point)
-        told = pays(left_out(search.case, found), left_out(search.case, search.fit), search.floor)
-        if after is not None and not told:
-            search.findings.remove(old)
-            search.take(attachments, found, after)
+def among_sensors(search: Search, progress: Progress) -> None:
+    """Look at errors of sensors again, in the place of each of several laws."""
+    for k in range(len(search.findings) if len(search.findings) > 1 else 0):
+        _sensor_instead(search, k, progress)
+
+
+def _sensor_instead(search: Search, k: int, progress: Progress) -> None:
+    """An error of a sensor in the place of law k where, given the others, it costs less: alone it explained little
+    beside what else is missing, and a law stood for it as well as one can."""
+    old = search.findings[k].ranked
+    if old.attachment.variable:
+        return
+    progress(f"looking at sensors in the place of {old.attachment.label}")
+    others = [a for a in search.amendment.attachments if a is not old.attachment]
+    amendment = replace(search.amendment, attachments=others)
+    base = without(search.fit, old, amendment)
+    if base is None:
+        return
+    every = enumerate_attachments(search.case, amendment.structure, search.effects, amendment)
+    candidates, _ = screen_all(search.case, amendment, [a for a in every if a.variable], base, progress)
+    naming = compete(search.case, candidates, base, final=True, progress=progress)
+    best = naming.simplest
+    after = try_judge(best.fit.machine, best.fit.point) if best is not None else None
+    if after is None:
+        return
+    correlation = best.fit.correlation()
+    present = score(replace(old.candidate, fit=search.fit), base, correlation)
+    if score(best.candidate, base, correlation) < present - TIE:
+        search.findings[k] = Finding(best, naming, search.findings[k].before, after)
+        search.take([*others, best.attachment], best.fit, after)
 
 
 def _is_of_form(sites: list[Site], free: Callable[[Site], bool]) -> bool:
@@ -151,19 +162,6 @@ def _elsewhere(amendment: Amendment) -> Callable[[Site], bool]:
         return site.location not in taken and not any(f"der({t})" in b for t in taken for b in balances)
 
     return free
-
-
-def without(found: Fit, ranked: Ranked, amendment: Amendment) -> Fit | None:
-    """The model of `amendment`, which lacks this effect, with all else left where it is; None where it is no model:
-    another law is a function of what this one computes, or it cannot be simulated."""
-    prefix = f"{ranked.attachment.component}."
-    free = [f for f in found.estimate.free if not f.name.startswith(prefix)]
-    fixed = {n: v for n, v in found.fixed.items() if not n.startswith(prefix)}
-    try:
-        machine = found.machine.amended(amendment)
-    except Diagnostic:
-        return None
-    return linearised(machine, machine.case.fit, found.noise, free, fixed, found.point)
 
 
 def _best(

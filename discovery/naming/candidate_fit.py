@@ -11,15 +11,16 @@ from dataclasses import replace
 
 import numpy as np
 
+from lacuna.codegen.errors import Diagnostic
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.attachment import Attachment
-from lacuna.discovery.fit.fit import Fit, fit
+from lacuna.discovery.fit.fit import Fit, fit, linearised
 from lacuna.discovery.fit.machine import Machine, try_machine
 from lacuna.discovery.fit.objective import Objective
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.fit.starts import in_doubt
-from lacuna.discovery.naming.comparison import Progress
+from lacuna.discovery.naming.comparison import Progress, Ranked
 from lacuna.discovery.naming.screen import Candidate
 
 SMALL_STEP = 0.1  # of a start that is predicted to first order, which may still hold where the whole of it does not
@@ -98,3 +99,20 @@ def _is_silent(attachment: Attachment) -> bool:
     effect = attachment.effect
     neutral = bool(effect.neutral) and all(effect.parameter(n).default == v for n, v in effect.neutral.items())
     return effect.attaches == "flange" and neutral and not effect.friction
+
+
+def without(found: Fit, ranked: Ranked, amendment: Amendment, stages: int = 0) -> Fit | None:
+    """The model of `amendment`, which lacks this effect: fitted anew in so many stages, or with all else left where it
+    is (what is missing then is that effect). None where it is no model, or cannot be simulated: another law is a
+    function of what this one computes."""
+    prefix = f"{ranked.attachment.component}."
+    free = [f for f in found.estimate.free if not f.name.startswith(prefix)]
+    fixed = {n: v for n, v in found.fixed.items() if not n.startswith(prefix)}
+    try:
+        machine = found.machine.amended(amendment)
+    except Diagnostic:
+        return None
+    recordings = machine.case.fit
+    if not stages:
+        return linearised(machine, recordings, found.noise, free, fixed, found.point)
+    return fit(machine, recordings, found.noise, free, fixed, start=found.point, stages=stages)

@@ -92,6 +92,7 @@ class Finding:
     naming: Naming
     before: Judgement
     after: Judgement
+    instrument: str = ""  # the column of an input, of whose constant error it is not told
 
     @property
     def elsewhere(self) -> list[Ranked]:

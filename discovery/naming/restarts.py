@@ -16,13 +16,11 @@ from lacuna.discovery.fit.fit import Fit, linearised
 from lacuna.discovery.fit.solver.least_squares import WORKERS
 from lacuna.discovery.naming.candidate_fit import fit_candidate
 from lacuna.discovery.naming.comparison import TIE, Progress, best_correlation, score
-from lacuna.discovery.naming.race import ROUNDS
+from lacuna.discovery.naming.race import HALF, NEAR, ROUNDS
 from lacuna.discovery.naming.screen import Candidate, Screen, prepare, telling_recordings
 from lacuna.runtime import SimulationError
 
-HALF = 0.5  # of the best gain, that a hypothesis must have to be fitted further: a simpler law
-CONTENDING = 0.1  # share of the best gain, within which rivals are begun again from where the best hypothesis ended,
-AS_GOOD = 3.0  # while to first order they leave at most so many times what it does there itself
+AS_GOOD = 3.0  # times what the best hypothesis leaves, that rivals may at first where they are begun again from its end
 
 
 def begin_again(case: Case, base: Fit, candidates: list[Candidate], progress: Progress) -> None:
@@ -33,7 +31,7 @@ def begin_again(case: Case, base: Fit, candidates: list[Candidate], progress: Pr
 
 def _near(base: Fit, best: Candidate) -> float:
     """The deviance up to which a rival of the best hypothesis may still be made equal to it."""
-    return best.fit.deviance() + CONTENDING * (base.deviance() - best.fit.deviance())
+    return best.fit.deviance() + NEAR * (base.deviance() - best.fit.deviance())
 
 
 def _take(candidate: Candidate, found: Fit | None) -> None:

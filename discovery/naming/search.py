@@ -18,10 +18,11 @@ from lacuna.discovery.catalogue.catalogue import Effect
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.instruments import only_instruments
 from lacuna.discovery.fit.evidence import astray, holds, nearly_noise, pays, settled
-from lacuna.discovery.fit.fit import Fit, carried, fit, linearised
+from lacuna.discovery.fit.fit import Fit, carried
 from lacuna.discovery.fit.lead import Lead
 from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.objective import STAGES
+from lacuna.discovery.naming.candidate_fit import without
 from lacuna.discovery.naming.comparison import CLOSE, MIN_GAIN, TIE, Progress, Ranked, confidences, price, score
 from lacuna.discovery.naming.judge import Judgement, try_judge
 from lacuna.discovery.naming.left_out import left_out
@@ -65,7 +66,7 @@ class Search:
                 return
             for k in range(len(self.findings) - 1):
                 self._reconsider(k, progress)
-            self._drop_needless(progress)
+            self.drop_needless(progress)
 
     def settled(self) -> bool:
         """Whether nothing is left to look for."""
@@ -216,12 +217,12 @@ class Search:
         finding = self.findings[k]
         progress(f"reconsidering {finding.ranked.attachment.label}")
         others = [a for a in self.amendment.attachments if a is not finding.ranked.attachment]
-        without = replace(self.amendment, attachments=others)
-        base = self._without(finding.ranked, without)
+        amended = replace(self.amendment, attachments=others)
+        base = without(self.fit, finding.ranked, amended)
         if base is None:
             return
         held = self.lead.hold(base)
-        candidates = self._rivals(finding, without, held)
+        candidates = self._rivals(finding, amended, held)
         naming = compete(held.machine.case, candidates, held, final=self.lead.direct, progress=progress)
         best, own = naming.best, naming.of(finding.ranked.identity)
         if best is None or own is None:
@@ -243,13 +244,13 @@ class Search:
             self.findings[k] = replace(finding, ranked=best, naming=naming)
             self.take([*others, best.attachment], polished, after)
 
-    def _drop_needless(self, progress: Progress) -> None:
-        """Drop a finding that the others do without: it may only have helped one of them out of a dip."""
+    def drop_needless(self, progress: Progress) -> None:
+        """Drop what others do without: it stood for all as well as it could, or helped one of them out of a dip."""
         for finding in list(self.findings):
             if len(self.findings) < 2:
                 return
             attachments = [a for a in self.amendment.attachments if a is not finding.ranked.attachment]
-            found = self._without(finding.ranked, replace(self.amendment, attachments=attachments), STAGES)
+            found = self._without(finding.ranked, replace(self.amendment, attachments=attachments))
             correlation = self.fit.correlation()
             paid = price(len(finding.ranked.candidate.free), self.fit, correlation)
             if found is None or found.deviance(correlation) > self.fit.deviance(correlation) + paid:
@@ -260,18 +261,13 @@ class Search:
                 self.findings.remove(finding)
                 self.take(attachments, found, after)
 
-    def _without(self, ranked: Ranked, amendment: Amendment, stages: int = 0) -> Fit | None:
-        """The present model without one of its effects: fitted anew in so many stages, or with all else left where it
-        is (what is missing then is that effect)."""
-        prefix = ranked.attachment.component + "."
-        free = [f for f in self.fit.estimate.free if not f.name.startswith(prefix)]
-        fixed = {n: v for n, v in self.fit.fixed.items() if not n.startswith(prefix)}
-        machine = self.fit.machine.amended(amendment, self.case)
-        if not stages:
-            return linearised(machine, self.case.fit, self.fit.noise, free, fixed, self.fit.point)
-        return fit(machine, self.case.fit, self.fit.noise, free, fixed, start=self.fit.point, stages=stages)
+    def _without(self, ranked: Ranked, amendment: Amendment) -> Fit | None:
+        """The present model without one of its effects, fitted anew; or as it is where that leaves less: a fit of what
+        sticks may end in a dip beside it."""
+        fits = [without(self.fit, ranked, amendment, stages) for stages in (0, STAGES)]
+        return min((f for f in fits if f is not None), key=lambda f: f.deviance(), default=None)
 
-    def _rivals(self, finding: Finding, without: Amendment, held: Fit) -> list[Candidate]:
+    def _rivals(self, finding: Finding, amended: Amendment, held: Fit) -> list[Candidate]:
         """The finding and the best of what was tried beside it, with the values they had, in the model without it.
 
         Laws that the finding contains are rivals too: what it had beyond them may have stood for a later finding.
@@ -281,7 +277,7 @@ class Search:
         result = []
         for ranked in [finding.ranked, *rivals]:
             old = ranked.candidate
-            amendment = replace(without, attachments=[*without.attachments, ranked.attachment])
+            amendment = replace(amended, attachments=[*amended.attachments, ranked.attachment])
             machine, _ = try_machine(held.machine.case, amendment, held.machine)
             point = self.fit.point if ranked is finding.ranked else ranked.fit.point
             if machine is not None:
@@ -289,10 +285,10 @@ class Search:
                 result.append(Candidate(ranked.attachment, machine, old.free, old.fixed, start, predicted=1.0))
         tried = {c.attachment.label for c in result}
         simpler = [
-            a for a in enumerate_attachments(self.case, without.structure, self.effects, without)
+            a for a in enumerate_attachments(self.case, amended.structure, self.effects, amended)
             if finding.ranked.attachment.contains(a) and a.label not in tried
         ]  # fmt: skip
-        return result + screen_all(held.machine.case, without, simpler, held, lambda text: None)[0]
+        return result + screen_all(held.machine.case, amended, simpler, held, lambda text: None)[0]
 
 
 def _does_not_pay(ranked: Ranked) -> str:

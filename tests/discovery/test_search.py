@@ -250,7 +250,7 @@ def test_a_finding_that_the_others_do_without_is_dropped(friction_case: Path) ->
     findings = [Finding(Ranked(c, c.fit, -100.0), None, judged, judged) for c in candidates]
     floor = noise_floor(case, case.validate, believed.noise)
     search = Search(case, [], Lead(), floor, last.machine.amendment, last.fit, judged, findings)
-    search._drop_needless(lambda text: None)
+    search.drop_needless(lambda text: None)
     assert [f.ranked.attachment.effect.name for f in search.findings] == ["CoulombFriction"]
     assert [a.effect.name for a in search.amendment.attachments] == ["CoulombFriction"]
     assert search.fit.machine.amendment.attachments == [candidates[0].attachment]
