@@ -64,6 +64,7 @@ def tie(finding: Finding) -> list[dict[str, str]]:
     identities = [finding.ranked.identity, *dict.fromkeys(r.identity for r in finding.naming.rivals(finding.ranked))]
     alike, _ = finding.ranked.attachment.alike
     others = [{"effect": alike, "location": finding.ranked.attachment.location}] if alike else []
+    others += [{"effect": "sensor.offset", "location": f"sensor:{finding.instrument}"}] if finding.instrument else []
     return [{"effect": effect, "location": location} for effect, location in identities] + others
 
 

@@ -13,7 +13,7 @@ from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.experiment.files import described
 from lacuna.discovery.explanation.confidence import alternatives, certainty, confidence, explained, odds, tie
 from lacuna.discovery.explanation.explanation import Explanation
-from lacuna.discovery.fit.evidence import whiteness
+from lacuna.discovery.fit.evidence import CLEARLY, whiteness
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.law.law import form_at, law_at
@@ -216,10 +216,9 @@ def sentence(result: Explanation) -> str:
         parts = [_named(result, f) for f in result.findings]
         if result.instead:
             return f"The model lacks {' and '.join(parts)}; without it {_moved(result)} from what was believed."
-        gain = result.before.validate[""] / max(result.after.validate[""], 1e-12)
         share = explained(result)
         rest = "" if share >= PARTIAL else f" This is a part of it only: {1 - share:.0%} of the misfit is left."
-        falls = f"with it the error on unseen recordings falls {gain:.2g} times."
+        falls = f"with it the error {_fall(result)} times."
         return f"The model lacks {' and '.join(parts)}; {falls}{rest}"
     if result.verdict == "parameters":
         fitted = [f for f in result.base.estimate.free if not f.name.startswith("start:")]
@@ -234,6 +233,16 @@ def sentence(result: Explanation) -> str:
     if result.stopped:
         return f"What is missing is not known yet: {result.reason}."
     return "These recordings cannot say what is missing: " + (result.reason or "the residual is not noise") + "."
+
+
+def _fall(result: Explanation) -> str:
+    """By how much the error falls on unseen recordings: of all signals, or of the one in which it falls most, where the
+    noise of others hides it."""
+    gains = {c: error / max(result.after.validate[c], 1e-12) for c, error in result.before.validate.items()}
+    if gains[""] * CLEARLY > 1:
+        return f"on unseen recordings falls {gains['']:.2g}"
+    column = max(result.floor, key=lambda c: gains[c])
+    return f"of {column} on unseen recordings falls {gains[column]:.2g}"
 
 
 def _moved(result: Explanation) -> str:

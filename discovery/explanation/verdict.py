@@ -10,7 +10,9 @@ import numpy as np
 from lacuna.discovery.efforts.find import INDIFFERENT
 from lacuna.discovery.efforts.instruments import NATS, gained, log_evidence, only_instruments
 from lacuna.discovery.efforts.located import Site
+from lacuna.discovery.efforts.opened import ALIKE
 from lacuna.discovery.explanation.explanation import Explanation
+from lacuna.discovery.explanation.input_error import offset_instead
 from lacuna.discovery.fit.evidence import (
     CLEARLY,
     astray,
@@ -26,9 +28,11 @@ from lacuna.discovery.fit.evidence import (
 from lacuna.discovery.law.law import law_at
 from lacuna.discovery.naming.comparison import TIE, Ranked, price, score
 from lacuna.discovery.naming.foretold import foretold
+from lacuna.discovery.naming.name import AS_LIKELY, Finding
 from lacuna.discovery.naming.screen import Candidate
+from lacuna.runtime import SimulationError
 
-LEAST_TAKEN = 0.2  # of the NRMSE above noise on unseen recordings, that findings must take away
+LEAST_TAKEN = 0.2  # of the error above noise on unseen recordings, that findings must take away
 
 
 def conclude(result: Explanation) -> None:
@@ -113,22 +117,60 @@ def _conclude_from_findings(result: Explanation) -> None:
             "that is above noise away: what is missing is something else"
         )
         result.experiment = experiment_for(first.ranked, first.naming.ranked[1:])
-    elif all(f.tied for f in result.findings):
+    elif all(_is_anywhere(result, f) for f in result.findings):
         result.verdict = "undetermined"
         rivals = first.elsewhere
         names = ", ".join(dict.fromkeys(r.attachment.label for r in rivals[:3]))
         result.reason = f"{first.ranked.attachment.label} and {names} explain the data equally well"
         result.experiment = experiment_for(first.ranked, rivals)
+    elif error := offset_instead(result):
+        signal, offset = error
+        result.findings[0] = replace(first, instrument=signal.column)
+        result.verdict = "undetermined"
+        result.reason = (
+            f"{_told(first.ranked)} does what an offset of {offset:.3g} {signal.si_unit} in the recorded "
+            f"{signal.column} would do: physics or an instrument"
+        )
+        result.experiment = f"record {signal.column} by a second instrument, or where it is known to be zero"
     else:
         result.verdict = "missing_physics"
         turning = dict.fromkeys(v for f in result.findings if (v := f.ranked.attachment.alike[1]))
         result.experiment = f"record a motion in which {' and '.join(turning)} turns" if turning else ""
 
 
+def _is_anywhere(result: Explanation, finding: Finding) -> bool:
+    """Whether the data cannot tell where it is, and that makes a difference: what is at one end of a rigid gear is, by
+    its ratio, at the other."""
+    others = [r for r in finding.elsewhere if not _turn_as_one(result, finding.ranked, r)]
+    return finding.tied and sum(r.confidence for r in others) > AS_LIKELY * finding.ranked.confidence
+
+
+def _turn_as_one(result: Explanation, one: Ranked, other: Ranked) -> bool:
+    """Whether two hypotheses are one effect at shafts whose speeds have a fixed ratio."""
+    machine, recording = result.final.machine, result.case.fit[0]
+    shafts = [r.attachment.shaft for r in (one, other)]
+    names = [f"{s.location}.w" for s in shafts if s is not None and f"{s.location}.w" in machine.model.variables]
+    if len(names) < 2 or one.identity[0] != other.identity[0]:
+        return False
+    try:
+        found = machine.trajectory(result.final.point, recording, names)
+    except SimulationError:
+        return False
+    a, b = (found[n] for n in names)
+    return float(a @ a) * float(b @ b) - float(a @ b) ** 2 < ALIKE * float(a @ a) * float(b @ b)
+
+
+def _told(ranked: Ranked) -> str:
+    law = law_at(ranked.attachment, ranked.fit.point)
+    return f"a term {law} at {ranked.attachment.location}" if law else ranked.attachment.label
+
+
 def _taken(result: Explanation) -> float:
-    """Share of the unseen NRMSE above noise, known no better than CLEARLY tells, that the findings take away."""
-    before, noise = result.before.validate[""], float(np.sqrt(np.mean([f**2 for f in result.floor.values()])))
-    return (before - result.after.validate[""]) / (before - min(noise, CLEARLY * before))
+    """Share of the unseen error above noise that the findings take away, in units of the noise of each signal, which
+    is known no better than CLEARLY tells: one whose noise is large hides nothing of the others."""
+    before, after = result.before.validate, result.after.validate
+    above = sum((before[c] - min(f, CLEARLY * before[c])) / f for c, f in result.floor.items())
+    return sum((before[c] - after[c]) / f for c, f in result.floor.items()) / above
 
 
 def _efforts(result: Explanation) -> list[Site]:
@@ -196,8 +238,8 @@ def _as_much(result: Explanation) -> str:
 def _rival_law(result: Explanation) -> Candidate | None:
     """The best law in the equations, where the data does not tell it from what was found. Which law it is does not
     matter: that it was picked among many is no reason against that one of them holds."""
-    base, final, places = result.base, result.final, {s.location for s in _efforts(result)}
-    laws = [law for law in result.opened.laws if law.attachment.location in places]
+    base, final, places = result.base, result.final, [s.place for s in _efforts(result)]
+    laws = [law for law in result.opened.laws if any(p.named(law.attachment.location) for p in places)]
     if not laws:
         return None
     correlation = laws[0].fit.correlation()
