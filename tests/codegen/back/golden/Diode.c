@@ -114,11 +114,9 @@ static int mdl_fail(mdl_data *m, mdl_failure_kind kind, int equation, double val
 
 /* Solve a x = b in place (row-major, n x n) by Gaussian elimination with scaled partial pivoting; b becomes x. Where a
  * is singular to working precision, 1 + the unknown that it does not determine: rows and columns have no scale. b has
- * 2 n places: behind the right sides come the sizes of what is summed up in them. Of the few unknowns that most blocks
- * have all loops are written out. */
-static inline __attribute__((always_inline)) int mdl_solve_of(int n, double *a, double *b) {
+ * 2 n places: behind the right sides come the sizes of what is summed up in them. */
+static int mdl_solve(int n, double *a, double *b) {
   double size[n];
-#pragma GCC unroll 4
   for (int i = 0; i < n; ++i) {
     double largest = 0.0;
     for (int j = 0; j < n; ++j)
@@ -128,13 +126,11 @@ static inline __attribute__((always_inline)) int mdl_solve_of(int n, double *a, 
     b[i] *= scale;
     b[n + i] = fabs(b[i]);
   }
-#pragma GCC unroll 4
   for (int j = 0; j < n; ++j) {
     size[j] = 0.0;
     for (int i = 0; i < n; ++i)
       if (fabs(a[i * n + j]) > size[j]) size[j] = fabs(a[i * n + j]);
   }
-#pragma GCC unroll 4
   for (int k = 0; k < n; ++k) {
     int pivot = k;
     for (int i = k + 1; i < n; ++i)
@@ -160,15 +156,12 @@ static inline __attribute__((always_inline)) int mdl_solve_of(int n, double *a, 
       b[n + i] += fabs(factor) * b[n + k];
     }
   }
-#pragma GCC unroll 4
   for (int i = n - 1; i >= 0; --i) {
     for (int j = i + 1; j < n; ++j) b[i] -= a[i * n + j] * b[j];
     b[i] /= a[i * n + i];
   }
   return 0;
 }
-
-static int mdl_solve(int n, double *a, double *b) { return mdl_solve_of(n, a, b); }
 
 enum { MDL_DAMPED, MDL_SEARCH, MDL_BRACKET, MDL_FOLLOW, MDL_SOLVED, MDL_FAILED };
 enum { MDL_ITERATIONS = 50, MDL_CORRECTIONS = 10, MDL_HALVINGS = 12, MDL_DOUBLINGS = 100, MDL_LOOKS = 1000 };
