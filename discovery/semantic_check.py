@@ -66,8 +66,9 @@ def check_against_model(machine: Machine, start: tuple[list[Free], dict[str, flo
     problems: list[Problem] = []
     for recording in machine.case.fit + machine.case.validate:
         simulated = machine.simulate(point, recording)
-        if simulated is not None and _answers(machine, point, recording, simulated):
-            problems += _check(machine, point, recording, simulated)
+        found = _check(machine, point, recording, simulated) if simulated is not None else []
+        if found and _answers(machine, point, recording, simulated):
+            problems += found
     return problems
 
 
@@ -76,11 +77,8 @@ def _answers(machine: Machine, point: dict[str, float], recording: Recording, si
     sign and phase."""
     if not machine.uncertain_states(recording):
         return True
-    columns = recording.columns | {s.column: np.full_like(recording.time, recording.columns[s.column][0])
-                                   for s in machine.case.inputs}  # fmt: skip
-    drives = {c: (t, np.full_like(v, v[0])) for c, (t, v) in recording.drives.items()}
-    name = f"{recording.name}/undriven"
-    alone = machine.simulate(point, replace(recording, name=name, columns=columns, drives=drives))
+    held = {s.column: lambda values: np.full_like(values, values[0]) for s in machine.case.inputs}
+    alone = machine.simulate(point, recording.redriven("undriven", held))
     if alone is None:
         return True
     return all(np.std(run - alone[c]) > np.std(alone[c]) for c, run in simulated.items())
@@ -120,10 +118,9 @@ def _mends(
         return math.inf if run is None else float(np.nansum((values - run[column]) ** 2))
 
     def put_right(drive: str) -> dict[str, np.ndarray] | None:
-        columns = recording.columns | {drive: recording.columns[drive] / factor}
-        drives = {c: (t, v / factor if c == drive else v) for c, (t, v) in recording.drives.items()}
-        name = f"{recording.name}/{drive}/{factor:g}"
-        return machine.simulate(point, replace(recording, name=name, columns=columns, drives=drives))
+        return machine.simulate(
+            point, recording.redriven(f"{drive}/{factor:g}", {drive: lambda values: values / factor})
+        )
 
     before = misses(measured, simulated)
     if misses(measured / factor, simulated) < before:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 import math
@@ -68,6 +68,13 @@ class Recording:
     def drive(self, column: str) -> tuple[np.ndarray, np.ndarray]:
         """Times (m,), in s, and samples (m,) of an input by which a run is driven."""
         return self.drives.get(column, (self.time, self.columns[column]))
+
+    def redriven(self, name: str, changes: Mapping[str, Callable[[np.ndarray], np.ndarray]]) -> Recording:
+        """The recording with other samples of some inputs, under a name of its own, by which machines
+        keep what they run it with."""
+        columns = self.columns | {c: change(self.columns[c]) for c, change in changes.items()}
+        drives = {c: (t, changes[c](v) if c in changes else v) for c, (t, v) in self.drives.items()}
+        return replace(self, name=f"{self.name}/{name}", columns=columns, drives=drives)
 
     @property
     def interval(self) -> float:

@@ -2,31 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from lacuna.discovery.case.cases import Recording, Signal
 from lacuna.discovery.efforts.laws.screening import SAME
 from lacuna.discovery.explanation.explanation import Explanation
+from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.starts import STEP
 
 
 def offset_instead(result: Explanation) -> tuple[Signal, float] | None:
     """(input, offset in SI) where a constant error of a recorded input does in all recordings what the only number of
     the only finding does, and is no larger than the input itself; None where there is no such input."""
-    (first, *others), final = result.findings, result.final
+    (first, *others), final, recordings = result.findings, result.final, result.case.fit
     if others or len(first.ranked.candidate.free) != 1 or first.ranked.attachment.variable:
         return None
     (number,) = (f.name for f in first.ranked.candidate.free)
-    value = final.point[number]
-    own = _response(result, lambda r: (r, final.point | {number: value * (1 + STEP)}))
+    before = _outputs(final, final.point, recordings)
+    after = _outputs(final, final.point | {number: final.point[number] * (1 + STEP)}, recordings)
+    if before is None or after is None:
+        return None
+    own = after - before
     for signal in result.case.inputs:
-        largest = max(float(np.nanmax(np.abs(r.columns[signal.column]))) for r in result.case.fit)
+        column = signal.column
+        largest = max(float(np.nanmax(np.abs(r.columns[column]))) for r in recordings)
         shift = STEP * largest
-        moved = _response(result, lambda r, c=signal.column, by=shift: (_shifted(r, c, by), final.point))
-        if own is None or moved is None or not np.any(moved):
+        moving = {column: lambda values, shift=shift: values + shift}
+        shifted = _outputs(final, final.point, [r.redriven(f"{column}{shift:+g}", moving) for r in recordings])
+        if shifted is None or not np.any(moved := shifted - before):
             continue
         share = float(own @ moved) / float(moved @ moved)
         offset = -share * shift / STEP  # what is recorded less what acts
@@ -35,22 +40,9 @@ def offset_instead(result: Explanation) -> tuple[Signal, float] | None:
     return None
 
 
-def _response(
-    result: Explanation, changed: Callable[[Recording], tuple[Recording, dict[str, float]]]
-) -> np.ndarray | None:
-    """All outputs of the fit recordings, in units of their noise, less those of the final model as it is."""
-    machine, point, rows = result.final.machine, result.final.point, []
-    for recording in result.case.fit:
-        before = machine.simulate(point, recording)
-        other, there = changed(recording)
-        after = machine.simulate(there, other)
-        if before is None or after is None:
-            return None
-        rows += [(after[c] - before[c]) / noise.std for c, noise in result.final.noise.items()]
-    return np.nan_to_num(np.concatenate(rows))
-
-
-def _shifted(recording: Recording, column: str, offset: float) -> Recording:
-    columns = recording.columns | {column: recording.columns[column] + offset}
-    drives = {c: (t, v + offset if c == column else v) for c, (t, v) in recording.drives.items()}
-    return replace(recording, name=f"{recording.name}/{column}+{offset:g}", columns=columns, drives=drives)
+def _outputs(final: Fit, point: Mapping[str, float], recordings: Sequence[Recording]) -> np.ndarray | None:
+    """All outputs along recordings, in units of their noise; None where a run fails."""
+    runs = [final.machine.simulate(point, r) for r in recordings]
+    if any(run is None for run in runs):
+        return None
+    return np.concatenate([run[c] / noise.std for run in runs for c, noise in final.noise.items()])

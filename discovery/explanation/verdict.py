@@ -160,7 +160,7 @@ def _turn_as_one(result: Explanation, one: Ranked, other: Ranked) -> bool:
     return float(a @ a) * float(b @ b) - float(a @ b) ** 2 < ALIKE * float(a @ a) * float(b @ b)
 
 
-def _told(ranked: Ranked) -> str:
+def _told(ranked: Ranked | Candidate) -> str:
     law = law_at(ranked.attachment, ranked.fit.point)
     return f"a term {law} at {ranked.attachment.location}" if law else ranked.attachment.label
 
@@ -231,7 +231,7 @@ def _as_much(result: Explanation) -> str:
     """What in the equations explains as much as an error of a sensor."""
     law = _rival_law(result)
     if law is not None:
-        return f"a term {law_at(law.attachment, law.fit.point)} at {law.attachment.location} explains as much"
+        return f"{_told(law)} explains as much"
     return f"an effort at {_efforts(result)[0].location} explains as much, for which no law was found"
 
 

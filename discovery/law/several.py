@@ -92,25 +92,36 @@ def paid(search: Search, base: Fit, correlation: dict[str, float]) -> float:
 
 def _find_anew(search: Search, k: int, library: Library, progress: Progress) -> None:
     """Find law k anew, given the others: taken where deviance and price fall, and clearly so for what has a name."""
-    old = search.findings[k].ranked
-    progress(f"looking again at {old.attachment.location}")
-    amendment = replace(
-        search.amendment, attachments=[a for a in search.amendment.attachments if a is not old.attachment]
-    )
-    base = without(search.fit, old, amendment)
+    old = search.findings[k].ranked.attachment
+    progress(f"looking again at {old.location}")
+    amendment, base = _taken_out(search, k)
     if base is None:
         return
-    law = _best(search, amendment, base, library, progress, lambda site: site.place.named(old.attachment.location))
-    if law is None:
+    law = _best(search, amendment, base, library, progress, lambda site: site.place.named(old.location))
+    if law is not None:
+        ranked = Ranked(law, law.fit, score(law, base, law.fit.correlation()), 1.0)
+        _exchange(search, k, base, Naming([ranked], []), ranked, MARGIN if old.effect.identifier != "unknown" else 0.0)
+
+
+def _taken_out(search: Search, k: int) -> tuple[Amendment, Fit | None]:
+    """The amendment without finding k, and the present fit without it."""
+    old = search.findings[k].ranked
+    others = [a for a in search.amendment.attachments if a is not old.attachment]
+    amendment = replace(search.amendment, attachments=others)
+    return amendment, without(search.fit, old, amendment)
+
+
+def _exchange(search: Search, k: int, base: Fit, naming: Naming, ranked: Ranked, margin: float) -> None:
+    """Take a finding in the place of number k where on `base`, which lacks it, it costs less by a margin."""
+    old, correlation = search.findings[k], ranked.fit.correlation()
+    present = score(replace(old.ranked.candidate, fit=search.fit), base, correlation)
+    if score(ranked.candidate, base, correlation) >= present - margin:
         return
-    correlation = law.fit.correlation()
-    present = score(replace(old.candidate, fit=search.fit), base, correlation)
-    after = try_judge(law.machine, law.fit.point)
-    margin = MARGIN if old.attachment.effect.identifier != "unknown" else 0.0
-    if after is None or score(law, base, correlation) >= present - margin:
-        return
-    search.findings[k] = finding(law, base, search.findings[k].before, after)
-    search.take([*amendment.attachments, law.attachment], law.fit, after)
+    after = try_judge(ranked.fit.machine, ranked.fit.point)
+    if after is not None:
+        search.findings[k] = Finding(ranked, naming, old.before, after)
+        others = [a for a in search.amendment.attachments if a is not old.ranked.attachment]
+        search.take([*others, ranked.attachment], ranked.fit, after)
 
 
 def among_sensors(search: Search, progress: Progress) -> None:
@@ -122,27 +133,18 @@ def among_sensors(search: Search, progress: Progress) -> None:
 def _sensor_instead(search: Search, k: int, progress: Progress) -> None:
     """An error of a sensor in the place of law k where, given the others, it costs less: alone it explained little
     beside what else is missing, and a law stood for it as well as one can."""
-    old = search.findings[k].ranked
-    if old.attachment.variable:
+    old = search.findings[k].ranked.attachment
+    if old.variable:
         return
-    progress(f"looking at sensors in the place of {old.attachment.label}")
-    others = [a for a in search.amendment.attachments if a is not old.attachment]
-    amendment = replace(search.amendment, attachments=others)
-    base = without(search.fit, old, amendment)
+    progress(f"looking at sensors in the place of {old.label}")
+    amendment, base = _taken_out(search, k)
     if base is None:
         return
     every = enumerate_attachments(search.case, amendment.structure, search.effects, amendment)
     candidates, _ = screen_all(search.case, amendment, [a for a in every if a.variable], base, progress)
     naming = compete(search.case, candidates, base, final=True, progress=progress)
-    best = naming.simplest
-    after = try_judge(best.fit.machine, best.fit.point) if best is not None else None
-    if after is None:
-        return
-    correlation = best.fit.correlation()
-    present = score(replace(old.candidate, fit=search.fit), base, correlation)
-    if score(best.candidate, base, correlation) < present - TIE:
-        search.findings[k] = Finding(best, naming, search.findings[k].before, after)
-        search.take([*others, best.attachment], best.fit, after)
+    if naming.simplest is not None:
+        _exchange(search, k, base, naming, naming.simplest, TIE)
 
 
 def _is_of_form(sites: list[Site], free: Callable[[Site], bool]) -> bool:
