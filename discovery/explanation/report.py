@@ -19,10 +19,12 @@ from lacuna.discovery.case.cases import Case
 from lacuna.discovery.experiment.files import FOLDER
 from lacuna.discovery.experiment.picture import picture
 from lacuna.discovery.explanation.confidence import certainty
+from lacuna.discovery.explanation.contenders import named
 from lacuna.discovery.explanation.diagnosis import build, left_over, sentence
+from lacuna.discovery.explanation.drawn_laws import laws_over_efforts
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.explanation.figures import Curve, courses, missing
-from lacuna.discovery.explanation.wording import action, equation_of, rounded, with_error
+from lacuna.discovery.explanation.wording import action, equation_of, in_words, rounded, with_error
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.objective import noise_of
 from lacuna.discovery.naming.judge import Judgement, noise_floor
@@ -34,6 +36,17 @@ _NRMSE = (
     "<p>Normalised root mean square error: of what is measured and not simulated, over the standard deviation of the "
     "measured signal; <em>unseen</em> are recordings that nothing was fitted to.</p>"
 )
+
+_ANY_COURSE = (
+    "<p>Grey: the effort, whatever its course, that the recording tells at the place of the law, all else as the "
+    "amended model has it; where the band is wide the recording does not tell it. Blue: the law.</p>"
+)
+_PLACES = (
+    "<p>An effort of any course at a place, alone beside the believed model, or an error of a sensor. More than one "
+    "law may explain what no single place does. Places that explain less: {more}.</p>"
+)
+_WHAT = {"effort": "an effort there", "sensor": "an error of the sensor"}
+MOST_PLACES = 12  # rows of a table that is still read
 
 
 def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
@@ -129,6 +142,8 @@ def write_judgement(case: Case, judged: Judgement, folder: Path, model: Path) ->
 
 
 def _located(result: Explanation) -> list[str]:
+    if result.opened is not None and result.opened.sites:
+        return _anywhere(result)
     located, drawn = result.located, missing(result)
     if drawn is None:
         return []
@@ -143,13 +158,30 @@ def _located(result: Explanation) -> list[str]:
     return [*parts, _table(["place", "what", "misfit that it could explain"], rows)]
 
 
+def _anywhere(result: Explanation) -> list[str]:
+    """Each law over the effort at its place, and what an effort at every other place would explain."""
+    parts = ["<h2>Where something is missing</h2>"]
+    if drawn := laws_over_efforts(result):
+        parts += [_svg(drawn, "What is missing, and the law for it"), _ANY_COURSE]
+    sites = result.opened.sites[:MOST_PLACES]
+    parts.append(_table(["place", "what", "misfit that it could explain"],
+                        [[s.location, _WHAT[s.kind], f"{s.explains:.0%}"] for s in sites]))  # fmt: skip
+    parts.append(_PLACES.format(more=len(result.opened.sites) - len(sites)))
+    if closed := result.opened.closed:
+        rows = "".join(f"<li>{escape(label)}: {escape(why)}</li>" for label, why in closed)
+        parts.append(f"<details><summary>{len(closed)} places were not looked at</summary><ul>{rows}</ul></details>")
+    return parts
+
+
 def _findings(result: Explanation) -> list[str]:
     parts = []
     for finding, said in zip(result.findings, build(result, None)["findings"], strict=True):
         values = "; ".join(
-            f"{n} = {with_error(p['value'], p['std'])} {p['unit']}" for n, p in said["parameters"].items()
+            f"{n} = {with_error(p['value'], p['std'])} {p['unit'] if p['unit'] != '1' else ''}".rstrip()
+            for n, p in said["parameters"].items()
         )
         title = finding.ranked.attachment.effect.title
+        title = f"{title}, {in_words(said['form'])}" if "form" in said else title
         equation = said.get("law") or equation_of(result, finding)
         parts.append(
             f"<li><b>{escape(title)}</b> ({escape(said['effect'])}) at {escape(said['location'])}: {escape(values)}. "
@@ -160,28 +192,28 @@ def _findings(result: Explanation) -> list[str]:
 
 
 def _rivals(result: Explanation) -> list[str]:
-    parts = []
-    for k, naming in enumerate(result.namings):
-        rows = [[r.attachment.label, r.score - naming.ranked[0].score, f"{r.confidence:.3f}", len(r.candidate.free),
-                 _leaves(r.candidate.fit)] for r in naming.ranked[:10]]  # fmt: skip
-        header = [
-            "what could be missing",
-            "2 ln of the odds behind the best",
-            "probability among these",
-            "parameters",
-            "leaves",
-        ]
-        parts += [f"<h2>What else was tried{f', step {k + 1}' if k else ''}</h2>", _table(header, rows)]
-        tried = {r.attachment.label for r in naming.ranked}
-        others = [(label, share) for label, share in naming.screened if label not in tried][:12]
-        rest = ", ".join(f"{label} ({share:.0%})" for label, share in others)
-        if rest:
-            parts.append(f"<p>Not fitted, for they could explain little (share of the misfit): {escape(rest)}.</p>")
-        if naming.unneeded:
-            rest = escape(", ".join(naming.unneeded))
-            parts.append(f"<p>Not looked at, since the best leaves nothing but noise: {rest}.</p>")
-        parts += _failures(naming)
-    return parts
+    rounds = {id(n): n for n in (*result.namings, *(f.naming for f in result.findings))}
+    told = [n for n in rounds.values() if len(n.ranked) > 1 or n.screened or n.unneeded or n.failures]
+    return [part for k, naming in enumerate(told) for part in _round(naming, k)]
+
+
+def _round(naming: Naming, k: int) -> list[str]:
+    """What was tried in a round of naming, best first, and what was not."""
+    rows = [[named(r), r.score - naming.ranked[0].score, f"{r.confidence:.3f}", len(r.candidate.free), _leaves(r.fit)]
+            for r in naming.ranked[:10]]  # fmt: skip
+    header = ["what could be missing", "2 ln of the odds behind the best", "probability among these", "parameters",
+              "leaves"]  # fmt: skip
+    parts = [f"<h2>What else was tried{f', step {k + 1}' if k else ''}</h2>"]
+    parts += [_table(header, rows)] if rows else []
+    tried = {r.attachment.label for r in naming.ranked}
+    others = [(label, share) for label, share in naming.screened if label not in tried][:12]
+    rest = ", ".join(f"{label} ({share:.0%})" for label, share in others)
+    if rest:
+        parts.append(f"<p>Not fitted, for they could explain little (share of the misfit): {escape(rest)}.</p>")
+    if naming.unneeded:
+        rest = escape(", ".join(naming.unneeded))
+        parts.append(f"<p>Not looked at, since the best leaves nothing but noise: {rest}.</p>")
+    return [*parts, *_failures(naming)]
 
 
 def _failures(naming: Naming) -> list[str]:

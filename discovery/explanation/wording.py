@@ -8,6 +8,29 @@ from pathlib import Path
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.naming.name import Finding
 
+FORMS = {
+    "friction.coulomb": "dry friction",
+    "friction.stribeck": "dry friction that falls with speed",
+    "friction.viscous": "viscous friction",
+    "drag.quadratic": "quadratic drag",
+    "stiffness": "a linear spring",
+    "stiffness.hardening": "a hardening spring",
+    "leakage.laminar": "laminar leakage",
+    "leakage.turbulent": "turbulent leakage",
+    "loss.turbulent": "turbulent loss",
+    "heat.loss": "loss of heat",
+    "convection.natural": "natural convection",
+    "drive.dead_time": "dead time of an inverter",
+    "drive.delay": "a delay",
+    "drive.deadband": "a dead band of the drive",
+    "drive.saturation": "saturation of the drive",
+    "torque.cogging": "cogging torque",
+    "motor.saturation": "magnetic saturation",
+    "motor.heating": "heating of a winding",
+    "load.power": "a load of constant power",
+    "end_stop": "an end stop",
+    "overflow": "an overflow",
+}
 HALF_WIDTH = 1.96  # standard deviations: half of a 95 % interval
 
 
@@ -20,6 +43,11 @@ def action(result: Explanation, amended: Path | None) -> str:
     if result.verdict == "parameters" and amended is not None:
         return f"go on with {amended.name}, which holds the fitted values, or measure those parameters"
     return "nothing: the model can be used as it is" if result.verdict == "consistent" else ""
+
+
+def in_words(form: str) -> str:
+    """The name of a known form as a reader says it; where it is a word it stands for itself."""
+    return FORMS.get(form, form)
 
 
 def with_error(value: float, std: float | None) -> str:

@@ -177,9 +177,9 @@ class Machine:
         self._sessions[recording.name, False].put(session)
         return float(result.counters["state_events"]) / float(time[-1] - time[0])
 
-    def constants(self, parameters: Mapping[str, float]) -> dict[str, float]:
-        """Every parameter of the model, dependent ones included, at these values of the free ones."""
-        recording = self.case.fit[0]
+    def constants(self, parameters: Mapping[str, float], recording: Recording | None = None) -> dict[str, float]:
+        """Every parameter, dependent ones included, at these values of the free ones: on a recording, or the first."""
+        recording = recording or self.case.fit[0]
         session = self._session(recording)
         begin = float(recording.time[0])
         result = session.run(parameters=values_in(parameters, recording), start=begin, stop=begin + recording.interval)

@@ -7,16 +7,18 @@ like any effect; groups are added while they pay for their parameters and for ha
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 import re
+from types import MappingProxyType
 
 import numpy as np
 
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.attachment import Attachment
+from lacuna.discovery.efforts import sites as places
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit, fit
 from lacuna.discovery.fit.machine import try_machine
@@ -71,11 +73,15 @@ def fitted_law(
     law: Law,
     start: dict[str, float],
     believed: dict[str, float] | None = None,
+    fixed: Mapping[str, float] = MappingProxyType({}),
 ) -> Candidate | None:
-    """The law as a component of the amended model, fitted together with the believed parameters."""
+    """The law as a component of the amended model, fitted together with the believed parameters; those of its own that
+    are `fixed` are not fitted."""
     candidate = unfitted(case, amendment, base, law, start, believed)
     if candidate is None:
         return None
+    candidate.fixed = {candidate.attachment.full_name(n): v for n, v in fixed.items()}
+    candidate.free = [f for f in candidate.free if f.name not in candidate.fixed]
     candidate.fit = _fit(case, base, *ROUNDS[-1][:2], candidate)
     return None if candidate.fit is None else candidate
 
@@ -113,8 +119,8 @@ def _fit(case: Case, base: Fit, stages: int, iterations: int, law: Candidate) ->
         return law.fit
     start, known = (law.start, None) if law.fit is None else (law.fit.point, law.fit.sensitivities())
     free = [*base.estimate.free, *law.free]
-    return fit(law.machine, case.fit, base.noise, free, base.fixed, start=start, stages=stages, iterations=iterations,
-               known=known)  # fmt: skip
+    return fit(law.machine, case.fit, base.noise, free, base.fixed | law.fixed, start=start, stages=stages,
+               iterations=iterations, known=known)  # fmt: skip
 
 
 def free_of(law: Law, attachment: Attachment, start: dict[str, float]) -> list[Free]:
@@ -132,7 +138,8 @@ def simplified(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> P
     """The law without coefficients that may be zero, and with whole exponents and orders where the data allows them."""
     shorter: list[Proposal] = []
     for simpler in _simpler(best):
-        simpler.candidate = fitted_law(case, amendment, base, simpler.law, simpler.start, best.candidate.fit.point)
+        here = best.candidate.fit.point
+        simpler.candidate = fitted_law(case, amendment, base, simpler.law, simpler.start, here, simpler.fixed)
         shorter += [simpler] if simpler.candidate is not None else []
     correlation = best.candidate.fit.correlation()
     chosen = min([best, *shorter], key=lambda p: score(p.candidate, base, correlation))
@@ -142,10 +149,12 @@ def simplified(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> P
 def _simpler(proposal: Proposal) -> list[Proposal]:
     """The law with one thing less that is not needed by its own standard error."""
     law, fitted = proposal.law, proposal.candidate.fit
+    if proposal.fixed:
+        return []
     covariance = fitted.estimate.covariance(fitted.inflation())
     errors = {f.name: float(np.sqrt(max(covariance[k, k], 0.0))) for k, f in enumerate(fitted.estimate.free)}
     prefix, values = f"{component_of(law)}.", own_values(proposal.candidate.attachment, fitted.point)
-    found = _stuck(law, values)
+    found = [*_stuck(law, values), *_whole(law, values, errors[prefix + "c_1"])]
     for name, shape in law.shapes().items():
         near = [s for s in shape.simple if abs(s - values[name]) < SIGNIFICANT * errors[prefix + name] + 0.02 * s]
         found += [_with_fixed(law, values, name, s) for s in near]
@@ -154,6 +163,19 @@ def _simpler(proposal: Proposal) -> list[Proposal]:
         if len(numbered) > 1 and abs(values[c]) < SIGNIFICANT * errors[prefix + c]:
             found.append(_without(law, values, k))
     return found
+
+
+def _whole(law: Law, values: dict[str, float], error: float) -> list[Proposal]:
+    """A signal that lags or is late, where it may be the whole of it: how much of it is nothing to be told."""
+    place = law.site.place
+    if len(law.numbered()) > 1 or not isinstance(place, places.Site) or place.kind not in ("signal", "input"):
+        return []
+    text = law.groups[0].texts[0]
+    late = [v for v in law.site.variables if re.match(rf"\({re.escape(v.scaled)} - (lag|delay|onset)\(", text)]
+    return [
+        Proposal(law, values | {"c_1": -v.size}, fixed={"c_1": -v.size}) for v in late
+        if v.unit == law.site.unit and abs(values["c_1"] + v.size) < SIGNIFICANT * error
+    ]  # fmt: skip
 
 
 def _with_fixed(law: Law, values: dict[str, float], name: str, value: float) -> Proposal:

@@ -63,7 +63,7 @@ class Law:
         terms = []
         for c, text, shapes in self.numbered():
             text = text.format(**{s: f"{values[full]:.4g}" for s, full in shapes.items()})
-            terms.append(f"{values[c]:.4g}*{text}")
+            terms.append(f"{values[c]:.4g}" + (f"*{text}" if text != "1" else ""))
         whole = re.sub(r"\bdry\((\w+)/\w+_ref\)", r"sign(\1)", " + ".join(terms)).replace("+ -", "- ")
         whole = re.sub(r"\b(?:delay|onset)\(([^,]+, [^,)]+), [^,)]+\)", r"delay(\1)", whole)
         for v in self.site.variables:

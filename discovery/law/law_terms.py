@@ -59,8 +59,9 @@ class Variable:
         return f"(if {self.name} then 1.0 else 0.0)" if self.switch else self.name
 
     def course(self, values: Mapping[str, np.ndarray | float]) -> np.ndarray:
-        """(n,) along a trajectory, whose variables and parameters `values` holds."""
-        return values[self.name] - values[self.minus] if self.minus else values[self.name]
+        """(n,) along a trajectory, whose variables, parameters and `time` `values` holds."""
+        found = values[self.name] - values[self.minus] if self.minus else values[self.name]
+        return found if np.ndim(found) else np.full(len(values["time"]), found)
 
     @property
     def scaled(self) -> str:

@@ -23,7 +23,7 @@ class Along:
     feed: np.ndarray  # (n, y, b)
     direct: np.ndarray  # (n, x, inputs): rates of the states to inputs, at once
     answering: np.ndarray  # (u, inputs): whether an unknown, the derivatives first, ever answers to an input at once
-    values: dict[str, np.ndarray]  # of every variable, (n,); of parameters a number
+    values: dict[str, np.ndarray]  # of every variable, and time, (n,); of parameters a number
 
     def __post_init__(self) -> None:
         for name in ("time", "step", "drive", "read", "feed"):  # as the library reads them

@@ -87,7 +87,9 @@ class Linear:
             read[block], feed[block] = self._outputs(answer)
         step, drive = self._discrete(rates[:, :, :states], rates[:, :, states:], np.diff(recording.time))
         direct = rates[:, :, acting].copy()
-        return Along(recording.time, step, drive, read, feed, direct, answering, {**fixed, **values})
+        return Along(
+            recording.time, step, drive, read, feed, direct, answering, {**fixed, **values, "time": recording.time}
+        )
 
     def _blocks(self, samples: int) -> list[slice]:
         """Samples in blocks, of which arrays of unknowns by unknowns take little."""
@@ -108,7 +110,7 @@ class Linear:
         names = [*storage.states, *storage.algebraics, *storage.inputs, *storage.discretes]
         values = self.machine.trajectory(point, recording, [n for n in names if n in known], efforts)
         values |= {n: np.zeros(len(recording.time)) for n in names if n not in known}
-        return values, self.machine.constants(point)
+        return values, self.machine.constants(point, recording)
 
     def _solved(self, values: dict[str, np.ndarray], fixed: Mapping[str, float], time: np.ndarray) -> Evaluator:
         """An evaluator at the trajectory, with what the run does not give solved for: der(x) are added to `values`."""

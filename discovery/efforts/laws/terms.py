@@ -30,8 +30,9 @@ def groups(
     """Every group of terms in these variables; `ranges` are those of their scaled values, `interval` and `duration`
     (s) those of the samples and of the longest recording."""
     result = [Group(("1",))]
-    for v in found:
-        result += _remembering(v, interval, duration) if v.kind not in ("rate", "above") else []
+    common = [v for v in found if v.kind != "recording"]
+    for v in common:
+        result += _remembering(v, common, interval, duration) if v.kind not in ("rate", "above") else []
         result += _late(v, interval, duration) if v.kind == "input" else []
         result += _swinging(v, found, interval, duration) if v.sticks else []
         low, high = ranges[v.local]
@@ -39,16 +40,23 @@ def groups(
             result.append(Group((v.scaled,)))
         elif v.kind != "rate":
             result += _alone(v) if low < 0 < high else _of_one_sign(v, low > AWAY or high < -AWAY)
-        result += [g for rate in found if rate.local == v.rate for g in _contacts(v, rate, low < 0 < high)]
+        result += [g for rate in common if rate.local == v.rate for g in _contacts(v, rate, low < 0 < high)]
         if v.kind == "state":
             result += _waves(v, high - low) + _turning(v, high - low) + _varying(v, interval, duration)
-    plain = [v for v in found if v.kind not in ("apart", "above")]
+    plain = [v for v in common if v.kind not in ("apart", "above")]
     for a in plain:
         for b in plain:
             if a is not b and b.kind != "rate":
                 both = a.kind != "rate" and a.local > b.local
                 result += _together(a, b, ranges[a.local][0] < 0 < ranges[a.local][1], not both)
-    return result
+    return result + [g for v in found if v.kind == "recording" for g in _in_proportion(v, result)]
+
+
+def _in_proportion(v: Variable, others: Sequence[Group]) -> list[Group]:
+    """What is one term without a shape in other variables, and goes with a power of what differs between recordings."""
+    plain = [group.texts[0] for group in others if len(group.texts) == 1 and not group.shapes]
+    factors = [v.scaled, *(f"abs{v.scaled}^{p}" for p in (2, 3)), f"1/{v.scaled}"]
+    return [Group((f if text == "1" else f"{text}*{f}",)) for text in plain for f in factors]
 
 
 def counts(found: Sequence[Variable], offered: Sequence[Group]) -> tuple[int, int]:
@@ -131,10 +139,13 @@ def _contacts(v: Variable, rate: Variable, both: bool) -> list[Group]:
     ]
 
 
-def _remembering(v: Variable, interval: float, duration: float) -> list[Group]:
-    """A relaxation: storage behind a resistance, a damper behind a spring, a winding around a core; all that is faster
-    than the samples or slower than a recording is something else."""
-    return [Group((f"({v.scaled} - lag({v.scaled}, {{t}}))",), (s,)) for s in _times(interval, duration)]
+def _remembering(v: Variable, found: Sequence[Variable], interval: float, duration: float) -> list[Group]:
+    """A relaxation: storage behind a resistance, a damper behind a spring, a winding around a core, besides what is
+    believed to be stored or a part of it, which is then behind the resistance; all that is faster than the samples or
+    slower than a recording is something else."""
+    times, relaxing = _times(interval, duration), f"({v.scaled} - lag({v.scaled}, {{t}}))"
+    part = [w.scaled for w in found if w.name == f"der({v.name})"]
+    return [Group((relaxing, *p), (s,)) for p in ([], part)[: 1 + len(part)] for s in times]
 
 
 def _swinging(v: Variable, found: Sequence[Variable], interval: float, duration: float) -> list[Group]:

@@ -69,7 +69,27 @@ def variables(
             break
     believed = {n: u for n, u in units.items() if n.partition(".")[0] not in added}
     moving = [n for n in states if n in names and np.ptp(np.concatenate([a.values[n] for a in along])) > 0]
-    return _with_rates(along, [*kept, *_differences(along, kept, moving, believed, location)], states)
+    kept += _differences(along, kept, moving, believed, location)
+    return [*_with_rates(along, kept, states), *_of_recordings(along, known, added, len(kept))]
+
+
+def _of_recordings(
+    along: Sequence[Along], known: Mapping[str, ModelVariable], added: frozenset[str], count: int
+) -> list[Variable]:  # fmt: skip
+    """Parameters that differ between recordings, none of which follows from another: what a law's coefficient may be
+    of, as friction is of the load that is carried."""
+    found: list[Variable] = []
+    courses: list[np.ndarray] = []
+    fixed = (n for n, v in known.items() if v.kind == "parameter" and np.ndim(along[0].values.get(n, ())) == 0)
+    for name in (n for n in fixed if n.partition(".")[0] not in added):
+        values = np.array([float(a.values[name]) for a in along])
+        size = float(np.abs(values).max(initial=0.0))
+        if np.ptp(values) <= MOVES * size or any(_says_nothing_new(values / size, c) for c in courses):
+            continue
+        number = count + len(found) + 1
+        found.append(Variable(f"x{number}", name, known[name].unit, "recording", float(f"{size:.2g}")))
+        courses.append(values / size)
+    return found[:APART]
 
 
 def _differences(
