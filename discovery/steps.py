@@ -166,14 +166,25 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
 
 
 def add_scatter(result: Explanation, progress: Progress) -> None:
-    """Where the ground around the final fit is rough: the best dip nearby, and how far apart the dips are."""
-    if not result.findings or not result.lead.direct or is_smooth(result.final):
+    """Where the ground around the final fit is rough: the best dip nearby, and how far apart the dips are. Where
+    nothing was found for what is left, it may be that of a dip: dips are gone through as long as they are lower."""
+    if result.final is None or not result.lead.direct or (is_noise(result.final) and not result.findings):
         return
-    best, result.scatter = explored(result.final, progress)
-    after = try_judge(best.machine, best.point) if best is not result.final else None
-    if after is not None:
+    if is_smooth(result.final):
+        return
+    while True:
+        before = result.final
+        best, result.scatter = explored(before, progress)
+        after = try_judge(best.machine, best.point) if best is not before else None
+        if after is None:
+            return
         result.final = best
-        result.rejudge(after)
+        if result.findings:
+            result.rejudge(after)
+            return
+        result.base, result.before, result.after = best, after, after
+        if before.deviance(best.correlation()) - best.deviance(best.correlation()) < MIN_GAIN:
+            return
 
 
 def add_effort(result: Explanation, progress: Progress) -> None:

@@ -13,6 +13,7 @@ Signal = tuple[str, str, str]  # name in the component, expression of the model,
 Lag = tuple[str, str, str]  # name of a state of the component, what it follows, its time constant
 Late = tuple[str, str, str, str, str]  # a variable, delay | onset, what arrives in it, how late, kept how far apart
 Swing = tuple[str, str, str, str]  # a variable, what it swings behind, its natural frequency and damping ratio
+Bound = tuple[str, str, str]  # a variable, the rate that it holds, the limit of that
 
 KEPT = 128  # samples of what is late: the interpolation between them is off by less than a thousandth of a slow wave
 
@@ -24,11 +25,15 @@ class States:
     lags: Sequence[Lag] = ()
     late: Sequence[Late] = ()
     swings: Sequence[Swing] = ()
+    bounds: Sequence[Bound] = ()
     sticking: Sequence[str] = ()
 
     def declarations(self) -> list[str]:
         lines = [f'  Real {state} "{followed}, late";' for state, followed, _ in self.lags]
         lines += [f'  Real {n}, stretch_{n}, behind_{n} "What swings behind {x}";' for n, x, *_ in self.swings]
+        for n, rate, _ in self.bounds:
+            lines.append(f'  Integer side_{n}(start=0, fixed=true) "1 at the upper limit of {rate}, -1 at the lower";')
+            lines.append(f'  Real {n} "What {rate} would be beyond its limit";')
         lines += [line for speed in self.sticking for line in _modes(speed)]
         return lines + [line for quantity in self.late for line in _kept(*quantity)]
 
@@ -43,6 +48,7 @@ class States:
         lines = [line for quantity in self.late for line in _arrives(*quantity[:4])]
         lines += [f"  {time}*der({state}) = {followed} - {state};" for state, followed, time in self.lags]
         lines += [line for swing in self.swings for line in _swings(*swing)]
+        lines += [line for bound in self.bounds for line in _holds(*bound)]
         return lines + [line for speed in self.sticking for line in _sticks(speed)]
 
 
@@ -125,6 +131,16 @@ def _swings(name: str, followed: str, w: str, z: str) -> list[str]:
         f"  {name} = stretch_{name} + 2*{z}*(behind_{name} - {followed});",
         f"  der(stretch_{name}) = {w}*(behind_{name} - {followed});",
         f"  der(behind_{name}) = -{w}*{name};",
+    ]
+
+
+def _holds(name: str, rate: str, limit: str) -> list[str]:
+    """What keeps a rate at its limit while it would go beyond."""
+    side = f"side_{name}"
+    return [
+        f"  0 = if {side} == 0 then {name} else {rate} - {side}*{limit};",
+        f"  {side} = if pre({side}) == 0 then (if {rate} > {limit} then 1 elseif {rate} < -{limit} then -1 else 0)",
+        f"    elseif pre({side})*{name} < 0 then 0 else pre({side});",
     ]
 
 

@@ -85,7 +85,7 @@ class Locator:
         answers = np.concatenate([answers, self._from_starts(along, recording)], axis=2) * self.sigma
         believed = np.array([(f.centre - point[f.name]) for f in self.free]) / self.sigma
         data = np.concatenate([(left - answers @ believed)[:, :, None], -answers], axis=2)
-        return Piece(along, data, self.noise, self._start(recording))
+        return Piece(along, data, self.noise, self._start(recording, along.read.shape[2]))
 
     def _unknown_starts(self) -> list[Free]:
         """States that nobody knows at the first sample: as parameters, which may be anywhere within their size. Those
@@ -113,9 +113,9 @@ class Locator:
             result[:, :, own] = along.from_start([n for n, _ in found]) * [sense for _, sense in found]
         return result
 
-    def _start(self, recording: Recording) -> np.ndarray:
+    def _start(self, recording: Recording, count: int) -> np.ndarray:
         """Standard deviations of the states at the first sample: that of the noise where they are recorded."""
-        result, machine = np.zeros(len(self.opened.linear.states)), self.base.machine
+        result, machine = np.zeros(count), self.base.machine
         for name, sample in machine.uncertain_states(recording).items():
             kept, _ = self._alias(name)
             if sample is not None and kept in self.opened.linear.states:

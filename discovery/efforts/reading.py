@@ -230,7 +230,7 @@ def _path(node: Connector) -> str:
     if not isinstance(node, tuple):
         return node.name
     leaf, position = node
-    return leaf.name + (f"[{', '.join(map(str, indices(leaf.shape)[position]))}]" if leaf.shape else "")
+    return leaf.name + (f"[{', '.join(map(str, list(indices(leaf.shape))[position]))}]" if leaf.shape else "")
 
 
 def _causality(node: Connector) -> str:

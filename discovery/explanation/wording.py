@@ -30,6 +30,7 @@ FORMS = {
     "load.power": "a load of constant power",
     "end_stop": "an end stop",
     "overflow": "an overflow",
+    "rate_limit": "a limit of the rate",
 }
 HALF_WIDTH = 1.96  # standard deviations: half of a 95 % interval
 

@@ -80,7 +80,7 @@ def fitted_law(
     candidate = unfitted(case, amendment, base, law, start, believed)
     if candidate is None:
         return None
-    candidate.fixed = {candidate.attachment.full_name(n): v for n, v in fixed.items()}
+    candidate.fixed |= {candidate.attachment.full_name(n): v for n, v in fixed.items()}
     candidate.free = [f for f in candidate.free if f.name not in candidate.fixed]
     candidate.fit = _fit(case, base, *ROUNDS[-1][:2], candidate)
     return None if candidate.fit is None else candidate
@@ -93,8 +93,8 @@ def unfitted(
     attachment = attach(law)
     machine, _ = try_machine(case, replace(amendment, attachments=[*amendment.attachments, attachment]), base.machine)
     first = (believed or base.point) | {attachment.full_name(n): v for n, v in start.items()}
-    free = free_of(law, attachment, start)
-    return None if machine is None else Candidate(attachment, machine, free, start=first, pick=law.pick())
+    free, held = free_of(law, attachment, start), held_of(law, attachment, start)
+    return None if machine is None else Candidate(attachment, machine, free, held, first, pick=law.pick())
 
 
 def race(case: Case, base: Fit, pool: list[Candidate], leader: Candidate | None) -> None:
@@ -124,14 +124,23 @@ def _fit(case: Case, base: Fit, stages: int, iterations: int, law: Candidate) ->
 
 
 def free_of(law: Law, attachment: Attachment, start: dict[str, float]) -> list[Free]:
-    """Coefficients of any sign, scaled by the largest of all; shapes within their bounds."""
+    """Coefficients of any sign, scaled by the largest of all, but those that are held; shapes within their bounds."""
     scale = max(abs(start[c]) for c, _, _ in law.numbered()) or 1.0
-    free = [Free(attachment.full_name(c), start[c], max(abs(start[c]), 0.1 * scale)) for c, _, _ in law.numbered()]
+    told, held = [attachment.full_name(c) for c, _, _ in law.numbered()], held_of(law, attachment, start)
+    free = [
+        Free(name, start[c], max(abs(start[c]), 0.1 * scale))
+        for name, (c, _, _) in zip(told, law.numbered(), strict=True) if name not in held
+    ]  # fmt: skip
     for name, shape in law.shapes().items():
         step = 1e-3 if shape.name == "omega" else 1e-2
         scale = 0.3 * abs(shape.start) or shape.step  # a threshold may start at zero
         free.append(Free(attachment.full_name(name), start[name], scale, shape.lower, shape.upper, step=step))
     return free
+
+
+def held_of(law: Law, attachment: Attachment, start: dict[str, float]) -> dict[str, float]:
+    """Coefficients that no fit moves: what keeps a rate at its limit is whatever does."""
+    return {attachment.full_name(c): start[c] for c, text, _ in law.numbered() if text.startswith("bounded(")}
 
 
 def simplified(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> Proposal:
@@ -154,13 +163,13 @@ def _simpler(proposal: Proposal) -> list[Proposal]:
     covariance = fitted.estimate.covariance(fitted.inflation())
     errors = {f.name: float(np.sqrt(max(covariance[k, k], 0.0))) for k, f in enumerate(fitted.estimate.free)}
     prefix, values = f"{component_of(law)}.", own_values(proposal.candidate.attachment, fitted.point)
-    found = [*_stuck(law, values), *_whole(law, values, errors[prefix + "c_1"])]
+    found = [*_stuck(law, values), *_whole(law, values, errors.get(prefix + "c_1", 0.0))]
     for name, shape in law.shapes().items():
         near = [s for s in shape.simple if abs(s - values[name]) < SIGNIFICANT * errors[prefix + name] + 0.02 * s]
         found += [_with_fixed(law, values, name, s) for s in near]
     numbered = law.numbered()
     for k, (c, _, _) in enumerate(numbered):
-        if len(numbered) > 1 and abs(values[c]) < SIGNIFICANT * errors[prefix + c]:
+        if len(numbered) > 1 and abs(values[c]) < SIGNIFICANT * errors.get(prefix + c, 0.0):
             found.append(_without(law, values, k))
     return found
 

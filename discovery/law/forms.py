@@ -62,6 +62,7 @@ FORMS = (
     Form("compliance", r"^swing\(X, ", FORCE, SPEED),
     Form("resonance", r"^swing\(X, ", ANY, ANY),
     Form("drive.delay", r"^\(X - (delay|onset)\(X, ", ANY, ANY),
+    Form("rate_limit", r"^bounded\(X, ", ANY, ANY),
     Form("motor.saturation", r"^\(X/\(1 \+ \S+Y\^2\) - X\)$", VOLTAGE, ("A/s",)),
     Form("motor.saturation", r"^\(1/\(1 \+ \S+X\^2\) - 1\)$", ("V.s/rad", "N.m/A", "H"), CURRENT),
     Form("motor.heating", r"^X\*lag\(X\^2, ", VOLTAGE, CURRENT),

@@ -63,13 +63,21 @@ class Law:
         terms = []
         for c, text, shapes in self.numbered():
             text = text.format(**{s: f"{values[full]:.4g}" for s, full in shapes.items()})
-            terms.append(f"{values[c]:.4g}" + (f"*{text}" if text != "1" else ""))
+            terms.append(self._limit(text) or f"{values[c]:.4g}" + (f"*{text}" if text != "1" else ""))
         whole = re.sub(r"\bdry\((\w+)/\w+_ref\)", r"sign(\1)", " + ".join(terms)).replace("+ -", "- ")
         whole = re.sub(r"\b(?:delay|onset)\(([^,]+, [^,)]+), [^,)]+\)", r"delay(\1)", whole)
         for v in self.site.variables:
             whole = whole.replace(f"{v.local}_ref", f"{v.size:g}")
             whole = _renamed(whole, v.local, v.reading)
         return whole
+
+    def _limit(self, text: str) -> str:
+        """What holds a rate, of which the coefficient only is the unit, as said to readers; "" of other terms."""
+        found = re.fullmatch(r"bounded\(\((\w+)/\w+_ref\), ([^)]+)\)", text)
+        if not found:
+            return ""
+        rate = next(v for v in self.site.variables if v.local == found[1])
+        return f"limit({rate.reading}, {float(found[2]) * rate.size:.4g})"
 
     def pick(self) -> float:
         """Nats that say which groups these are among all that there are; 0 where the pick has no price."""
@@ -192,7 +200,8 @@ def _with_states(text: str) -> tuple[str, States]:
     text, lags = _named(text, r"\blag\(([^,]+), ([^,)]+)\)", "z")
     text, late = _named(text, r"\b(delay|onset)\(([^,]+), ([^,)]+), ([^,)]+)\)", "late")
     text, swings = _named(text, r"\bswing\(([^,]+), ([^,)]+), ([^,)]+)\)", "swing")
-    return text, States(lags, late, swings)
+    text, bounds = _named(text, r"\bbounded\(([^,]+), ([^,)]+)\)", "beyond")
+    return text, States(lags, late, swings, bounds)
 
 
 def _named(text: str, pattern: str, name: str) -> tuple[str, list[tuple[str, ...]]]:

@@ -5,7 +5,8 @@ simulated. `{p}`, `{k}`, `{tau}` and `{omega}` stand for shape parameters, which
 behind a first-order lag that begins at rest: a state of the law's own. `swing(x, w, z)` is what a mass on a spring of
 its own does to what moves at x, over that mass times w: the stretch of the spring, and its damper, of damping ratio z.
 `delay(x, late, apart)` is x as it was, kept in samples so far apart; before the start it was what it is there, or
-nothing: `onset(x, late, apart)`. `dry(x)` truly sticks: it has modes and events.
+nothing: `onset(x, late, apart)`. `dry(x)` truly sticks: it has modes and events. `bounded(x, q)` is what keeps a rate x
+within q either way: what it would be beyond that without the effort; it has modes and events, too.
 """
 
 from __future__ import annotations
@@ -32,7 +33,8 @@ OCTAVE = 1.6  # times pi over the longest recording: spacing of the frequencies 
 class Variable:
     """A quantity at a place: its name in the law's component and in the model; `size` makes it dimensionless.
 
-    `minus` is a quantity of the same unit that it is taken against: what drives a flow is often a difference.
+    `minus` is a quantity of the same unit that it is taken against: what drives a flow is often a difference. A rate
+    `unheld` is screened as what it would be without the effort.
     """
 
     local: str
@@ -60,7 +62,8 @@ class Variable:
 
     def course(self, values: Mapping[str, np.ndarray | float]) -> np.ndarray:
         """(n,) along a trajectory, whose variables, parameters and `time` `values` holds."""
-        found = values[self.name] - values[self.minus] if self.minus else values[self.name]
+        name = f"unheld {self.name}" if self.kind == "unheld" else self.name
+        found = values[name] - values[self.minus] if self.minus else values[name]
         return found if np.ndim(found) else np.full(len(values["time"]), found)
 
     @property
@@ -104,6 +107,7 @@ def evaluate(text: str, trajectory: Mapping[str, np.ndarray], sizes: Mapping[str
     names = {**_FUNCTIONS, **trajectory, **{f"{n}_ref": s for n, s in sizes.items()}}
     time = trajectory["time"]
     names["lag"] = lambda values, tau: lagged(time, values, tau)
+    names["bounded"] = lambda values, q: values - np.clip(values, -q, q)
     names["swing"] = lambda values, w, z: swinging(time, values, w, z)
     names["delay"] = lambda values, late, apart: np.interp(time - late, time, values)
     names["onset"] = lambda values, late, apart: (

@@ -22,7 +22,7 @@ from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.fit.evidence import nearly_noise, pays
 from lacuna.discovery.fit.fit import Fit, linearised
 from lacuna.discovery.fit.machine import try_machine
-from lacuna.discovery.law.empirical_law import fitted_law, free_of, simplified
+from lacuna.discovery.law.empirical_law import fitted_law, free_of, held_of, simplified
 from lacuna.discovery.law.law import attach, component_of
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.law.several import finding, paid
@@ -201,7 +201,8 @@ class Joining:
             return None
         free = [*base.estimate.free, *free_of(law.law, attachment, law.start)]
         point = (law.point or base.point) | {attachment.full_name(n): v for n, v in law.start.items()}
-        there = linearised(machine, self.case.fit, base.noise, free, base.fixed, point)
+        fixed = base.fixed | held_of(law.law, attachment, law.start)
+        there = linearised(machine, self.case.fit, base.noise, free, fixed, point)
         return None if there is None else (own, there)
 
     def _simplified(self, both: Both) -> Both:

@@ -90,3 +90,13 @@ def test_a_signal_arrives_with_what_is_added_on_its_way(line: Path) -> None:
     first, second = opened(line, places(line)["first.b to second.a"], 3.0)
     assert first == pytest.approx(20.0)
     assert second == pytest.approx(20.0 + 3.0 * (1 - np.exp(-np.linspace(0, 400, 41) / 50)), abs=1e-6)
+
+
+def test_a_signal_of_a_vector_of_ports_is_a_place(line: Path) -> None:
+    """It ended the search (exit 70)."""
+    line.write_text(
+        LINE.replace("ConcIn a;", "ConcIn a[1];").replace("Q*(a - c)", "Q*(a[1] - c)").replace(".a);", ".a[1]);")
+    )
+    assert list(places(line))[:2] == ["feed.b to first.a[1]", "first.b to second.a[1]"]
+    _, second = opened(line, places(line)["first.b to second.a[1]"], 3.0)
+    assert second == pytest.approx(20.0 + 3.0 * (1 - np.exp(-np.linspace(0, 400, 41) / 50)), abs=1e-6)

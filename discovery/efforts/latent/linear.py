@@ -19,6 +19,7 @@ from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, var
 from lacuna.discovery.case.cases import Recording
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.latent.numeric import Evaluator, NotNumeric, Value, finite, table
+from lacuna.discovery.efforts.latent.sampled import Sampling, read_at_ticks, remembered, through_ticks
 from lacuna.discovery.fit.machine import Machine
 from lacuna.runtime import RecordedInput
 
@@ -37,9 +38,10 @@ class Linear:
         self.states, self.unknowns = system.states, system.unknowns
         residuals = [row.residual for row in system.rows]
         self.residuals = residuals
+        self.memory = remembered(self.prepared, max(len(r.time) for r in machine.case.fit))
         self._by_unknown = [_partials(r, self.unknowns) for r in residuals]
-        self._by_state = [_partials(r, [var(n) for n in self.states]) for r in residuals]
-        probes = [var(self.prepared.aliases.get(n, (n, 1))[0]) for n in inputs]
+        self._by_state = [_partials(r, [var(n) for n in (*self.states, *self.memory)]) for r in residuals]
+        probes = [var(self._kept(n)) for n in inputs]
         self._by_column = [_partials(r, probes) for r in residuals]
         for j, name in enumerate(parameters, len(inputs)):
             differentiate = self._by_parameter(name)
@@ -68,13 +70,13 @@ class Linear:
     ) -> Along:
         """The linear model along the trajectory from `point`. Raises SimulationError, NotNumeric."""
         values, fixed = self._trajectory(point, recording, efforts)
-        course = finite(self._solved(values, fixed, recording.time), len(recording.time))
-        n, states, columns = len(recording.time), len(self.states), len(self.inputs) + len(self.parameters)
+        solved = self._solved(values, fixed, recording.time)
+        course = finite(solved, len(recording.time))
+        n, columns = len(recording.time), len(self.inputs) + len(self.parameters)
+        states = len(self.states) + len(self.memory)
         acting, outputs = slice(states, states + len(self.inputs)), len(self.machine.columns)
-        rates, answering = (
-            np.empty((n, states, states + columns)),
-            np.zeros((len(self.unknowns), len(self.inputs)), bool),
-        )
+        told, answering = self._told(), np.zeros((len(self.unknowns), len(self.inputs)), bool)
+        answers = np.empty((n, len(told), states + columns))
         read, feed = np.empty((n, outputs, states)), np.empty((n, outputs, columns))
         for block in self._blocks(n):
             matrix = table(self._by_unknown, len(self.unknowns), course, block)
@@ -83,13 +85,36 @@ class Linear:
             answer = -np.linalg.solve(matrix, right)
             answer[:, :, acting] = _without_rounding(answer[:, :, acting], matrix, right[:, :, acting])
             answering |= np.any(answer[:, :, acting] != 0, axis=0)
-            rates[block] = answer[:, :states]
+            answers[block] = answer[:, told]
             read[block], feed[block] = self._outputs(answer)
-        step, drive = self._discrete(rates[:, :, :states], rates[:, :, states:], np.diff(recording.time))
+        rates = answers[:, : len(self.states)]
+        if self.memory:
+            step, drive = self._sampled(answers, recording.time, Evaluator(self._leaf(values, fixed, recording.time)))
+        else:
+            step, drive = self._discrete(rates[:, :, :states], rates[:, :, states:], np.diff(recording.time))
         direct = rates[:, :, acting].copy()
         return Along(
             recording.time, step, drive, read, feed, direct, answering, {**fixed, **values, "time": recording.time}
         )
+
+    def _sampled(self, answers: np.ndarray, time: np.ndarray, leaf: Callable[[Expr], Value]) -> tuple[np.ndarray, ...]:
+        """(step, drive) with what a sampled controller remembers."""
+        x, whole = len(self.states), len(self.states) + len(self.memory)
+        unit = np.eye(answers.shape[2])
+        kept = [*self.states, *self.memory, *(self._kept(n) for n in self.inputs)]
+        known = {name: np.broadcast_to(unit[k], (len(time), len(unit))) for k, name in enumerate(kept)}
+        unknowns = [self.unknowns[k] for k in self._told()]
+        known |= {_named(u): answers[:, k] for k, u in enumerate(unknowns)}
+        rates = np.concatenate([answers[:, :x], np.zeros((len(time), whole - x, len(unit)))], axis=1)
+        return through_ticks(rates, time, Sampling(self.prepared, self.memory, leaf, known, time), x)
+
+    def _told(self) -> list[int]:
+        """Unknowns whose answers are kept: the rates, and what sampled controllers read."""
+        read = read_at_ticks(self.prepared) if self.memory else set()
+        return [k for k, u in enumerate(self.unknowns) if k < len(self.states) or _named(u) in read]
+
+    def _kept(self, name: str) -> str:
+        return self.prepared.aliases.get(name, (name, 1))[0]
 
     def _blocks(self, samples: int) -> list[slice]:
         """Samples in blocks, of which arrays of unknowns by unknowns take little."""
@@ -114,7 +139,7 @@ class Linear:
 
     def _solved(self, values: dict[str, np.ndarray], fixed: Mapping[str, float], time: np.ndarray) -> Evaluator:
         """An evaluator at the trajectory, with what the run does not give solved for: der(x) are added to `values`."""
-        names = [f"der({u.args[0].value})" if u.op == "der" else str(u.value) for u in self.unknowns]
+        names = list(map(_named, self.unknowns))
         for name in names[: len(self.states)]:
             values[name] = np.zeros(len(time))
         for _ in range(NEWTON):
@@ -174,18 +199,24 @@ class Linear:
         return step, drive
 
     def _outputs(self, answer: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        states, names = len(self.states), list(self.machine.columns.values())
+        states, names = len(self.states) + len(self.memory), list(self.machine.columns.values())
         both = np.zeros((len(answer), len(names), answer.shape[2]))
         place = {str(u.value): k for k, u in enumerate(self.unknowns) if u.op == "var"}
         for i, name in enumerate(names):
             kept, sign = self.prepared.aliases.get(name, (name, 1))
             if kept in self.states:
                 both[:, i, self.states.index(kept)] = sign
+            elif kept in self.memory:
+                both[:, i, len(self.states) + self.memory.index(kept)] = sign
             elif kept in place:
                 both[:, i] = sign * answer[:, place[kept]]
             elif kept not in self.prepared.storage.inputs:
                 raise NotNumeric(f"{name} is no state and no algebraic variable")
         return both[:, :, :states], both[:, :, states:]
+
+
+def _named(unknown: Expr) -> str:
+    return f"der({unknown.args[0].value})" if unknown.op == "der" else str(unknown.value)
 
 
 def _without_rounding(answer: np.ndarray, matrix: np.ndarray, right: np.ndarray) -> np.ndarray:

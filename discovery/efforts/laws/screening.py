@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from lacuna.codegen.units.inference import SECOND
 from lacuna.discovery.efforts import sites
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws.regression import FURTHER, Regression
@@ -18,6 +19,7 @@ from lacuna.discovery.law.law import Law
 from lacuna.discovery.law.law import Site as LawSite
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.law.law_terms import DRY, Group, Variable, evaluate
+from lacuna.units import parse_unit
 
 Scored = tuple[float, Regression, tuple[int, ...]]  # deviance and prices, groups of a regression
 
@@ -142,6 +144,8 @@ def _offered(locator: Locator, place: Place, guided: Guided) -> tuple[Regression
     varies = place.sites[0].kind in ("parameter", "input")
     if varies:  # it holds nothing at rest
         found = [replace(v, sticks=False) for v in found]
+    found += _unheld(locator, guided, found, place.column)
+    ranges |= {v.local: (-1.0, 1.0) for v in found if v.kind == "unheld"}
     coefficient = _is_coefficient(place.sites[0])
     if coefficient:  # no command, that may be late
         found = [replace(v, kind="other") if v.kind == "input" else v for v in found]
@@ -154,6 +158,21 @@ def _offered(locator: Locator, place: Place, guided: Guided) -> tuple[Regression
     where = LawSite(place.sites[0], place.location, place.unit, tuple(found), counts(found, terms))
     regression = Regression(guided, where, place.column)
     return regression, regression.add(terms)
+
+
+def _unheld(locator: Locator, guided: Guided, found: list[Variable], column: int) -> list[Variable]:
+    """The rates that an effort at a place sets at once, as they would be without it along the guided run."""
+    rates: list[Variable] = []
+    for v in (v for v in found if v.sticks):
+        name, largest = f"der({v.name})", 0.0
+        row = _unknowns(locator).index(name)
+        for piece, effort in zip(guided.pieces, guided.efforts, strict=True):
+            values = piece.along.values
+            values[f"unheld {name}"] = values[name] - piece.along.direct[:, row, column] * effort
+            largest = max(largest, float(np.abs(values[f"unheld {name}"]).max()))
+        local, unit = f"x{len(found) + len(rates) + 1}", str(parse_unit(v.unit) / SECOND) if v.unit else ""
+        rates.append(Variable(local, name, unit, "unheld", float(f"{largest:.2g}")))
+    return rates if all(v.size > 0 for v in rates) else []
 
 
 def _reads_only(group: Group, found: list[Variable], told: set[str]) -> bool:
@@ -277,5 +296,5 @@ def _refined_pairs(
 def _proposal(regression: Regression, chosen: tuple[int, ...]) -> Proposal:
     law = Law(regression.place, tuple(regression.groups[g] for g in chosen))
     start = {name: shape.start for name, shape in law.shapes().items()}
-    names = [c for c, _, _ in law.numbered()]
-    return Proposal(law, start | dict(zip(names, map(float, regression.coefficients(chosen)), strict=True)))
+    told = zip(law.numbered(), map(float, regression.coefficients(chosen)), strict=True)
+    return Proposal(law, start | {c: -abs(v) if text.startswith("bounded(") else v for (c, text, _), v in told})

@@ -30,11 +30,12 @@ def groups(
     """Every group of terms in these variables; `ranges` are those of their scaled values, `interval` and `duration`
     (s) those of the samples and of the longest recording."""
     result = [Group(("1",))]
-    common = [v for v in found if v.kind != "recording"]
+    result += [g for v in found if v.kind == "unheld" for g in _bounded(v)]
+    common = [v for v in found if v.kind not in ("recording", "unheld")]
     for v in common:
         result += _remembering(v, common, interval, duration) if v.kind not in ("rate", "above") else []
         result += _late(v, interval, duration) if v.kind == "input" else []
-        result += _swinging(v, found, interval, duration) if v.sticks else []
+        result += _swinging(v, common, interval, duration) if v.sticks else []
         low, high = ranges[v.local]
         if v.switch:
             result.append(Group((v.scaled,)))
@@ -50,6 +51,13 @@ def groups(
                 both = a.kind != "rate" and a.local > b.local
                 result += _together(a, b, ranges[a.local][0] < 0 < ranges[a.local][1], not both)
     return result + [g for v in found if v.kind == "recording" for g in _in_proportion(v, result)]
+
+
+def _bounded(v: Variable) -> list[Group]:
+    """A rate that goes no further either way: an amplifier that slews, a valve that is open all the way."""
+    return [
+        Group((f"bounded({v.scaled}, {{q}})",), (Shape("q", "1", q, 0.01, 0.99, (), 0.25),)) for q in (1 / 16, 0.25, 0.5, 0.75)
+    ]
 
 
 def _in_proportion(v: Variable, others: Sequence[Group]) -> list[Group]:

@@ -243,8 +243,10 @@ def _normal_equations(
 
 
 def bounded_linear(columns: np.ndarray, target: np.ndarray, bounds: np.ndarray | None) -> np.ndarray:
-    """Coefficients (p,) of columns (rows, p) that come nearest to the target (rows,), within bounds (p, 2) if given."""
+    """Coefficients (p,) of columns (rows, p) that come nearest to the target (rows,), within bounds (p, 2) if given;
+    any of one that does nothing."""
     scale = np.linalg.norm(columns, axis=0)
+    scale[scale == 0] = 1.0
     basis, triangle = np.linalg.qr(columns / scale)
     right = basis.T @ target
     if bounds is None:
