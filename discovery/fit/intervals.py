@@ -45,7 +45,8 @@ def from_bound(fit: Fit, k: int) -> float:
     inside = [j for j, f in enumerate(estimate.free) if j != k and not estimate.at_bound(f.name)]
     normal, across = estimate.normal[np.ix_(inside, inside)], estimate.normal[inside, k]
     curvature = float(estimate.normal[k, k] - across @ np.linalg.pinv(normal, hermitian=True) @ across)
-    pull = sum(float(b[:, k] @ r) for b, r in zip(estimate.jacobian, estimate.residuals, strict=False))
+    rows = zip(estimate.jacobian, estimate.residuals, strict=True)  # those of what holds a shaft come last
+    pull = sum(float(b[: len(r), k] @ r) for b, r in rows)
     f, value = estimate.free[k], float(estimate.values[k])
     pull = abs(pull + ((value - f.centre) * f.scale / f.sigma**2 if f.sigma else 0.0))
     return f.scale * fit.inflation() / (pull + float(np.sqrt(pull**2 + max(curvature, 0.0) * fit.inflation())))

@@ -92,9 +92,7 @@ class Sampling:
 
     def _step(self, step: object, tick: int, rows: Rows, values: dict[str, Value], where: np.ndarray) -> None:
         """A step of an event at a tick, on the samples `where` it is taken."""
-        if isinstance(step, DiscreteEquation):
-            self._assign(step.target, step.value, tick, rows, values, where)
-        elif isinstance(step, flat.Assign):
+        if isinstance(step, DiscreteEquation | flat.Assign):
             self._assign(step.target, step.value, tick, rows, values, where)
         elif isinstance(step, flat.When | flat.If):
             left = where
