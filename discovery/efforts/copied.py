@@ -6,10 +6,12 @@ from collections.abc import Mapping
 from pathlib import Path
 import re
 
+from lacuna.codegen.errors import Span
 from lacuna.codegen.flatten.classes.inheritance import written
 from lacuna.codegen.syntax import ast
 from lacuna.discovery.efforts.sites import Site, occurrences
 
+Edit = tuple[tuple[ast.Class, ...], Site, str]  # bases on the way to a site, the site, what is added there
 Change = tuple[int, bool, str, int]  # where, whether around a right side, what is put in, in place of what up to where
 
 
@@ -19,32 +21,45 @@ def copied(cls: ast.Class, edits: Mapping[Site, str]) -> tuple[str, list[str]]:
 
     The copy is to be nested in a class that extends it and says what the variables are.
     """
+    body = _copy(cls, [(site.bases, site, variable) for site, variable in edits.items()])
+    return cls.name, [f"  {line}" if line else "" for line in body.split("\n")]
+
+
+def _copy(cls: ast.Class, edits: list[Edit]) -> str:
+    """The text of a class, and before whatever names them copies of the classes of its components and bases, changed,
+    by names of their own."""
     text = Path(cls.span.file).read_text(encoding="utf-8")
     starts = [0, *(m.end() for m in re.finditer("\n", text))]
     changes: list[Change] = []
-    inner: dict[int, tuple[ast.Class, str, list[Change]]] = {}  # by where the type of a component is written
-    for site, variable in edits.items():
-        where = changes
-        if site.of is not None:
+    inner: dict[tuple[int, ast.Class, str], list[Edit]] = {}  # by where the class is named, and the copy's name
+    for bases, site, variable in edits:
+        if bases:
+            base, *rest = bases
+            named = next(e.base for e in cls.extends if written(e.base).rpartition(".")[2] == base.name)
+            key = _at(named.span, starts), base, f"{base.name}_inherited"
+            inner.setdefault(key, []).append((tuple(rest), site, variable))
+        elif site.of is not None and site.of is not cls:
             component = next(c for c in cls.components if c.name == site.instance)
-            span = component.type.span
-            name = f"{site.of.name}_{site.instance}"
-            where = inner.setdefault(starts[span.line - 1] + span.column - 1, (site.of, name, []))[2]
-        where += _added(site, variable, site.of or cls, text, starts)
-    for at, (of, name, own) in inner.items():
+            key = _at(component.type.span, starts), site.of, f"{site.of.name}_{site.instance}"
+            inner.setdefault(key, []).append(((), site, variable))
+        else:
+            changes += _added(site, variable, cls, text, starts)
+    for (at, of, name), own in inner.items():
         line = text.rfind("\n", 0, at) + 1
-        own += _seen(of, text, starts)
-        changes.append((line, False, _renamed(of, _class_text(of, text, starts, own), name), line))
+        changes.append((line, False, _renamed(of, _copy(of, own), name), line))
         changes.append((at, False, name, re.compile(r"[\w.']+").match(text, at).end()))
-    body = _class_text(cls, text, starts, [*changes, *_seen(cls, text, starts)])
-    return cls.name, [f"  {line}" if line else "" for line in body.split("\n")]
+    return _class_text(cls, text, starts, [*changes, *_seen(cls, text, starts)])
+
+
+def _at(span: Span, starts: list[int]) -> int:
+    return starts[span.line - 1] + span.column - 1
 
 
 def _added(site: Site, variable: str, cls: ast.Class, text: str, starts: list[int]) -> list[Change]:
     """What declares a variable in a class and puts it where a site is."""
     changes: list[Change] = []
     for part in site.parts or (site,):
-        begin = starts[part.span.line - 1] + part.span.column - 1
+        begin = _at(part.span, starts)
         side, end = right_side(text, begin)
         if site.kind in ("parameter", "input"):
             for at in occurrences(site.label, text, begin, end):
@@ -62,12 +77,16 @@ def _added(site: Site, variable: str, cls: ast.Class, text: str, starts: list[in
 def _class_text(cls: ast.Class, text: str, starts: list[int], changes: list[Change]) -> str:
     """A class as it is written, changed."""
     begin = starts[cls.span.line - 1]
-    end = re.compile(rf"\bend\s+{re.escape(cls.name)}\s*;").search(text, begin).end()
+    end = _end(cls, text, starts).end()
     result, last = [], begin
     for at, _, new, until in sorted(changes, key=lambda c: c[:2]):  # a parameter closes before its right side
         result += [text[last:at], new]
         last = until
     return "".join([*result, text[last:end]])
+
+
+def _end(cls: ast.Class, text: str, starts: list[int]) -> re.Match:
+    return re.compile(rf"\bend\s+{re.escape(cls.name)}\s*;").search(text, starts[cls.span.line - 1])
 
 
 def _renamed(cls: ast.Class, text: str, name: str) -> str:
@@ -119,7 +138,8 @@ def right_side(text: str, begin: int) -> tuple[int, int]:
 
 def _declarations_end(cls: ast.Class, text: str, starts: list[int]) -> int:
     """Where the line ends before the first section of a class; or where that starts, if it does so within a line."""
-    span = cls.sections[0].span
-    begin = starts[span.line - 1] + span.column - 1
+    if not cls.sections:
+        return text.rindex("\n", 0, _end(cls, text, starts).start())
+    begin = _at(cls.sections[0].span, starts)
     before = text[:begin].rstrip(" \t")
     return len(before) - 1 if before.endswith("\n") else begin

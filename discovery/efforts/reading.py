@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 import re
@@ -16,9 +16,10 @@ from lacuna.codegen.flatten.equations.equations import unroll
 from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.language import LOWERING
 from lacuna.codegen.flatten.names.context import Context
-from lacuna.codegen.flatten.names.scope import Scope
+from lacuna.codegen.flatten.names.scope import Scope, base_classes
 from lacuna.codegen.flatten.names.values import indices, scalars, shape_of
 from lacuna.codegen.library.classes import Library
+from lacuna.codegen.library.search_path import MODEL_FOLDER, outermost
 from lacuna.codegen.symbolic.expr import Expr, walk
 from lacuna.codegen.syntax import ast
 from lacuna.discovery.efforts.sites import MOST, Port, Site, Sites, root
@@ -36,6 +37,7 @@ def read(library: Library, name: str) -> Sites:
     group: dict[str, str] = {}
     ports: dict[str, Port] = {}
     states = _states(section for section, _ in top.sections)
+    bases = _bases(top)
     for section, owner in top.sections:
         closed += [(f"line {i.span.line}", ALGORITHM) for i in _passing(section)]
         for item, scope, loops in _each(_equations(section), Scope(top.context, owner, top)):
@@ -43,11 +45,11 @@ def read(library: Library, name: str) -> Sites:
                 found += _connection(item, scope, bool(loops), group, ports, closed)
             elif _is_definition(item, states):
                 closed.append((item.text, DEFINITION))
-            elif owner is cls:
-                found += _elements(Site("equation", item.text, span=item.span), item, scope, loops)
+            elif owner in bases:
+                found += _elements(Site("equation", item.text, span=item.span, bases=bases[owner]), item, scope, loops)
             else:
                 closed.append((item.text, f"the equation stands in {owner.path}"))
-    found += _inside(top)
+    found += _inside(top, bases)
     joined: dict[str, list[str]] = {}
     for end in ports:
         joined.setdefault(root(group, end), []).append(end)
@@ -150,31 +152,52 @@ def _branches(group: dict[str, str], ports: dict[str, Port]) -> list[Site]:
     ]  # fmt: skip
 
 
-def _inside(top: Instance) -> list[Site]:
-    """Equations of the components' classes: of those that the class itself declares and uses once, and of others that
-    stand in its file."""
+def _bases(top: Instance) -> dict[ast.Class, tuple[ast.Class, ...]]:
+    """Classes that the class inherits from, itself among them, whose files are its own: each with the way there."""
+    found: dict[ast.Class, tuple[ast.Class, ...]] = {top.cls: ()}
+    ways = [top.cls]
+    for cls in ways:
+        for base in base_classes(top.context.library, cls):
+            if base not in found and _is_own(base, top.cls):
+                found[base] = (*found[cls], base)
+                ways.append(base)
+    return found
+
+
+def _is_own(cls: ast.Class, top: ast.Class) -> bool:
+    """Whether a class is of the user's model: in its file, or else in its folder or package and not in package
+    Lacuna."""
+    file, own = Path(cls.span.file).resolve(), Path(top.span.file).resolve()
+    root = outermost(own.parent) or own.parent
+    return file == own or (file.is_relative_to(root) and not file.is_relative_to(MODEL_FOLDER.resolve()))
+
+
+def _inside(top: Instance, bases: Mapping[ast.Class, tuple[ast.Class, ...]]) -> list[Site]:
+    """Equations of the components' classes: of those that the class itself declares and uses once, and of others of the
+    user's model."""
     users: dict[ast.Class, list[Instance]] = {}
     for name in top.elements:
         node = top.child(name)
         if isinstance(node, Instance) and node.cls.kind in ("model", "block"):
             users.setdefault(node.cls, []).append(node)
-    own, found = {c.name for c in top.cls.components}, []
+    way = {c.name: bases[cls] for cls in bases for c in cls.components}
+    found = []
     for cls, nodes in users.items():
         nested = cls.parent is top.cls and len(nodes) == 1
-        if nested or cls.span.file == top.cls.span.file:
-            for node in (n for n in nodes if nested or n.name in own):
-                found += _balances(node, None if nested else cls)
+        if nested or _is_own(cls, top.cls):
+            for node in (n for n in nodes if nested or n.name in way):
+                found += _balances(node, None if nested else cls, way.get(node.name, ()))
     return found
 
 
-def _balances(node: Instance, of: ast.Class | None) -> list[Site]:
+def _balances(node: Instance, of: ast.Class | None, bases: tuple[ast.Class, ...]) -> list[Site]:
     sections = node.cls.sections
     states, found = _states(sections), []
     for section in sections:
         for item, scope, loops in _each(_equations(section), Scope(node.context, node.cls, node)):
             if isinstance(item, ast.Equality) and not _is_definition(item, states):
                 label = f"{node.name}: {item.text}"
-                site = Site("equation", label, span=item.span, instance=node.name, of=of)
+                site = Site("equation", label, span=item.span, instance=node.name, of=of, bases=bases)
                 found += _elements(site, item, scope, loops)
     return found
 

@@ -39,7 +39,7 @@ class Site:
     in one that it declares and has one `instance` of, or in the class `of` an instance that its file holds elsewhere;
     `parts` are the two equations of an exchange, and those in which a parameter or an input stands. Of an array of
     equations, or one in a loop, it is one: `term` is what is added to all, with @ for what this one lacks, `left` the
-    variable or rate on its left side."""
+    variable or rate on its left side. What stands in a class that is inherited names the `bases` on the way there."""
 
     kind: str  # node | edge | branch | signal | equation | exchange | parameter | input
     label: str
@@ -52,6 +52,7 @@ class Site:
     parts: tuple[Site, ...] = ()
     term: str = "@"
     left: str = ""
+    bases: tuple[ast.Class, ...] = ()
 
     @property
     def sign(self) -> str:
@@ -86,7 +87,10 @@ def varying(places: Iterable[Site], names: Mapping[str, int], kind: str = "param
     """Parameters, or inputs, that stand in equations which are all open; `names` says in how many."""
     equations = [site for site in places if site.kind == "equation" and not site.instance and site.term == "@"]
     found = [(name, [e for e in equations if re.search(_alone(name), e.label)]) for name in names]
-    return [Site(kind, name, parts=tuple(parts)) for name, parts in found if 1 <= len(parts) == names[name]]
+    return [
+        Site(kind, name, parts=tuple(parts), bases=parts[0].bases) for name, parts in found
+        if 1 <= len(parts) == names[name] and len({e.bases for e in parts}) == 1
+    ]  # fmt: skip
 
 
 def _alone(name: str) -> str:
