@@ -281,12 +281,14 @@ def _courses(machine: Machine, case: Case, point: Mapping[str, float]) -> Course
 
 def _piece_starts(machine: Machine, piece: Recording, courses: Courses) -> list[Free]:
     """The start values of a piece; those of states that are not recorded begin on their courses."""
-    whole, plus, begin = piece.piece.rpartition("+")
-    courses_here = courses.get(whole if plus else piece.piece, {})
+    whole, begin = piece.piece, 0
+    if whole not in courses and "+" in whole:  # what comes after a gap has a course of its own
+        whole, _, begin = whole.rpartition("+")
+    courses_here = courses.get(whole, {})
     found = []
     for f in uncertain_starts(machine, piece, {}):
         course = courses_here.get(state_of(f.name))
         if course is not None and machine.recorded(state_of(f.name)) is None:
-            f = replace(f, centre=float(course[int(begin) if plus else 0]), scale=float(np.ptp(course)) or f.scale)
+            f = replace(f, centre=float(course[int(begin)]), scale=float(np.ptp(course)) or f.scale)
         found.append(f)
     return found

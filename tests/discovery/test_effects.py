@@ -169,3 +169,16 @@ def test_bounded_least_squares_agrees_with_non_negative_ones() -> None:
         columns, target = random.normal(size=(60, 4)), random.normal(size=60)
         bounds = np.array([(-1e-300, np.inf)] * 4)
         assert bounded_linear(columns, target, bounds) == pytest.approx(nnls(columns, target)[0], abs=1e-9)
+
+
+def test_a_column_that_does_nothing_leaves_the_others_as_they_are() -> None:
+    """A step of an input to which nothing answers yet ended the search (exit 70)."""
+    random = np.random.default_rng(3)
+    columns, target = random.normal(size=(60, 3)), random.normal(size=60)
+    bounds = np.array([(0.0, 1.0)] * 3)
+    for limits in (None, bounds):
+        alone = bounded_linear(columns, target, limits)
+        beside = bounded_linear(
+            np.insert(columns, 1, 0.0, axis=1), target, None if limits is None else np.vstack([limits, [(0.0, 1.0)]])
+        )
+        assert np.delete(beside, 1) == pytest.approx(alone, abs=1e-9)

@@ -1,5 +1,6 @@
 """Standard errors against the scatter of estimates from data that are made many times."""
 
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -56,6 +57,8 @@ def test_at_a_bound_one_sigma_is_where_the_cost_has_risen_by_one(pushed: float) 
     inside = from_bound(SimpleNamespace(estimate=here, inflation=lambda: 1.0), 1)
     there = best(Free("slope", -inside, 0.3, lower=-inside, upper=-inside))
     assert there.cost - here.cost == pytest.approx(1.0, rel=1e-3)
+    held = replace(here, jacobian=[np.vstack([b, np.ones((7, b.shape[1]))]) for b in here.jacobian])
+    assert from_bound(SimpleNamespace(estimate=held, inflation=lambda: 1.0), 1) == inside  # as a held shaft adds rows
 
 
 def test_the_last_digit_of_a_column_is_that_of_its_recordings_together() -> None:
