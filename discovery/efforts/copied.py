@@ -31,20 +31,20 @@ def _copy(cls: ast.Class, edits: list[Edit]) -> str:
     text = Path(cls.span.file).read_text(encoding="utf-8")
     starts = [0, *(m.end() for m in re.finditer("\n", text))]
     changes: list[Change] = []
-    inner: dict[tuple[int, ast.Class, str], list[Edit]] = {}  # by where the class is named, and the copy's name
+    inner: dict[int, tuple[ast.Class, str, list[Edit]]] = {}  # by where the class is named: it, and the copy's name
     for bases, site, variable in edits:
         if bases:
             base, *rest = bases
             named = next(e.base for e in cls.extends if written(e.base).rpartition(".")[2] == base.name)
-            key = _at(named.span, starts), base, f"{base.name}_inherited"
-            inner.setdefault(key, []).append((tuple(rest), site, variable))
+            copy = inner.setdefault(_at(named.span, starts), (base, f"{base.name}_inherited", []))
+            copy[2].append((tuple(rest), site, variable))
         elif site.of is not None and site.of is not cls:
             component = next(c for c in cls.components if c.name == site.instance)
-            key = _at(component.type.span, starts), site.of, f"{site.of.name}_{site.instance}"
-            inner.setdefault(key, []).append(((), site, variable))
+            copy = inner.setdefault(_at(component.type.span, starts), (site.of, f"{site.of.name}_{site.instance}", []))
+            copy[2].append(((), site, variable))
         else:
             changes += _added(site, variable, cls, text, starts)
-    for (at, of, name), own in inner.items():
+    for at, (of, name, own) in inner.items():
         line = text.rfind("\n", 0, at) + 1
         changes.append((line, False, _renamed(of, _copy(of, own), name), line))
         changes.append((at, False, name, re.compile(r"[\w.']+").match(text, at).end()))

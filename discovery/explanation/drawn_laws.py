@@ -14,7 +14,8 @@ from lacuna.discovery.efforts.latent.evidence import evidence
 from lacuna.discovery.efforts.latent.smoother import courses, thinned
 from lacuna.discovery.efforts.located import SAMPLES, SIZES, TIMES, Locator
 from lacuna.discovery.explanation.explanation import Explanation
-from lacuna.discovery.explanation.figures import ABOVE, BAND
+from lacuna.discovery.explanation.figures import ABOVE
+from lacuna.discovery.explanation.wording import HALF_WIDTH
 from lacuna.discovery.naming.name import Finding
 from lacuna.runtime import SimulationError
 
@@ -133,7 +134,7 @@ def _figure(drawn: list[Drawn]) -> Figure:
     figure = Figure(figsize=(11, 0.3 + 2.9 * len(drawn)), layout="constrained")
     axes = figure.subplots(len(drawn), 2, squeeze=False)
     for (left, right), law in zip(axes, drawn, strict=True):
-        reach = BAND * law.error
+        reach = HALF_WIDTH * law.error
         left.fill_between(law.time, law.effort - reach, law.effort + reach, color="0.6", alpha=0.3, lw=0)
         left.plot(law.time, law.effort, "0.6", lw=3, label="located, any course; band: 95 %")
         left.plot(law.time, law.law, "C0", lw=1.2, label="the law")

@@ -13,11 +13,11 @@ from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.catalogue.places import Line, Shaft
 from lacuna.discovery.experiment.picture import POINTS
 from lacuna.discovery.explanation.explanation import Explanation
+from lacuna.discovery.explanation.wording import HALF_WIDTH
 from lacuna.discovery.law.locate import Located
 from lacuna.discovery.naming.name import Finding
 
 SAMPLES = 3000  # of a cloud
-BAND = 2.0  # standard deviations to both sides
 ABOVE = {"fontsize": "x-small", "loc": "lower left", "bbox_to_anchor": (0, 1)}  # off the curves
 
 Curve = tuple[str, str, Mapping[str, np.ndarray]]  # label, colour, measured minus simulated of each column
@@ -36,7 +36,7 @@ def courses(case: Case, recording: Recording, curves: list[Curve], noise: Mappin
             ax.plot(time, measured - residual[signal.column][rows], colour, lw=1, label=label)
             beside.plot(time, residual[signal.column][rows], colour, lw=0.7)
         if signal.column in noise:
-            reach = BAND * noise[signal.column]
+            reach = HALF_WIDTH * noise[signal.column]
             beside.axhspan(-reach, reach, color="0.85", zorder=0, label="noise, 95 %")
         ax.set_ylabel(f"{signal.column} / {signal.si_unit}")
     figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside upper left", ncols=4, fontsize="small")
@@ -59,7 +59,9 @@ def missing(result: Explanation) -> Figure | None:
     time, effort = place.effort[name]
     left.plot(time, effort, "C7o-", ms=3, lw=1, label=f"located, {name}")
     if name in place.error:
-        left.fill_between(time, *(effort + s * BAND * place.error[name] for s in (-1, 1)), color="C7", alpha=0.25, lw=0)
+        left.fill_between(
+            time, *(effort + s * HALF_WIDTH * place.error[name] for s in (-1, 1)), color="C7", alpha=0.25, lw=0
+        )
     _law(left, result, finding, name)
     left.set(xlabel="time / s", ylabel=f"missing {place.kind} at {place.location} / {place.unit}")
     left.legend(**ABOVE)

@@ -16,6 +16,7 @@ from lacuna.analysis.report.figures.data import drawn_data
 from lacuna.analysis.report.page import code, page, table
 from lacuna.analysis.report.page import figure as figure_of
 from lacuna.discovery.case.cases import Case
+from lacuna.discovery.efforts.sites import MOST
 from lacuna.discovery.experiment.files import FOLDER
 from lacuna.discovery.experiment.picture import picture
 from lacuna.discovery.explanation.confidence import certainty
@@ -46,7 +47,6 @@ _PLACES = (
     "law may explain what no single place does. Places that explain less: {more}.</p>"
 )
 _WHAT = {"effort": "an effort there", "sensor": "an error of the sensor"}
-MOST_PLACES = 12  # rows of a table that is still read
 
 
 def write(result: Explanation, folder: Path, amended: Path | None) -> Path:
@@ -163,7 +163,7 @@ def _anywhere(result: Explanation) -> list[str]:
     parts = ["<h2>Where something is missing</h2>"]
     if drawn := laws_over_efforts(result):
         parts += [_svg(drawn, "What is missing, and the law for it"), _ANY_COURSE]
-    sites = result.opened.sites[:MOST_PLACES]
+    sites = result.opened.sites[:MOST]
     parts.append(_table(["place", "what", "misfit that it could explain"],
                         [[s.location, _WHAT[s.kind], f"{s.explains:.0%}"] for s in sites]))  # fmt: skip
     parts.append(_PLACES.format(more=len(result.opened.sites) - len(sites)))

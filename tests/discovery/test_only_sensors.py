@@ -9,9 +9,8 @@ from scipy.signal import lfilter
 
 import lacuna
 
-OVEN = """
-package Oven "An oven whose equations stand in a class that is not the case's own"
-  model Sealed "Equations"
+SEALED = """package Works
+  model Sealed "Equations of another house"
     input Real P(unit="W") "Power of the heater";
     parameter Real C(unit="J/K", min=1e-9) = 400 "Heat capacity";
     parameter Real G(unit="W/K", min=0) = 2 "Loss to the room";
@@ -19,8 +18,12 @@ package Oven "An oven whose equations stand in a class that is not the case's ow
   equation
     C*der(dT) = P - G*dT;
   end Sealed;
+end Works;
+"""
+OVEN = """
+package Oven "An oven whose equations stand in a class that is not the case's own"
   model Kiln "What is believed"
-    extends Sealed;
+    extends Works.Sealed;
   end Kiln;
   model Open "The same, with its equation in the open"
     input Real P(unit="W") "Power of the heater";
@@ -34,6 +37,7 @@ end Oven;
 """
 CASE = """
 model = "Oven.mo:Oven.{model}"
+libraries = ["{works}"]
 [signals.P]
 role = "input"
 variable = "P"
@@ -56,8 +60,12 @@ STEP, OFFSET, NOISE = 2.0, 1.5, 0.05  # s, K, K
 def case(folder: Path, model: str) -> Path:
     """A sensor that reads 1.5 K too much; between samples, where power is constant, the oven is solved exactly."""
     random = np.random.default_rng(4)
+    works, folder = folder / "works", folder / "case"
+    for made in (works, folder):
+        made.mkdir()
+    (works / "Works.mo").write_text(SEALED, encoding="utf-8")
     (folder / "Oven.mo").write_text(OVEN, encoding="utf-8")
-    (folder / "case.toml").write_text(CASE.format(model=model), encoding="utf-8")
+    (folder / "case.toml").write_text(CASE.format(model=model, works=works), encoding="utf-8")
     kept = np.exp(-2 / 400 * STEP)
     for k in range(3):
         time = np.arange(600) * STEP
@@ -76,7 +84,7 @@ def test_a_sensor_is_not_accused_where_no_equation_was_open(tmp_path: Path) -> N
     reason = result.diagnosis["reason"]
     assert "SensorOffset" in reason
     assert "no place in the equations of Oven.mo:Oven.Kiln was open" in reason
-    assert "the equation stands in Oven.Sealed" in reason
+    assert "the equation stands in Works.Sealed" in reason
 
 
 def test_the_same_sensor_is_named_where_the_equation_was_tried(tmp_path: Path) -> None:

@@ -38,7 +38,7 @@ class Linear:
         self.states, self.unknowns = system.states, system.unknowns
         residuals = [row.residual for row in system.rows]
         self.residuals = residuals
-        self.memory = remembered(self.prepared, max(len(r.time) for r in machine.case.fit))
+        self.memory = remembered(self.prepared)
         self._by_unknown = [_partials(r, self.unknowns) for r in residuals]
         self._by_state = [_partials(r, [var(n) for n in (*self.states, *self.memory)]) for r in residuals]
         probes = [var(self._kept(n)) for n in inputs]

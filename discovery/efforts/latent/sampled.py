@@ -21,20 +21,20 @@ from lacuna.codegen.symbolic.expr import REAL, Expr
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import assigned, expressions
 from lacuna.discovery.efforts.latent.numeric import Evaluator, NotNumeric, Value
+from lacuna.discovery.efforts.sites import MOST
 
-WORK = 1e9  # multiplications of a few seconds: samples times states cubed, above which nothing is remembered
 AT_ONCE = 1e-6  # of the interval of a recording, within which a tick and a sample are at one time
 Rows = dict[str, np.ndarray]  # (n, states + memory + columns) of each variable: its derivatives
 
 
-def remembered(prepared: Prepared, samples: int) -> list[str]:
+def remembered(prepared: Prepared) -> list[str]:
     """Real variables that ticks set; none where they are too many to follow, or set by more than assignments."""
     if not prepared.samples:
         return []
     ticking = [w for w in _whens(prepared) if any(_ticks(prepared, c) for c, _ in w.branches)]
     names = dict.fromkeys(n for n in assigned(ticking) if n in prepared.storage.discretes)
     names = [n for n in names if prepared.model.variables[n].type == REAL]
-    return names if samples * (len(names) + len(prepared.system.states)) ** 3 < WORK else []
+    return names if len(names) <= MOST else []
 
 
 def read_at_ticks(prepared: Prepared) -> set[str]:
