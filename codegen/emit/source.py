@@ -154,6 +154,12 @@ def _arrays(tables: Tables, checks: Checks, messages: list[str]) -> tuple[list[s
     return arrays, counts
 
 
+def _follow(prepared: Prepared) -> list[str]:
+    """What events read of continuous variables, as bits of the descriptor."""
+    reads = {"MDL_FOLLOWS": prepared.events_follow, "MDL_ARRIVAL": reads_arrival(prepared.events)}
+    return [bit for bit, does in reads.items() if does]
+
+
 def _descriptor(prepared: Prepared, counts: dict[str, int], tangents: bool) -> str:
     experiment: flat.Experiment = prepared.declared.experiment
     shown = counts.pop("n_shown")
@@ -183,7 +189,7 @@ def _descriptor(prepared: Prepared, counts: dict[str, int], tangents: bool) -> s
         "division_equation": _pointer("mdl_division_equation", counts["n_divisions"]),
         **{name: f"mdl_{name}" for name in _CALLBACKS},
         **_guards(prepared),
-        **({"events_follow": "2" if reads_arrival(prepared.events) else "1"} if prepared.events_follow else {}),
+        **({"events_follow": " | ".join(follow)} if (follow := _follow(prepared)) else {}),
         **(_DELAYS if prepared.delays else {}),
         **(_TRANSPORTS if prepared.transports else {}),
         **({"tangents": "&mdl_model_tangents"} if tangents else {}),

@@ -18,7 +18,9 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 18
+#define MDL_ABI_VERSION 19
+
+enum { MDL_FOLLOWS = 1, MDL_ARRIVAL = 2 }; /* bits of events_follow */
 
 typedef enum {
   MDL_FAILURE_NONE = 0,
@@ -230,8 +232,8 @@ typedef struct mdl_descriptor {
   /* [n_z] 0: unknown z follows from linear equations, so it has one value at a point; NULL: none does. */
   const unsigned char *z_branches;
 
-  /* Whether event() reads v or xdot that follow, through equations, d that it sets; 2: and, in m->v, what they were on
-   * arrival. */
+  /* Bits: MDL_FOLLOWS event() reads v or xdot that follow, through equations, d that it sets; MDL_ARRIVAL it reads, in
+   * m->v, what v was on arrival. */
   int events_follow;
 
   /* [n_rel] 1: between events the guard is an affine function of states and time; NULL: none is. guard_rates: g[r] of

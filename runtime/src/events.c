@@ -72,7 +72,7 @@ static bool alike(const double *a, const double *b, int n) {
  * hold with what is set. 0 they do, -1 failed, CIRCLE they do not come to agree. */
 static int agree(rt_session *s) {
   mdl_data *m = &s->data;
-  memcpy(s->v_agreed, m->v, (size_t)s->d->n_v * sizeof *m->v);
+  if (!(s->d->events_follow & MDL_ARRIVAL)) memcpy(s->v_agreed, m->v, (size_t)s->d->n_v * sizeof *m->v);
   for (int k = 0; k < MAX_ROUNDS; k++) {
     if (rt_evaluate_into(s, s->v_agreed)) return -1;
     memcpy(s->rel_swept, m->rel, (size_t)s->d->n_rel);
@@ -98,22 +98,25 @@ static void start_again(rt_session *s) {
 static int pass(rt_session *s, int sweeps, bool singly) {
   mdl_data *m = &s->data;
   bool changed = false, settled = false;
+  double *v = s->d->events_follow & MDL_ARRIVAL ? s->v_agreed : m->v;
+  if (v != m->v) memcpy(v, m->v, (size_t)s->d->n_v * sizeof *v);
   memcpy(s->when_before, m->when, (size_t)s->d->n_when);
   for (int k = 0; k < sweeps && !settled; k++) {
     s->result->counters.event_passes++;
-    if (rt_evaluate(s)) return -1;
+    if (rt_evaluate_into(s, v)) return -1;
     memcpy(s->rel_swept, m->rel, (size_t)s->d->n_rel);
     bool switched = update_relations(s, singly);
     switched |= rt_clock_relations(s);
     if (switched && k % SWEEPS_OF_A_CYCLE == SWEEPS_OF_A_CYCLE - 1) start_again(s);
     memcpy(s->d_swept, m->d, (size_t)s->d->n_d * sizeof *m->d);
-    if (sweep(s, m->v) || rt_jump_sweep(s, m->v, k == 0)) return -1;
+    if (sweep(s, v) || rt_jump_sweep(s, v, k == 0)) return -1;
     settled = !switched && same(m->d, s->d_swept, s->d->n_d);
     changed |= switched;
-    int status = settled || !s->d->events_follow ? 0 : agree(s);
+    int status = settled || !(s->d->events_follow & MDL_FOLLOWS) ? 0 : agree(s);
     if (status) return status;
   }
   memcpy(m->x, s->x_swept, (size_t)s->d->n_x * sizeof *m->x);
+  if (v != m->v) memcpy(m->v, v, (size_t)s->d->n_v * sizeof *v);
   rt_jump_accept(s);
   s->reinitialised |= m->reinitialised != 0;
   return changed || !settled || m->reinitialised || !same(m->d, m->pre_d, s->d->n_d);
@@ -240,6 +243,7 @@ rt_status rt_event(rt_session *s) {
   s->last_event = s->t;
   s->shaped = false; /* with other relations, guards are made of the states in another way */
   rt_slopes_forget(s);
+  if (s->d->events_follow & MDL_ARRIVAL && rt_evaluate(s)) return rt_fail_model(s, s->t, "arriving at an event");
   remember(s);
   if ((status = rt_jump_measure(s))) return status;
   size_t logged = s->result->n_events;
