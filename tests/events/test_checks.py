@@ -102,3 +102,39 @@ end Outside;
 
 def test_checks_may_be_switched_off(tmp_path: Path) -> None:
     assert simulated(tmp_path, POLE, solver="dopri5", checks=False).complete
+
+
+GENERATOR = """model Generator "A linear congruential generator, whose numbers stay below 2^31"
+  Integer x(start=7, fixed=true);
+equation
+  when sample(0.1, 0.1) then
+    x = mod(FACTOR*pre(x) + 12345, 2147483648);
+  end when;
+end Generator;
+"""
+IN_A_FUNCTION = """function next
+  input Integer s;
+  output Integer x;
+algorithm
+  x := mod(FACTOR*s + 12345, 2147483648);
+end next;
+model Called
+  Integer x(start=7, fixed=true);
+equation
+  when sample(0.1, 0.1) then
+    x = next(pre(x));
+  end when;
+end Called;
+"""
+
+
+@pytest.mark.parametrize("text", [GENERATOR, IN_A_FUNCTION], ids=["equation", "function"])
+def test_a_product_of_integers_that_is_not_exact_ends_the_run(tmp_path: Path, text: str) -> None:
+    """It was rounded, and what was made of it wrong without a word; products that are exact stay as they are."""
+    failure = simulated(tmp_path, text.replace("FACTOR", "1103515245"), stop=1.0).failure
+    assert failure is not None and "the Integer x has no value: a product" in str(failure)
+    x = 7
+    for _ in range(9):
+        x = (1103515 * x + 12345) % 2**31
+    result = simulated(tmp_path, text.replace("FACTOR", "1103515"), stop=0.95)
+    assert result.complete and result["x"][-1] == x

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from lacuna.codegen.symbolic.expr import BOOLEAN, BUILTINS, Expr, call, const, div, mul, transform
+from lacuna.codegen.symbolic.expr import BOOLEAN, BUILTINS, INTEGER, Expr, call, const, div, mul, transform
 
 _BINARY = {
     "or": ("||", 2), "and": ("&&", 3), "==": ("==", 4), "<>": ("!=", 4), "<": ("<", 5), "<=": ("<=", 5),
@@ -21,6 +21,10 @@ HELPERS = {
     "mdl_mod": "static inline double mdl_mod(double a, double b) { return a - floor(a / b) * b; }",
     "mdl_rem": "static inline double mdl_rem(double a, double b) { return a - trunc(a / b) * b; }",
     "mdl_div": "static inline double mdl_div(double a, double b) { return trunc(a / b); }",
+    # of Integers: no number where the product is beyond 2^53 and may not be exact, so that nothing is made of it
+    "mdl_times": "static inline double mdl_times(double a, double b) {\n"
+                 "  const double product = a * b;\n"
+                 "  return fabs(product) > 0x1p53 ? NAN : product;\n}",
 }
 
 Lookup = Callable[[Expr], str | None]
@@ -65,6 +69,8 @@ def _print(e: Expr, name: Lookup) -> tuple[str, int]:
     if e.op == "const":
         text = number(e.value) if e.type != BOOLEAN or e.value in (0, 1) else NO_BOOLEAN
         return text, _UNARY if text.startswith("-") else _PRIMARY
+    if e.op == "*" and all(a.type == INTEGER and abs(a.value if a.op == "const" else 2) > 1 for a in e.args):
+        return f"mdl_times({_list(e.args, name)})", _PRIMARY
     if e.op in _BINARY:
         return _print_binary(e, name)
     if e.op == "start_time":
