@@ -15,7 +15,7 @@ from lacuna.discovery.case.thinning import said_of, thinned
 from lacuna.discovery.catalogue import catalogue, places
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
-from lacuna.discovery.efforts.find import places_of
+from lacuna.discovery.efforts.find import Found, places_of
 from lacuna.discovery.efforts.switches import switched, switches
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.explanation.moved import sensor_instead
@@ -147,6 +147,10 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
     if not unbegun.settled():
         unbegun.effects = catalogue.read(library)
     places_known = begun_open(unbegun, library, progress)
+
+    def located(found: Found) -> None:
+        result.opened = found
+
     search = _begun(unbegun)
     shafts = trackable(result.case, result.base.machine.model, result.amendment.structure)[:1]
     search.restarts = bool(shafts)
@@ -155,7 +159,7 @@ def add_findings(result: Explanation, library: Library, progress: Progress) -> N
         if search.lost():
             search, unbegun = _anew(result, search, unbegun, shafts, progress)
         explain_beyond(search, unbegun, progress)
-        result.opened = explain_open(search, unbegun, library, progress, places_known)
+        explain_open(search, unbegun, library, progress, places_known, located)
         if not search.findings:
             result.instead = sensor_instead(search, catalogue.read(library), progress)
         if result.instead:

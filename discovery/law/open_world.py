@@ -53,27 +53,31 @@ def begun_open(unbegun: Search, library: Library, progress: Progress) -> Found |
 
 
 def explain_open(
-    search: Search, unbegun: Search, library: Library, progress: Progress, places: Found | None = None
-) -> Found | None:
+    search: Search, unbegun: Search, library: Library, progress: Progress, places: Found | None,
+    located: Callable[[Found], None],
+) -> None:  # fmt: skip
     """Locate and explain what `unbegun`, the believed model, lacks, unless `search` has explained it in its equations;
-    where what it found there leaves more than noise, laws at other places beside it. `places` may be known already.
+    where what it found there leaves more than noise, laws at other places beside it. `places` may be known already;
+    `located` is told of them as soon as they are, since the time may be up before a law is found.
     Where several effects explain it, they may stand for one law that the catalogue does not have.
 
-    None where one has explained it, or where fits need shafts held near their motion: those are left to the catalogue.
+    Of no use where one has explained it, or where fits need shafts held near their motion: those are left to the
+    catalogue.
     """
     quiet = nearly_noise(unbegun.fit) and like_noise(unbegun.fit)  # colour alone may also be a misfit of fast motion
     if not unbegun.lead.direct or unbegun.amendment.trackers or quiet:
-        return None
+        return
     explained = search.settled() or within_instruments(search.fit)
     explained = explained and any(not f.ranked.attachment.variable for f in search.findings)
     if explained and len(search.findings) == 1:
-        return None
+        return
     found = places or places_of(search.case, unbegun.amendment, unbegun.fit, library, progress)
+    located(found)
     add_laws(found, search.case, unbegun.amendment, unbegun.fit, progress, most=1)
     if explained:
         if found.short:
             _take(search, unbegun, found, progress)
-        return found
+        return
     pair = _pair(search, found, progress)
     told = pair is not None and pair[1].site.explains > WORTH
     two = _two(unbegun, found, pair, progress) if told else None
@@ -83,7 +87,6 @@ def explain_open(
         if two is not None:
             take_if_less(search, two, unbegun.fit)
     among_sensors(search, progress)
-    return found
 
 
 def _one_by_one(

@@ -23,8 +23,8 @@ HELPERS = {
     "mdl_div": "static inline double mdl_div(double a, double b) { return trunc(a / b); }",
     # of Integers: no number where the product is beyond 2^53 and may not be exact, so that nothing is made of it
     "mdl_times": "static inline double mdl_times(double a, double b) {\n"
-                 "  const double product = a * b;\n"
-                 "  return fabs(product) > 0x1p53 ? NAN : product;\n}",
+    "  const double product = a * b;\n"
+    "  return fabs(product) > 0x1p53 ? NAN : product;\n}",
 }
 
 Lookup = Callable[[Expr], str | None]
