@@ -24,7 +24,7 @@ FORMS = {
     "drive.delay": "a delay",
     "drive.deadband": "a dead band of the drive",
     "drive.saturation": "saturation of the drive",
-    "torque.cogging": "cogging torque",
+    "torque.cogging": "cogging",
     "motor.saturation": "magnetic saturation",
     "motor.heating": "heating of a winding",
     "load.power": "a load of constant power",

@@ -112,13 +112,13 @@ equation
   end when;
 end Generator;
 """
-IN_A_FUNCTION = """function next
-  input Integer s;
-  output Integer x;
-algorithm
-  x := mod(FACTOR*s + 12345, 2147483648);
-end next;
-model Called
+IN_A_FUNCTION = """model Called
+  function next
+    input Integer s;
+    output Integer x;
+  algorithm
+    x := mod(FACTOR*s + 12345, 2147483648);
+  end next;
   Integer x(start=7, fixed=true);
 equation
   when sample(0.1, 0.1) then
