@@ -12,7 +12,8 @@ from lacuna.codegen import flat
 from lacuna.codegen.dae.events import sorted_body
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.structure.constants import is_parametric
-from lacuna.codegen.symbolic.expr import TRUE, Expr, special
+from lacuna.codegen.symbolic.expr import TRUE, Expr, special, transform
+from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import assigned
 from lacuna.codegen.symbolic.union_find import UnionFind
 
@@ -25,13 +26,17 @@ def discrete_starts(model: flat.FlatModel) -> flat.FlatModel:
     variables, equations, computed = dict(model.variables), [], {}
     at_events = {n for w in model.whens for n in assigned([w])}.union(*(a.targets for a in model.algorithms))
     by_equation = _defined_by_equations(model, at_events)
-    for eq in model.initial_equations:
+    told: dict[Expr, Expr] = {}  # pre(n) of those that have got their start here
+    for eq in sorted(model.initial_equations, key=_reads_pre):
         name = _defined(eq, variables, at_events, computed.keys())
         if name is None:
             equations.append(eq)
             continue
-        value = eq.rhs if _discrete_name(eq.lhs) == name else eq.lhs
+        own, value = (eq.lhs, eq.rhs) if _discrete_name(eq.lhs) == name else (eq.rhs, eq.lhs)
+        value = transform(value, told.get, {})
         if is_parametric(value, variables):
+            if own.op == "pre":
+                told[own] = value
             variables[name] = replace(variables[name], start=value)
         elif name in by_equation:
             raise Diagnostic(
@@ -42,6 +47,11 @@ def discrete_starts(model: flat.FlatModel) -> flat.FlatModel:
             computed[name] = flat.Assign(name, value, eq.span)
     model = replace(model, variables=variables, initial_equations=equations)
     return _with_assignments(model, computed) if computed else model
+
+
+def _reads_pre(eq: flat.Equation) -> bool:
+    """Whether an equation says what a variable was by what others were: it comes after those that say that."""
+    return any(n.op == "pre" for side in (eq.lhs, eq.rhs) if side.op != "pre" for n in leaves(side))
 
 
 def _with_equal_starts(model: flat.FlatModel) -> flat.FlatModel:

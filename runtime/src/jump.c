@@ -194,7 +194,8 @@ int rt_jump_sweep(rt_session *s, double *v, bool first) {
   mdl_data *m = &s->data;
   rt_sensitivities *f = s->sensitivities;
   if (!f || f->lost) return 0;
-  if (v != m->v && d->events_follow & MDL_ARRIVAL) { /* what y was on arrival has no row of its own */
+  bool arrived = v == m->v || !memcmp(v, m->v, (size_t)d->n_v * sizeof *v);
+  if (!arrived && d->events_follow & MDL_ARRIVAL) { /* what y was on arrival has no row of its own */
     rt_tangent_lose(s, RT_FLAG_ARRIVAL, -1);
     return 0;
   }
