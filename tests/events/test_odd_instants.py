@@ -136,3 +136,43 @@ def test_counts(tmp_path: Path, text: str) -> None:
         result = runtime.simulate(model, solver=solver, stop=STOP, interval=0.05, **settings)
         assert result.complete, result.failure
         assert {name: result[name][-1] for name in EXPECTED[text]} == EXPECTED[text], solver
+
+
+ARRIVAL = """model Arrival "What jumps at an event, as it was when the event came: at a time and at a crossing"
+  Real x(start=0, fixed=true), kept(start=5, fixed=true);
+  Real u = if time < 0.5 then 1 else 2;
+  Real w = if x < 1.5 then 10 else 20;
+  discrete Real q(start=0, fixed=true), p(start=0, fixed=true), now(start=0, fixed=true), s(start=0, fixed=true);
+equation
+  der(x) = 1;
+  der(kept) = 0;
+  when time >= 0.5 then
+    q = pre(u);
+    now = u;
+    reinit(kept, pre(u));
+  end when;
+  when x >= 1.5 then
+    p = pre(w);
+  end when;
+  when sample(0, 0.25) then
+    s = pre(u);
+  end when;
+end Arrival;
+"""
+
+
+def test_what_jumps_at_an_event_is_on_arrival_what_it_was(tmp_path: Path) -> None:
+    """The left limit, by every solver (3.7.5): it was the value after the event. What is sampled as it jumps comes a
+    sample later, as from a unit delay."""
+    model = compiled(tmp_path, ARRIVAL)
+    for solver in ("ida", "dopri5", "rodas4", "rk4"):
+        settings = {"step": 0.01} if solver == "rk4" else {"rtol": 1e-9}
+        for events in (True, False):
+            result = runtime.simulate(
+                model, solver=solver, stop=STOP, interval=0.05, events=events, outputs=["q", "p", "now", "kept", "s"],
+                **settings,
+            )  # fmt: skip
+            assert result.complete, result.failure
+            last = {name: result[name][-1] for name in ("q", "p", "now", "kept", "s")}
+            assert last == {"q": 1, "p": 10, "now": 2, "kept": 1, "s": 2}, solver
+            assert result["s"][result.time < 0.74].max() == 1
