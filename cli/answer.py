@@ -20,6 +20,7 @@ from rich.console import Console, RenderableType
 import typer
 
 import lacuna
+from lacuna.cli.numbers import read_as_in_files
 from lacuna.cli.progress import shown
 
 WIDTH = 110  # columns, where the terminal has fewer or there is none: broken words help nobody
@@ -63,6 +64,7 @@ def answered(command: Callable[..., Answer]) -> Callable[..., None]:
             shown.reset(token)
 
     hints = get_type_hints(command, include_extras=True) | _EVERYWHERE | {"context": typer.Context, "return": None}
+    read_as_in_files(hints)
     own = [p.replace(annotation=hints[n]) for n, p in inspect.signature(command).parameters.items()]
     more = [
         inspect.Parameter(n, inspect.Parameter.KEYWORD_ONLY, default=False, annotation=a)
