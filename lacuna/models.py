@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from html import escape
 from pathlib import Path
 import time
 from typing import Literal, get_args
@@ -43,7 +44,7 @@ class Finding:
 
     def _repr_html_(self) -> str:
         rows = [("variables", self.variables), ("continuous", self.states), ("equations", self.equations)]
-        return page(self.name, table(("", ""), rows), *(f"<pre>{w}</pre>" for w in self.warnings))
+        return page(self.name, table(("", ""), rows), *(f"<pre>{escape(w)}</pre>" for w in self.warnings))
 
 
 def check(
