@@ -12,7 +12,7 @@ _UNSAID = dict.fromkeys(("Date", "Creator", "Format", "Type"))  # what SVG says 
 
 
 def save(figure: Figure, target: Path | IO[str], kind: str, **settings: Any) -> None:
-    """Write `figure` as `kind` ("svg" or "png"). The only formulas are the powers at the ticks of a logarithmic axis."""
+    """Write `figure` as `kind` ("svg" or "png"). The only formulas are powers at the ticks of logarithmic axes."""
     from matplotlib import rc_context
     from matplotlib.text import Text
 
