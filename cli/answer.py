@@ -4,6 +4,7 @@ status 1; a traceback is for our own mistakes only."""
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 import functools
 import inspect
@@ -139,7 +140,8 @@ def _fail(message: str, data: dict[str, Any], json: bool) -> None:
     sys.unraisablehook = lambda _: None  # of half-written files that writers try to close while they are taken away
     typer.echo(message, err=True)
     if json:
-        _echo(data | {"error": message.removeprefix("error: ")})
+        with suppress(OSError):  # where that is what failed, it has been said
+            _echo(data | {"error": message.removeprefix("error: ")})
     raise typer.Exit(1)
 
 
