@@ -4,6 +4,7 @@ status 1; a traceback is for our own mistakes only."""
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 import functools
 import inspect
@@ -20,6 +21,7 @@ from rich.console import Console, RenderableType
 import typer
 
 import lacuna
+from lacuna.cli.numbers import read_as_in_files
 from lacuna.cli.progress import shown
 
 WIDTH = 110  # columns, where the terminal has fewer or there is none: broken words help nobody
@@ -63,6 +65,7 @@ def answered(command: Callable[..., Answer]) -> Callable[..., None]:
             shown.reset(token)
 
     hints = get_type_hints(command, include_extras=True) | _EVERYWHERE | {"context": typer.Context, "return": None}
+    read_as_in_files(hints)
     own = [p.replace(annotation=hints[n]) for n, p in inspect.signature(command).parameters.items()]
     more = [
         inspect.Parameter(n, inspect.Parameter.KEYWORD_ONLY, default=False, annotation=a)
@@ -137,7 +140,8 @@ def _fail(message: str, data: dict[str, Any], json: bool) -> None:
     sys.unraisablehook = lambda _: None  # of half-written files that writers try to close while they are taken away
     typer.echo(message, err=True)
     if json:
-        _echo(data | {"error": message.removeprefix("error: ")})
+        with suppress(OSError):  # where that is what failed, it has been said
+            _echo(data | {"error": message.removeprefix("error: ")})
     raise typer.Exit(1)
 
 

@@ -26,8 +26,9 @@ from lacuna.cli import (
     sweep,
     verify,
 )
+from lacuna.cli.output import Lacuna
 
-app = typer.Typer(
+app = Lacuna(
     name="lacuna",
     no_args_is_help=True,
     rich_markup_mode="rich",

@@ -70,37 +70,42 @@ def assignments(texts: list[str] | None, option: str = "-p") -> dict[str, str]:
 
 
 def parameters(texts: list[str] | None) -> dict[str, float]:
-    """Of -p."""
-    return {name: number(name, text) for name, text in assignments(texts).items()}
+    """Of -p; true and false stay what they are, for parameters that are Boolean."""
+    return {name: value(name, text) for name, text in assignments(texts).items()}
 
 
 def inputs(texts: list[str] | None, hold: bool) -> dict[str, lacuna.Input]:
     """Of -u: a number, or FILE.csv with the column's name after a colon (default: the input's own)."""
     found: dict[str, lacuna.Input] = {}
     for name, text in assignments(texts, "-u").items():
-        value = _constant(text)
-        if value is None:
+        given = _constant(text)
+        if given is None:
             file, _, column = text.partition(":") if not Path(text).exists() else (text, "", "")
-            value = lacuna.recorded(file, column or name, hold=hold)
-        found[name] = value
+            given = lacuna.recorded(file, column or name, hold=hold)
+        found[name] = given
     return found
 
 
 def _constant(text: str) -> float | None:
     """A number or true/false; None for anything else, which is the name of a file."""
     try:
-        return number("", text)
+        return value("", text)
     except lacuna.UserError:
         return None
 
 
-def number(name: str, text: str) -> float:
-    """A real number, or true/false as 1/0."""
-    words = {"true": 1.0, "false": 0.0}
+def value(name: str, text: str) -> float:
+    """True or false, which are no numbers of the model, or a real number."""
+    words = {"true": True, "false": False}
+    return words[text.lower()] if text.lower() in words else number(name, text, " nor true/false")
+
+
+def number(name: str, text: str, other: str = "") -> float:
     try:
-        return words[text.lower()] if text.lower() in words else decimal(text)
+        return decimal(text)
     except ValueError:
-        raise lacuna.UserError(f"{name}={text}: '{text}' is neither a finite number nor true/false") from None
+        said = f"neither a finite number{other}" if other else "no finite number"
+        raise lacuna.UserError(f"{name}={text}: '{text}' is {said}") from None
 
 
 def default_folder(kind: str, name: str) -> Path:

@@ -10,6 +10,7 @@ import typer
 
 import lacuna
 from lacuna.cli.answer import Answer, answered
+from lacuna.cli.options import AllowExternal
 from lacuna.cli.progress import progress
 
 
@@ -17,6 +18,7 @@ from lacuna.cli.progress import progress
 def verify(
     folder: Annotated[Path, typer.Argument(metavar="OUT", help="Folder of results of simulate, maps, sweep, assess, "
                                            "forecast or explain")],
+    allow_external: AllowExternal = False,
 ) -> Answer:  # fmt: skip
     """Make a result again from its recorded command and inputs, and say whether it is the same.
 
@@ -24,7 +26,7 @@ def verify(
     in the folder where the command was given.
     """
     with progress() as tell:
-        found = lacuna.verify(folder, progress=tell)
+        found = lacuna.verify(folder, progress=tell, allow_external=allow_external)
     said = f"{' '.join(('lacuna', *found.command))}: {len(found.checked)} files made again"
-    failure = f"error: not the same: {', '.join(found.differs)}" if found.differs else ""
+    failure = f"not the same: {', '.join(found.differs)}" if found.differs else ""
     return Answer(asdict(found), [said if failure else f"{said}, all the same"], failure=failure)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import math
 from xml.etree import ElementTree as ET
 
+from lacuna.fmi.errors import FmuError
 from lacuna.fmi.variable import FmiVariable
 from lacuna.fmi.variables import FmiVariables
 from lacuna.units import factors_of, parse_unit
@@ -57,10 +58,10 @@ def describe(header: Header, variables: FmiVariables, version: str) -> bytes:
         indicators = {v.reference for v in variables.indicators}
         listed = [v for v in variables.all if v.reference not in indicators]
         places = {v.reference: k for k, v in enumerate(listed, 1)}
-        place.extend(_variable_2(v, places) for v in listed)
+        place.extend([_variable_2(v, places) for v in listed])
         _structure_2(root, variables, places)
     else:
-        place.extend(_variable_3(v) for v in variables.all)
+        place.extend([_variable_3(v) for v in variables.all])
         _structure_3(root, variables)
     ET.indent(root)
     return ET.tostring(root, encoding="UTF-8", xml_declaration=True)
@@ -144,11 +145,18 @@ def _typed(v: FmiVariable) -> dict[str, str]:
     def number(value: float) -> str:
         if v.type == "Boolean":
             return "true" if value else "false"
-        return str(int(value)) if v.type == "Integer" else _text(value)
+        if v.type != "Integer":
+            return _text(value)
+        if not fits(value):
+            raise FmuError(f"{v.name} would start at {value:.17g}, and an Integer of FMI has 32 bits")
+        return str(int(value))
+
+    def fits(value: float) -> bool:
+        return math.isfinite(value) and (v.type != "Integer" or -(2**31) <= value < 2**31)
 
     found = {}
     if v.type != "Boolean":
-        found = {key: number(value) for key, value in (("min", v.min), ("max", v.max)) if math.isfinite(value)}
+        found = {key: number(value) for key, value in (("min", v.min), ("max", v.max)) if fits(value)}
     if v.type == "Real":
         found |= {key: value for key, value in (("quantity", v.quantity), ("unit", v.unit)) if value}
         if v.nominal > 0 and math.isfinite(v.nominal):

@@ -49,7 +49,15 @@ def recorded(file: str | Path, column: str, *, hold: bool = False) -> RecordedIn
 def as_inputs(given: Mapping[str, Input], variables: Mapping[str, Variable]) -> dict[str, RecordedInput | float]:
     """In the form that the runtime takes; samples with a unit in the unit of the variable that they drive. Raises
     UserError where they are another quantity."""
+    refuse_truth(given, variables)
     return {name: _one(name, value, variables) for name, value in given.items()}
+
+
+def refuse_truth(given: Mapping[str, Any], variables: Mapping[str, Variable]) -> None:
+    """Raises UserError where true or false is given to a variable that is a number."""
+    for name, value in given.items():
+        if isinstance(value, bool | np.bool_) and name in variables and variables[name].type != "Boolean":
+            raise UserError(f"{name} cannot be {str(value).lower()}: it is {variables[name].type}")
 
 
 def uncovered(given: Mapping[str, Input], start: float, stop: float) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from html import escape
 from pathlib import Path
 import time
 from typing import Literal, get_args
@@ -18,7 +19,7 @@ from lacuna.codegen.flatten import flatten
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.structure.report import dump as dump_structure
 from lacuna.errors import UserError
-from lacuna.inputs import Input, as_inputs, uncovered
+from lacuna.inputs import Input, as_inputs, refuse_truth, uncovered
 from lacuna.notebook import page, table
 from lacuna.progress import Progress, silent, watching
 from lacuna.results import IncompleteRun, Result
@@ -43,7 +44,7 @@ class Finding:
 
     def _repr_html_(self) -> str:
         rows = [("variables", self.variables), ("continuous", self.states), ("equations", self.equations)]
-        return page(self.name, table(("", ""), rows), *(f"<pre>{w}</pre>" for w in self.warnings))
+        return page(self.name, table(("", ""), rows), *(f"<pre>{escape(w)}</pre>" for w in self.warnings))
 
 
 def check(
@@ -108,7 +109,9 @@ def load(
     except Diagnostic as finding:
         if finding.code != NO_VALUE or not parameters:
             raise
-        return Model(source, source.compiled(parameters), parameters)
+        needed = Model(source, source.compiled({n: float(v) for n, v in parameters.items()}), parameters)
+        refuse_truth(parameters, needed.variables)
+        return needed
 
 
 class Model:
@@ -211,6 +214,7 @@ class Model:
         known = {n: v for n, v in self.variables.items() if v.kind == "parameter"}
         for name in parameters:
             self._refuse_input(name)
+        refuse_truth(parameters, known)
         settable = {n: float(v) for n, v in parameters.items() if self._model.variable(n, "parameter", known).settable}
         fixed = self._fixed | {n: float(v) for n, v in parameters.items() if n not in settable}
         compiled = self._source.compiled(fixed) if fixed != self._fixed else self._compiled

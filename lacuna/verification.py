@@ -23,6 +23,7 @@ FORMAT = "lacuna-made-by-1"
 VERIFIABLE = ("simulate", "maps", "sweep", "assess", "forecast", "explain")
 # Options that write, serve or connect elsewhere and change no result: never recorded, never followed.
 ELSEWHERE = ("out", "store", "actuator", "cycles", "hours", "replaced", "watch", "port", "scheduler")
+EXTERNAL = "--allow-external"
 _FORBIDDEN = {f"--{name}" for name in ELSEWHERE}
 
 
@@ -62,15 +63,21 @@ def _results_in(folder: Path) -> list[Path]:
     return [p for p in found if not any(n.startswith(".") or n in kept for n in p.relative_to(folder).parts)]
 
 
-def verify(folder: str | Path, progress: Progress | None = None) -> Verification:
+def verify(folder: str | Path, progress: Progress | None = None, *, allow_external: bool = False) -> Verification:
     """Give the command that made the results in `folder` again, and compare.
 
     Every file is compared byte by byte, but for pages (.html), which say when and by which words they were made, and
-    for entries `seconds` of JSON. Run it where the command was given: its words may name files relatively. Raises
+    for entries `seconds` of JSON. Run it where the command was given: its words may name files relatively. A command
+    that compiles the C of external functions, which runs with your rights, is given only with `allow_external`. Raises
     UserError where the folder does not say how it was made, an input has changed, or the command fails.
     """
     folder = Path(folder)
     made = _made_by(folder)
+    if EXTERNAL in made["command"] and not allow_external:
+        raise UserError(
+            f"{folder} was made with {EXTERNAL}; again, that compiles and runs, as you, the C that its models name: "
+            f"where you trust them, verify with {EXTERNAL}"
+        )
     for word, digest in made["inputs"].items():
         if not Path(word).exists() or _digest(Path(word), folder) != digest:
             raise UserError(f"{word} is not what the results in {folder} were made from: it is gone or has changed")

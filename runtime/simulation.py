@@ -144,6 +144,11 @@ class Session:
             )  # fmt: skip
             self._inputs[name] = recorded  # keeps the arrays alive that the session borrows, once it does
 
+    def set_parameters(self, values: Mapping[str, float]) -> None:
+        """Take these, and what is declared for all others. Raises SimulationError for one that is not of its type, or
+        outside of its bounds."""
+        self._assign(self._lib.rt_session_parameters, values, "parameter that may be set", self.model.parameters)
+
     def _assign(self, function, values: Mapping[str, float], what: str, among) -> None:
         n = len(values)
         if not n:
@@ -169,7 +174,7 @@ class Session:
         SimulationError.
         """
         model, lib = self.model, self._lib
-        self._assign(lib.rt_session_parameters, parameters or {}, "parameter that may be set", model.parameters)
+        self.set_parameters(parameters or {})
         self._assign(lib.rt_session_initial, initial or {}, "state", model.states)
         if inputs:
             self.set_inputs(inputs)

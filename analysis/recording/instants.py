@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from datetime import date
 import re
 
+import numpy as np
+
 _DAY = r"(?:(?P<year>\d{4})-(?P<month>\d\d)-(?P<day>\d\d)|(?P<d>\d\d?)\.(?P<m>\d\d?)\.(?P<y>\d{4}))[T ]"
 _CLOCK = r"(?P<hour>\d\d):(?P<minute>\d\d):(?P<second>\d\d)(?:[%s](?P<fraction>\d{1,9}))?"
 _ZONE = r"(?P<zone> ?Z|[+-]\d\d:?\d\d)?"
@@ -24,6 +26,7 @@ def _instant(marks: str) -> re.Pattern[str]:
 _INSTANT = _instant(".")
 _WITH_COMMA = _instant(".,")  # where commas separate no fields
 _PER_SECOND = 10**9
+_DAY_NS = 86_400 * _PER_SECOND
 
 
 @dataclass(frozen=True)
@@ -61,6 +64,16 @@ def first_of(line: str) -> str:
     """The instant in a line, as it is written; "" where there is none."""
     match = _find(line)
     return match[0].strip() if match else ""
+
+
+def since_first(ns: np.ndarray, line: str) -> tuple[np.ndarray, int]:
+    """Seconds since the first of the instants `ns`, and how many midnights they pass. Clock times, as in `line`, say no
+    day: where one falls back by more than half a day, it is the next day's."""
+    match = _find(line)
+    if match is None or match["year"] or match["y"]:
+        return (ns - ns[0]) / _PER_SECOND, 0
+    days = np.cumsum(np.diff(ns, prepend=ns[0]) < -_DAY_NS / 2)
+    return (ns - ns[0] + days * _DAY_NS) / _PER_SECOND, int(days[-1])
 
 
 def _find(line: str) -> re.Match[str] | None:

@@ -26,6 +26,7 @@ from lacuna.analysis.recording.channel import (
     named_columns,
     on_one_time,
 )
+from lacuna.analysis.recording.heads import known_unit
 from lacuna.rows import rows_of
 from lacuna.runtime.errors import SimulationError
 from lacuna.runtime.files import read_metadata
@@ -99,6 +100,7 @@ def read_text(path: Path) -> TextTable:
     header = names[-2] if units else names[-1]
     if any(_NO_NAME.fullmatch(name) for name in (*header, *(unit for unit in units or () if unit != "1"))):
         raise RecordingError(f"{path}:{first}: numbers where names of columns or units should be")
+    _refuse_numbers_as_units(path, units or [], first)
     skipped, header, units = above.index(header), list(header), list(units or [""] * width)
     _refuse_rows_above(path, written[:first], above, width, skipped)
     values = _numbers(path, lines, first, Dialect(separator, decimal, encoding), width)
@@ -114,6 +116,13 @@ def read_text(path: Path) -> TextTable:
         skipped,
         (*begun, *notes),
     )
+
+
+def _refuse_numbers_as_units(path: Path, units: list[str], line: int) -> None:
+    """1 is a unit and a number: beside what is no unit it makes no row of units, but a row that has a fault."""
+    unknown = [unit for unit in units if known_unit(unit.strip("[]()")) is None]
+    if "1" in units and unknown:
+        raise RecordingError(f"{path}:{line}: no row of units and none of numbers: `{unknown[0]}` is in neither")
 
 
 def _refuse_rows_above(path: Path, written: list[str], above: list[list[str]], width: int, header: int) -> None:
@@ -158,8 +167,11 @@ def _seconds_of_instants(
     if column is None:
         return []
     header[column], units[column] = clock_name(header[column], header), "s"
-    values[column] = (values[column] - values[column, 0]) * 1e-9
-    return [f"time begins at 0, which is {instants.first_of(written)}"]
+    values[column], midnights = instants.since_first(values[column], written)
+    passed = (
+        [f"clock times fall back {midnights} times by more than half a day: taken for midnight"] if midnights else []
+    )
+    return [f"time begins at 0, which is {instants.first_of(written)}", *passed]
 
 
 def _no_header(above: list[list[str]], width: int) -> str:
@@ -234,20 +246,28 @@ def _are_units(row: list[str], above: list[str]) -> bool:
 def _numbers(path: Path, lines: list[str], first: int, dialect: Dialect, width: int) -> np.ndarray:
     """[columns, rows] of all lines from `first` on; empty fields become NaN."""
     mark = re.escape(dialect.separator)
-    body = "\n".join(line for line in lines[first:] if line.strip())
-    plain = body.replace('"', "")
-    if dialect.separator != _BLANKS:
-        plain = re.sub(rf"(^|{mark})[ ]*(?={mark}|$)", r"\1nan", plain, flags=re.MULTILINE)
-    if dialect.decimal == ",":
-        plain = plain.replace(",", ".")
-    strange = re.search(rf"[^0-9eE+\-. \n{mark}]", _NAN.sub("", plain))
     try:
-        if strange:
+        body = [_unquoted(line, dialect, width) for line in lines[first:] if line.strip()]
+        plain = "\n".join(body)
+        if dialect.separator != _BLANKS:
+            plain = re.sub(rf"(^|{mark})[ ]*(?={mark}|$)", r"\1nan", plain, flags=re.MULTILINE)
+        if re.search(rf"[^0-9eE+\-{dialect.decimal} \n{mark}]", _NAN.sub("", plain)):
             raise ValueError
+        plain = plain.replace(dialect.decimal, ".")
         separator = None if dialect.separator == _BLANKS else dialect.separator
         return np.loadtxt(io.StringIO(plain), delimiter=separator, ndmin=2).T
     except ValueError:
         raise _first_fault(path, lines, first, dialect, width) from None
+
+
+def _unquoted(line: str, dialect: Dialect, width: int) -> str:
+    """A line without quotation marks. Raises ValueError where what they hold is not numbers, one in each column."""
+    if '"' not in line:
+        return line
+    fields = _fields(line, dialect.separator)
+    if len(fields) != width or not all(_NUMBER[dialect.decimal].fullmatch(field) for field in fields):
+        raise ValueError
+    return dialect.separator.join(fields)
 
 
 def _first_fault(path: Path, lines: list[str], first: int, dialect: Dialect, width: int) -> RecordingError:

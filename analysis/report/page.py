@@ -96,7 +96,8 @@ def figure(svg: str, title: str, caption: str = "", data: tuple[str, str] | None
     name = f"f{hashlib.sha256(drawn.encode()).hexdigest()[:10]}"
     drawn = re.sub(r'\b(id="|href="#|url\(#)', rf"\g<1>{name}-", drawn)  # several figures lie in one page
     head = Markup('<title id="{0}t">{1}</title><desc id="{0}d">{2}</desc>').format(name, title, caption or title)
-    drawn = re.sub(r"<svg([^>]*)>", rf'<svg\1 role="img" aria-labelledby="{name}t {name}d">{head}', drawn, count=1)
+    begin = drawn.index(">")
+    drawn = f'{drawn[:begin]} role="img" aria-labelledby="{name}t {name}d">{head}{drawn[begin + 1 :]}'
     link = _download(*data) if data else Markup("")
     below = Markup("<figcaption>{} {}</figcaption>").format(caption, link) if caption or data else Markup("")
     return Markup('<figure><div class="wide" tabindex="0" role="region" aria-label="{}">{}</div>{}</figure>').format(

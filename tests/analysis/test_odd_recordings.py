@@ -59,6 +59,15 @@ def test_instants_are_seconds_since_the_first(tmp_path: Path, text: str, begins:
     assert recorded.notes[-1] == f"time begins at 0, which is {begins}"
 
 
+def test_clock_times_go_on_past_midnight(tmp_path: Path) -> None:
+    text = "t,u\n23:59:59.8,1\n23:59:59.9,2\n00:00:00,3\n00:00:00.1,4\n12:00:00,5\n23:59:59,6\n00:00:00,7\n"
+    recorded = read(tmp_path / "r.csv", text)
+    assert recorded["u"].time == pytest.approx([0, 0.1, 0.2, 0.3, 43200.2, 86399.2, 86400.2], abs=1e-9)
+    assert recorded.notes[-1] == "clock times fall back 2 times by more than half a day: taken for midnight"
+    late = read(tmp_path / "late.csv", "t,u\n10:00:01,1\n10:00:00,2\n")  # a clock that was set is none
+    assert late["u"].time.tolist() == [0, -1] and len(late.notes) == 1
+
+
 def test_a_column_that_counts_the_rows_is_left_out_with_a_word(tmp_path: Path) -> None:
     said = ("column 1, which has no name and counts the rows, is left out",)
     assert read(tmp_path / "r.csv", ",time,u\n0,0.0,1\n1,0.1,2\n").notes == said
@@ -89,6 +98,13 @@ def test_a_column_that_counts_the_rows_is_left_out_with_a_word(tmp_path: Path) -
         ("time,on\n0,true\n", "line 2 `true` is none"),
         (",time,u\n7,0.0,1\n8,0.1,2\n", "column 1 has no name"),
         ("time,u\n0,1\n1,2\nEnd of file\n", ":4: 1 fields"),
+        ("time,u,n\nERR,1,1\n0.1,2,3\n", ":2: no row of units and none of numbers: `ERR` is in neither"),
+        ("time,u\n-00:00:01,1\n0.1,2\n", ":2: no row of units and none of numbers: `-00:00:01` is in neither"),
+        ("time;n;u\n0,0;950;1,5\n0,1;1.020;1,8\n", ":3: field 2, `1.020`, is no number"),
+        ("time;n\n0,0;950\n0,1;980\n0.2;980\n", ":4: field 1, `0.2`, is no number"),
+        ('time,u,n\n0,1,2\n0.1,1"2,5\n', ':3: field 2, `1"2`, is no number'),
+        ('time,u,n\n0,1,2\n0.1,"3""4",4\n', ':3: field 2, `3"4`, is no number'),
+        ('time,u,n\n0,1,2\n0.1,"1,5"\n', ":3: 2 fields where the first row has 3"),
     ],
 )
 def test_what_is_no_number_is_named_with_its_line(tmp_path: Path, text: str, said: str) -> None:

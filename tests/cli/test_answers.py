@@ -55,3 +55,14 @@ def test_nothing_long_is_imported_before_ctrl_c_is_heard() -> None:
     code = "import sys, lacuna.cli; print(*{'importlib.metadata', 'email', 'socket', 'zipfile'} & {*sys.modules})"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)
     assert done.stdout.split() == []
+
+
+@pytest.mark.parametrize("closed", [False, True])
+@pytest.mark.parametrize("words", ["--version", "--help", "list -h", "check M.mo", "check M.mo --json"])
+def test_an_output_that_takes_nothing_is_one_line_and_a_status(tmp_path: Path, words: str, closed: bool) -> None:
+    (tmp_path / "M.mo").write_text("model M Real x = time; end M;")
+    shell = f'exec "$@" {">&-" if closed else ">/dev/full"}'
+    command = ["sh", "-c", shell, "sh", sys.executable, "-m", "lacuna.cli.main", *words.split()]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)
+    said = "Bad file descriptor" if closed else "No space left on device"
+    assert (done.returncode, done.stderr.count("\n")) == (1, 1) and said in done.stderr, done.stderr

@@ -231,3 +231,33 @@ def test_time_alone_is_a_signal(tmp_path: Path) -> None:
     assert lacuna("simulate", SERVO, "--signal", "time", "--plot", "--out", str(tmp_path)).exit_code == 0
     assert (tmp_path / "SquareWaveServo.csv").read_text(encoding="utf-8").splitlines()[0] == "time"
     assert (tmp_path / "SquareWaveServo.svg").exists()
+
+
+NUMBERS = [
+    (["simulate", SERVO, "--stop", "1_0"], "no finite number"),
+    (["simulate", SERVO, "--interval", "0.1_0"], "no finite number"),
+    (["simulate", SERVO, "--rtol", "nan"], "no finite number"),
+    (["simulate", SERVO, "--stop", "\N{ARABIC-INDIC DIGIT TWO}"], "no finite number"),
+    (["forecast", "h.csv", "--risk", "1e999"], "no finite number"),
+    (["sweep", "--points", "9" * 20], "is not within 1 and 2147483647"),
+    (["sweep", "--chunk", "0"], "0 is not within 1 and"),
+    (["sweep", "--points", "1_000"], "no whole number"),
+    (["maps", "--jobs", "9" * 5000], "no whole number"),
+    (["assess", "test.csv", "--cycles", "1_0"], "no finite number"),
+]
+
+
+@pytest.mark.parametrize(("words", "expected"), NUMBERS)
+def test_numbers_are_read_as_those_of_files_are(words: list[str], expected: str) -> None:
+    result = lacuna(*words)
+    assert result.exit_code == 2 and expected in " ".join(result.output.replace("│", " ").split()), result.output
+
+
+def test_truth_is_no_number(tmp_path: Path) -> None:
+    model = tmp_path / "T.mo"
+    parameters = "parameter Boolean b = true; parameter Real k = 2;"
+    model.write_text(f"model T {parameters} input Real u; Real y = if b then k*u else 0; end T;")
+    simulate = ["simulate", str(model), "--stop", "1", "--out", str(tmp_path / "out")]
+    assert "k cannot be true: it is Real" in refused(*simulate, "-p", "k=true")
+    assert "u cannot be false: it is Real" in refused(*simulate, "-u", "u=false")
+    assert lacuna(*simulate, "-p", "b=false").exit_code == 0

@@ -131,3 +131,22 @@ def test_verify_takes_no_orders_from_a_strangers_file(place: Path, change: dict[
     record.write_text(json.dumps(json.loads(record.read_text()) | change))
     said = CliRunner().invoke(app, ["verify", "out"])
     assert (said.exit_code, "damaged" in said.output) == (1, True)
+
+
+def test_verify_runs_foreign_code_only_where_it_is_asked_to(place: Path) -> None:
+    """made-by.json is a stranger's: that it allows external code is not the word of who verifies."""
+    source = """function f
+  input Real x; output Real y;
+  external "C" y = foreign(x) annotation(Include = "#include <stdio.h>
+static double foreign(double x) { fclose(fopen(\\"ran\\", \\"w\\")); return x; }");
+end f;
+model X Real x = f(time); end X;
+"""
+    (place / "X.mo").write_text(source)
+    made_by("simulate", "X.mo", "--model", "X", "--allow-external", "--out", "out")
+    (place / "ran").unlink()
+    said = CliRunner().invoke(app, ["verify", "out"])
+    assert (said.exit_code, "--allow-external" in said.output) == (1, True)
+    assert not (place / "ran").exists()
+    assert status_of("verify", "out", "--allow-external") == 0
+    assert (place / "ran").exists()

@@ -126,3 +126,23 @@ def test_a_cache_that_is_named_from_here_serves_a_compiler_that_works_elsewhere(
     monkeypatch.setenv("LACUNA_CACHE", "cache")
     assert lacuna.export_fmu(OWN["Dahlquist"], "one.fmu").path.is_file()
     assert (tmp_path / "cache").is_dir()
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "said"),
+    [
+        ("n", 1.5, "parameter n cannot be 1.5: it is of whole numbers"),
+        ("b", 0.5, "parameter b cannot be 0.5: it is Boolean"),
+        ("n", 1e12, "n would start at 1000000000000, and an Integer of FMI has 32 bits"),
+        ("r", 7.0, "r"),
+    ],
+)
+def test_a_start_value_that_no_run_takes_is_refused(tmp_path: Path, name: str, value: float, said: str) -> None:
+    model = tmp_path / "N.mo"
+    model.write_text(
+        "model N parameter Integer n = 3; parameter Boolean b = true; parameter Real r(max = 5) = 1; Real x = n*r;"
+        " Boolean y = b; end N;"
+    )
+    with pytest.raises(Exception, match=said) as refused:
+        lacuna.export_fmu(model, tmp_path / "N.fmu", parameters={name: value})
+    assert lacuna.is_user_error(refused.value) and not (tmp_path / "N.fmu").exists()

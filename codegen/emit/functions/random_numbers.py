@@ -25,7 +25,7 @@ static void mdl_ModelicaRandom_xorshift64star(const double *in, double *out, dou
   x ^= x >> 27;
   x *= 2685821657736338717u;
   mdl_store_word(x, out);
-  *y = (double)(long long)x * 0x1p-64 + 0.5;
+  *y = mdl_unit(x);
 }""",
     "mdl_ModelicaRandom_xorshift128plus": """\
 static void mdl_ModelicaRandom_xorshift128plus(const double *in, double *out, double *y) {

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import ctypes
 from pathlib import Path
+import re
 import subprocess
 
 import pytest
 
 from lacuna.codegen.cache import INCLUDE, compile_c
 from lacuna.codegen.compile import compile_model
+from lacuna.codegen.emit.functions.prelude import _HELPERS, helpers
 from lacuna.codegen.emit.text.c_text import c_comment, c_string
 from lacuna.codegen.emit.text.expression import function_name
 from lacuna.codegen.emit.text.names import Names
@@ -88,3 +90,13 @@ def test_no_identifier_is_a_macro_of_the_headers() -> None:
     macros = {line.split()[1] for line in text.splitlines() if "(" not in line.split()[1]}
     assert "HUGE_VAL" in macros
     assert {name for name in macros if not name.startswith("_") and Names([]).identifier(name) in macros} == set()
+
+
+@pytest.mark.parametrize("name", list(_HELPERS))
+def test_a_helper_brings_nothing_that_it_does_not_use(name: str) -> None:
+    """A function of the prelude that nobody calls is an error of the compiler: each comes alone in some model."""
+    text = helpers(f"{name}(")
+    defined = re.findall(r"^static [^(;]*?\b(mdl_\w+)\(", text, re.MULTILINE)
+    called = {other for other in defined if text.count(f"{other}(") > 1}
+    own = set(re.findall(r"^static [^(;]*?\b(mdl_\w+)\(", _HELPERS[name], re.MULTILINE))
+    assert set(defined) <= called | own

@@ -189,7 +189,8 @@ def test_a_csv_column_is_read_at_translation(tmp_path: Path) -> None:
         ("time,load\n0,one\n", "'one' is no finite number"),
         ("time\n0\n", "no column load"),
         ("time,load\n0,1\n1,nan\n", "line 3, column load: 'nan' is no finite number"),
-        ("time,load\n0,1\n1\n", "'nothing' is no finite number"),
+        ("time,load\n0,1\n1\n", "line 3: 1 fields where the heading has 2"),
+        ("time,load\n0,1,5\n1,2\n", "line 2: 3 fields where the heading has 2"),
         ("time,load\n0,1\n2,1\n1,1\n", "line 4, column time: '1' does not come after 2"),
     ],
 )

@@ -98,7 +98,10 @@ def csv_column(text: str, path: Path, column: str, span: Span) -> Array:
     at = heading.index(column)
     numbers: list[float] = []
     for number, row in enumerate(rows[1:], 2):
-        found = row[at] if at < len(row) else "nothing"
+        if len(row) != len(heading):
+            message = f"{path.name}, data line {number}: {len(row)} fields where the heading has {len(heading)}"
+            raise Diagnostic("F041", message, span, "correct the file: numbers have a decimal point, no comma")
+        found = row[at]
         wrong = _objection(found, numbers[-1:] if column == "time" else [])
         if wrong:
             message = f"{path.name}, data line {number}, column {column}: {found!r} {wrong}"

@@ -214,8 +214,11 @@ def _value_timed(a: list[Value], call: ExternalCall) -> list[Value]:
     """(tableID, icol, t, next, before)"""
     table = _table(a[0], call)
     rows = table.column(integer(a[1], call, "the column"), call.span)
-    place = {"start": table.start, "shift": table.shift, "first": table.abscissa[0], "period": table.period}
-    return _run("timed", {"t": a[2], "next": a[3], "before": a[4], **place, **_pieces(rows)}, call)
+    x = table.abscissa
+    place = {"t": a[2], "next": a[3], "before": a[4], "start": table.start, "shift": table.shift, "first": x[0]}
+    if table.extrapolation == pp.REFUSE and len(x) > 1:
+        return _run("timedInside", {**place, "last": x[-1], **_pieces(rows)}, call)
+    return _run("timed", {**place, "period": table.period, **_pieces(rows)}, call)
 
 
 def _next_event(a: list[Value], call: ExternalCall) -> list[Value]:

@@ -103,6 +103,26 @@ package Tables
     end if;
   end timed;
 
+  function timedInside "As timed; fails outside of the table, from its start on"
+    input Real t;
+    input Real next;
+    input Real before;
+    input Real start;
+    input Real shift;
+    input Real first;
+    input Real last;
+    input Real x[:];
+    input Real c[size(x, 1), 4];
+    output Real y;
+  protected
+    Real near;
+  algorithm
+    near := 1e-14*(abs(t) + abs(shift));
+    assert(t < start or t - shift >= first - near and t - shift <= last + near,
+      "a table is asked for a time outside of its abscissa, and must not extrapolate");
+    y := timed(t, next, before, start, shift, first, 0, x, c);
+  end timedInside;
+
   function nextEvent
     input Real t;
     input Real start;
