@@ -116,8 +116,8 @@ static int pass(rt_session *s, int sweeps, bool singly) {
     if (status) return status;
   }
   memcpy(m->x, s->x_swept, (size_t)s->d->n_x * sizeof *m->x);
-  if (v != m->v) memcpy(m->v, v, (size_t)s->d->n_v * sizeof *v);
   rt_jump_accept(s);
+  if (v != m->v && rt_evaluate(s)) return -1; /* to the next pass it has been what it is with what is set */
   s->reinitialised |= m->reinitialised != 0;
   return changed || !settled || m->reinitialised || !same(m->d, m->pre_d, s->d->n_d);
 }
