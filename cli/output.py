@@ -1,5 +1,5 @@
-"""Standard output that cannot be written to, for want of space or because it is closed: one line and status 1, in help as
-in every answer."""
+"""Standard output that cannot be written to, for want of space or because it is closed: one line and status 1, in help
+as in every answer."""
 
 from __future__ import annotations
 
@@ -34,4 +34,4 @@ def _let_go() -> None:
     try:
         sys.stdout.flush()
     except (OSError, ValueError):
-        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115, until the process ends
+        sys.stdout = os.fdopen(os.open(os.devnull, os.O_WRONLY), "w")

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from html import escape
 from pathlib import Path
 import time
 from typing import Literal, get_args
@@ -20,7 +19,7 @@ from lacuna.codegen.library.classes import Library
 from lacuna.codegen.structure.report import dump as dump_structure
 from lacuna.errors import UserError
 from lacuna.inputs import Input, as_inputs, refuse_truth, uncovered
-from lacuna.notebook import page, table
+from lacuna.notebook import page, table, verbatim
 from lacuna.progress import Progress, silent, watching
 from lacuna.results import IncompleteRun, Result
 import lacuna.runtime as runtime
@@ -44,7 +43,7 @@ class Finding:
 
     def _repr_html_(self) -> str:
         rows = [("variables", self.variables), ("continuous", self.states), ("equations", self.equations)]
-        return page(self.name, table(("", ""), rows), *(f"<pre>{escape(w)}</pre>" for w in self.warnings))
+        return page(self.name, table(("", ""), rows), *map(verbatim, self.warnings))
 
 
 def check(
@@ -109,9 +108,8 @@ def load(
     except Diagnostic as finding:
         if finding.code != NO_VALUE or not parameters:
             raise
-        needed = Model(source, source.compiled({n: float(v) for n, v in parameters.items()}), parameters)
-        refuse_truth(parameters, needed.variables)
-        return needed
+        values = {name: float(value) for name, value in parameters.items()}
+        return Model(source, source.compiled(values), values).with_parameters(parameters)
 
 
 class Model:
@@ -276,7 +274,10 @@ class Model:
         return result
 
     def _span(self, start: float | None, stop: float | None) -> tuple[float, float]:
-        return self.start_time if start is None else start, self.stop_time if stop is None else stop
+        begin, end = self.start_time if start is None else start, self.stop_time if stop is None else stop
+        if not -np.inf < begin <= end < np.inf:
+            raise UserError(f"a run of {self.name} cannot begin at {begin:g} s and end at {end:g} s")
+        return begin, end
 
     def _refuse_parameters(self, inputs: Iterable[str]) -> None:
         for name in inputs:

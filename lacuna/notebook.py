@@ -20,6 +20,10 @@ def paragraph(text: str) -> str:
     return f"<p>{escape(text)}</p>"
 
 
+def verbatim(text: str) -> str:
+    return f"<pre>{escape(text)}</pre>"
+
+
 def table(header: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     """A table; numbers with five digits."""
     head = "".join(f"<th style='text-align:left'>{escape(name)}</th>" for name in header)

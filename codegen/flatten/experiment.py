@@ -18,17 +18,26 @@ _END = {"Tolerance": (1.0, "above 0 and below 1"), "Interval": (float("inf"), "a
 
 def experiment_of(top: Instance) -> flat.Experiment:
     """Of the model, or of the nearest base class that has one. Raises R030 for an entry that is given twice, R020 for a
-    tolerance or an interval that no run can have."""
+    tolerance, an interval or an end that no run can have."""
     result = flat.Experiment()
     for cls in top.classes:
         found = [a for a in cls.annotation.arguments if a.name == "experiment"] if cls.annotation else []
         if found:
             entries = from_tree(ast.Modification(found[0].span, arguments=found), Scope(top.context, cls, top))
-            for name, entry in entries.children["experiment"].children.items():
+            said = entries.children["experiment"].children
+            for name, entry in said.items():
                 if name in _FIELDS and entry.value is not None:
                     setattr(result, _FIELDS[name], _number(name, entry, top))
+            if "StopTime" in said:
+                _refuse_backwards(result, found[0])
             return result
     return result
+
+
+def _refuse_backwards(given: flat.Experiment, annotation: ast.Argument) -> None:
+    if given.stop_time < given.start_time:
+        what = f"the experiment stops at {given.stop_time:g} s, before it starts at {given.start_time:g} s"
+        raise Diagnostic("R020", what, annotation.span, "give a StopTime after the StartTime")
 
 
 def _number(name: str, entry: Modifier, top: Instance) -> float:

@@ -10,6 +10,7 @@ import pytest
 from lacuna.analysis.report.figures.style import in_style, new_figure
 from lacuna.analysis.report.page import figure
 from lacuna.drawn import save
+from lacuna.notebook import verbatim
 
 NAMES = ["A/B\\C", "A\\1", "\\g<0>", "A$x_{$", "$\\frac{1}{$", "a_$\\alpha$", "<b>&\"'"]
 
@@ -44,3 +45,7 @@ def test_a_page_has_a_name_as_it_is(name: str) -> None:
     escaped = escaped.replace("'", "&#39;")
     assert f'">{escaped}</title>' in page and f'">{escaped}</desc>' in page
     assert '<svg width="1" id="' in page and page.count("<path") == 1
+
+
+def test_a_notebook_has_the_line_of_a_finding_as_it_is() -> None:
+    assert verbatim("if a < b & c") == "<pre>if a &lt; b &amp; c</pre>"

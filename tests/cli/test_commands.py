@@ -154,6 +154,7 @@ def test_recorded_input_drives_a_model(tmp_path: Path) -> None:
         (["simulate", SERVO, "-p", "R=1", "-p", "R=2"], "twice"),
         (["simulate", SERVO, "--solver", "rk4"], "step"),
         (["simulate", SERVO, "--rtol", "-1"], "rtol"),
+        (["simulate", SERVO, "--start", "2", "--stop", "1"], "cannot begin at 2 s and end at 1 s"),
         (["simulate", SERVO, "--signal", "speed"], "speed"),
         (["simulate", SERVO, "-u", "u=missing.csv"], "missing.csv"),
         (["compare", "--only", "helthy"], "helthy"),

@@ -208,6 +208,7 @@ def test_experiment_is_read_and_inherited(tmp_path: Path) -> None:
         ("experiment(StopTime = 1, StopTime = 2)", "R030 StopTime is modified twice"),
         ("experiment(StopTime = 1), experiment(StopTime = 2)", "R030 StopTime is modified twice"),
         ("experiment(Tolerance = 0)", "R020 Tolerance of the experiment is 0"),
+        ("experiment(StartTime = 2, StopTime = 1)", "R020 the experiment stops at 1 s, before it starts at 2 s"),
         ("experiment(Tolerance = 2)", "R020 Tolerance of the experiment is 2"),
         ("experiment(Interval = -1)", "R020 Interval of the experiment is -1"),
     ],
