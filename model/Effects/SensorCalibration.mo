@@ -5,7 +5,7 @@ block SensorCalibration "Scale and zero error of a sensor"
   parameter Real offset = 0 "Reading at zero";
 equation
   y = gain*u + offset;
-  annotation(__Lacuna(effect="sensor.gain", attaches="sensor", neutral(gain=1, offset=0),
+  annotation(__Lacuna(effect="sensor.gain", attaches="sensor", neutral(gain=1, offset=0), nests_in={"sensor.nonlinearity"},
     signature="difference in one signal in proportion to it and a constant", excitation="large and small values of the signal",
     reference="Fraden 2016"));
 end SensorCalibration;
