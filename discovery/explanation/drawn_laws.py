@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 from matplotlib.figure import Figure
 import numpy as np
@@ -11,6 +12,7 @@ from lacuna.discovery.case.cases import Recording
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.latent.chains import Latent, Piece
 from lacuna.discovery.efforts.latent.evidence import evidence
+from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.latent.smoother import courses, thinned
 from lacuna.discovery.efforts.located import SAMPLES, SIZES, TIMES, Locator
 from lacuna.discovery.explanation.explanation import Explanation
@@ -46,15 +48,14 @@ def laws_over_efforts(result: Explanation) -> Figure | None:
         return None
     try:
         drawn = _drawn(result, result.opened.locator, laws)
-    except (SimulationError, np.linalg.LinAlgError):
+    except (NotNumeric, SimulationError, np.linalg.LinAlgError):
         return None
     return _figure(drawn) if drawn else None
 
 
 def _drawn(result: Explanation, locator: Locator, laws: list[Finding]) -> list[Drawn]:
     """The laws along the recording in which the first of them varies most."""
-    machine, point = result.final.machine, result.final.point
-    columns = [_column(locator, f) for f in laws]
+    point, columns = result.final.point, [_column(locator, f) for f in laws]
     if None in columns:
         return []
 
@@ -65,21 +66,26 @@ def _drawn(result: Explanation, locator: Locator, laws: list[Finding]) -> list[D
     own = {n: v for n, v in point.items() if n in locator.point}
     whole = locator.piece(locator.point | own, recording, list(zip(columns, efforts, strict=True)))
     left = _left(result, locator, recording)
-    result_ = []
+    drawn = []
     for finding, column, law in zip(laws, columns, efforts, strict=True):
         answer = whole.along.response(np.array([column]), law[:, None], hold=True)[:, :, 0]
         piece = Piece(whole.along, (left + answer)[:, :, None], locator.noise, whole.start)
         effort, error = courses([piece], _likeliest(piece, column), np.zeros(0))[0]
-        attachment = finding.ranked.attachment
-        shown = Drawn(f"missing at {attachment.location}", _unit(finding), recording.time, law, effort, error)
-        if attachment.signals:
-            local, reading = attachment.signals[0]
-            name = f"{attachment.component}.{local}"
-            over = machine.trajectory(point, recording, [name])[name]
-            unit = machine.model.variables[name].unit or "1"
-            shown = replace(shown, variable=f"{reading} / {unit}", over=over)
-        result_.append(shown)
-    return result_
+        title = f"missing at {finding.ranked.attachment.location}"
+        shown = Drawn(title, _unit(finding), recording.time, law, effort, error)
+        drawn.append(replace(shown, **_first_variable(result, finding, recording)))
+    return drawn
+
+
+def _first_variable(result: Explanation, finding: Finding, recording: Recording) -> dict[str, Any]:
+    """The first variable that a law reads, with its course."""
+    attachment, machine = finding.ranked.attachment, result.final.machine
+    if not attachment.signals:
+        return {}
+    local, reading = attachment.signals[0]
+    name = f"{attachment.component}.{local}"
+    over = machine.trajectory(result.final.point, recording, [name])[name]
+    return {"variable": f"{reading} / {machine.model.variables[name].unit or '1'}", "over": over}
 
 
 def _column(locator: Locator, finding: Finding) -> int | None:
