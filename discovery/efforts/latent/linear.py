@@ -7,10 +7,11 @@ evaluated at all samples of a trajectory at once; nothing is differenced.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
+from functools import cached_property
 
 import numpy as np
-from scipy.linalg import expm
 
 from lacuna.codegen import flat
 from lacuna.codegen.compile import translate
@@ -18,13 +19,13 @@ from lacuna.codegen.symbolic.differentiate import Differentiator, partial
 from lacuna.codegen.symbolic.expr import ONE, ZERO, Expr, var
 from lacuna.discovery.case.cases import Recording
 from lacuna.discovery.efforts.latent.along import Along
+from lacuna.discovery.efforts.latent.flows import blocks, flows
 from lacuna.discovery.efforts.latent.numeric import Evaluator, NotNumeric, Value, finite, table
 from lacuna.discovery.efforts.latent.sampled import Sampling, read_at_ticks, remembered, through_ticks
 from lacuna.discovery.fit.machine import Machine
 from lacuna.runtime import RecordedInput
 
 ROUNDING = 1e-9  # of the terms of a sum that cancels: far above what double precision leaves, far below any answer
-NUMBERS = 1_000_000  # in an array of unknowns by all that they answer to, at as many samples as are solved together
 NEWTON = 4  # rounds at most; the trajectory solves the equations, only the derivatives are to be found
 
 
@@ -75,8 +76,8 @@ class Linear:
         n, columns = len(recording.time), len(self.inputs) + len(self.parameters)
         states = len(self.states) + len(self.memory)
         acting, outputs = slice(states, states + len(self.inputs)), len(self.machine.columns)
-        told, answering = self._told(), np.zeros((len(self.unknowns), len(self.inputs)), bool)
-        answers = np.empty((n, len(told), states + columns))
+        answering = np.zeros((len(self.unknowns), len(self.inputs)), bool)
+        answers = np.empty((n, len(self._told), states + columns))
         read, feed = np.empty((n, outputs, states)), np.empty((n, outputs, columns))
         for block in self._blocks(n):
             matrix = table(self._by_unknown, len(self.unknowns), course, block)
@@ -85,29 +86,33 @@ class Linear:
             answer = -np.linalg.solve(matrix, right)
             answer[:, :, acting] = _without_rounding(answer[:, :, acting], matrix, right[:, :, acting])
             answering |= np.any(answer[:, :, acting] != 0, axis=0)
-            answers[block] = answer[:, told]
+            answers[block] = answer[:, self._told]
             read[block], feed[block] = self._outputs(answer)
-        rates = answers[:, : len(self.states)]
-        if self.memory:
-            step, drive = self._sampled(answers, recording.time, Evaluator(self._leaf(values, fixed, recording.time)))
-        else:
-            step, drive = self._discrete(rates[:, :, :states], rates[:, :, states:], np.diff(recording.time))
-        direct = rates[:, :, acting].copy()
+        step, drive = self._stepped(answers, recording.time, solved)
+        direct = answers[:, : len(self.states), acting].copy()
         return Along(
             recording.time, step, drive, read, feed, direct, answering, {**fixed, **values, "time": recording.time}
         )
 
-    def _sampled(self, answers: np.ndarray, time: np.ndarray, leaf: Callable[[Expr], Value]) -> tuple[np.ndarray, ...]:
-        """(step, drive) with what a sampled controller remembers."""
+    def _stepped(self, answers: np.ndarray, time: np.ndarray, values: Evaluator) -> tuple[np.ndarray, np.ndarray]:
+        """(step, drive) from sample to sample, with what a sampled controller remembers where that can be followed;
+        else it is held as the trajectory has it."""
         x, whole = len(self.states), len(self.states) + len(self.memory)
+        rates = answers[:, :x]
+        if self.memory:
+            rates = np.concatenate([rates, np.zeros((len(time), whole - x, answers.shape[2]))], axis=1)
+            with suppress(NotNumeric):
+                return through_ticks(rates, time, self._sampling(answers, time, values), x)
+        return flows(rates, np.arange(len(time) - 1), np.diff(time))
+
+    def _sampling(self, answers: np.ndarray, time: np.ndarray, values: Evaluator) -> Sampling:
         unit = np.eye(answers.shape[2])
         kept = [*self.states, *self.memory, *(self._kept(n) for n in self.inputs)]
         known = {name: np.broadcast_to(unit[k], (len(time), len(unit))) for k, name in enumerate(kept)}
-        unknowns = [self.unknowns[k] for k in self._told()]
-        known |= {_named(u): answers[:, k] for k, u in enumerate(unknowns)}
-        rates = np.concatenate([answers[:, :x], np.zeros((len(time), whole - x, len(unit)))], axis=1)
-        return through_ticks(rates, time, Sampling(self.prepared, self.memory, leaf, known, time), x)
+        known |= {_named(self.unknowns[n]): answers[:, k] for k, n in enumerate(self._told)}
+        return Sampling(self.prepared, self.memory, values, known, time)
 
+    @cached_property
     def _told(self) -> list[int]:
         """Unknowns whose answers are kept: the rates, and what sampled controllers read."""
         read = read_at_ticks(self.prepared) if self.memory else set()
@@ -116,11 +121,10 @@ class Linear:
     def _kept(self, name: str) -> str:
         return self.prepared.aliases.get(name, (name, 1))[0]
 
-    def _blocks(self, samples: int) -> list[slice]:
-        """Samples in blocks, of which arrays of unknowns by unknowns take little."""
-        unknowns = len(self.unknowns)
-        size = max(1, NUMBERS // (unknowns * (unknowns + len(self.states) + len(self.inputs) + len(self.parameters))))
-        return [slice(first, min(first + size, samples)) for first in range(0, samples, size)]
+    def _blocks(self, samples: int) -> Iterator[slice]:
+        """Samples in blocks, of which arrays of unknowns by all that they answer to take little."""
+        answered = len(self.unknowns) + len(self.states) + len(self.inputs) + len(self.parameters)
+        return blocks(samples, len(self.unknowns) * answered)
 
     def of(self, name: str, along: Along) -> np.ndarray:
         """(n,) of a variable, by any of its names, along a run."""
@@ -183,20 +187,6 @@ class Linear:
             raise NotNumeric(f"{name} is not known along the trajectory")
 
         return leaf
-
-    def _discrete(self, a: np.ndarray, b: np.ndarray, intervals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """(step (n-1, x, x), drive (n-1, x, b)): exact for what is constant from sample to sample."""
-        x = a.shape[1]
-        step, drive = np.empty((len(intervals), x, x)), np.empty((len(intervals), *b.shape[1:]))
-        for block in self._blocks(len(intervals)):
-            after = slice(block.start + 1, block.stop + 1)
-            mean, source = 0.5 * (a[block] + a[after]), 0.5 * (b[block] + b[after])
-            both = np.zeros((len(mean), 2 * x, 2 * x))
-            both[:, :x, :x] = mean * intervals[block, None, None]
-            both[:, :x, x:] = np.eye(x) * intervals[block, None, None]
-            exponential = expm(both)
-            step[block], drive[block] = exponential[:, :x, :x], exponential[:, :x, x:] @ source
-        return step, drive
 
     def _outputs(self, answer: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         states, names = len(self.states) + len(self.memory), list(self.machine.columns.values())

@@ -7,11 +7,10 @@ events set is held as the trajectory has it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.linalg import expm
 
 from lacuna.codegen import flat
 from lacuna.codegen.dae.events import DiscreteEquation
@@ -20,6 +19,7 @@ from lacuna.codegen.symbolic.differentiate import partial
 from lacuna.codegen.symbolic.expr import REAL, Expr
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import assigned, expressions
+from lacuna.discovery.efforts.latent.flows import NUMBERS, flows
 from lacuna.discovery.efforts.latent.numeric import Evaluator, NotNumeric, Value
 from lacuna.discovery.efforts.sites import MOST
 
@@ -28,7 +28,7 @@ Rows = dict[str, np.ndarray]  # (n, states + memory + columns) of each variable:
 
 
 def remembered(prepared: Prepared) -> list[str]:
-    """Real variables that ticks set; none where they are too many to follow, or set by more than assignments."""
+    """Real variables that ticks set; none where they are too many to follow."""
     if not prepared.samples:
         return []
     ticking = [w for w in _whens(prepared) if any(_ticks(prepared, c) for c, _ in w.branches)]
@@ -66,19 +66,23 @@ class Sampling:
 
     prepared: Prepared
     memory: list[str]
-    leaf: Callable[[Expr], Value]  # values along the trajectory
+    values: Evaluator  # along the trajectory
     known: Rows  # of states, memory, algebraic variables and rates, inputs
     time: np.ndarray
     _maps: dict[int, np.ndarray] = field(default_factory=dict)
 
     def ticks(self) -> list[tuple[float, int]]:
-        """(time, number of the tick), in order, from the first sample of the trajectory to before its last."""
+        """(time, number of the tick), in order, from the first sample of the trajectory to before its last. Raises
+        NotNumeric where they are so many that to follow them takes long."""
         begin, end = float(self.time[0]), float(self.time[-1])
         near, found = AT_ONCE * float(np.median(np.diff(self.time))), []
+        columns = next(iter(self.known.values())).shape[1]
         for number, (start, period) in enumerate(self.prepared.samples):
-            first, step = (float(np.mean(Evaluator(self.leaf)(e))) for e in (start, period))
-            k = np.arange(max(0, int(np.ceil((begin - near - first) / step))), int((end - near - first) / step) + 1)
-            found += [(float(t), number) for t in first + step * k]
+            first, step = (float(np.mean(self.values(e))) for e in (start, period))
+            k = range(max(0, int(np.ceil((begin - near - first) / step))), int((end - near - first) / step) + 1)
+            if (len(found) + len(k)) * columns > NUMBERS:
+                raise NotNumeric("a controller looks too often to be followed")
+            found += [(first + step * n, number) for n in k]
         return sorted(found)
 
     def map_of(self, number: int) -> np.ndarray:
@@ -104,7 +108,7 @@ class Sampling:
         elif isinstance(step, flat.Algorithm):
             for s in step.statements:
                 self._step(s, tick, rows, values, where)
-        elif not isinstance(step, flat.Assert):
+        elif not isinstance(step, flat.Assert | flat.Terminate):
             raise NotNumeric(f"what {type(step).__name__} does at a tick cannot be linearised")
 
     def _holds(self, condition: Expr, tick: int, values: Mapping[str, Value]) -> np.ndarray:
@@ -123,7 +127,7 @@ class Sampling:
                 return values[str(n.value)]
             if n.op == "pre" and n.type != REAL and str(n.args[0].value) in values:
                 return False  # of a clock's Boolean: it was not ticking just before
-            return self.leaf(n)
+            return self.values(n)
 
         return Evaluator(leaf)
 
@@ -154,7 +158,7 @@ def through_ticks(
     rates: np.ndarray, time: np.ndarray, sampling: Sampling, states: int
 ) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
     """(step (n-1, x, x), drive (n-1, x, b)) from sample to sample, x the states and the memory, `rates` (n, x, x + b)
-    zero for the memory: flows between the ticks, and what those set."""
+    zero for the memory: flows between the ticks, and what those set. Raises NotNumeric where that cannot be said."""
     n, width = len(time), rates.shape[1]
     near = AT_ONCE * float(np.median(np.diff(time)))
     ticks = sampling.ticks()
@@ -166,7 +170,7 @@ def through_ticks(
     owner = np.clip(np.searchsorted(time, edges[:-1] + 2 * near) - 1, 0, n - 2)
     step = np.repeat(np.eye(width)[None], n - 1, axis=0)
     drive = np.zeros((n - 1, width, rates.shape[2] - width))
-    flows, sources = _flows(rates, owner, np.diff(edges))
+    flow, source = flows(rates, owner, np.diff(edges))
     for k, interval in enumerate(owner):
         for number in at.get(k, ()):
             row = sampling.map_of(number)[interval]
@@ -175,17 +179,6 @@ def through_ticks(
             step[interval] = jump @ step[interval]
             drive[interval] = jump @ drive[interval]
             drive[interval, states:] += row[:, width:]
-        step[interval] = flows[k] @ step[interval]
-        drive[interval] = flows[k] @ drive[interval] + sources[k]
+        step[interval] = flow[k] @ step[interval]
+        drive[interval] = flow[k] @ drive[interval] + source[k]
     return step, drive
-
-
-def _flows(rates: np.ndarray, owner: np.ndarray, lasting: Sequence[float]) -> tuple[np.ndarray, np.ndarray]:
-    """Of each segment its flow (x, x), and what inputs (x, b) that are held do in it."""
-    width = rates.shape[1]
-    mean = 0.5 * (rates[owner] + rates[owner + 1])
-    both = np.zeros((len(owner), 2 * width, 2 * width))
-    both[:, :width, :width] = mean[:, :, :width] * np.asarray(lasting)[:, None, None]
-    both[:, :width, width:] = np.eye(width) * np.asarray(lasting)[:, None, None]
-    exponential = expm(both)
-    return exponential[:, :width, :width], exponential[:, :width, width:] @ mean[:, :, width:]
