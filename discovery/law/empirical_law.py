@@ -7,11 +7,10 @@ like any effect; groups are added while they pay for their parameters and for ha
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 import re
-from types import MappingProxyType
 
 import numpy as np
 
@@ -73,15 +72,11 @@ def fitted_law(
     law: Law,
     start: dict[str, float],
     believed: dict[str, float] | None = None,
-    fixed: Mapping[str, float] = MappingProxyType({}),
 ) -> Candidate | None:
-    """The law as a component of the amended model, fitted together with the believed parameters; those of its own that
-    are `fixed` are not fitted."""
+    """The law as a component of the amended model, fitted together with the believed parameters."""
     candidate = unfitted(case, amendment, base, law, start, believed)
     if candidate is None:
         return None
-    candidate.fixed |= {candidate.attachment.full_name(n): v for n, v in fixed.items()}
-    candidate.free = [f for f in candidate.free if f.name not in candidate.fixed]
     candidate.fit = _fit(case, base, *ROUNDS[-1][:2], candidate)
     return None if candidate.fit is None else candidate
 
@@ -139,16 +134,15 @@ def free_of(law: Law, attachment: Attachment, start: dict[str, float]) -> list[F
 
 
 def held_of(law: Law, attachment: Attachment, start: dict[str, float]) -> dict[str, float]:
-    """Coefficients that no fit moves: what keeps a rate at its limit is whatever does."""
-    return {attachment.full_name(c): start[c] for c, text, _ in law.numbered() if text.startswith("bounded(")}
+    """Coefficients that no fit moves, by their full names."""
+    return {attachment.full_name(c): start[c] for c in law.held()}
 
 
 def simplified(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> Proposal:
     """The law without coefficients that may be zero, and with whole exponents and orders where the data allows them."""
     shorter: list[Proposal] = []
     for simpler in _simpler(best):
-        here = best.candidate.fit.point
-        simpler.candidate = fitted_law(case, amendment, base, simpler.law, simpler.start, here, simpler.fixed)
+        simpler.candidate = fitted_law(case, amendment, base, simpler.law, simpler.start, best.candidate.fit.point)
         shorter += [simpler] if simpler.candidate is not None else []
     correlation = best.candidate.fit.correlation()
     chosen = min([best, *shorter], key=lambda p: score(p.candidate, base, correlation))
@@ -158,8 +152,6 @@ def simplified(case: Case, amendment: Amendment, base: Fit, best: Proposal) -> P
 def _simpler(proposal: Proposal) -> list[Proposal]:
     """The law with one thing less that is not needed by its own standard error."""
     law, fitted = proposal.law, proposal.candidate.fit
-    if proposal.fixed:
-        return []
     covariance = fitted.estimate.covariance(fitted.inflation())
     errors = {f.name: float(np.sqrt(max(covariance[k, k], 0.0))) for k, f in enumerate(fitted.estimate.free)}
     prefix, values = f"{component_of(law)}.", own_values(proposal.candidate.attachment, fitted.point)
@@ -177,12 +169,14 @@ def _simpler(proposal: Proposal) -> list[Proposal]:
 def _whole(law: Law, values: dict[str, float], error: float) -> list[Proposal]:
     """A signal that lags or is late, where it may be the whole of it: how much of it is nothing to be told."""
     place = law.site.place
-    if len(law.numbered()) > 1 or not isinstance(place, places.Site) or place.kind not in ("signal", "input"):
+    signal = isinstance(place, places.Site) and place.kind in ("signal", "input")
+    if len(law.numbered()) > 1 or law.held() or not signal:
         return []
     text = law.groups[0].texts[0]
     late = [v for v in law.site.variables if re.match(rf"\({re.escape(v.scaled)} - (lag|delay|onset)\(", text)]
+    whole = Law(law.site, (replace(law.groups[0], held=True),))
     return [
-        Proposal(law, values | {"c_1": -v.size}, fixed={"c_1": -v.size}) for v in late
+        Proposal(whole, values | {"c_1": -v.size}) for v in late
         if v.unit == law.site.unit and abs(values["c_1"] + v.size) < SIGNIFICANT * error
     ]  # fmt: skip
 
@@ -194,7 +188,7 @@ def _with_fixed(law: Law, values: dict[str, float], name: str, value: float) -> 
     shape = name.rsplit("_", 1)[0]
     texts = tuple(text.replace(f"{{{shape}}}", f"{value:.4g}") for text in groups[k].texts)
     texts = tuple(text.replace("(1*", "(") for text in texts)
-    groups[k] = Group(texts, tuple(s for s in groups[k].shapes if s.name != shape))
+    groups[k] = replace(groups[k], texts=texts, shapes=tuple(s for s in groups[k].shapes if s.name != shape))
     return Proposal(Law(law.site, tuple(groups)), {n: v for n, v in values.items() if n != name})
 
 
@@ -261,6 +255,6 @@ def _without(law: Law, values: dict[str, float], k: int) -> Proposal:
                 texts.append(text)
                 start[f"c_{kept}"] = values[f"c_{count}"]
         if texts:
-            groups.append(Group(tuple(texts), group.shapes))
+            groups.append(replace(group, texts=tuple(texts)))
             start |= {f"{s.name}_{len(groups)}": values[f"{s.name}_{n + 1}"] for s in group.shapes}
     return Proposal(Law(law.site, tuple(groups)), start)

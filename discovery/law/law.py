@@ -48,6 +48,11 @@ class Law:
                 result.append((f"c_{count}", text, shapes))
         return result
 
+    def held(self) -> set[str]:
+        """Coefficients that no fit moves."""
+        flags = [group.held for group in self.groups for _ in group.texts]
+        return {c for (c, _, _), held in zip(self.numbered(), flags, strict=True) if held}
+
     def shapes(self) -> dict[str, Shape]:
         return {f"{s.name}_{n + 1}": s for n, group in enumerate(self.groups) for s in group.shapes}
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -29,7 +29,6 @@ class Proposal:
     start: dict[str, float]
     candidate: Candidate | None = None
     point: dict[str, float] | None = None  # the believed parameters beside which it starts, if not those of the fit
-    fixed: dict[str, float] = field(default_factory=dict)  # of its parameters, those that are not fitted
 
 
 def sites(case: Case, base: Fit) -> list[Site]:

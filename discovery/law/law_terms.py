@@ -86,10 +86,12 @@ class Shape:
 
 @dataclass(frozen=True)
 class Group:
-    """Terms that come together, one coefficient each, such as the sine and the cosine of one order."""
+    """Terms that come together, one coefficient each, such as the sine and the cosine of one order; those of a group
+    that is `held` stay where they start, as nothing tells them or nothing is to be told."""
 
     texts: tuple[str, ...]
     shapes: tuple[Shape, ...] = ()
+    held: bool = False
 
     @property
     def kind(self) -> tuple[str, ...]:

@@ -144,7 +144,7 @@ def _offered(locator: Locator, place: Place, guided: Guided) -> tuple[Regression
     varies = place.sites[0].kind in ("parameter", "input")
     if varies:  # it holds nothing at rest
         found = [replace(v, sticks=False) for v in found]
-    found += _unheld(locator, guided, found, place.column)
+    found += _unheld(locator, guided, found)
     ranges |= {v.local: (-1.0, 1.0) for v in found if v.kind == "unheld"}
     coefficient = _is_coefficient(place.sites[0])
     if coefficient:  # no command, that may be late
@@ -160,9 +160,9 @@ def _offered(locator: Locator, place: Place, guided: Guided) -> tuple[Regression
     return regression, regression.add(terms)
 
 
-def _unheld(locator: Locator, guided: Guided, found: list[Variable], column: int) -> list[Variable]:
-    """The rates that an effort at a place sets at once, as they would be without it along the guided run."""
-    rates: list[Variable] = []
+def _unheld(locator: Locator, guided: Guided, found: list[Variable]) -> list[Variable]:
+    """The rates that an effort at a place sets at once, as they would be without the one that guides the run."""
+    rates, column = [], int(guided.latent.column[0])
     for v in (v for v in found if v.sticks):
         name, largest = f"der({v.name})", 0.0
         row = _unknowns(locator).index(name)
@@ -253,7 +253,7 @@ def _finer(group: Group, zoom: int) -> list[Group]:
     reach = shape.step / 4.0**zoom
     values = shape.start + reach * np.linspace(-1, 1, FINE)
     values = values[(values > shape.lower) & (values < shape.upper) & (values != shape.start)]
-    return [Group(group.texts, (replace(shape, start=float(v)), *others)) for v in values]
+    return [replace(group, shapes=(replace(shape, start=float(v)), *others)) for v in values]
 
 
 def _doubled(regression: Regression, single: list[tuple[int, ...]], every: range) -> list[tuple[int, ...]]:
@@ -296,5 +296,5 @@ def _refined_pairs(
 def _proposal(regression: Regression, chosen: tuple[int, ...]) -> Proposal:
     law = Law(regression.place, tuple(regression.groups[g] for g in chosen))
     start = {name: shape.start for name, shape in law.shapes().items()}
-    told = zip(law.numbered(), map(float, regression.coefficients(chosen)), strict=True)
-    return Proposal(law, start | {c: -abs(v) if text.startswith("bounded(") else v for (c, text, _), v in told})
+    held, found = law.held(), zip(law.numbered(), map(float, regression.coefficients(chosen)), strict=True)
+    return Proposal(law, start | {c: -abs(v) if c in held else v for (c, _, _), v in found})  # held is what resists

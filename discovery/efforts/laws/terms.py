@@ -56,7 +56,7 @@ def groups(
 def _bounded(v: Variable) -> list[Group]:
     """A rate that goes no further either way: an amplifier that slews, a valve that is open all the way."""
     return [
-        Group((f"bounded({v.scaled}, {{q}})",), (Shape("q", "1", q, 0.01, 0.99, (), 0.25),))
+        Group((f"bounded({v.scaled}, {{q}})",), (Shape("q", "1", q, 0.01, 0.99, (), 0.25),), held=True)
         for q in (1 / 16, 0.25, 0.5, 0.75)
     ]
 
