@@ -165,11 +165,12 @@ def _bases(top: Instance) -> dict[ast.Class, tuple[ast.Class, ...]]:
 
 
 def _is_own(cls: ast.Class, top: ast.Class) -> bool:
-    """Whether a class is of the user's model: in its file, or else in its folder or package and not in package
-    Lacuna."""
+    """Whether a class is of the user's model: in its file, or else in its package, which is not Lacuna, or beside it in
+    its folder: not in another package there, which may be the standard library."""
     file, own = Path(cls.span.file).resolve(), Path(top.span.file).resolve()
-    root = outermost(own.parent) or own.parent
-    return file == own or (file.is_relative_to(root) and not file.is_relative_to(MODEL_FOLDER.resolve()))
+    package = outermost(own.parent)
+    beside = file.is_relative_to(package) if package else file.parent == own.parent
+    return file == own or (beside and not file.is_relative_to(MODEL_FOLDER.resolve()))
 
 
 def _inside(top: Instance, bases: Mapping[ast.Class, tuple[ast.Class, ...]]) -> list[Site]:
