@@ -73,19 +73,24 @@ package Tables
     y := piecewise(u, x, c);
   end inside;
 
-  function timed
+  partial function OverTime
     input Real t;
     input Real next;
     input Real before;
     input Real start;
     input Real shift;
     input Real first;
-    input Real period "0: not periodic";
     input Real x[:];
     input Real c[size(x, 1), 4];
     output Real y;
   protected
     Real near;
+  end OverTime;
+
+  function timed
+    extends OverTime;
+    input Real period "0: not periodic";
+  protected
     Real side "where the row is looked for";
     Real turns;
     Integer row;
@@ -104,23 +109,13 @@ package Tables
   end timed;
 
   function timedInside "As timed; fails outside of the table, from its start on"
-    input Real t;
-    input Real next;
-    input Real before;
-    input Real start;
-    input Real shift;
-    input Real first;
+    extends OverTime;
     input Real last;
-    input Real x[:];
-    input Real c[size(x, 1), 4];
-    output Real y;
-  protected
-    Real near;
   algorithm
     near := 1e-14*(abs(t) + abs(shift));
     assert(t < start or t - shift >= first - near and t - shift <= last + near,
       "a table is asked for a time outside of its abscissa, and must not extrapolate");
-    y := timed(t, next, before, start, shift, first, 0, x, c);
+    y := timed(t, next, before, start, shift, first, x, c, 0);
   end timedInside;
 
   function nextEvent
