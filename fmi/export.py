@@ -103,9 +103,8 @@ def _pack(request: FmuRequest, compiled: CompiledModel, prepared: Prepared, path
         reason = f"its external C needs {' '.join(foreign.libraries)}, and an FMU carries sources; name them by Include"
         raise FmuError(f"{prepared.declared.name}: {reason}")
     model = runtime.Model(compiled.path)
-    runtime.Session(model, solver=request.solver).set_parameters(
-        request.values
-    )  # what no run takes, no FMU starts with
+    # what no run takes, no FMU starts with
+    runtime.Session(model, solver=request.solver).set_parameters(request.values)
     variables = FmiVariables(model, prepared, dict(request.values), arrays=request.version == "3.0")
     identifier = identifier_of(model.name)
     source = Path(compiled.path).with_suffix(".c").read_text(encoding="utf-8")

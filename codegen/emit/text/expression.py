@@ -69,7 +69,7 @@ def _print(e: Expr, name: Lookup) -> tuple[str, int]:
     if e.op == "const":
         text = number(e.value) if e.type != BOOLEAN or e.value in (0, 1) else NO_BOOLEAN
         return text, _UNARY if text.startswith("-") else _PRIMARY
-    if e.op == "*" and all(a.type == INTEGER and abs(a.value if a.op == "const" else 2) > 1 for a in e.args):
+    if e.op == "*" and not any(map(_keeps_size, e.args)):
         return f"mdl_times({_list(e.args, name)})", _PRIMARY
     if e.op in _BINARY:
         return _print_binary(e, name)
@@ -100,6 +100,11 @@ def _print(e: Expr, name: Lookup) -> tuple[str, int]:
     if e.op == "annotated":
         return _print(e.args[0], name)
     raise AssertionError(f"no C for {e.op}: {e}")
+
+
+def _keeps_size(factor: Expr) -> bool:
+    """Whether a product with it is exact, as far as a double is: it is no Integer, or one that is at most 1 in size."""
+    return factor.type != INTEGER or (factor.op == "const" and abs(factor.value) <= 1)
 
 
 def _list(args: tuple[Expr, ...], name: Lookup) -> str:
