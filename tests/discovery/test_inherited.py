@@ -89,3 +89,11 @@ def test_a_case_of_such_a_model_is_opened(cart: Path) -> None:
     case = load(cart)
     door = opened(case, Amendment(structure_of(case.library(), case.base)), case.library(), [])
     assert {s.label for s in door.sites if s.kind == "equation"} == set(places(cart))
+
+
+def test_a_library_beside_the_model_is_not_the_users_own(cart: Path) -> None:
+    """As the standard library may lie beside it: the equations of its parts are no places."""
+    (cart / "Mine.mo").write_text("model Mine\n  extends Cart.Driven;\nend Mine;\n")
+    found = read(Library([str(cart)]), "Mine")
+    assert found.places == ()
+    assert "the equation stands in Cart.Base" in {why for _, why in found.closed}

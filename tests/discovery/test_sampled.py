@@ -90,3 +90,22 @@ def test_the_linear_response_of_a_sampled_loop_is_that_of_the_model(tmp_path: Pa
     answer = along.response(np.array([place]), push[:, None], hold=True)[:, :, 0]
     differences = (run(0.01) - run(-0.01)) / 0.02
     assert np.abs(answer - differences).max() < 2e-3 * np.abs(differences).max()
+
+
+def test_a_controller_that_cannot_be_followed_is_held_as_it_was(tmp_path: Path) -> None:
+    """It sets a state at its ticks: the plant is told with what it holds along the run, and stays a place."""
+    loop = EQUATIONS.replace("sum = pre(sum)", "reinit(v, 0.9*v);\n    sum = pre(sum)")
+    (tmp_path / "Loop.mo").write_text(LOOP.format(Ts=0.02, loop=loop, declared=""))
+    time = np.arange(0.0, 0.4, 0.02)
+    table = np.column_stack([time, 0 * time, 0 * time, 0.1 + 1e-3 * np.sin(900 * time), 1e-3 * np.cos(700 * time)])
+    for name in ("r1", "r2"):
+        np.savetxt(tmp_path / f"{name}.csv", table, "%.9g", ",", header="time,r,push,x,v", comments="")
+    (tmp_path / "case.toml").write_text(
+        f'model = "Loop.mo"\n{SIGNALS}[recordings]\nfit = ["r1.csv"]\nvalidate = ["r2.csv"]\n'
+    )
+    case = load(tmp_path)
+    door = opened(case, Amendment(read_structure(case.library(), case.base)), case.library(), ["k"])
+    along = door.linear.along({"k": 9.0, "Ts": 0.02}, case.fit[0])
+    place = next(k for k, s in enumerate(door.sites) if "der(v)" in s.label)
+    answer = along.response(np.array([place]), np.ones((len(time), 1)), hold=True)[:, 1, 0]
+    assert answer[1] == pytest.approx(0.02, rel=0.01) and np.all(np.diff(answer) > 0)  # nothing holds it back
