@@ -11,8 +11,9 @@ from dataclasses import dataclass, field, replace
 from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.modifications import entries, modified, wrapped
 from lacuna.discovery.catalogue.places import Line, Shaft, Structure
-from lacuna.discovery.efforts.copied import copied
-from lacuna.discovery.efforts.sites import Site
+from lacuna.discovery.efforts.places.copied import copied
+from lacuna.discovery.efforts.places.families import meant
+from lacuna.discovery.efforts.places.sites import Site
 
 
 @dataclass
@@ -48,6 +49,22 @@ class Amendment:
         return writer.write(name, comment)
 
 
+@dataclass
+class Added:
+    """A variable that is added at a place: a sum of terms, of each element where arrays are on the way."""
+
+    site: Site
+    variable: str
+    sums: dict[tuple[int, ...], list[str]] = field(default_factory=dict)
+
+    def value(self, element: tuple[int, ...] = ()) -> str:
+        """Its binding, or that of a part of the array."""
+        _, shape = self.site.element
+        if len(element) == len(shape):
+            return " + ".join(self.sums.get(element, ["0"]))
+        return "{" + ", ".join(self.value((*element, k)) for k in range(1, shape[len(element)] + 1)) + "}"
+
+
 class _Writer:
     def __init__(self, amendment: Amendment, values: dict[str, float]) -> None:
         self.amendment, self.values = amendment, values
@@ -55,9 +72,8 @@ class _Writer:
         self.declarations: list[str] = []
         self.equations: list[str] = []
         self.sums: dict[str, list[str]] = {}  # variable -> terms of its new binding
-        self.sums_at: dict[str, list[str]] = {}  # variable that is added to an equation -> what it is the sum of
         self.sums_into: dict[Site, list[str]] = {}  # signal -> what is added to it on its way
-        self.edits: dict[Site, str] = {}  # equation of the believed model -> the variable that is added to it
+        self.edits: dict[tuple, Added] = {}  # text of the believed model -> what is added there
 
     def write(self, name: str, comment: str) -> str:
         for attachment in self.amendment.attachments:
@@ -74,7 +90,7 @@ class _Writer:
         self.declarations[:0] = [f"input Real {i};" for i in self.amendment.inputs]
         base, nested = self.amendment.structure.path, []
         if self.edits:
-            base, nested = copied(self.amendment.structure.cls, self.edits)
+            base, nested = copied(self.amendment.structure.cls, [(e.site, e.variable) for e in self.edits.values()])
         inherited = f"extends {base}" + (f"({', '.join(modification)})" if modification else "") + ";"
         lines = [
             f'model {name} "{comment or "Believed model with what was found missing"}"',
@@ -89,14 +105,14 @@ class _Writer:
         return "\n".join([*lines, f"end {name};", ""])
 
     def _given(self) -> list[str]:
-        """Modifications that give components what is added to their equations; that of the class itself is equated."""
+        """Modifications that give components what is added in them; that of the class itself is equated."""
         given = []
-        for site, variable in self.edits.items():
-            terms = " + ".join(self.sums_at[variable])
-            if site.instance:
-                given.append(f"{site.instance}({variable}={terms})")
+        for added in self.edits.values():
+            steps = [step.component for step in added.site.way if step.component]
+            if steps:
+                given.append(f"{'('.join(steps)}({added.variable}={added.value()}{')' * len(steps)}")
             else:
-                self.equations.append(f"{variable} = {terms};")
+                self.equations.append(f"{added.variable} = {added.value()};")
         return given
 
     def _signals_changed(self) -> None:
@@ -185,14 +201,27 @@ class _Writer:
         self.sums.setdefault(device.variable, [f"{device.part}.f"]).append(f"{name}.f")
 
     def _site(self, attachment: Attachment) -> None:
-        """At any place: a port at a node, two in an edge or past a component, or a term of a signal or equation."""
-        site, name = attachment.site, attachment.component
-        self._declare(attachment, ", ".join(f"{local}={variable}" for local, variable in attachment.signals))
-        if site.kind == "node":
+        """At any place: a port at a node, two in an edge or past a component, or a term of a signal or equation; in
+        every one of a family by a component of its own."""
+        site, together = attachment.site, attachment.site.together
+        for k, part in enumerate(site.parts if site.members else (site,)):
+            name = f"{attachment.component}_{k + 1}" if k else attachment.component
+            shared = {p.name: attachment.full_name(p.name) for p in attachment.effect.parameters} if k else {}
+            self._declare(attachment, ", ".join(_read_by(attachment, k)), shared, name)
+            if together is None:
+                self._put(part, name)
+            else:
+                self._add(together, (k + 1,), f"{name}.effort")
+
+    def _put(self, site: Site, name: str) -> None:
+        """What a component of a law gives, at a site."""
+        if not site.outside:
+            self._inside(site, name)
+        elif site.kind == "node":
             self.equations.append(f"connect({site.ends[0]}, {name}.port);")
         elif site.kind == "branch":
             self.equations += [f"connect({end}, {name}.{port});" for end, port in zip(site.ends, "ab", strict=True)]
-        elif site.kind == "edge":
+        else:
             left, right = site.ends
             chain = next((e for e in self.equations if e.endswith(f", {right});")), None)
             if chain is not None:
@@ -201,14 +230,21 @@ class _Writer:
             else:
                 self.left_out.append(f"connect({left}, {right})")
             self.equations += [f"connect({left}, {name}.a);", f"connect({name}.b, {right});"]
-        elif site.kind == "signal":
+
+    def _inside(self, site: Site, name: str) -> None:
+        """What a component gives as a term of equations, of a signal, or inside of another component."""
+        if site.kind == "signal" and not site.instance:
             self.sums_into.setdefault(site, []).append(f"{name}.effort")
-        else:
-            exchanged = site.kind == "exchange"
-            for sense, part in zip(("", "-"), site.parts if exchanged else (site,), strict=False):
-                variable = self.edits.setdefault(part, _missing(len(self.edits)))
-                lost = exchanged and sense != part.sign
-                self.sums_at.setdefault(variable, []).append(f"(-{name}.effort)" if lost else f"{name}.effort")
+            return
+        exchanged = site.kind == "exchange"
+        for sense, part in zip(("", "-"), site.parts if exchanged else (site,), strict=False):
+            lost = exchanged and sense != part.sign
+            self._add(part, part.element[0], f"(-{name}.effort)" if lost else f"{name}.effort")
+
+    def _add(self, site: Site, element: tuple[int, ...], term: str) -> None:
+        """A term to what is added in the text of a site, to one element of it."""
+        added = self.edits.setdefault(site.text, Added(site, _missing(len(self.edits))))
+        added.sums.setdefault(element, []).append(term)
 
     def _sensor(self, attachment: Attachment) -> None:
         earlier = self.amendment.attachments[: self.amendment.attachments.index(attachment)]
@@ -242,6 +278,14 @@ class _Writer:
             self.equations += [
                 f"connect({name}.flange, {shaft.flange});", f"{name}.phi = {name}_phi;", f"{name}.w = {name}_w;",
             ]  # fmt: skip
+
+
+def _read_by(attachment: Attachment, member: int) -> list[str]:
+    """Bindings of what a law's component reads, at a site or at one member of a family."""
+    site, signals = attachment.site, attachment.signals
+    if site.members:
+        signals = [(local, meant(name, site.members[0], site.members[member])) for local, name in signals]
+    return [f"{local}={name}" for local, name in signals]
 
 
 def _missing(k: int) -> str:

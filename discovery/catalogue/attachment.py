@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from lacuna.discovery.catalogue.catalogue import Effect
 from lacuna.discovery.catalogue.places import Device, Line, Part, Shaft
-from lacuna.discovery.efforts.sites import Site
+from lacuna.discovery.efforts.places.sites import Site
 
 
 @dataclass(frozen=True)

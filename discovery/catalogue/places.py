@@ -17,7 +17,7 @@ from lacuna.codegen.flatten.language import LOWERING
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.syntax import ast
-from lacuna.discovery.efforts.sites import root
+from lacuna.discovery.efforts.places.sites import root
 
 _FLANGES = ("Flange_a", "Flange_b")
 _PINS = ("PositivePin", "NegativePin")

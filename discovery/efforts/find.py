@@ -20,8 +20,8 @@ from lacuna.discovery.efforts.instruments import colour_of
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Guided, Locator, Site
-from lacuna.discovery.efforts.opened import opened
-from lacuna.discovery.efforts.sites import SEVERAL
+from lacuna.discovery.efforts.places.opened import opened
+from lacuna.discovery.efforts.places.sites import SEVERAL
 from lacuna.discovery.fit.evidence import LEFT, astray, nearly_noise, settled
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.lead import joined

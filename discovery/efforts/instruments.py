@@ -19,7 +19,7 @@ from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
 from lacuna.discovery.efforts.latent.evidence import evidence
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.located import SIZES, TIMES, Locator, thinned_all
-from lacuna.discovery.efforts.opened import opened
+from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.fit.evidence import INSTRUMENTS, may_be_coloured
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.naming.comparison import MIN_GAIN

@@ -15,7 +15,7 @@ from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
 from lacuna.discovery.efforts.latent.evidence import evidence
 from lacuna.discovery.efforts.latent.smoother import Whitener, acting, courses, thinned
-from lacuna.discovery.efforts.opened import Opened, Place
+from lacuna.discovery.efforts.places.opened import Opened, Place
 from lacuna.discovery.fit.evidence import LEFT, SIGMAS
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.free import Free

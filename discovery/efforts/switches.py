@@ -52,11 +52,14 @@ def switches(case: Case, recording: Recording) -> list[Switch]:
 
 def switched(base: Fit) -> Case | None:
     """The case of a fit with its switches where the outputs say they were, beside the effort that explains most; None
-    where they say nothing of them, or where the model cannot be linearised."""
+    where they say nothing of them, where that leaves more than noise, whose memory switches would stand for, or where
+    the model cannot be linearised."""
     machine = base.machine
     locator = locator_of(machine.case, machine.amendment, base)
     try:
-        return placed(locator, locator.latent(locator.ranked()[0])) if locator is not None else None
+        if locator is None or not locator.white(best := locator.ranked()[0]):
+            return None
+        return placed(locator, locator.latent(best))
     except (NotNumeric, SimulationError, np.linalg.LinAlgError):
         return None
 

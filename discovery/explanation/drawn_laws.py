@@ -102,12 +102,14 @@ def _unit(finding: Finding) -> str:
 def _values(result: Explanation, finding: Finding, recording: Recording) -> np.ndarray:
     """(n,) what the law gives along a recording, in the sense in which an effort acts there."""
     attachment, machine = finding.ranked.attachment, result.final.machine
-    kind, port, own = attachment.site.kind, attachment.site.port, attachment.component
-    plus, minus = {
-        "node": (None, f"{own}.port.{port.flow}" if port else None),
-        "branch": (None, f"{own}.b.{port.flow}" if port else None),
-        "edge": (f"{own}.a.{port.potential}", f"{own}.b.{port.potential}") if port else (None, None),
-    }.get(kind, (f"{own}.effort", None))
+    site, port, own = attachment.site, attachment.site.port, attachment.component
+    plus, minus = f"{own}.effort", None
+    if site.outside:
+        plus, minus = {
+            "node": (None, f"{own}.port.{port.flow}"),
+            "branch": (None, f"{own}.b.{port.flow}"),
+            "edge": (f"{own}.a.{port.potential}", f"{own}.b.{port.potential}"),
+        }[site.kind]
     found = machine.trajectory(result.final.point, recording, [n for n in (plus, minus) if n])
     none = np.zeros(len(recording.time))
     return (found[plus] if plus else none) - (found[minus] if minus else none)

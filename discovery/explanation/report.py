@@ -16,7 +16,7 @@ from lacuna.analysis.report.figures.data import drawn_data
 from lacuna.analysis.report.page import code, page, table
 from lacuna.analysis.report.page import figure as figure_of
 from lacuna.discovery.case.cases import Case
-from lacuna.discovery.efforts.sites import MOST
+from lacuna.discovery.efforts.places.sites import MOST
 from lacuna.discovery.experiment.files import FOLDER
 from lacuna.discovery.experiment.picture import picture
 from lacuna.discovery.explanation.confidence import certainty

@@ -10,7 +10,7 @@ import numpy as np
 from lacuna.discovery.efforts.find import INDIFFERENT
 from lacuna.discovery.efforts.instruments import NATS, gained, log_evidence, only_instruments
 from lacuna.discovery.efforts.located import Site
-from lacuna.discovery.efforts.opened import ALIKE
+from lacuna.discovery.efforts.places.opened import ALIKE
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.explanation.input_error import offset_instead
 from lacuna.discovery.fit.evidence import (

@@ -17,7 +17,7 @@ import numpy as np
 from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.attachment import Attachment
-from lacuna.discovery.efforts import sites as places
+from lacuna.discovery.efforts.places import sites as places
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.fit.fit import Fit, fit
 from lacuna.discovery.fit.machine import try_machine

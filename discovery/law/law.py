@@ -9,8 +9,9 @@ import re
 from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.catalogue import Effect, EffectParameter
 from lacuna.discovery.catalogue.places import Device, Line, Shaft
-from lacuna.discovery.efforts import sites
-from lacuna.discovery.efforts.insertion import States, component
+from lacuna.discovery.efforts.places import sites
+from lacuna.discovery.efforts.places.families import said_of_all
+from lacuna.discovery.efforts.places.insertion import States, component
 from lacuna.discovery.law.forms import form_of, picked
 from lacuna.discovery.law.law_terms import Group, Shape, Variable
 
@@ -74,7 +75,7 @@ class Law:
         for v in self.site.variables:
             whole = whole.replace(f"{v.local}_ref", f"{v.size:g}")
             whole = _renamed(whole, v.local, v.reading)
-        return whole
+        return said_of_all(whole, self.site.place.members) if isinstance(self.site.place, sites.Site) else whole
 
     def _limit(self, text: str) -> str:
         """What holds a rate, of which the coefficient only is the unit, as said to readers; "" of other terms."""

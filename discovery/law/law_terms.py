@@ -12,10 +12,12 @@ within q either way: what it would be beyond that without the effort; it has mod
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 import re
 
 import numpy as np
+
+from lacuna.discovery.efforts.places.families import meant
 
 _FUNCTIONS = {"sin": np.sin, "cos": np.cos, "exp": np.exp, "tanh": np.tanh, "abs": np.abs, "sign": np.sign,
               "sqrt": np.sqrt, "dry": np.sign}  # fmt: skip
@@ -65,6 +67,10 @@ class Variable:
         name = f"unheld {self.name}" if self.kind == "unheld" else self.name
         found = values[name] - values[self.minus] if self.minus else values[name]
         return found if np.ndim(found) else np.full(len(values["time"]), found)
+
+    def of_member(self, here: str, there: str) -> Variable:
+        """The same quantity of another member of a family."""
+        return replace(self, name=meant(self.name, here, there), minus=meant(self.minus, here, there))
 
     @property
     def scaled(self) -> str:

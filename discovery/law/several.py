@@ -161,7 +161,7 @@ def _elsewhere(amendment: Amendment) -> Callable[[Site], bool]:
 
     def free(site: Site) -> bool:
         balances = [part.label for part in site.place.sites[0].parts]
-        return site.location not in taken and not any(f"der({t})" in b for t in taken for b in balances)
+        return not any(map(site.place.named, taken)) and not any(f"der({t})" in b for t in taken for b in balances)
 
     return free
 

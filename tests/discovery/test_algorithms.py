@@ -11,8 +11,8 @@ from lacuna.codegen.compile import compile_model
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as structure_of
-from lacuna.discovery.efforts.insertion import probe
-from lacuna.discovery.efforts.reading import ALGORITHM, read
+from lacuna.discovery.efforts.places.insertion import probe
+from lacuna.discovery.efforts.places.reading import ALGORITHM, read
 from lacuna.runtime import Model, RecordedInput, simulate
 
 REACTOR = """model Reactor "A declaration must come before the first section, of whatever kind it is"

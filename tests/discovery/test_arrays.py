@@ -14,9 +14,9 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as structure_of
-from lacuna.discovery.efforts.insertion import probe
-from lacuna.discovery.efforts.reading import read
-from lacuna.discovery.efforts.sites import MOST, Site
+from lacuna.discovery.efforts.places.insertion import probe
+from lacuna.discovery.efforts.places.reading import read
+from lacuna.discovery.efforts.places.sites import MOST, Site
 from lacuna.discovery.explain import explain
 from lacuna.runtime import Model, RecordedInput, simulate
 

@@ -10,7 +10,7 @@ import pytest
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as read_structure
-from lacuna.discovery.efforts.opened import opened
+from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.explain import explain
 from lacuna.discovery.explanation.drawn_laws import _drawn
 from lacuna.discovery.law.law import law_at

@@ -12,9 +12,9 @@ from lacuna.codegen.compile import compile_model
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as structure_of
-from lacuna.discovery.efforts.insertion import probe
-from lacuna.discovery.efforts.reading import read
-from lacuna.discovery.efforts.sites import Site
+from lacuna.discovery.efforts.places.insertion import probe
+from lacuna.discovery.efforts.places.reading import read
+from lacuna.discovery.efforts.places.sites import Site
 from lacuna.runtime import Model, RecordedInput, simulate
 
 LINE = """package Process "Signals and parts"

@@ -11,8 +11,8 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as read_structure
-from lacuna.discovery.efforts.opened import opened
-from lacuna.discovery.efforts.reading import read
+from lacuna.discovery.efforts.places.opened import opened
+from lacuna.discovery.efforts.places.reading import read
 from lacuna.discovery.explain import explain
 
 from .recorded import record, truth

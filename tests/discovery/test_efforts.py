@@ -20,8 +20,8 @@ from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
 from lacuna.discovery.efforts.latent.evidence import evidence
 from lacuna.discovery.efforts.latent.smoother import Whitener, courses, thinned
 from lacuna.discovery.efforts.located import Locator
-from lacuna.discovery.efforts.opened import opened
-from lacuna.discovery.efforts.reading import read
+from lacuna.discovery.efforts.places.opened import opened
+from lacuna.discovery.efforts.places.reading import read
 from lacuna.discovery.explain import explain, judge_written, write_amended
 from lacuna.discovery.explanation import diagnosis
 from lacuna.discovery.fit.intervals import undetermined

@@ -13,11 +13,11 @@ from lacuna.discovery.case.cases import Case, load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.catalogue import read as read_catalogue
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
-from lacuna.discovery.efforts.copied import copied, right_side
 from lacuna.discovery.efforts.find import located
 from lacuna.discovery.efforts.laws.screening import proposals
-from lacuna.discovery.efforts.reading import read
-from lacuna.discovery.efforts.sites import varying
+from lacuna.discovery.efforts.places.copied import copied, right_side
+from lacuna.discovery.efforts.places.reading import read
+from lacuna.discovery.efforts.places.sites import varying
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.evidence import outside_belief
 from lacuna.discovery.fit.machine import Machine

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.signal import lsim
 
-from lacuna.discovery.efforts.sites import Site as Place
+from lacuna.discovery.efforts.places.sites import Site as Place
 from lacuna.discovery.law.forms import FORMS
 from lacuna.discovery.law.law import Law, Site, attach
 from lacuna.discovery.law.law_terms import Group, Shape, Variable, lagged, swinging

@@ -12,7 +12,7 @@ from scipy.signal import lfilter
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.efforts.instruments import _worst, colour_of, only_instruments
 from lacuna.discovery.efforts.located import Locator
-from lacuna.discovery.efforts.opened import opened
+from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.explain import explain
 from lacuna.discovery.fit.evidence import is_noise
 from lacuna.discovery.steps import fitted

@@ -14,7 +14,7 @@ from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.case.values import is_start
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
-from lacuna.discovery.efforts.opened import RENAMES, opened
+from lacuna.discovery.efforts.places.opened import RENAMES, opened
 from lacuna.discovery.fit.fit import believed
 from lacuna.discovery.fit.machine import LEAST_RTOL, RTOL, Machine, try_machine
 from lacuna.discovery.fit.objective import noise_of

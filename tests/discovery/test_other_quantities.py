@@ -10,7 +10,7 @@ import pytest
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator
-from lacuna.discovery.efforts.opened import opened
+from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.steps import fitted
 
 from .recorded import record, truth

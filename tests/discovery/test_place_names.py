@@ -7,8 +7,8 @@ from pathlib import Path
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.library.search_path import search_path
 from lacuna.discovery.catalogue.places import read as structure_of
-from lacuna.discovery.efforts.opened import Place, _apart
-from lacuna.discovery.efforts.sites import Site
+from lacuna.discovery.efforts.places.opened import Place, _apart
+from lacuna.discovery.efforts.places.sites import Site
 
 
 def place(location: str, *sites: Site) -> Place:

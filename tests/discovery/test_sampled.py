@@ -11,7 +11,7 @@ from lacuna.codegen.compile import compile_model
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as read_structure
-from lacuna.discovery.efforts.opened import opened
+from lacuna.discovery.efforts.places.opened import opened
 from lacuna.runtime import Model, RecordedInput, simulate
 
 LOOP = """model Loop "Falls away by itself, held by a controller that looks every Ts"

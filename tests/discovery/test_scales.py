@@ -11,7 +11,7 @@ from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as read_structure
 from lacuna.discovery.efforts.latent.linear import _without_rounding
-from lacuna.discovery.efforts.opened import opened
+from lacuna.discovery.efforts.places.opened import opened
 
 LINE = """model Line "Accumulator, long line, load"
   parameter Real Ca(unit="m3/Pa", min=0) = 2e-11;

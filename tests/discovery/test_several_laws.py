@@ -20,7 +20,7 @@ from lacuna.discovery.efforts.find import Found
 from lacuna.discovery.efforts.latent.numeric import Evaluator, NotNumeric, finite, table
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
-from lacuna.discovery.efforts.opened import opened
+from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.explain import explain
 from lacuna.discovery.fit.fit import believed, fit
 from lacuna.discovery.fit.machine import Machine

@@ -11,7 +11,7 @@ from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws import screening
 from lacuna.discovery.efforts.laws.terms import counts, groups
 from lacuna.discovery.efforts.laws.variables import variables
-from lacuna.discovery.efforts.sites import Site as Place
+from lacuna.discovery.efforts.places.sites import Site as Place
 from lacuna.discovery.law.empirical_law import free_of
 from lacuna.discovery.law.law import Law, Site, attach
 from lacuna.discovery.law.law_terms import Group, Variable

@@ -21,7 +21,7 @@ from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import assigned, expressions
 from lacuna.discovery.efforts.latent.flows import NUMBERS, flows
 from lacuna.discovery.efforts.latent.numeric import Evaluator, NotNumeric, Value
-from lacuna.discovery.efforts.sites import MOST
+from lacuna.discovery.efforts.places.sites import MOST
 
 AT_ONCE = 1e-6  # of the interval of a recording, within which a tick and a sample are at one time
 Rows = dict[str, np.ndarray]  # (n, states + memory + columns) of each variable: its derivatives

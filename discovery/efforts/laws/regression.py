@@ -26,7 +26,8 @@ BLOCK = 128  # terms that are looked at together: many beside the work that a fi
 
 
 class Regression:
-    """Answers of the outputs to terms at a place, along the guided run, in the metric of the located effort.
+    """Answers of the outputs to terms at a place, along the guided run, in the metric of the located effort; where the
+    same law holds at every place of a family, those to all at once.
 
     What a law leaves is an effort at the same place of one of a few sizes (the discrepancy), so that a term counts by
     what it explains of the effort where the data tells it. Parameters in their beliefs are projected out.
@@ -35,8 +36,10 @@ class Regression:
     they are wanted: thousands of groups would take gigabytes.
     """
 
-    def __init__(self, guided: Guided, place: Site, column: int) -> None:
-        self.guided, self.place, self.column = guided, place, column
+    def __init__(self, guided: Guided, place: Site, columns: Sequence[int]) -> None:
+        self.guided, self.place, self.columns = guided, place, tuple(columns)
+        members = place.place.members or ("",)
+        self.variables = [[v.of_member(members[0], member) for v in place.variables] for member in members]
         thin = guided.thin
         self.every = -(-len(guided.pieces[0].along.time) // len(thin[0].along.time))
         self.groups: list[Group] = []
@@ -69,14 +72,15 @@ class Regression:
 
     def _answers(self, numbers: Sequence[int]) -> list[np.ndarray]:
         """(n, y, terms) of the outputs on each recording."""
-        answers = []
-        for piece in self.guided.pieces:
-            answers.append(piece.along.response(self.column, self._courses(numbers, piece), every=self.every))
-        return answers
+        return [
+            sum(p.along.response(column, self._courses(numbers, p, k), every=self.every)
+                for k, column in enumerate(self.columns))
+            for p in self.guided.pieces
+        ]  # fmt: skip
 
-    def _courses(self, numbers: Sequence[int], piece: Piece) -> np.ndarray:
-        """(n, terms) along a recording."""
-        path = {v.local: v.course(piece.along.values) for v in self.place.variables} | {"time": piece.along.time}
+    def _courses(self, numbers: Sequence[int], piece: Piece, member: int) -> np.ndarray:
+        """(n, terms) along a recording, at one of the places where the law holds."""
+        path = {v.local: v.course(piece.along.values) for v in self.variables[member]} | {"time": piece.along.time}
         with np.errstate(all="ignore"):
             courses = np.column_stack([c for g in numbers for c in self.groups[g].values(path, self.place.sizes)])
         courses[~np.isfinite(courses)] = 0.0
@@ -125,13 +129,14 @@ class Regression:
     def _products(self, bases: list[Bases], blocks: list[list[int]]) -> list[np.ndarray]:
         """(all, terms) in each metric: products of bases with the columns of groups, which are not found for that:
         those of courses are the same with what the bases are to courses, by the transposes of filter and response."""
-        turned = [m.transposed(b, self.guided.pieces, self.column, self.every)
+        turned = [[m.transposed(b, self.guided.pieces, column, self.every) for column in self.columns]
                   for m, b in zip(self.metrics, bases, strict=True)]  # fmt: skip
         result: list[list[np.ndarray]] = [[] for _ in self.metrics]
         for block in blocks:
-            courses = [self._courses(block, piece) for piece in self.guided.pieces]
+            courses = [[self._courses(block, p, n) for p in self.guided.pieces] for n in range(len(self.columns))]
             for k, metric in enumerate(self.metrics):
-                whole = sum(t.T @ c for t, c in zip(turned[k], courses, strict=True))
+                own = (pair for t, c in zip(turned[k], courses, strict=True) for pair in zip(t, c, strict=True))
+                whole = sum(t.T @ c for t, c in own)
                 shares = np.column_stack([metric.shares[g] for g in block])
                 result[k].append(whole - (metric.basis.T @ bases[k].whole).T @ shares)
         return [np.concatenate(parts, axis=1) for parts in result]

@@ -7,19 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from lacuna.codegen.units.inference import SECOND
-from lacuna.discovery.efforts import sites
-from lacuna.discovery.efforts.latent.along import Along
+from lacuna.discovery.efforts.laws.offered import is_coefficient, offered_at, read_by, unknowns
 from lacuna.discovery.efforts.laws.regression import FURTHER, Regression
-from lacuna.discovery.efforts.laws.terms import counts, groups, saturating
-from lacuna.discovery.efforts.laws.variables import variables
 from lacuna.discovery.efforts.located import Guided, Locator, Site
-from lacuna.discovery.efforts.opened import Place
+from lacuna.discovery.efforts.places.opened import Place
 from lacuna.discovery.law.law import Law
-from lacuna.discovery.law.law import Site as LawSite
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.law.law_terms import DRY, Group, Variable, evaluate
-from lacuna.units import parse_unit
 
 Scored = tuple[float, Regression, tuple[int, ...]]  # deviance and prices, groups of a regression
 
@@ -40,7 +34,7 @@ def proposals(
     parameters stand for that, and a fit puts them back.
     """
     quantities = (site.place, *site.place.other)
-    offered = [_offered(locator, place, guided) for place in quantities]
+    offered = [offered_at(locator, place, guided) for place in quantities]
     ones = [_told_here(place, r, _refined(r, every)) for place, (r, every) in zip(quantities, offered, strict=True)]
     first = _best([(r, groups) for (r, _), groups in zip(offered, ones, strict=True)], most)
     first += _held(locator, guided, offered, first)
@@ -65,11 +59,11 @@ def _held(
     it: at rest it is whatever holds, which a regression takes for its level."""
     known = {law.law.text() for law in others}
     found = []
-    for regression, every in offered:
+    for regression, every in (pair for pair in offered if len(pair[0].columns) == 1):
         along = guided.pieces[0].along
         for v in (v for v in regression.place.variables if v.sticks and v.turns):
             level = _level(guided, v)
-            sense = np.mean(along.direct[:, _unknowns(locator).index(f"der({v.name})"), regression.column])
+            sense = np.mean(along.direct[:, unknowns(locator).index(f"der({v.name})"), regression.columns[0]])
             laws = [_proposal(regression, (g,)) for g in every if regression.groups[g].texts == (v.dry,)]
             found += [replace(p, start={"c_1": level}) for p in laws if level * sense < 0 and p.law.text() not in known]
     return found
@@ -87,15 +81,9 @@ def _level(guided: Guided, v: Variable) -> float:
 def _told_here(place: Place, regression: Regression, laws: list[tuple[int, ...]]) -> list[tuple[int, ...]]:
     """Laws without a level by itself where that is told otherwise: of a proportional input in the balance, of a
     coefficient as its value."""
-    if not place.only and not _is_coefficient(place.sites[0]):
+    if not place.only and not is_coefficient(place.sites[0]):
         return laws
     return [law for law in laws if any(regression.groups[g].texts != ("1",) for g in law)]
-
-
-def _is_coefficient(site: sites.Site) -> bool:
-    """Whether it is a parameter of one equation, all laws of which are laws in that balance: those are told of it that
-    are shorter so, functions of one variable and a level beside them."""
-    return site.kind == "parameter" and len(site.parts) == 1
 
 
 def _best(found: list[tuple[Regression, list[tuple[int, ...]]]], most: int) -> list[Proposal]:
@@ -114,7 +102,7 @@ def _is_own(law: Scored) -> bool:
     """Whether a law is of one group, in the state alone whose rate the effort changes at once."""
     _, regression, chosen = law
     found = list(regression.place.variables)
-    read = _read(regression.groups[chosen[0]], found)
+    read = read_by(regression.groups[chosen[0]], found)
     return len(chosen) == 1 and bool(read) and read <= {v.reading for v in found if v.sticks}
 
 
@@ -122,80 +110,16 @@ def _scored(regression: Regression, found: list[tuple[int, ...]]) -> list[Scored
     return [(regression.scores(groups[:-1], groups[-1:])[0], regression, groups) for groups in found]
 
 
-def _offered(locator: Locator, place: Place, guided: Guided) -> tuple[Regression, range]:
-    """The regression at a place, and all groups of terms that may stand there."""
-    along = [p.along for p in guided.pieces]
-    answering = _answering(locator, along[0], place.column)
-    added = locator.base.machine.amendment.added()
-    found = variables(
-        along, place.location, locator.base.machine.model.variables, locator.opened.linear.states, answering, added
-    )
-    courses = {v.local: np.concatenate([v.course(a.values) for a in along]) / v.size for v in found}
-    ranges = {local: (float(c.min()), float(c.max())) for local, c in courses.items()}
-    found = [replace(v, turns=ranges[v.local][0] < 0 < ranges[v.local][1]) for v in found]
-    if place.only:
-        found = [v for v in found if v.name == place.only and not v.minus]
-    told = {o.only for o in place.other} - {""}
-    longest = max((a.time for a in along), key=lambda t: t[-1] - t[0])
-    interval, duration = float(np.median(np.diff(longest))), float(longest[-1] - longest[0])
-    aliases = locator.opened.linear.prepared.aliases
-    sent = {aliases.get(end, (end, 1))[0] for s in place.sites if s.kind == "signal" for end in s.ends}
-    found = [replace(v, kind="input") if v.name in sent else v for v in found]
-    varies = place.sites[0].kind in ("parameter", "input")
-    if varies:  # it holds nothing at rest
-        found = [replace(v, sticks=False) for v in found]
-    found += _unheld(locator, guided, found)
-    ranges |= {v.local: (-1.0, 1.0) for v in found if v.kind == "unheld"}
-    coefficient = _is_coefficient(place.sites[0])
-    if coefficient:  # no command, that may be late
-        found = [replace(v, kind="other") if v.kind == "input" else v for v in found]
-    terms = groups(found, ranges, interval, duration)
-    if coefficient:
-        terms = [g for g in terms if len(_read(g, found)) < 2 and len(g.texts) == 1]
-    if varies:
-        terms += [saturating(v) for v in found if v.kind != "rate"]
-    terms = [g for g in terms if not _reads_only(g, found, told)]
-    where = LawSite(place.sites[0], place.location, place.unit, tuple(found), counts(found, terms))
-    regression = Regression(guided, where, place.column)
-    return regression, regression.add(terms)
-
-
-def _unheld(locator: Locator, guided: Guided, found: list[Variable]) -> list[Variable]:
-    """The rates that an effort at a place sets at once, as they would be without the one that guides the run."""
-    rates, column = [], int(guided.latent.column[0])
-    for v in (v for v in found if v.sticks):
-        name, largest = f"der({v.name})", 0.0
-        row = _unknowns(locator).index(name)
-        for piece, effort in zip(guided.pieces, guided.efforts, strict=True):
-            values = piece.along.values
-            values[f"unheld {name}"] = values[name] - piece.along.direct[:, row, column] * effort
-            largest = max(largest, float(np.abs(values[f"unheld {name}"]).max()))
-        local, unit = f"x{len(found) + len(rates) + 1}", str(parse_unit(v.unit) / SECOND) if v.unit else ""
-        rates.append(Variable(local, name, unit, "unheld", float(f"{largest:.2g}")))
-    return rates if all(v.size > 0 for v in rates) else []
-
-
-def _reads_only(group: Group, found: list[Variable], told: set[str]) -> bool:
-    """Whether a group has one variable, which is one of inputs that laws are `told` of instead of the balance."""
-    read = _read(group, found)
-    return len(read) == 1 and read <= told
-
-
-def _read(group: Group, found: list[Variable]) -> set[str]:
-    """What a group reads of the model."""
-    return {v.reading for v in found if any(f"{v.local}_ref" in text for text in group.texts)}
-
-
 def _distinct(found: Iterable[Scored], most: int) -> list[Scored]:
     """The first `most` that explain different things: |x| beside x, where x has one sign, is the same law again, and so
     is what is late beside what is late by the same quantity, whatever it was before the start."""
     kept: list[Scored] = []
     courses: list[np.ndarray] = []
-    kinds: set[tuple[int, frozenset[str]]] = set()
+    kinds: set[tuple[tuple[int, ...], frozenset[str]]] = set()
     for law in found:
         _, regression, chosen = law
         texts = (text for g in chosen for text in regression.groups[g].kind)
-        kind = regression.column, frozenset(text.replace("onset(", "delay(") for text in texts)
+        kind = regression.columns, frozenset(text.replace("onset(", "delay(") for text in texts)
         if kind in kinds:
             continue
         course = regression.explained(chosen)
@@ -206,15 +130,6 @@ def _distinct(found: Iterable[Scored], most: int) -> list[Scored]:
         if len(kept) == most:
             break
     return kept
-
-
-def _answering(locator: Locator, along: Along, column: int) -> frozenset[str]:
-    """Unknowns that an effort at a place changes at once."""
-    return frozenset(n for k, n in enumerate(_unknowns(locator)) if along.answering[k, column])
-
-
-def _unknowns(locator: Locator) -> list[str]:
-    return [f"der({u.args[0].value})" if u.op == "der" else str(u.value) for u in locator.opened.linear.unknowns]
 
 
 def _refined(regression: Regression, every: range, strained: bool = False) -> list[tuple[int, ...]]:
@@ -261,7 +176,7 @@ def _doubled(regression: Regression, single: list[tuple[int, ...]], every: range
     scored: dict[tuple[int, ...], float] = {}
     finer = [g for (g,) in single if g not in every]
     level = next((g,) for g in every if regression.groups[g].texts == ("1",))
-    beside = [] if _is_coefficient(regression.place.place) else single[:FAMILIES]
+    beside = [] if is_coefficient(regression.place.place) else single[:FAMILIES]
     firsts = list(dict.fromkeys([level, *beside]))
     for others in (every, finer):
         for first, scores in zip(firsts, regression.scores_of(firsts, others), strict=True):

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from lacuna.discovery.efforts.insertion import KEPT
+from lacuna.discovery.efforts.places.insertion import KEPT
 from lacuna.discovery.law.law_terms import EXPONENTS, Group, Shape, Variable, exponent, stribeck
 
 LEAST = 1.5  # cycles over the range: less of a wave is a bend, which powers say with fewer numbers

@@ -12,7 +12,7 @@ import numpy as np
 
 from lacuna.codegen.units.inference import SECOND
 from lacuna.discovery.efforts.latent.along import Along
-from lacuna.discovery.efforts.sites import MOST
+from lacuna.discovery.efforts.places.sites import MOST
 from lacuna.discovery.law.law_terms import Variable
 from lacuna.runtime.model import Variable as ModelVariable
 from lacuna.units import parse_unit

@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from pathlib import Path
 import re
 
 from lacuna.codegen.errors import Span
 from lacuna.codegen.flatten.classes.inheritance import written
 from lacuna.codegen.syntax import ast
-from lacuna.discovery.efforts.sites import Site, occurrences
+from lacuna.discovery.efforts.places.sites import Site, Step, occurrences
 
-Edit = tuple[tuple[ast.Class, ...], Site, str]  # bases on the way to a site, the site, what is added there
-Change = tuple[int, bool, str, int]  # where, whether around a right side, what is put in, in place of what up to where
+Edit = tuple[tuple[Step, ...], Site, str]  # what is left of the way to a site, the site, what is added there
+Change = tuple[int, bool, str, int]  # where, whether after others there, what is put in, in place of what up to where
 
 
-def copied(cls: ast.Class, edits: Mapping[Site, str]) -> tuple[str, list[str]]:
-    """(name, lines) of class `cls` with the named variable added to the right side of each edited equation, or to each
-    edited parameter or input in its equations. A component whose class stands elsewhere in the file has a copy of that.
+def copied(cls: ast.Class, edits: Sequence[tuple[Site, str]]) -> tuple[str, list[str]]:
+    """(name, lines) of class `cls` with the named variable added where each site is: to the right side of an equation,
+    to each occurrence of a parameter or input in its equations, as what flows in at a node or past a component and is
+    lost in a connection. A component whose class stands elsewhere has a copy of that, with the variable as an input.
 
     The copy is to be nested in a class that extends it and says what the variables are.
     """
-    body = _copy(cls, [(site.bases, site, variable) for site, variable in edits.items()])
+    body = _copy(cls, [(site.way, site, variable) for site, variable in edits])
     return cls.name, [f"  {line}" if line else "" for line in body.split("\n")]
 
 
@@ -32,23 +33,19 @@ def _copy(cls: ast.Class, edits: list[Edit]) -> str:
     starts = [0, *(m.end() for m in re.finditer("\n", text))]
     changes: list[Change] = []
     inner: dict[int, tuple[ast.Class, str, list[Edit]]] = {}  # by where the class is named: it, and the copy's name
-    for bases, site, variable in edits:
-        if bases:
-            base, *rest = bases
-            named = next(e.base for e in cls.extends if written(e.base).rpartition(".")[2] == base.name)
-            copy = inner.setdefault(_at(named.span, starts), (base, f"{base.name}_inherited", []))
+    for way, site, variable in edits:
+        if way:
+            step, *rest = way
+            name = f"{step.cls.name}_{step.component or 'inherited'}"
+            copy = inner.setdefault(_at(step.span, starts), (step.cls, name, []))
             copy[2].append((tuple(rest), site, variable))
-        elif site.of is not None and site.of is not cls:
-            component = next(c for c in cls.components if c.name == site.instance)
-            copy = inner.setdefault(_at(component.type.span, starts), (site.of, f"{site.of.name}_{site.instance}", []))
-            copy[2].append(((), site, variable))
         else:
             changes += _added(site, variable, cls, text, starts)
     for at, (of, name, own) in inner.items():
         line = text.rfind("\n", 0, at) + 1
         changes.append((line, False, _renamed(of, _copy(of, own), name), line))
         changes.append((at, False, name, re.compile(r"[\w.']+").match(text, at).end()))
-    return _class_text(cls, text, starts, [*changes, *_seen(cls, text, starts)])
+    return _class_text(cls, text, starts, [*_seen(cls, text, starts), *changes])
 
 
 def _at(span: Span, starts: list[int]) -> int:
@@ -57,7 +54,32 @@ def _at(span: Span, starts: list[int]) -> int:
 
 def _added(site: Site, variable: str, cls: ast.Class, text: str, starts: list[int]) -> list[Change]:
     """What declares a variable in a class and puts it where a site is."""
+    kind, value = ("input Real", " = 0") if site.instance else ("Real", "")  # a component is given it from outside
+    size = f"[{len(site.members)}]" if site.members else ""
+    declared, joins = [f'{kind} {variable}{size}{value} "Missing there";'], []
+    if site.port is None:
+        changes = _terms(site, variable, text, starts)
+    elif site.kind == "edge":
+        changes = _broken(site, variable, text, starts)
+    else:
+        ends = zip(("port",) if site.kind == "node" else ("a", "b"), site.ports, strict=False)
+        changes, joins = [], [f"connect({end}, at_{variable}.{own});" for own, end in ends]
+    declared += _joining(site, variable) if site.port else []
+    owner = _declarations_end(cls, text, starts)
+    margin = _margin(text[owner:].lstrip("\n"))
+    changes.append((owner, False, "".join(f"\n{margin}{line}" for line in declared), owner))
+    if joins:
+        changes.append((owner, True, "".join([f"\n{margin[2:]}equation", *(f"\n{margin}{j}" for j in joins)]), owner))
+    return changes
+
+
+def _terms(site: Site, variable: str, text: str, starts: list[int]) -> list[Change]:
+    """A variable in equations, or added to a signal on its way."""
     changes: list[Change] = []
+    if site.kind == "signal":
+        begin = _at(site.span, starts)
+        source, into = (end for end in sorted(site.ports, key=lambda end: end == _local(site, site.into)))
+        return [(begin, False, f"{into} = {source} + {variable}", connection_end(text, begin))]
     for part in site.parts or (site,):
         begin = _at(part.span, starts)
         side, end = right_side(text, begin)
@@ -66,12 +88,37 @@ def _added(site: Site, variable: str, cls: ast.Class, text: str, starts: list[in
                 last = at + len(site.label)
                 changes += [(at, False, "(", at), (last, False, f" + {variable})", last)]
         else:
-            changes += [(side, True, " (", side), (end, True, f") + {site.term.replace('@', variable)}", end)]
-    owner = _declarations_end(cls, text, starts)
-    kind = "input Real" if site.instance else "Real"  # a component is given from outside what it does not say
-    value = " = 0" if site.of else ""
-    margin = _margin(text[owner:].lstrip("\n"))
-    return [*changes, (owner, False, f'\n{margin}{kind} {variable}{value} "Missing in a balance";', owner)]
+            changes += [
+                (side, True, " (", side),
+                (end, True, f") + {site.term.replace('{@}', '@').replace('@', variable)}", end),
+            ]
+    return changes
+
+
+def _local(site: Site, name: str) -> str:
+    return name.removeprefix(f"{site.instance}.")
+
+
+def _broken(site: Site, variable: str, text: str, starts: list[int]) -> list[Change]:
+    """A connection in two, with what is lost between them."""
+    begin, (left, right) = _at(site.span, starts), site.ports
+    through = f"connect({left}, at_{variable}.a); connect(at_{variable}.b, {right})"
+    return [(begin, False, through, connection_end(text, begin))]
+
+
+def _joining(site: Site, variable: str) -> list[str]:
+    """What gives the variable as a flow in a component's class, or loses it across, and its component."""
+    port, at, cls = site.port, f"at_{variable}", f"At_{variable}"
+    one = site.kind == "node"
+    flows = [f"port.{port.flow} = -effort"] if one else [f"a.{port.flow} + b.{port.flow} = 0"]
+    if site.kind == "branch":
+        flows.append(f"b.{port.flow} = -effort")
+    elif site.kind == "edge":
+        flows.append(f"a.{port.potential} - b.{port.potential} = effort")
+    return [
+        f"model {cls}", f"  {port.path} {'port' if one else 'a, b'};", "  input Real effort;", "equation",
+        *(f"  {flow};" for flow in flows), f"end {cls};", f"{cls} {at}(effort={variable});",
+    ]  # fmt: skip
 
 
 def _class_text(cls: ast.Class, text: str, starts: list[int], changes: list[Change]) -> str:
@@ -98,7 +145,7 @@ def _renamed(cls: ast.Class, text: str, name: str) -> str:
 def _seen(cls: ast.Class, text: str, starts: list[int]) -> list[Change]:
     """What lets a class see elsewhere what the packages around it and their imports let it see."""
     around, seen = cls.parent, []
-    while around is not None and around.name:
+    while around is not None and around.name and around.kind == "package":
         seen += [f"import {around.path}.*;", *(f"import {_imported(i)};" for i in around.imports)]
         around = around.parent
     at = _declarations_end(cls, text, starts)
@@ -134,6 +181,16 @@ def right_side(text: str, begin: int) -> tuple[int, int]:
             return side, k
         k += 1
     raise ValueError("an equation without end")
+
+
+def connection_end(text: str, begin: int) -> int:
+    """Where the text of a connection ends that begins there: after its bracket."""
+    level = 0
+    for k in range(begin, len(text)):
+        level += {"(": 1, ")": -1}.get(text[k], 0)
+        if level == 0 and text[k] == ")":
+            return k + 1
+    raise ValueError("a connection without end")
 
 
 def _declarations_end(cls: ast.Class, text: str, starts: list[int]) -> int:

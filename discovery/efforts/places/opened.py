@@ -25,12 +25,13 @@ from lacuna.codegen.units.inference import UnitInference, of_variable
 from lacuna.discovery.case.cases import Case, CaseError
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.searched import write_source
-from lacuna.discovery.efforts.insertion import probe
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.latent.linear import Linear
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
-from lacuna.discovery.efforts.reading import read
-from lacuna.discovery.efforts.sites import Site, exchanges, renames, varying
+from lacuna.discovery.efforts.places.families import Families, families
+from lacuna.discovery.efforts.places.insertion import probe
+from lacuna.discovery.efforts.places.reading import read
+from lacuna.discovery.efforts.places.sites import Site, exchanges, renames, varying
 from lacuna.discovery.fit.machine import Machine, richer
 from lacuna.units import Unit
 
@@ -45,7 +46,8 @@ class Place:
     those of them where the same is done by an effort of another course: a law may be short in the one and long in the
     other (the command of a valve, and what flows through it). So is an input, whose laws are told of it; where it
     enters in proportion they read `only` the input, all other laws being the same in the balance. What changes no state
-    is a `reading`: that is off there, or its sensor, which is the same."""
+    is a `reading`: that is off there, or its sensor, which is the same. One of a family of places (elements of an
+    array, instances of a class) has another with the columns of `every` one, where the same law holds in all."""
 
     location: str
     sites: tuple[Site, ...]
@@ -54,6 +56,7 @@ class Place:
     other: tuple[Place, ...] = ()
     only: str = ""
     reading: bool = False
+    every: tuple[int, ...] = ()
 
     def named(self, location: str) -> bool:
         """Whether a law at this place may have that location."""
@@ -92,7 +95,15 @@ class Opened:
                     break
             else:
                 groups.append([k])
-        return _apart([self._place(group, effect) for group in groups])
+        together = families(self.sites, sorted(k for group in groups for k in group))
+        found = _apart([self._place(group, effect) for group in groups])
+        return [self._with_all(place, group, together) for place, group in zip(found, groups, strict=True)]
+
+    def _with_all(self, place: Place, group: list[int], together: Families) -> Place:
+        """A place with the families that it is of."""
+        own = [(site, columns) for site, columns in together if not set(columns).isdisjoint(group)]
+        whole = (Place(site.label, (site,), columns[0], self._unit(columns[0]), every=columns) for site, columns in own)
+        return replace(place, other=(*place.other, *whole))
 
     def _effect(self, along: Along) -> np.ndarray:
         """(n, x + y, sites): rates of the states and outputs, each in its own size, that an effort causes at once."""
@@ -135,14 +146,7 @@ class Opened:
         return replace(place, location=location, sites=(site,), column=k, unit=self._unit(k), only=only)
 
     def _unit(self, number: int) -> str:
-        site, variables = self.sites[number], self.machine.model.variables
-        if site.kind == "node":
-            return variables[f"probe{number}.port.{site.port.flow}"].unit
-        if site.kind == "branch":
-            return variables[f"probe{number}.b.{site.port.flow}"].unit
-        if site.kind == "edge":
-            return variables[f"probe{number}.a.{site.port.potential}"].unit
-        return unit_of(site, self.believed)
+        return unit_of(self.sites[number], self.believed)
 
 
 def _apart(places: list[Place]) -> list[Place]:
@@ -155,15 +159,17 @@ def _apart(places: list[Place]) -> list[Place]:
 
 def _is_second(place: Place, places: list[Place]) -> bool:
     """Whether another place has as good a right to its name."""
-    own = _ORDER[place.sites[0].kind]
-    return any(_ORDER[p.sites[0].kind] <= own for p in places if p.location == place.location and p is not place)
+    site = place.sites[0]
+    others = [p.sites[0].kind for p in places if p.location == place.location and p is not place]
+    joins = site.kind == "node" and site.left != "" and "branch" in others  # a spring, to which a mass is joined
+    return joins or any(_ORDER[kind] <= _ORDER[site.kind] for kind in others)
 
 
 def _own_name(place: Place, taken: list[str]) -> str:
     site, name = place.sites[0], ""
     if site.kind == "node":
         owners = [e.rpartition(".")[0] for s in place.sites if s.kind == "node" for e in s.ends]
-        name = max(dict.fromkeys(owners), key=owners.count)
+        name = site.left or max(dict.fromkeys(owners), key=owners.count)
     elif site.kind == "equation":
         name = site.label.replace(": ", ".", 1) if site.instance else site.label
         first = re.search(r"\bder\(([\w.]+)\)", site.label)  # its own coordinate, where masses are coupled
@@ -178,6 +184,9 @@ def _renamed(place: Place, name: str) -> Place:
 
 def unit_of(site: Site, prepared: Prepared) -> str:
     """The unit in which an equation of the class, or the first of two, stands; "" where it is not known."""
+    if site.port is not None:
+        carried = site.port.potential if site.kind == "edge" else site.port.flow
+        return prepared.declared.variables[f"{site.ends[0]}.{carried}"].unit
     if site.kind in ("parameter", "input"):
         return prepared.declared.variables[site.label].unit
     if site.kind == "signal":

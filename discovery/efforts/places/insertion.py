@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.catalogue import Effect, EffectParameter
-from lacuna.discovery.efforts.sites import Site
+from lacuna.discovery.efforts.places.sites import Site
 
 Signal = tuple[str, str, str]  # name in the component, expression of the model, unit
 Lag = tuple[str, str, str]  # name of a state of the component, what it follows, its time constant
@@ -66,11 +66,12 @@ def component(
 ) -> str:  # fmt: skip
     """Source of a class that gives the effort `text`: into a node, lost across an edge, from the first port of a
     component to its second beside it, or added to an equation."""
+    site = site.parts[0] if site.members else site
     lines = [f'model {name} "{title}"']
-    port = site.port
-    if site.kind == "node":
+    port, outside = site.port, site.outside
+    if outside and site.kind == "node":
         lines.append(f"  {port.path} port;")
-    elif site.kind in ("edge", "branch"):
+    elif outside:
         lines.append(f"  {port.path} a, b;")
     else:
         lines.append(f"  Real effort{_unit(unit)};")
@@ -78,11 +79,11 @@ def component(
         lines.append(f"  input Real {local}{_unit(its)};")
     lines += [f'  parameter Real {p.name}{_unit(p.unit)} = {p.default:.10g} "{p.description}";' for p in parameters]
     lines += [*states.declarations(), *states.beginning(), "equation", *states.equations()]
-    if site.kind == "node":
+    if outside and site.kind == "node":
         lines.append(f"  port.{port.flow} = -({text});")
-    elif site.kind == "edge":
+    elif outside and site.kind == "edge":
         lines += [f"  a.{port.flow} + b.{port.flow} = 0;", f"  a.{port.potential} - b.{port.potential} = {text};"]
-    elif site.kind == "branch":
+    elif outside:
         lines += [f"  a.{port.flow} + b.{port.flow} = 0;", f"  b.{port.flow} = -({text});"]
     else:
         lines.append(f"  effort = {text};")

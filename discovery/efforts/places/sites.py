@@ -12,7 +12,7 @@ declaration says. Nothing is known here of domains, classes or names.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 import re
 
@@ -33,32 +33,78 @@ class Port:
 
 
 @dataclass(frozen=True)
+class Step:
+    """From a class to one that it is made of, which it names at `span`: a base, or the class of a `component`, of an
+    array of these that of one `element`."""
+
+    cls: ast.Class
+    span: Span
+    component: str = ""
+    element: tuple[int, ...] = ()
+    shape: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True)
 class Site:
     """A place. `ends` are those of its connection, both of its component, or all of a node's, of which one suffices;
-    of a signal, the second one is what it goes `into`, or the first. `span` is where its equation stands, in the class,
-    in one that it declares and has one `instance` of, or in the class `of` an instance that its file holds elsewhere;
-    `parts` are the two equations of an exchange, and those in which a parameter or an input stands. Of an array of
+    of a signal, the second one is what it goes `into`, or the first. `span` is where its equation or connection stands,
+    in the class, or in another one on the `way` from there, which ends in the component `instance` if it goes into any;
+    `parts` are the two equations of an exchange, those in which a parameter or an input stands, and of `every` place of
+    a family all, in which the same law holds; its `members` are told apart by their names. Of an array of
     equations, or one in a loop, it is one: `term` is what is added to all, with @ for what this one lacks, `left` the
-    variable or rate on its left side. What stands in a class that is inherited names the `bases` on the way there."""
+    variable or rate on its left side; of a node, a component that has all its ports there."""
 
-    kind: str  # node | edge | branch | signal | equation | exchange | parameter | input
+    kind: str  # node | edge | branch | signal | equation | exchange | parameter | input | every
     label: str
     ends: tuple[str, ...] = ()
     port: Port | None = None
     span: Span | None = None
     instance: str = ""
-    of: ast.Class | None = None
     into: str = ""
     parts: tuple[Site, ...] = ()
     term: str = "@"
     left: str = ""
-    bases: tuple[ast.Class, ...] = ()
+    way: tuple[Step, ...] = ()
+    members: tuple[str, ...] = ()
+
+    @property
+    def together(self) -> Site | None:
+        """Of every equation of an array or a loop of the class itself: the one in which what all of them lack is added
+        as an array."""
+        if not self.members or self.term == "@" or self.parts[0].way:
+            return None
+        return replace(self.parts[0], term=self.term, members=self.members)
 
     @property
     def sign(self) -> str:
         """Of a term on the right side by which the storage grows: minus where the rate stands there, too."""
         left, _, right = self.label.partition("=")
         return "-" if "der(" in right and "der(" not in left else ""
+
+    @property
+    def outside(self) -> bool:
+        """Whether what acts there is connected from outside the components; else it is a term that one of their classes
+        takes in."""
+        return self.port is not None and not self.instance
+
+    @property
+    def ports(self) -> tuple[str, ...]:
+        """Where it is joined, as the class says it in which it stands."""
+        return tuple(end.removeprefix(f"{self.instance}.") for end in self.ends)
+
+    @property
+    def element(self) -> tuple[tuple[int, ...], tuple[int, ...]]:
+        """(which element, of how many) of the arrays of components on the way, or of its own."""
+        if self.members:
+            return (), (len(self.members),)
+        steps = [step for step in self.way if step.component]
+        return sum((s.element for s in steps), ()), sum((s.shape for s in steps), ())
+
+    @property
+    def text(self) -> tuple:
+        """What tells its text from others: all elements of an array of components share theirs."""
+        way = tuple((step.span, step.component) for step in self.way)
+        return self.kind, self.span, self.term, self.ports, way, "" if self.instance else self.label
 
 
 @dataclass(frozen=True)
@@ -88,8 +134,8 @@ def varying(places: Iterable[Site], names: Mapping[str, int], kind: str = "param
     equations = [site for site in places if site.kind == "equation" and not site.instance and site.term == "@"]
     found = [(name, [e for e in equations if re.search(_alone(name), e.label)]) for name in names]
     return [
-        Site(kind, name, parts=tuple(parts), bases=parts[0].bases) for name, parts in found
-        if 1 <= len(parts) == names[name] and len({e.bases for e in parts}) == 1
+        Site(kind, name, parts=tuple(parts), way=parts[0].way) for name, parts in found
+        if 1 <= len(parts) == names[name] and len({e.way for e in parts}) == 1
     ]  # fmt: skip
 
 
