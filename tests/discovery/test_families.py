@@ -1,0 +1,115 @@
+"""One law in all elements of an array, or in all instances of a class."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.case.cases import load
+from lacuna.discovery.efforts.places.families import families, is_shared, meant
+from lacuna.discovery.efforts.places.reading import read
+from lacuna.discovery.explain import explain, write_amended
+
+TANKS = """model Tanks "Three in a row, each of which leaks"
+  parameter Integer n = 3;
+  parameter Real A(unit="m2", min=0) = 0.5;
+  parameter Real k(unit="m2/s", min=0) = 0.02;
+  input Real q(unit="m3/s");
+  Real h[n](each unit="m", each start=0.5, each fixed=true);
+equation
+  for i in 1:n loop
+    A*der(h[i]) = (if i == 1 then q else k*h[max(i - 1, 1)]) - k*h[i];
+  end for;
+end Tanks;
+"""
+CASE = """model = "Tanks.mo"
+[parameters]
+A = 0.5
+k = 0.02
+[uncertainty]
+k = 0.05
+[signals.q]
+role = "input"
+variable = "q"
+unit = "m3/s"
+interpolation = "hold"
+[signals.h1]
+role = "output"
+variable = "h[1]"
+unit = "m"
+noise_std = 0.002
+[signals.h3]
+role = "output"
+variable = "h[3]"
+unit = "m"
+noise_std = 0.002
+[recordings]
+fit = ["r1.csv", "r2.csv", "r3.csv"]
+validate = ["r4.csv"]
+"""
+LEAK = 0.006  # m3/s for each m^2 of level squared
+
+
+@pytest.fixture(scope="module")
+def leaking(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Recordings of tanks each of which loses LEAK h^2."""
+    folder, random = tmp_path_factory.mktemp("tanks"), np.random.default_rng(7)
+    (folder / "Tanks.mo").write_text(TANKS)
+    (folder / "case.toml").write_text(CASE)
+    for name in ("r1", "r2", "r3", "r4"):
+        feed = np.repeat(random.uniform(0, 0.06, 10), 40)
+        h, rows = np.full(3, 0.5), []
+        for k, q in enumerate(feed):
+            noise = random.normal(0, 0.002, 2)
+            rows.append(f"{k},{q:.6g},{h[0] + noise[0]:.7g},{h[2] + noise[1]:.7g}")
+            for _ in range(20):  # explicit midpoint
+                half = h + 0.025 * _rates(h, q)
+                h = h + 0.05 * _rates(half, q)
+        (folder / f"{name}.csv").write_text("\n".join(["time,q,h1,h3", *rows, ""]))
+    return folder
+
+
+def _rates(h: np.ndarray, q: float) -> np.ndarray:
+    return (np.array([q, *(0.02 * h[:2])]) - 0.02 * h - LEAK * h**2) / 0.5
+
+
+def test_one_law_is_found_in_all_elements_of_an_array(leaking: Path, tmp_path: Path) -> None:
+    found = explain(load(leaking))
+    assert found.verdict == "missing_physics", found.reason
+    (finding,) = found.findings
+    attachment = finding.ranked.attachment
+    assert attachment.location == "h[:]"
+    law = found.final.point[attachment.full_name("c_1")]
+    reference = found.final.machine.model.variables[attachment.full_name("x1_ref")].start
+    assert attachment.signals == (("x1", "h[1]"),)
+    assert law / reference**2 == pytest.approx(-LEAK, rel=0.03)
+    text = write_amended(found, tmp_path).read_text()
+    assert "k*h[i]) + missing_1[i];" in text
+    assert "missing_1 = {law_h.effort, law_h_2.effort, law_h_3.effort};" in text
+    assert "law_h_3(x1=h[3], c_1=law_h.c_1)" in text
+
+
+def test_elements_and_instances_are_families(tmp_path: Path) -> None:
+    (tmp_path / "Tanks.mo").write_text(TANKS)
+    sites = read(Library([str(tmp_path)]), "Tanks").places
+    ((whole, numbers),) = families(sites, range(len(sites)))
+    assert (whole.label, whole.members, numbers) == ("h[:]", ("der(h[1])", "der(h[2])", "der(h[3])"), (0, 1, 2))
+    (tmp_path / "Two.mo").write_text(
+        "model Two\n  model Body\n    Real T(start=0, fixed=true);\n  equation\n    der(T) = -T;\n  end Body;\n"
+        "  Body left, right;\nend Two;\n"
+    )
+    sites = read(Library([str(tmp_path)]), "Two").places
+    ((whole, _),) = families(sites, range(len(sites)))
+    assert (whole.label, whole.members) == ("left, right", ("left", "right"))
+
+
+def test_names_of_one_member_are_those_of_another() -> None:
+    assert meant("cell[2].gas.T", "cell[2]", "cell[3]") == "cell[3].gas.T"
+    assert meant("der(h[1])", "der(h[1])", "der(h[12])") == "der(h[12])"
+    assert meant("left.T", "left", "right") == "right.T"
+    assert meant("upleft.T", "left", "right") == "upleft.T"
+    assert not is_shared("h[2]", "der(h[1])")
+    assert is_shared("q", "left")
