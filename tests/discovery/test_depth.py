@@ -166,7 +166,11 @@ def test_a_signal_inside_arrives_with_what_is_added(works: Path) -> None:
 
 def test_several_places_of_one_copied_class_keep_apart(works: Path) -> None:
     """Two elements of an array share the text, a node and an equation of one unit the class."""
-    labels = ["equation unit[1].two: C*der(T) = port.Q", "equation unit[2].one: C*der(T) = port.Q", "node unit[2].link.b"]
+    labels = [
+        "equation unit[1].two: C*der(T) = port.Q",
+        "equation unit[2].one: C*der(T) = port.Q",
+        "node unit[2].link.b",
+    ]
     names = [f"unit[{k}].{body}.T" for k in (1, 2) for body in ("one", "two")]
     first, second, third, fourth = opened(works, labels, names)
     assert 100 * first + 200 * second == pytest.approx(6.0 * TIME, abs=1e-3)

@@ -55,7 +55,10 @@ def test_inherited_equations_and_those_of_inherited_components_are_places(cart: 
     """They were closed, and with them every model that is a variant of a partial one."""
     found = places(cart)
     assert set(found) == {"m*der(v) = motor.f - d*v", "motor: T*der(f) = k*u - f"}
-    assert [[step.cls.name for step in s.way] for s in found.values()] == [["Middle", "Base"], ["Middle", "Base", "Motor"]]
+    assert [[step.cls.name for step in s.way] for s in found.values()] == [
+        ["Middle", "Base"],
+        ["Middle", "Base", "Motor"],
+    ]
 
 
 @pytest.mark.parametrize(
