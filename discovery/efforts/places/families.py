@@ -45,7 +45,7 @@ def _memberships(site: Site) -> list[tuple[tuple, str]]:
         key = ("equation", site.span)
     elif site.kind in ("node", "branch"):
         named = site.left if site.kind == "node" else site.label
-        key = (site.kind, site.port)
+        key = (site.kind, site.port.flow, site.cls)
     else:
         return []
     found = []
@@ -54,11 +54,17 @@ def _memberships(site: Site) -> list[tuple[tuple, str]]:
         found.append(((*key, _INDEX.sub("[:]", named)), named))
     elif site.kind == "equation" and site.instance and not indices and site.term == "@":
         found.append(((*key, tuple(step.cls.path for step in site.way)), site.instance))
+    elif site.cls and not indices:
+        found.append((key, named))
     return found
 
 
+def is_array(members: Sequence[str]) -> bool:
+    return all(_INDEX.search(m) for m in members)
+
+
 def _label(members: tuple[str, ...]) -> str:
-    if all(_INDEX.search(m) for m in members):
+    if is_array(members):
         return re.sub(r"^der\((.*)\)$", r"\1", _INDEX.sub("[:]", members[0]))
     return ", ".join(members)
 
