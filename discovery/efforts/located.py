@@ -15,7 +15,8 @@ from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
 from lacuna.discovery.efforts.latent.evidence import evidence
 from lacuna.discovery.efforts.latent.smoother import Whitener, acting, courses, thinned
-from lacuna.discovery.efforts.places.opened import Opened, Place
+from lacuna.discovery.efforts.places.opened import Opened
+from lacuna.discovery.efforts.places.place import Place
 from lacuna.discovery.fit.evidence import LEFT, SIGMAS
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.free import Free
@@ -66,6 +67,7 @@ class Locator:
         self.pieces = [self.piece(self.point, r) for r in case.fit]
         self.places = opened.places(self.pieces[0].along)
         self.null = -np.inf  # log evidence of no effort at all, once places are ranked
+        self._chosen: dict[int, tuple[Latent, np.ndarray]] = {}
         self._weighed: tuple[Colour | None, list[Site]] | None = None
         self.colour: Colour | None = None  # errors of sensors, and an effort, that efforts are looked for beside
 
@@ -154,8 +156,6 @@ class Locator:
     def latent(self, site: Site) -> Latent:
         """The effort, or the error of a sensor, that explains most at a place that was ranked."""
         return self._chosen[id(site)][0]
-
-    _chosen: dict[int, tuple[Latent, np.ndarray]]
 
     def hypotheses(self) -> tuple[Latent, list[tuple[str, int]]]:
         longest = max(p.along.time[-1] - p.along.time[0] for p in self.pieces)

@@ -16,7 +16,7 @@ from lacuna.discovery.efforts.laws.variables import variables
 from lacuna.discovery.efforts.located import Guided, Locator
 from lacuna.discovery.efforts.places import sites
 from lacuna.discovery.efforts.places.families import is_shared, meant
-from lacuna.discovery.efforts.places.opened import Place
+from lacuna.discovery.efforts.places.place import Place
 from lacuna.discovery.law.law import Site as LawSite
 from lacuna.discovery.law.law_terms import Group, Variable
 from lacuna.units import parse_unit

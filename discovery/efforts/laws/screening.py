@@ -10,7 +10,7 @@ import numpy as np
 from lacuna.discovery.efforts.laws.offered import is_coefficient, offered_at, read_by, unknowns
 from lacuna.discovery.efforts.laws.regression import FURTHER, Regression
 from lacuna.discovery.efforts.located import Guided, Locator, Site
-from lacuna.discovery.efforts.places.opened import Place
+from lacuna.discovery.efforts.places.place import Place
 from lacuna.discovery.law.law import Law
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.law.law_terms import DRY, Group, Variable, evaluate

@@ -41,7 +41,9 @@ def groups(
             result.append(Group((v.scaled,)))
         elif v.kind != "rate":
             result += _alone(v) if low < 0 < high else _of_one_sign(v, low > AWAY or high < -AWAY)
-        result += [g for rate in common if rate.local == v.rate for g in _contacts(v, rate, low < 0 < high)]
+        own = [rate for rate in common if rate.local == v.rate]
+        result += [g for rate in own for g in _contacts(v, rate, low < 0 < high)]
+        result += [g for rate in common if rate.name == f"der({v.name})" for g in _humped(v, rate, low, high)]
         if v.kind == "state":
             result += _waves(v, high - low) + _turning(v, high - low) + _varying(v, interval, duration)
     plain = [v for v in common if v.kind not in ("apart", "above")]
@@ -146,6 +148,20 @@ def _contacts(v: Variable, rate: Variable, both: bool) -> list[Group]:
     return result + [
         Group(texts, (Shape("q", "1", q, 0.01, 0.99, (), 0.25),)) for texts in pairs for q in (0.25, 0.5, 0.75)
     ]
+
+
+def _humped(v: Variable, rate: Variable, low: float, high: float) -> list[Group]:
+    """A storage that takes more around a level: what melts, boils or is bound there; a quarter of the range wide, down
+    to a sixteenth."""
+    found = []
+    for width in (high - low) / np.array([4.0, 8.0, 16.0]):
+        for level in np.arange(low, high, width):
+            shapes = (
+                Shape("m", "1", float(level), low, high, (), float(width)),
+                Shape("d", "1", float(width), float(width) / 9, float(width) * 9),
+            )
+            found.append(Group((f"{rate.scaled}*exp(-(({v.scaled} - {{m}})/{{d}})^2)",), shapes))
+    return found
 
 
 def _remembering(v: Variable, found: Sequence[Variable], interval: float, duration: float) -> list[Group]:

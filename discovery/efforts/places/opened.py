@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-import re
 
 import numpy as np
 
@@ -28,8 +27,9 @@ from lacuna.discovery.catalogue.searched import write_source
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.latent.linear import Linear
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
-from lacuna.discovery.efforts.places.families import Families, families
+from lacuna.discovery.efforts.places.families import families
 from lacuna.discovery.efforts.places.insertion import probe
+from lacuna.discovery.efforts.places.place import ORDER, Place, told_apart
 from lacuna.discovery.efforts.places.reading import read
 from lacuna.discovery.efforts.places.sites import Site, exchanges, renames, varying
 from lacuna.discovery.fit.machine import Machine, richer
@@ -37,30 +37,6 @@ from lacuna.units import Unit
 
 RENAMES = "it only gives a name to what is recorded: an error there is its sensor's"
 ALIKE = 1e-5  # of a direction, by which two places may differ: rounding of the linearisation
-_ORDER = {"node": 0, "equation": 1, "branch": 2, "edge": 3, "signal": 4, "exchange": 5, "parameter": 6, "input": 7}
-
-
-@dataclass(frozen=True)
-class Place:
-    """Sites that the data cannot tell apart, the one that an amendment uses first; `column` is its input's. `other` are
-    those of them where the same is done by an effort of another course: a law may be short in the one and long in the
-    other (the command of a valve, and what flows through it). So is an input, whose laws are told of it; where it
-    enters in proportion they read `only` the input, all other laws being the same in the balance. What changes no state
-    is a `reading`: that is off there, or its sensor, which is the same. One of a family of places (elements of an
-    array, instances of a class) has another with the columns of `every` one, where the same law holds in all."""
-
-    location: str
-    sites: tuple[Site, ...]
-    column: int
-    unit: str
-    other: tuple[Place, ...] = ()
-    only: str = ""
-    reading: bool = False
-    every: tuple[int, ...] = ()
-
-    def named(self, location: str) -> bool:
-        """Whether a law at this place may have that location."""
-        return location in (self.location, *(o.location for o in self.other))
 
 
 @dataclass
@@ -95,15 +71,21 @@ class Opened:
                     break
             else:
                 groups.append([k])
-        together = families(self.sites, sorted(k for group in groups for k in group))
-        found = _apart([self._place(group, effect) for group in groups])
-        return [self._with_all(place, group, together) for place, group in zip(found, groups, strict=True)]
+        found = told_apart([self._place(group, effect) for group in groups])
+        return self._with_families(found, groups)
 
-    def _with_all(self, place: Place, group: list[int], together: Families) -> Place:
-        """A place with the families that it is of."""
-        own = [(site, columns) for site, columns in together if not set(columns).isdisjoint(group)]
-        whole = (Place(site.label, (site,), columns[0], self._unit(columns[0]), every=columns) for site, columns in own)
-        return replace(place, other=(*place.other, *whole))
+    def _with_families(self, places: list[Place], groups: list[list[int]]) -> list[Place]:
+        """The places with the families that they are of; of those whose members are the same places, the one that has
+        the name of these, or is nearest to a balance."""
+        of = {k: n for n, group in enumerate(groups) for k in group}
+        wholes: dict[frozenset[int], Place] = {}
+        for site, columns in sorted(families(self.sites, sorted(of)), key=lambda f: ORDER[f[0].parts[0].kind]):
+            members = frozenset(of[k] for k in columns)
+            whole = Place(site.label, (site,), columns[0], self._unit(columns[0]), every=columns)
+            if members not in wholes or site.members[0] == places[of[columns[0]]].location:
+                wholes[members] = whole
+        own = [tuple(w for members, w in wholes.items() if n in members) for n in range(len(places))]
+        return [replace(place, other=(*place.other, *whole)) for place, whole in zip(places, own, strict=True)]
 
     def _effect(self, along: Along) -> np.ndarray:
         """(n, x + y, sites): rates of the states and outputs, each in its own size, that an effort causes at once."""
@@ -119,7 +101,7 @@ class Opened:
         changed = states if strength[: len(states)].max(initial=0.0) > 0 else list(self.machine.columns.values())
         name = changed[int(np.argmax(strength[: len(states)] if changed is states else strength[len(states) :]))]
         location = name.rpartition(".")[0] or name
-        order = sorted(group, key=lambda k: (not _touches(self.sites[k], location), _ORDER[self.sites[k].kind]))
+        order = sorted(group, key=lambda k: (not _touches(self.sites[k], location), ORDER[self.sites[k].kind]))
         chosen = order[0]
         if (own := self._of_several(order)) is not None:
             location = own
@@ -147,39 +129,6 @@ class Opened:
 
     def _unit(self, number: int) -> str:
         return unit_of(self.sites[number], self.believed)
-
-
-def _apart(places: list[Place]) -> list[Place]:
-    """The places, those that one state would name told apart: it names the only node or balance of its own. Others are
-    named by the component that has most ports there (either end of a shaft whose twist is a state) or by what their
-    equation says. Two of one name could not both be what is missing."""
-    names = [p.location for p in places]
-    return [_renamed(p, _own_name(p, names)) if _is_second(p, places) else p for p in places]
-
-
-def _is_second(place: Place, places: list[Place]) -> bool:
-    """Whether another place has as good a right to its name."""
-    site = place.sites[0]
-    others = [p.sites[0].kind for p in places if p.location == place.location and p is not place]
-    joins = site.kind == "node" and site.left != "" and "branch" in others  # a spring, to which a mass is joined
-    return joins or any(_ORDER[kind] <= _ORDER[site.kind] for kind in others)
-
-
-def _own_name(place: Place, taken: list[str]) -> str:
-    site, name = place.sites[0], ""
-    if site.kind == "node":
-        owners = [e.rpartition(".")[0] for s in place.sites if s.kind == "node" for e in s.ends]
-        name = site.left or max(dict.fromkeys(owners), key=owners.count)
-    elif site.kind == "equation":
-        name = site.label.replace(": ", ".", 1) if site.instance else site.label
-        first = re.search(r"\bder\(([\w.]+)\)", site.label)  # its own coordinate, where masses are coupled
-        name = site.left or (first[1] if first and not site.instance else name.partition("=")[0].strip())
-    return name if re.fullmatch(r"[\w.\[\]]+", name) and name not in taken else place.location
-
-
-def _renamed(place: Place, name: str) -> Place:
-    others = (replace(o, location=name) if o.location == place.location else o for o in place.other)
-    return replace(place, location=name, other=tuple(others))
 
 
 def unit_of(site: Site, prepared: Prepared) -> str:

@@ -1,0 +1,66 @@
+"""Places that the data can tell apart, and what they are called."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+import re
+
+from lacuna.discovery.efforts.places.sites import Site
+
+ORDER = {"node": 0, "equation": 1, "branch": 2, "edge": 3, "signal": 4, "exchange": 5, "parameter": 6, "input": 7}
+
+
+@dataclass(frozen=True)
+class Place:
+    """Sites that the data cannot tell apart, the one that an amendment uses first; `column` is its input's. `other` are
+    those of them where the same is done by an effort of another course: a law may be short in the one and long in the
+    other (the command of a valve, and what flows through it). So is an input, whose laws are told of it; where it
+    enters in proportion they read `only` the input, all other laws being the same in the balance. What changes no state
+    is a `reading`: that is off there, or its sensor, which is the same. One of a family of places (elements of an
+    array, instances of a class) has another with the columns of `every` one, where the same law holds in all."""
+
+    location: str
+    sites: tuple[Site, ...]
+    column: int
+    unit: str
+    other: tuple[Place, ...] = ()
+    only: str = ""
+    reading: bool = False
+    every: tuple[int, ...] = ()
+
+    def named(self, location: str) -> bool:
+        """Whether a law at this place may have that location."""
+        return location in (self.location, *(o.location for o in self.other))
+
+
+def told_apart(places: list[Place]) -> list[Place]:
+    """The places, those that one state would name told apart: it names the only node or balance of its own. Others are
+    named by the component that has most ports there (either end of a shaft whose twist is a state) or by what their
+    equation says. Two of one name could not both be what is missing."""
+    names = [p.location for p in places]
+    return [_renamed(p, _own_name(p, names)) if _is_second(p, places) else p for p in places]
+
+
+def _is_second(place: Place, places: list[Place]) -> bool:
+    """Whether another place has as good a right to its name."""
+    site = place.sites[0]
+    others = [p.sites[0].kind for p in places if p.location == place.location and p is not place]
+    joins = site.kind == "node" and site.left != "" and "branch" in others  # a spring, to which a mass is joined
+    return joins or any(ORDER[kind] <= ORDER[site.kind] for kind in others)
+
+
+def _own_name(place: Place, taken: list[str]) -> str:
+    site, name = place.sites[0], ""
+    if site.kind == "node":
+        owners = [e.rpartition(".")[0] for s in place.sites if s.kind == "node" for e in s.ends]
+        name = site.left or max(dict.fromkeys(owners), key=owners.count)
+    elif site.kind == "equation":
+        name = site.label.replace(": ", ".", 1) if site.instance else site.label
+        first = re.search(r"\bder\(([\w.]+)\)", site.label)  # its own coordinate, where masses are coupled
+        name = site.left or (first[1] if first and not site.instance else name.partition("=")[0].strip())
+    return name if re.fullmatch(r"[\w.\[\]]+", name) and name not in taken else place.location
+
+
+def _renamed(place: Place, name: str) -> Place:
+    others = (replace(o, location=name) if o.location == place.location else o for o in place.other)
+    return replace(place, location=name, other=tuple(others))
