@@ -10,6 +10,7 @@ import numpy as np
 
 from lacuna.analysis.spectra.library import library, pointer
 from lacuna.discovery.efforts.latent.chains import Latent, Piece
+from lacuna.discovery.fit import time_limit
 
 
 @dataclass
@@ -40,6 +41,7 @@ def products(pieces: Sequence[Piece], latent: Latent) -> tuple[np.ndarray, np.nd
     gram, logdet = np.zeros((len(latent.size), columns, columns)), np.zeros(len(latent.size))
     forces, _forces = latent.of_library()
     for piece in pieces:
+        time_limit.check()
         model = piece.along.model(piece.noise, piece.start)
         data, seen = np.ascontiguousarray(piece.data), np.ascontiguousarray(piece.seen)
         if library().lacuna_latent_evidence(

@@ -16,6 +16,7 @@ import numpy as np
 from lacuna.discovery.efforts.latent.chains import Piece
 from lacuna.discovery.efforts.laws.metric import Bases, Metric, least_squares
 from lacuna.discovery.efforts.located import Guided
+from lacuna.discovery.fit import time_limit
 from lacuna.discovery.law.law import Law, Site
 from lacuna.discovery.law.law_terms import Group
 
@@ -56,6 +57,7 @@ class Regression:
         added = range(len(self.groups), len(self.groups) + len(groups))
         self.groups += groups
         for block in self._blocks(added):
+            time_limit.check()
             counts = [len(self.groups[g].texts) for g in block]
             answers = self._answers(block)
             found = [metric.add(answers, counts) for metric in self.metrics]

@@ -129,6 +129,8 @@ def _with_rates(along: Sequence[Along], found: list[Variable], states: list[str]
     basis = np.column_stack([*(_joined(along, n) for n in known), np.ones(len(_joined(along, known[0])))])
     rates = np.column_stack([_joined(along, f"der({n})") for n in known])
     plain = [v for v in found if v.kind in ("state", "apart")]
+    if not plain:
+        return found
     courses = np.column_stack([np.concatenate([v.course(a.values) for a in along]) for v in plain])
     made = np.linalg.lstsq(basis, courses, rcond=None)[0]
     exact = np.abs(courses - basis @ made).max(axis=0) <= SAME * np.abs(courses).max(axis=0)
