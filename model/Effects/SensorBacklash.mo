@@ -3,12 +3,14 @@ block SensorBacklash "Sensor that follows through a play"
   extends Lacuna.Interfaces.SISO;
   parameter Real gap(final min=0) = 0 "Way to either side before it follows";
   parameter Types.Time interval(final min=0) = 1e-3 "Time between the samples";
-  Real x "Reading";
+  Real x "Middle of the play, which follows at once where it is taken along";
+  Real free "Way in the play";
 initial equation
   x = u;
 equation
-  interval/10*der(x) = noEvent(u - x - min(max(u - x, -gap), gap));
-  y = x;
+  free = noEvent(min(max(u - x, -gap), gap));
+  interval/10*der(x) = u - x - free;
+  y = u - free;
   annotation(__Lacuna(effect="sensor.backlash", attaches="sensor", neutral(gap=0), interval="interval",
     signature="one signal as believed, late by a fixed way after every reversal", excitation="reversals at several amplitudes",
     reference="Fraden 2016"));

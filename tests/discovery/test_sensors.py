@@ -1,0 +1,114 @@
+"""Errors of a sensor that are in no textbook of the machine: each is told as that, with its number."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lacuna.discovery.case.cases import load
+from lacuna.discovery.explain import explain
+
+CART = """model Cart "On a rail, drawn by a force"
+  parameter Real m(unit="kg", min=0) = 4;
+  parameter Real d(unit="N.s/m", min=0) = 2;
+  parameter Real c(unit="N/m", min=0) = 8;
+  input Real F(unit="N");
+  Real x(unit="m", start=0, fixed=true);
+  Real v(unit="m/s", start=0, fixed=true);
+equation
+  der(x) = v;
+  m*der(v) = F - d*v - c*x;
+end Cart;
+"""
+CASE = """model = "Cart.mo"
+[parameters]
+m = 4
+d = 2
+c = 8
+[uncertainty]
+m = 0.05
+d = 0.1
+c = 0.05
+[signals.F]
+role = "input"
+variable = "F"
+unit = "N"
+interpolation = "hold"
+[signals.x]
+role = "output"
+variable = "x"
+unit = "m"
+noise_std = 0.002
+[signals.v]
+role = "output"
+variable = "v"
+unit = "m/s"
+noise_std = 0.005
+[recordings]
+fit = ["r1.csv", "r2.csv"]
+validate = ["r3.csv"]
+"""
+STEP = 0.05  # s
+
+Distort = Callable[[np.ndarray], np.ndarray]  # positions at the samples, as they are read
+
+
+def leaking(x: np.ndarray) -> np.ndarray:
+    """Behind a capacitor: a time constant of 6 s; between samples positions are lines."""
+    lost, shown = 0.0, [x[0]]
+    for before, after in zip(x[:-1], x[1:], strict=True):
+        keeps, slope = np.exp(-STEP / 6.0), (after - before) / STEP
+        lost = (lost - before + slope * 6.0) * keeps + after - slope * 6.0
+        shown.append(after - lost)
+    return np.array(shown)
+
+
+def following(x: np.ndarray) -> np.ndarray:
+    shown = [x[0]]
+    for value in x[1:]:
+        shown.append(min(max(shown[-1], value - 0.04), value + 0.04))
+    return np.array(shown)
+
+
+@pytest.mark.parametrize(
+    ("distort", "effect", "parameter", "value", "within"),
+    [
+        (leaking, "sensor.leak", "T", 6.0, 0.02),
+        (lambda x: np.where(np.abs(x) < 0.15, 0.0, x), "sensor.dead_band", "least", 0.15, 0.05),
+        (following, "sensor.backlash", "gap", 0.04, 0.03),
+        (lambda x: x + 0.003 * STEP * np.arange(len(x)), "sensor.drift", "drift", 0.003, 0.03),
+    ],
+)
+def test_an_error_of_one_sensor_is_found(
+    distort: Distort, effect: str, parameter: str, value: float, within: float, tmp_path: Path
+) -> None:
+    random = np.random.default_rng(8)
+    (tmp_path / "Cart.mo").write_text(CART)
+    (tmp_path / "case.toml").write_text(CASE)
+    for name in ("r1", "r2", "r3"):
+        force = np.repeat(random.uniform(-6, 6, 12), 50)
+        state, seen = np.zeros(2), []
+        for f in force:
+            seen.append(state)
+            for _ in range(10):  # explicit midpoint
+                half = state + STEP / 20 * _rates(state, f)
+                state = state + STEP / 10 * _rates(half, f)
+        x, v = np.array(seen).T
+        table = np.column_stack([
+            STEP * np.arange(len(force)), force, distort(x) + random.normal(0, 0.002, len(x)),
+            v + random.normal(0, 0.005, len(v)),
+        ])  # fmt: skip
+        np.savetxt(tmp_path / f"{name}.csv", table, delimiter=",", header="time,F,x,v", comments="", fmt="%.7g")
+    found = explain(load(tmp_path))
+    assert found.verdict == "missing_physics", found.reason
+    (finding,) = found.findings
+    attachment = finding.ranked.attachment
+    assert (attachment.effect.identifier, attachment.location) == (effect, "sensor:x")
+    assert found.final.point[attachment.full_name(parameter)] == pytest.approx(value, rel=within)
+
+
+def _rates(state: np.ndarray, force: float) -> np.ndarray:
+    return np.array([state[1], (force - 2 * state[1] - 8 * state[0]) / 4])
