@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -59,7 +60,7 @@ Distort = Callable[[np.ndarray], np.ndarray]  # positions at the samples, as the
 def leaking(x: np.ndarray) -> np.ndarray:
     """Behind a capacitor: a time constant of 6 s; between samples positions are lines."""
     lost, shown = 0.0, [x[0]]
-    for before, after in zip(x[:-1], x[1:], strict=True):
+    for before, after in pairwise(x):
         keeps, slope = np.exp(-STEP / 6.0), (after - before) / STEP
         lost = (lost - before + slope * 6.0) * keeps + after - slope * 6.0
         shown.append(after - lost)
