@@ -81,10 +81,7 @@ def _of_one_sign(v: Variable, away: bool) -> list[Group]:
     """`away`: from zero, so that one may divide by it."""
     x = v.scaled
     power = _powers(f"abs{x}") + ([Group((f"1/{x}",))] if away else [])
-    bend = [
-        Group((f"exp({{q}}*{x})",), (Shape("q", "1", q, min(q / 9, q * 9), max(q / 9, q * 9), (), 3.0),))
-        for q in (-4, 4)
-    ]
+    bend = _exponential(f"{{q}}*{x}")
     ends = [
         Group((f"(abs({x} - {{q}}) + {x} - {{q}})",), (Shape("q", "1", q, -0.99, 0.99, (), 0.25),))
         for q in (0.25, 0.5, 0.75)
@@ -100,6 +97,14 @@ def _of_one_sign(v: Variable, away: bool) -> list[Group]:
     return [Group((x,)), *power, *bend, *ends]
 
 
+def _exponential(exponent: str, factor: str = "") -> list[Group]:
+    """What grows or falls exponentially: a rate of reaction with temperature, a diode, a seal towards its seat."""
+    return [
+        Group((f"{factor}exp({exponent})",), (Shape("q", "1", q, min(q / 9, q * 9), max(q / 9, q * 9), (), 3.0),))
+        for q in (-4, 4)
+    ]
+
+
 def _powers(base: str) -> list[Group]:
     """Powers with the exponents that physics has, and with any other."""
     free = [Group((f"{base}^{{p}}",), (exponent(p, 0.75),)) for p in (0.75, 2.5, 5.0)]
@@ -110,10 +115,7 @@ def _alone(v: Variable) -> list[Group]:
     x, sign = v.scaled, f"sign({v.local})"
     power = [Group((f"{sign}*abs{x}^{p:.4g}",)) for p in EXPONENTS]
     power += [Group((f"{sign}*abs{x}^{{p}}",), (exponent(p, 0.75),)) for p in (0.75, 2.5, 5.0)]
-    bend = [
-        Group((f"exp({{q}}*{x})",), (Shape("q", "1", q, min(q / 9, q * 9), max(q / 9, q * 9), (), 3.0),))
-        for q in (-4, 4)
-    ]
+    bend = _exponential(f"{{q}}*{x}")
     reach = [
         Group((f"tanh({{q}}*{x})",), (Shape("q", "1", q, 0.5, 5e3, (), 0.8 * q),)) for q in (3.0, 15.0, 75.0, 375.0)
     ]
@@ -252,5 +254,7 @@ def _together(a: Variable, b: Variable, signed: bool, once: bool) -> list[Group]
         return [Group((f"{x}*{y}",))] if once else []
     saturating = Group((f"({x}/(1 + {{q}}*{y}^2) - {x})",), (Shape("q", "1", 1.0, 0.01, 100.0, (), 0.9),))
     found = [Group((f"{x}*{y}^2",)), Group((f"{x}*abs{y}",)), saturating]
-    found += [Group((f"{a.dry}*abs{y}",))] if signed and a.kind != "rate" else []
+    rubs = signed and a.kind != "rate"
+    found += [Group((f"{a.dry}*abs{y}",))] if rubs else []
+    found += [g for factor in (x, a.dry)[: 1 + rubs] for g in _exponential(f"{{q}}*{y}", f"{factor}*")]
     return [Group((f"{x}*{y}",)), *found] if once else found
