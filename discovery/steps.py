@@ -15,6 +15,7 @@ from lacuna.discovery.case.thinning import said_of, thinned
 from lacuna.discovery.catalogue import catalogue, places
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
+from lacuna.discovery.catalogue.searched import believed_structure
 from lacuna.discovery.efforts.find import Found, places_of
 from lacuna.discovery.efforts.switches import switched, switches
 from lacuna.discovery.explanation.explanation import Explanation
@@ -46,7 +47,7 @@ def opened(case: Case, library: Library) -> tuple[Explanation, Machine | None]:
     result = prepared(case)
     if result.reason:
         return result, None
-    machine = _believed_machine(result.case, places.read(library, case.base))
+    machine = _believed_machine(result.case, believed_structure(result.case, library))
     result.problems += slips(machine)
     return result, machine if _trusted(result, "the recordings contradict themselves") else None
 

@@ -225,8 +225,8 @@ class Case:
         from lacuna.discovery.case.cases import CaseError
         from lacuna.discovery.case.gaps import before_gaps
         from lacuna.discovery.case.recordings_check import UNDRIVEN
-        from lacuna.discovery.catalogue import places
         from lacuna.discovery.catalogue.amend import Amendment
+        from lacuna.discovery.catalogue.searched import believed_structure
         from lacuna.discovery.explanation.report import write_judgement
         from lacuna.discovery.naming.judge import judge_file
         from lacuna.discovery.steps import prepared
@@ -238,7 +238,7 @@ class Case:
         if usable.reason or not (case.fit and case.validate):
             raise CaseError(usable.reason or f"nothing is left to judge by before a gap: {usable.problems[0]}")
         spoken(progress)(f"simulating the recordings by {path.name}")
-        found: Judgement = judge_file(case, Amendment(places.read(case.library(), case.base)), path, {})
+        found: Judgement = judge_file(case, Amendment(believed_structure(case, case.library())), path, {})
         report = write_judgement(case, found, self._out("judge", out), path)
         doubts = [str(p) for p in usable.problems] + [f"{r}: not judged, its states are unknown" for r in left_out]
         return Judged(found.fit, found.validate, report, tuple(doubts))

@@ -85,6 +85,7 @@ class _Writer:
         self._trackers()
         self._probes()
         modification = modified(self.amendment.parameters)
+        modification += [f"{n}(stateSelect=StateSelect.always)" for n in self.amendment.structure.states]
         modification += [f"{variable}={' + '.join(terms)}" for variable, terms in self.sums.items()]
         modification += [*given, *(f"break {item}" for item in self.left_out)]
         self.declarations[:0] = [f"input Real {i};" for i in self.amendment.inputs]

@@ -75,6 +75,7 @@ class Structure:
     lines: list[Line] = field(default_factory=list)
     devices: list[Device] = field(default_factory=list)
     driven: set[str] = field(default_factory=set)  # parts that an input of the model drives: what they do changes none
+    states: tuple[str, ...] = ()  # variables that are to be states, as a case speaks of their start values
 
     @property
     def open(self) -> bool:

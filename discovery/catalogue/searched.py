@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 import hashlib
 from pathlib import Path
 
 from lacuna.codegen.cache import Cache
 from lacuna.codegen.compile import translate
+from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.library.classes import Library
 from lacuna.codegen.structure.sorting.tearing import Assignment
 from lacuna.codegen.symbolic.expr import var
+from lacuna.discovery.case.cases import Case
 from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.places import Structure, read
 from lacuna.written import write_whole
 
 
@@ -23,6 +28,33 @@ def write_source(amendment: Amendment) -> Path:
     if not path.exists() or path.read_bytes() != named.encode("utf-8"):  # a damaged one would be no hypothesis
         write_whole(path, named, lasting=False)
     return path
+
+
+def believed_structure(case: Case, library: Library) -> Structure:
+    """What is read of a case's model, whose states are those of which the case gives start values."""
+    structure = read(library, case.base)
+    named = [n for start in (case.initial, *(own.initial for own in case.own.values())) for n in start]
+    if named:
+        structure.states = _chosen(structure, named, case.search_path)
+    return structure
+
+
+def _chosen(structure: Structure, named: Iterable[str], search_path: Sequence[str] | None) -> tuple[str, ...]:
+    """Of variables `named` as states those that are none where the model says nothing of it, and can be: the position
+    of a mass whose spring prefers its own deflection."""
+    plain = Amendment(structure)
+    believed, _ = translate(str(write_source(plain)), search_path=search_path)
+    known = believed_aliases(plain, search_path)
+    states = set(believed.system.states)
+    wanted = tuple(
+        n for n in dict.fromkeys(named)
+        if n in believed.declared.variables and not {n, known.get(n, (n, 1))[0]} & states
+    )  # fmt: skip
+    try:
+        translate(str(write_source(Amendment(replace(structure, states=wanted)))), search_path=search_path)
+    except Diagnostic:
+        return ()
+    return wanted
 
 
 def believed_aliases(amendment: Amendment, search_path: Sequence[str] | None) -> Mapping[str, tuple[str, int]]:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from math import log
 import re
 
 from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.catalogue import Effect, EffectParameter
 from lacuna.discovery.catalogue.places import Device, Line, Shaft
 from lacuna.discovery.efforts.places import sites
-from lacuna.discovery.efforts.places.families import is_array, said_of_all
+from lacuna.discovery.efforts.places.families import said_of_all
 from lacuna.discovery.efforts.places.insertion import States, component
 from lacuna.discovery.law.forms import form_of, picked
 from lacuna.discovery.law.law_terms import Group, Shape, Variable
@@ -87,13 +86,10 @@ class Law:
         return f"limit({rate.reading}, {float(found[2]) * rate.size:.4g})"
 
     def pick(self) -> float:
-        """Nats that say which groups these are among all that there are, and a bit that says that instances of a class
-        are alike, which an array says by itself; 0 where the pick has no price."""
+        """Nats that say which groups these are among all that there are; 0 where the pick has no price."""
         if self.site.offered is None:
             return 0.0
-        members = self.site.place.members if isinstance(self.site.place, sites.Site) else ()
-        alike = log(2) if members and not is_array(members) else 0.0
-        return alike + sum(picked(g.texts, self.site.variables, self.site.unit, self.site.offered) for g in self.groups)
+        return sum(picked(g.texts, self.site.variables, self.site.unit, self.site.offered) for g in self.groups)
 
     def alike(self) -> tuple[str, str]:
         """What a law is not told from, by its name, and the variable to blame: dry friction of a speed that never turns

@@ -39,8 +39,9 @@ class Regression:
 
     def __init__(self, guided: Guided, place: Site, columns: Sequence[int]) -> None:
         self.guided, self.place, self.columns = guided, place, tuple(columns)
-        members = place.place.members or ("",)
-        self.variables = [[v.of_member(members[0], member) for v in place.variables] for member in members]
+        members = place.place.members
+        of_all = [[v.of_member(members[0], member) for v in place.variables] for member in members]
+        self.variables = of_all or [list(place.variables)]  # of each place where the law holds
         thin = guided.thin
         self.every = -(-len(guided.pieces[0].along.time) // len(thin[0].along.time))
         self.groups: list[Group] = []

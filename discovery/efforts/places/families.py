@@ -1,4 +1,8 @@
-"""Places that are alike: elements of an array, instances of one class. What is missing at one may be missing at all."""
+"""Places that are elements of one array: what is missing at one may be missing at all.
+
+Instances of a class that stand by themselves are none: a law that holds in all of them at once may be short for what is
+missing at one, and at another.
+"""
 
 from __future__ import annotations
 
@@ -13,19 +17,19 @@ _INDEX = re.compile(r"\[[^\]]*\]")
 
 
 def families(sites: Sequence[Site], acting: Iterable[int]) -> Families:
-    """Those of places that are `acting` and differ by an index or an instance."""
+    """Those of places that are `acting` and differ by an index only."""
     of: dict[tuple, dict[str, int]] = {}
     for k in acting:
-        for key, member in _memberships(sites[k]):
-            of.setdefault(key, {}).setdefault(member, k)
+        if (found := _membership(sites[k])) is not None:
+            of.setdefault(found[0], {}).setdefault(found[1], k)
     return [
-        (_every([sites[k] for k in found.values()], tuple(found)), tuple(found.values()))
-        for found in of.values() if len(found) > 1
+        (_every([sites[k] for k in own.values()], tuple(own)), tuple(own.values()))
+        for own in of.values() if len(own) > 1
     ]  # fmt: skip
 
 
 def _every(parts: list[Site], members: tuple[str, ...]) -> Site:
-    return Site("every", _label(members), parts=tuple(parts), members=members, term=_whole([p.term for p in parts]))
+    return Site("every", _label(members[0]), parts=tuple(parts), members=members, term=_whole([p.term for p in parts]))
 
 
 def _whole(terms: list[str]) -> str:
@@ -38,52 +42,32 @@ def _whole(terms: list[str]) -> str:
     return "{@}" if all(map(str.__eq__, terms, rows)) else "@"
 
 
-def _memberships(site: Site) -> list[tuple[tuple, str]]:
+def _membership(site: Site) -> tuple[tuple, str] | None:
     """(family, member) of a site: of equations by what they say, of components by where they stand."""
     if site.kind == "equation":
-        named = site.left if site.term != "@" else site.instance
-        key = ("equation", site.span)
+        named, key = site.left if site.term != "@" else site.instance, (site.kind, site.span)
     elif site.kind in ("node", "branch"):
-        named = site.left if site.kind == "node" else site.label
-        key = (site.kind, site.port.flow, site.cls)
+        named, key = site.left if site.kind == "node" else site.label, (site.kind, site.port.flow)
     else:
-        return []
-    found = []
-    indices = _INDEX.findall(named)
-    if len(indices) == 1:
-        found.append(((*key, _INDEX.sub("[:]", named)), named))
-    elif site.kind == "equation" and site.instance and not indices and site.term == "@":
-        found.append(((*key, tuple(step.cls.path for step in site.way)), site.instance))
-    elif site.cls and not indices:
-        found.append((key, named))
-    return found
+        return None
+    return ((*key, _INDEX.sub("[:]", named)), named) if len(_INDEX.findall(named)) == 1 else None
 
 
-def is_array(members: Sequence[str]) -> bool:
-    return all(_INDEX.search(m) for m in members)
-
-
-def _label(members: tuple[str, ...]) -> str:
-    if is_array(members):
-        return re.sub(r"^der\((.*)\)$", r"\1", _INDEX.sub("[:]", members[0]))
-    return ", ".join(members)
+def _label(member: str) -> str:
+    return re.sub(r"^der\((.*)\)$", r"\1", _INDEX.sub("[:]", member))
 
 
 def meant(name: str, here: str, there: str) -> str:
-    """What a name that is said of one member of a family is of another one: by its index, or by its instance."""
-    index, other = _INDEX.search(here), _INDEX.search(there)
-    if index and other:
-        return name.replace(index[0], other[0])
-    return re.sub(rf"(?<![\w.\]]){re.escape(here)}\.", f"{there}.", name)
+    """What a name that is said of one element of an array is of another one."""
+    return name.replace(_INDEX.search(here)[0], _INDEX.search(there)[0])
 
 
 def said_of_all(text: str, members: Sequence[str]) -> str:
-    """A text about the first member with `:` for its index."""
-    index = _INDEX.search(members[0]) if members else None
-    return text.replace(index[0], "[:]") if index else text
+    """A text about the first element with `:` for its index."""
+    return text.replace(_INDEX.search(members[0])[0], "[:]") if members else text
 
 
 def is_shared(name: str, here: str) -> bool:
-    """Whether a name can be said of every member: it has no index but the member's own."""
-    index = _INDEX.search(here)
-    return all(index is not None and found == index[0] for found in _INDEX.findall(name))
+    """Whether a name can be said of every element: it has no index but this one's own."""
+    index = _INDEX.search(here)[0]
+    return all(found == index for found in _INDEX.findall(name))

@@ -23,7 +23,6 @@ class Joined:
     ways: dict[str, tuple[Step, ...]] = field(default_factory=dict)
     ports: dict[str, Port] = field(default_factory=dict)
     _group: dict[str, str] = field(default_factory=dict)
-    _classes: dict[str, str] = field(default_factory=dict)  # of components, by their names
     _found: list[Site] = field(default_factory=list)
 
     def read(
@@ -48,7 +47,6 @@ class Joined:
                 closed.append((", ".join(names), "its connectors are not one flow and one potential"))
                 continue
             self.ports[names[0]], self.ports[names[1]] = kinds
-            self._classes |= {node.parent.name: node.parent.cls.path for node in pair if node.parent}
             self._group[root(self._group, names[1])] = root(self._group, names[0])
             if alone:
                 label = " to ".join(names)
@@ -70,8 +68,7 @@ class Joined:
             order = sorted(ends, key=lambda end: (end.count("."), end != first))
             owner, port = _owner(order[0]), self.ports[first]
             way, whole = self.ways[owner], self._whole(order)
-            cls = self._classes.get(whole, "")
-            nodes.append(Site("node", order[0], tuple(order), port, instance=owner, left=whole, way=way, cls=cls))
+            nodes.append(Site("node", order[0], tuple(order), port, instance=owner, left=whole, way=way))
         return [*nodes, *self._branches(), *self._found]
 
     def _whole(self, ends: list[str]) -> str:
@@ -90,7 +87,7 @@ class Joined:
             of.setdefault((end.rpartition(".")[0], port.flow, port.potential), []).append(end)
         return [
             Site("branch", name, (ends[0], ends[1]), self.ports[ends[0]], instance=_owner(ends[0]),
-                 way=self.ways[_owner(ends[0])], cls=self._classes.get(name, ""))
+                 way=self.ways[_owner(ends[0])])
             for (name, *_), ends in of.items()
             if len(ends) == 2 and root(self._group, ends[0]) != root(self._group, ends[1])
         ]  # fmt: skip

@@ -17,7 +17,7 @@ class Place:
     other (the command of a valve, and what flows through it). So is an input, whose laws are told of it; where it
     enters in proportion they read `only` the input, all other laws being the same in the balance. What changes no state
     is a `reading`: that is off there, or its sensor, which is the same. One of a family of places (elements of an
-    array, instances of a class) has another with the columns of `every` one, where the same law holds in all."""
+    array) has another with the columns of `every` one, where the same law holds in all."""
 
     location: str
     sites: tuple[Site, ...]

@@ -52,8 +52,7 @@ class Site:
     `parts` are the two equations of an exchange, those in which a parameter or an input stands, and of `every` place of
     a family all, in which the same law holds; its `members` are told apart by their names. Of an array of
     equations, or one in a loop, it is one: `term` is what is added to all, with @ for what this one lacks, `left` the
-    variable or rate on its left side; of a node, a component that has all its ports there. `cls` is the class of that,
-    or of what a branch goes past."""
+    variable or rate on its left side; of a node, a component that has all its ports there."""
 
     kind: str  # node | edge | branch | signal | equation | exchange | parameter | input | every
     label: str
@@ -67,7 +66,6 @@ class Site:
     left: str = ""
     way: tuple[Step, ...] = ()
     members: tuple[str, ...] = ()
-    cls: str = ""
 
     @property
     def together(self) -> Site | None:
