@@ -19,11 +19,13 @@ from lacuna.runtime.model import Variable
 @dataclass(frozen=True, eq=False)
 class Measured(RecordedInput):
     """Samples of a file: `values` in `unit`, which is SI, or "" where the file says none. `inferred`: the unit that the
-    name of the column ends like, if nothing else says one; it is believed where the input is of that quantity."""
+    name of the column ends like, if nothing else says one; it is believed where the input is of that quantity.
+    `unread`: what the file says is the unit, and is none."""
 
     unit: str = ""
     source: str = ""
     inferred: str = ""
+    unread: str = ""
 
 
 Input = float | RecordedInput | tuple[Any, Any]
@@ -47,7 +49,8 @@ def recorded(file: str | Path, column: str, *, hold: bool = False) -> RecordedIn
     said = channel.unit if channel.head.sure else ""
     factor, unit = to_si(said) if said else (1.0, "")
     values, inferred = channel.values[present] * factor, "" if said else channel.unit
-    return Measured(channel.time[present], values, "hold" if hold else "linear", unit, f"{file}: {column}", inferred)
+    between, source, unread = "hold" if hold else "linear", f"{file}: {column}", channel.head.unread
+    return Measured(channel.time[present], values, between, unit, source, inferred, unread)
 
 
 def as_inputs(given: Mapping[str, Input], variables: Mapping[str, Variable]) -> dict[str, RecordedInput | float]:
@@ -79,10 +82,14 @@ def uncovered(given: Mapping[str, Input], start: float, stop: float) -> list[str
 
 
 def assumed(given: Mapping[str, Input], variables: Mapping[str, Variable]) -> list[str]:
-    """A warning for each input of samples whose values hang on a unit that only the end of their name says."""
+    """A warning for each input of samples whose unit is not known, or hangs on the end of their name alone."""
     said = []
     for name, value in given.items():
-        if isinstance(value, Measured) and value.inferred and name in variables:
+        if isinstance(value, Measured) and value.unread:
+            said.append(
+                f"warning: input {name}: {value.source} is taken as it is: {value.unread} is no unit known here"
+            )
+        elif isinstance(value, Measured) and value.inferred and name in variables:
             fits = _inferred_factor(value, variables[name].unit) is not None
             if to_si(value.inferred)[0] != 1.0 or not fits:
                 taken = f"taken to be in {value.inferred}" if fits else f"taken as it is, not in {value.inferred}"

@@ -94,6 +94,8 @@ def read_columns(path: Path, units: Mapping[str, str]) -> tuple[np.ndarray, dict
     for channel, column in zip(channels, values, strict=True):
         head, name = channel.head, channel.name
         if head.text in units and not head.sure:
+            if head.unread and units[head.text]:
+                raise AnalysisError(f"{path}: {name} is in {head.unread}, which is no unit known here")
             columns[head.text] = column
             continue
         factor, si = to_si(channel.unit) if channel.unit else (1.0, "")
