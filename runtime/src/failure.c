@@ -49,6 +49,8 @@ static const char *describe(mdl_failure_kind kind) {
     return "functions called each other too deep, or their arrays are too large";
   case MDL_FAILURE_FOREIGN:
     return "external C ended in an error, which it told above";
+  case MDL_FAILURE_INEXACT:
+    return "a product of Integers is compared, and is beyond 2^53, where not all are told apart";
   case MDL_FAILURE_NONE:
     break;
   }
@@ -60,6 +62,7 @@ static rt_status status_of(mdl_failure_kind kind) {
   case MDL_FAILURE_NONFINITE:
     return RT_NONFINITE;
   case MDL_FAILURE_DOMAIN:
+  case MDL_FAILURE_INEXACT:
   case MDL_FAILURE_LOOP:
   case MDL_FAILURE_STACK:
     return RT_DOMAIN;
@@ -146,7 +149,7 @@ rt_status rt_fail_model(rt_session *s, double time, const char *doing) {
   if (!named) variable = -1;
   if (f->kind == MDL_FAILURE_BOUND && named) return fail_bound(s, time, f);
   char value[40] = "";
-  if (f->kind != MDL_FAILURE_SINGULAR && f->kind != MDL_FAILURE_NEWTON)
+  if (f->kind != MDL_FAILURE_SINGULAR && f->kind != MDL_FAILURE_NEWTON && f->kind != MDL_FAILURE_INEXACT)
     snprintf(value, sizeof value, " (value %.9g)", isnan(f->value) ? fabs(f->value) : f->value);
   rt_fail(s, status_of(f->kind), time, variable, where, "%s at time %.9g s: %s%s%s%s", doing, time, describe(f->kind),
           named ? ", variable " : "", named ? d->variables[variable].name : "", value);

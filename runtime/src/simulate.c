@@ -18,7 +18,7 @@ static const double headway = 1e-6;    /* of the run: at this pace it takes two 
 
 rt_status rt_check_asserts(rt_session *s) {
   mdl_data *m = &s->data;
-  if (!s->d->n_asserts || s->d->check(m, s->t, m->x, m->xdot, m->v) >= 0) return RT_OK;
+  if (!s->d->n_asserts || !s->d->check(m, s->t, m->x, m->xdot, m->v)) return RT_OK;
   return rt_fail_model(s, s->t, "checking");
 }
 
