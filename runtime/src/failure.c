@@ -170,6 +170,15 @@ static int largest_in_tolerances(const rt_session *s, const double *amounts, dou
   return worst;
 }
 
+/* The equation that gives the derivative of a state, NULL where none does. */
+static const mdl_equation *derivative_of(const rt_session *s, int state) {
+  for (int k = 0; k < s->d->n_computed; k++) {
+    const mdl_computed *c = &s->d->computed[k];
+    if (c->storage == MDL_DERIVATIVE && c->index == state) return &s->d->equations[c->equation];
+  }
+  return NULL;
+}
+
 /* The solver asks for steps of h seconds, too small to get anywhere: the fault is in the state with the largest error
  * of the last step that was tried, or, where that tells nothing, in the one that changes fastest. */
 rt_status rt_fail_collapse(rt_session *s, double h, const char *why) {
@@ -185,7 +194,7 @@ rt_status rt_fail_collapse(rt_session *s, double h, const char *why) {
   }
   int variable = rt_state_variable(s, worst);
   const char *name = variable >= 0 ? s->d->variables[variable].name : "a state";
-  return rt_fail(s, RT_STEP_COLLAPSE, s->t, variable, NULL,
+  return rt_fail(s, RT_STEP_COLLAPSE, s->t, variable, derivative_of(s, worst),
                  "solver %s makes no progress at time %.9g s: %s (step %.3g s); %s %s", s->method->name, s->t, why, h,
                  name, reason);
 }

@@ -155,6 +155,7 @@ struct rt_session {
   int (*interrupted)(double time);  /* asked now and then; NULL: never */
   long looks;
   double looked_at, patient_from, patient_t; /* monotonic clock; processor time and t where patience began */
+  long patient_steps, patient_passes;        /* steps taken and passes of events by then */
   rt_failure failure;
   rt_result *result;
 };

@@ -1,5 +1,6 @@
 /* The hybrid loop: step, look for events, record, let events happen, go on. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <time.h>
 
@@ -11,10 +12,10 @@
 #include "undetermined.h"
 
 enum { MAX_TINY_STEPS = 100, STEPS_BETWEEN_LOOKS = 64, PIECES_OF_A_STEP = 6 };
-static const double most_steps = 1e10; /* of a fixed size: weeks */
+static const double most_steps = 1e10; /* of a fixed size, or at the pace of the last minute: weeks */
 static const double look_every = 0.1;  /* s of wall time: has the caller lost interest? */
 static const double patience = 60;     /* s of computing that may bring less than */
-static const double headway = 1e-6;    /* of the run: at this pace it takes two years */
+static const double headway = 1e-6;    /* of the run: at this pace it takes two years; or less than the steps of it */
 
 rt_status rt_check_asserts(rt_session *s) {
   mdl_data *m = &s->data;
@@ -43,19 +44,27 @@ static double clock_of(clockid_t clock) {
 void rt_start_patience(rt_session *s) {
   s->patient_from = clock_of(CLOCK_THREAD_CPUTIME_ID);
   s->patient_t = s->t;
+  s->patient_steps = s->steps_taken;
+  s->patient_passes = s->result->counters.event_passes;
 }
 
-/* Processor time, so that a run that was stopped for a while is not blamed for it. */
+/* Processor time, so that a run that was stopped for a while is not blamed for it. Steps that get somewhere may still
+ * be so small that the run does not end: a derivative that jumps from step to step with the sign of its state. */
 static rt_status check_patience(rt_session *s) {
-  double span = s->stop - s->start, done = s->t - s->patient_t, limit = s->options.patience;
-  if (done >= headway * span) {
+  double span = s->stop - s->start, done = s->t - s->patient_t;
+  double limit = s->options.patience > 0 ? s->options.patience : patience;
+  if (clock_of(CLOCK_THREAD_CPUTIME_ID) - s->patient_from <= limit) return RT_OK;
+  long steps = s->steps_taken - s->patient_steps, passes = s->result->counters.event_passes - s->patient_passes;
+  if (done >= headway * span && done * most_steps >= span * (double)steps) {
     rt_start_patience(s);
     return RT_OK;
   }
-  if (clock_of(CLOCK_THREAD_CPUTIME_ID) - s->patient_from <= (limit > 0 ? limit : patience)) return RT_OK;
-  return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL,
-                 "no progress at time %.9g s: %.3g s of computing brought %.3g s of %.9g s (step %.3g s)", s->t,
-                 limit > 0 ? limit : patience, done, span, s->t - s->t_previous);
+  char why[120];
+  snprintf(why, sizeof why, "%.3g s of computing brought %.3g s of %.9g s", limit, done, span);
+  if (passes > steps / 2)
+    return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL, "no progress at time %.9g s: %s, with %ld events", s->t, why,
+                   passes);
+  return rt_fail_collapse(s, s->t - s->t_previous, why);
 }
 
 /* Now and then: is there progress, and does the caller want to go on? */
