@@ -49,8 +49,8 @@ def recorded(file: str | Path, column: str, *, hold: bool = False) -> RecordedIn
     said = channel.unit if channel.head.sure else ""
     factor, unit = to_si(said) if said else (1.0, "")
     values, inferred = channel.values[present] * factor, "" if said else channel.unit
-    between, source, unread = "hold" if hold else "linear", f"{file}: {column}", channel.head.unread
-    return Measured(channel.time[present], values, between, unit, source, inferred, unread)
+    source, unread = f"{file}: {column}", channel.head.unread
+    return Measured(channel.time[present], values, "hold" if hold else "linear", unit, source, inferred, unread)
 
 
 def as_inputs(given: Mapping[str, Input], variables: Mapping[str, Variable]) -> dict[str, RecordedInput | float]:
