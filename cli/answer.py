@@ -50,7 +50,7 @@ def answered(command: Callable[..., Answer]) -> Callable[..., None]:
         token = shown.set("nothing" if quiet else "lines" if json else "bar")
         try:
             answer = command(*args, **kwargs)
-            lacuna.record_making([str(context.info_name), *_words(context)], answer.written)
+            answer.warnings += lacuna.record_making([str(context.info_name), *_words(context)], answer.written)
             _print(answer, json, quiet)
         except KeyboardInterrupt:
             typer.echo("interrupted", err=True)

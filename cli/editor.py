@@ -30,6 +30,15 @@ def format(
 ) -> Answer:
     """Format Modelica files in place: indentation by nesting and empty lines, nothing that has a meaning."""
     found = [p for f in files for p in (sorted(f.rglob("*.mo")) if f.is_dir() else [f])]
-    changed = [path for path in found if lacuna.format_file(path, check=check)]
-    failure = f"not formatted: {', '.join(map(str, changed))}" if check and changed else ""
-    return Answer({"changed": [str(path) for path in changed]}, [], [] if check else changed, failure=failure)
+    changed, refused = [], []
+    for path in found:
+        try:
+            changed += [path] if lacuna.format_file(path, check=check) else []
+        except Exception as error:
+            if not lacuna.is_user_error(error):
+                raise
+            refused.append(lacuna.message_of(error))
+    wrong = [f"left as they are: {len(refused)} of {len(found)} files"] if refused else []
+    wrong += [f"not formatted: {', '.join(map(str, changed))}"] if check and changed else []
+    data = {"changed": [str(path) for path in changed], "refused": refused}
+    return Answer(data, [], [] if check else changed, refused, "; ".join(wrong))

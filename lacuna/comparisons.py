@@ -192,6 +192,7 @@ def _simulated(
     end = model.stop_time if stop is None else stop
     names = {name for name, v in model.variables.items() if v.type == "Real" and not v.is_parameter}
     return simulate_fmu(
-        file, names, model.start_time, end, model.interval or (end - model.start_time) / POINTS,
+        file, names, {name: v.unit for name, v in model.variables.items()},
+        model.start_time, end, model.interval or (end - model.start_time) / POINTS,
         min(model.tolerance or 1e-6, 1e-6), dict(parameters), as_inputs(inputs, model.variables),
     )  # fmt: skip

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+import logging
+import os
 from pathlib import Path
 
 from lacuna.codegen.library.search_path import search_path
@@ -18,7 +20,25 @@ def serve_editor(libraries: Iterable[str | Path] = ()) -> None:
     """Speak the language server protocol on standard input and output until the editor ends it. Needs `editor`."""
     from lacuna.lsp.server import make_server
 
+    _say_in_a_line()
     make_server(search_path(libraries)).start_io()
+
+
+class _Line(logging.Formatter):
+    """What went wrong, in a line; with where in the code if LACUNA_DEBUG asks for it."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        if os.environ.get("LACUNA_DEBUG") or record.exc_info is None:
+            return super().format(record)
+        return f"lacuna lsp: {record.getMessage()}: {record.exc_info[1]}".replace("\n", " ")
+
+
+def _say_in_a_line() -> None:
+    """What is no message of the protocol is told on standard error, and the server goes on."""
+    handler = logging.StreamHandler()
+    handler.setFormatter(_Line())
+    logging.getLogger("pygls.server").addHandler(handler)
+    logging.getLogger("pygls.server").propagate = False
 
 
 def format_model(text: str, file: str = "") -> str:

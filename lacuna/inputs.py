@@ -18,10 +18,14 @@ from lacuna.runtime.model import Variable
 
 @dataclass(frozen=True, eq=False)
 class Measured(RecordedInput):
-    """Samples of a file: `values` in `unit`, which is SI, or "" where the file says none."""
+    """Samples of a file: `values` in `unit`, which is SI, or "" where the file says none. `inferred`: the unit that the
+    name of the column ends like, if nothing else says one; it is believed where the input is of that quantity.
+    `unread`: what the file says is the unit, and is none."""
 
     unit: str = ""
     source: str = ""
+    inferred: str = ""
+    unread: str = ""
 
 
 Input = float | RecordedInput | tuple[Any, Any]
@@ -31,8 +35,9 @@ Input = float | RecordedInput | tuple[Any, Any]
 def recorded(file: str | Path, column: str, *, hold: bool = False) -> RecordedInput:
     """A channel of a recording, in any format that is read, as an input; linear between samples, or held with `hold`.
 
-    Values are converted to SI where the file says a unit, and by a run into the unit that the input declares. Raises
-    UserError with the nearest names where there is none of this name.
+    Values are converted to SI where the file says a unit, and by a run into the unit that the input declares. A unit
+    that is only the end of the name (u_mV) waits for the run: part of the name where the input is of another quantity.
+    Raises UserError with the nearest names where there is none of this name.
     """
     found = read_recorded(file)
     try:
@@ -41,9 +46,11 @@ def recorded(file: str | Path, column: str, *, hold: bool = False) -> RecordedIn
         names = [c.name for c in found.channels]
         raise UserError(f"{file} has no column called {column}{nearest(column, names)}") from None
     present = np.isfinite(channel.values)
-    factor, unit = to_si(channel.unit) if channel.unit else (1.0, "")
-    values = channel.values[present] * factor
-    return Measured(channel.time[present], values, "hold" if hold else "linear", unit, f"{file}: {column}")
+    said = channel.unit if channel.head.sure else ""
+    factor, unit = to_si(said) if said else (1.0, "")
+    values, inferred = channel.values[present] * factor, "" if said else channel.unit
+    source, unread = f"{file}: {column}", channel.head.unread
+    return Measured(channel.time[present], values, "hold" if hold else "linear", unit, source, inferred, unread)
 
 
 def as_inputs(given: Mapping[str, Input], variables: Mapping[str, Variable]) -> dict[str, RecordedInput | float]:
@@ -74,10 +81,38 @@ def uncovered(given: Mapping[str, Input], start: float, stop: float) -> list[str
     return said
 
 
+def assumed(given: Mapping[str, Input], variables: Mapping[str, Variable]) -> list[str]:
+    """A warning for each input of samples whose unit is not known, or hangs on the end of their name alone."""
+    said = []
+    for name, value in given.items():
+        if isinstance(value, Measured) and value.unread:
+            said.append(
+                f"warning: input {name}: {value.source} is taken as it is: {value.unread} is no unit known here"
+            )
+        elif isinstance(value, Measured) and value.inferred and name in variables:
+            fits = _inferred_factor(value, variables[name].unit) is not None
+            if to_si(value.inferred)[0] != 1.0 or not fits:
+                taken = f"taken to be in {value.inferred}" if fits else f"taken as it is, not in {value.inferred}"
+                said.append(f"warning: input {name}: {value.source} is {taken}; write units in brackets: name [unit]")
+    return said
+
+
+def _inferred_factor(value: Measured, declared: str) -> float | None:
+    """By what samples are multiplied if their inferred unit is one of the variable's; None where it is not."""
+    try:
+        factor, si = to_si(value.inferred)
+        return factor * factor_into(declared, si) if declared else None
+    except UnitError:
+        return None
+
+
 def _one(name: str, value: Input, variables: Mapping[str, Variable]) -> RecordedInput | float:
     if isinstance(value, tuple):
         times, values = value
         return RecordedInput(np.asarray(times, dtype=float), np.asarray(values, dtype=float))
+    if isinstance(value, Measured) and value.inferred and name in variables:
+        factor = _inferred_factor(value, variables[name].unit) or 1.0
+        return RecordedInput(value.time, factor * value.values, value.interpolation)
     if isinstance(value, Measured) and value.unit and name in variables:
         try:
             factor = factor_into(variables[name].unit, value.unit)

@@ -18,7 +18,7 @@ from lacuna.codegen.flatten import flatten
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.structure.report import dump as dump_structure
 from lacuna.errors import UserError
-from lacuna.inputs import Input, as_inputs, refuse_truth, uncovered
+from lacuna.inputs import Input, as_inputs, assumed, refuse_truth, uncovered
 from lacuna.notebook import page, table, verbatim
 from lacuna.progress import Progress, silent, watching
 from lacuna.results import IncompleteRun, Result
@@ -267,7 +267,7 @@ class Model:
             sensitivities=sensitivities, watch=watching(f"simulating {self.name}", begin, end, progress),
         )  # fmt: skip
         result = Result(run, None if outputs is None else list(outputs), time.perf_counter() - clock)
-        result.warnings += uncovered(inputs or {}, begin, end)
+        result.warnings += [*uncovered(inputs or {}, begin, end), *assumed(inputs or {}, model.variables)]
         if not result.complete:
             raise IncompleteRun(result)
         (progress or silent)(f"simulating {self.name}", 1.0)

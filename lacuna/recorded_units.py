@@ -33,6 +33,8 @@ def _atom(symbol: str) -> tuple[float, str]:
         unit = parse_unit(symbol)
     except ValueError as error:
         raise UnitError(f'unit "{symbol}" is not known') from error
+    if symbol.endswith("Hz"):
+        return float(unit.factor or 1.0), "Hz"  # kHz: the base units do not show that cycles are counted
     return (
         (1.0, symbol)
         if unit.factor == 1.0
@@ -49,6 +51,8 @@ def to_si(unit: str) -> tuple[float, str]:
         symbols = factors_of(text)
     except ValueError as error:
         raise UnitError(str(error)) from None
+    if [(symbol, power) for symbol, power in symbols if symbol != "1"] == [("min", -1)]:
+        return 1 / 60, "Hz"  # in a head it is rpm, which it is as often as not: no angle by itself
     factor = 1.0
     powers: dict[str, int] = {}
     for symbol, power in symbols:
@@ -70,20 +74,45 @@ def _written(powers: dict[str, int]) -> str:
 
 def factor_into(declared: str, si: str) -> float:
     """By what a value in the SI unit `si` of a column is multiplied to be one in the unit that a variable declares; 1
-    where it declares none. Raises UnitError where the two are of other quantities, or of temperatures with other
-    zeros."""
+    where it declares none. Raises UnitError where the two are of other quantities, of temperatures with other zeros, or
+    one counts cycles and the other angle."""
     if not declared:
         return 1.0
     unit = parse_unit(declared)
-    if ("degC" in declared) != ("degC" in si) or unit.exponents != parse_unit(si.replace("ohm", "Ohm")).exponents:
+    if _zeros_differ(declared, si) or unit.exponents != parse_unit(si.replace("ohm", "Ohm")).exponents:
         raise UnitError(f"{si} is no {declared}")
+    if _cycles_for_angle(declared, si):
+        raise UnitError(f"2 pi lie between them (turns a second are rev/s): {si} is no {declared}")
     return 1.0 / (unit.factor or 1.0)
 
 
 def same_unit(model: str, column: str) -> bool:
-    """Whether an SI unit of a column is that of a variable: one dimension, and of temperatures one zero."""
+    """Whether an SI unit of a column is that of a variable: one dimension, of temperatures one zero, and of cycles and
+    angles the same."""
     if not model:
         return True
-    if ("degC" in model) != ("degC" in column):
-        return False  # the scales differ by more than a factor, which is all that a column is converted by
+    if _zeros_differ(model, column) or _cycles_for_angle(model, column):
+        return (
+            False  # the scales of degC and K differ by more than a factor, which is all that a column is converted by
+        )
     return parse_unit(model.replace("ohm", "Ohm")).same(parse_unit(column.replace("ohm", "Ohm")))
+
+
+def alike(one: str, other: str) -> bool:
+    """Whether two units of a column mean the same: values need no conversion."""
+    (factor, si), (scale, unit) = to_si(one), to_si(other)
+    return math.isclose(factor, scale, rel_tol=1e-9) and same_unit(si, unit)
+
+
+def _zeros_differ(one: str, other: str) -> bool:
+    return ("degC" in one) != ("degC" in other)
+
+
+def _cycles_for_angle(one: str, other: str) -> bool:
+    """Hz and rad/s are both 1/s, and 2 pi lies between them; 1/s itself may be either."""
+    return sorted((_counted(one), _counted(other))) == ["angle", "cycles"]
+
+
+def _counted(unit: str) -> str:
+    symbols = {symbol for symbol, _ in factors_of(to_si(unit)[1])}
+    return "angle" if "rad" in symbols else "cycles" if "Hz" in symbols else ""

@@ -14,7 +14,7 @@ from typing import Any
 
 from lacuna.children import run
 from lacuna.errors import UserError
-from lacuna.given import json_of
+from lacuna.given import LARGEST, json_of
 from lacuna.progress import Progress, spoken
 from lacuna.written import write_whole
 
@@ -25,6 +25,8 @@ VERIFIABLE = ("simulate", "maps", "sweep", "assess", "forecast", "explain")
 ELSEWHERE = ("out", "store", "actuator", "cycles", "hours", "replaced", "watch", "port", "scheduler")
 EXTERNAL = "--allow-external"
 _FORBIDDEN = {f"--{name}" for name in ELSEWHERE}
+MOST_ENTRIES = 20_000  # files and folders below one that was named: seconds to read; a disk has a hundred times as many
+UNREAD = ""  # the digest of what is larger
 
 
 @dataclass(frozen=True)
@@ -40,11 +42,12 @@ class Verification:
         return not self.differs
 
 
-def record_making(command: Sequence[str], written: Sequence[Path]) -> None:
+def record_making(command: Sequence[str], written: Sequence[Path]) -> list[str]:
     """Write beside the results of a command how they were made: its words without the options ELSEWHERE, and the
-    digests of the files and folders among them. `written` are files in one folder, or that folder."""
+    digests of the files and folders among them. `written` are files in one folder, or that folder. A warning for each
+    that is too large."""
     if command[0] not in VERIFIABLE or not written:
-        return
+        return []
     folder = written[0] if written[0].is_dir() else written[0].parent
     stems = {path.stem for path in written if path.is_file()}
     files = [path for path in _results_in(folder) if not stems or path.name.partition(".")[0] in stems]
@@ -54,6 +57,9 @@ def record_making(command: Sequence[str], written: Sequence[Path]) -> None:
         "files": sorted(path.relative_to(folder).as_posix() for path in files),
     }  # fmt: skip
     write_whole(folder / MADE_BY, json.dumps(made, indent=1, ensure_ascii=False) + "\n")
+    large = [word for word, digest in inputs.items() if digest == UNREAD]
+    why = f"holds more than {MOST_ENTRIES} files or {LARGEST >> 20} MB, or such as may not be read"
+    return [f"warning: {word} {why}: lacuna verify will not see whether it changed" for word in large]
 
 
 def _results_in(folder: Path) -> list[Path]:
@@ -110,14 +116,30 @@ def _made_by(folder: Path) -> dict[str, Any]:
 
 
 def _digest(path: Path, results: Path) -> str:
-    """Of a file, or of all files below a folder with their names, those in `results` apart."""
-    digest, apart = hashlib.sha256(), results.resolve()
-    files = sorted(p for p in path.rglob("*") if p.is_file() and not p.resolve().is_relative_to(apart))
-    for file in files if path.is_dir() else [path]:
+    """Of a file, or of all files below a folder with their names, those in `results` apart; UNREAD of too much."""
+    digest, files = hashlib.sha256(), [path] if not path.is_dir() else _files_below(path, results.resolve())
+    if files is None:
+        return UNREAD
+    for file in files:
         digest.update(file.relative_to(path).as_posix().encode() + b"\0")
         with file.open("rb") as content:
             digest.update(hashlib.file_digest(content, "sha256").digest())
     return digest.hexdigest()
+
+
+def _files_below(path: Path, apart: Path) -> list[Path] | None:
+    """In order, those in `apart` left out; None where they are too many, too large together, or closed."""
+    found, size = [], 0
+    try:
+        for count, entry in enumerate(path.rglob("*")):
+            if entry.is_file() and not entry.resolve().is_relative_to(apart):
+                found.append(entry)
+                size += entry.stat().st_size
+            if count > MOST_ENTRIES or size > LARGEST:
+                return None
+    except PermissionError:
+        return None
+    return sorted(found)
 
 
 def _content(path: Path) -> object:

@@ -53,7 +53,8 @@ class Session:
     interval. With `events`, a row before and one after each event is added. `locate_events=False` takes state and
     time events at the end of the step in which they fall, which is what fixed-step simulations usually do.
     A run that takes more than `max_steps`, or does not get through a millionth of its time in `patience` seconds of
-    computing (default 60), ends with a failure. `atol` is per unit of a variable's nominal value.
+    computing (default 60), or does so in steps of which it would take more than 1e10, ends with a failure.
+    `atol` is per unit of a variable's nominal value.
     `checks=False` leaves out the look at each accepted point for numbers that are not finite and divisors at zero.
     `sensitivities` names parameters, and states for their initial values, by which every output is differentiated
     (`Result.sensitivity`); the model must have been compiled with them, and the solver be dopri5 or ida.

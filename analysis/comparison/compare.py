@@ -84,19 +84,26 @@ def compare_with_file(
 
 def read_columns(path: Path, units: Mapping[str, str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """`time` and the channels of a recording in the `units` that the variables of these names declare; missing samples
-    are NaN. `event` is left out. Raises AnalysisError where a channel is of another quantity."""
+    are NaN. `event` is left out. A head that is a variable's whole name says no unit by its end. Raises AnalysisError
+    where a channel is of another quantity."""
     channels = [channel for channel in read_recorded(path).channels if channel.name != "event"]
     if not channels:
         raise AnalysisError(f"{path}: there is no signal in it")
     time, values = on_one_time(channels)
     columns = {}
     for channel, column in zip(channels, values, strict=True):
+        head, name = channel.head, channel.name
+        if head.text in units and not head.sure:
+            if head.unread and units[head.text]:
+                raise AnalysisError(f"{path}: {name} is in {head.unread}, which is no unit known here")
+            columns[head.text] = column
+            continue
         factor, si = to_si(channel.unit) if channel.unit else (1.0, "")
         try:
-            into = factor_into(units.get(channel.name, ""), si) if si else 1.0
+            into = factor_into(units.get(name, ""), si) if si else 1.0
         except UnitError as error:
-            raise AnalysisError(f"{path}: {channel.head.text}: {error}, which {channel.name} is in") from None
-        columns[channel.name] = column if factor * into == 1.0 else factor * into * column
+            raise AnalysisError(f"{path}: {head.text}: {error}, which {name} is in") from None
+        columns[name] = column if factor * into == 1.0 else factor * into * column
     if len(time) < 2:
         raise AnalysisError(f"{path}: at least two lines are needed")
     if not np.all(np.diff(time) >= 0):

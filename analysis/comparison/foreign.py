@@ -11,11 +11,13 @@ import numpy as np
 
 from lacuna import runtime
 from lacuna.analysis.errors import AnalysisError
+from lacuna.recorded_units import UnitError, factor_into, to_si
 
 
 def simulate_fmu(
     path: Path,
     names: Collection[str],
+    units: Mapping[str, str],
     start: float,
     stop: float,
     interval: float,
@@ -23,10 +25,10 @@ def simulate_fmu(
     parameters: Mapping[str, float],
     inputs: Mapping[str, runtime.RecordedInput | float],
 ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """Time (s, [rows]) and each Real variable of the FMU that is in `names`, [rows].
+    """Time (s, [rows]) and each Real variable of the FMU that is in `names`, [rows], in its unit in `units`.
 
     Model exchange by CVODE where the FMU has it, else co-simulation. `parameters` and `inputs` that the FMU does not
-    have are refused. Its binary is run: use FMUs of those you trust.
+    have, or has in another unit, are refused. Its binary is run: use FMUs of those you trust.
     """
     import fmpy
 
@@ -43,6 +45,10 @@ def simulate_fmu(
     unknown = [n for n in (*parameters, *inputs) if n not in theirs]
     if unknown:
         raise AnalysisError(f"{path} has no {', '.join(unknown)}, which the comparison sets")
+    factors = {n: _factor(path, n, place.variable, units) for n, place in theirs.items()}
+    other = [n for n in (*parameters, *inputs) if factors[n] != 1.0]
+    if other:
+        raise AnalysisError(f"{path} has {', '.join(other)}, which the comparison sets, in another unit than the model")
     set_once = {**parameters, **{n: v for n, v in inputs.items() if isinstance(v, float)}}
     try:
         found = fmpy.simulate_fmu(
@@ -54,7 +60,19 @@ def simulate_fmu(
         )  # fmt: skip
     except Exception as error:
         raise AnalysisError(f"{path} cannot be simulated: {error}") from None
-    return np.asarray(found["time"], dtype=float), {n: theirs[n].of(found) for n in outputs}
+    return np.asarray(found["time"], dtype=float), {n: factors[n] * theirs[n].of(found) for n in outputs}
+
+
+def _factor(path: Path, name: str, variable: Any, units: Mapping[str, str]) -> float:
+    """By what the FMU's values of a variable are multiplied to be in the model's unit, where both say one."""
+    theirs, ours = variable.unit or getattr(variable.declaredType, "unit", None) or "", units.get(name, "")
+    if not theirs or not ours or theirs == ours:
+        return 1.0
+    try:
+        factor, si = to_si(theirs)
+        return factor * factor_into(ours, si)
+    except UnitError as error:
+        raise AnalysisError(f"{path}: {name} is in {theirs}, in the model in {ours}: {error}") from None
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import numpy as np
 
 from lacuna.analysis.errors import AnalysisError
 from lacuna.analysis.recording.heads import Head, read_head
-from lacuna.recorded_units import to_si
+from lacuna.recorded_units import alike, to_si
 
 MAX_ROUNDING = 1e-6  # of a sample interval, that the digits of an absolute time may cost
 
@@ -32,6 +32,10 @@ class Channel:
     time: np.ndarray
     values: np.ndarray
     head: Head
+
+    def contradicts(self, unit: str) -> bool:
+        """Whether the file says, not only by the end of a name, that this is in another unit."""
+        return bool(self.unit) and self.head.sure and not alike(self.unit, unit)
 
 
 @dataclass(frozen=True)

@@ -32,12 +32,14 @@ _TIME = re.compile(
 
 @dataclass(frozen=True)
 class Head:
-    """`unit` is None where the head says none; `sure` is False where it was only inferred."""
+    """`unit` is None where the head says none; `sure` is False where it was only inferred; `unread` is what the file
+    says is the unit, and is none that is known."""
 
     text: str
     name: str
     unit: str | None
     sure: bool = True
+    unread: str = ""
 
     @property
     def is_time(self) -> bool:
@@ -60,7 +62,7 @@ def read_head(text: str, unit_row: str = "") -> Head:
     text = text.strip()
     if unit_row.strip():
         unit = known_unit(unit_row)
-        return Head(text, text, unit, unit is not None)
+        return Head(text, text, unit, unit is not None, "" if unit else unit_row.strip())
     match = _BRACKETS.match(text)
     if match and not _ELEMENT.search(text):
         said = next(g for g in (match["a"], match["b"], match["c"], match["d"]) if g is not None)

@@ -79,6 +79,8 @@ def _table(path: Path, names: Sequence[str]) -> tuple[dict[str, np.ndarray], tup
 def _amperes(path: Path, channel: Channel) -> float:
     factor, si = to_si(channel.unit or "A")
     if si != "A":
+        if not channel.head.sure:
+            return 1.0  # i_C is the current of phase C
         raise Refusal(f"{path}: {channel.head.text} is recorded in {channel.unit}, which is no current")
     return factor
 

@@ -146,6 +146,10 @@ def _warnings(system: System, assumed: list[str]) -> list[Diagnostic]:
 
 def _refuse(system: System, rows: list[Row], unknowns: list[Expr], matching: Matching, unmatched: list[int]) -> None:
     over, columns = matching.overdetermined(unmatched)
+    if not columns:
+        message = f"too many initial equations: nothing in {rows[over[0]].text} is unknown"
+        hint = "a parameter is, with fixed=false and no value: k(fixed=false) = break takes away that of its class"
+        raise Diagnostic("S020", message, rows[over[0]].source.span, hint)
     names = ", ".join(str(unknowns[c]) for c in columns[:8])
     raise Diagnostic(
         "S020", f"too many initial equations: {len(over)} for {names}", rows[unmatched[0]].source.span,

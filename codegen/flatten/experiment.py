@@ -7,6 +7,7 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.classes.instance import Instance
 from lacuna.codegen.flatten.expressions.constants import evaluate
 from lacuna.codegen.flatten.expressions.lower import lower_scalar
+from lacuna.codegen.flatten.names.annotations import warn, warn_of_slips
 from lacuna.codegen.flatten.names.modifiers import Modifier, from_tree
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.symbolic import expr as ex
@@ -18,13 +19,17 @@ _END = {"Tolerance": (1.0, "above 0 and below 1"), "Interval": (float("inf"), "a
 
 def experiment_of(top: Instance) -> flat.Experiment:
     """Of the model, or of the nearest base class that has one. Raises R030 for an entry that is given twice, R020 for a
-    tolerance, an interval or an end that no run can have."""
+    tolerance, an interval or an end that no run can have. Names that mean nothing are warned of; those of other tools
+    begin with two underscores (18.1)."""
     result = flat.Experiment()
     for cls in top.classes:
+        warn_of_slips(cls.annotation, ["experiment"], top.context)
         found = [a for a in cls.annotation.arguments if a.name == "experiment"] if cls.annotation else []
         if found:
             entries = from_tree(ast.Modification(found[0].span, arguments=found), Scope(top.context, cls, top))
             said = entries.children["experiment"].children
+            unknown = [a for a in found[0].modification.arguments if a.name not in _FIELDS and a.name[:2] != "__"]
+            warn(unknown, "an experiment has no {}", list(_FIELDS), top.context)
             for name, entry in said.items():
                 if name in _FIELDS and entry.value is not None:
                     setattr(result, _FIELDS[name], _number(name, entry, top))

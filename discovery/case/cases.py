@@ -279,6 +279,10 @@ def read_recording(path: Path, signals: dict[str, Signal]) -> Recording:
     if missing or not recorded.channels:
         has = ", ".join(c.head.text for c in recorded.channels)
         raise CaseError(f"{path}: column `{(missing or list(signals))[0]}` is missing (beside time there are {has})")
+    for column, signal in signals.items():
+        if (channel := recorded[column]).contradicts(signal.unit):
+            said = f"is in {channel.unit} by its head, and in {signal.unit} by case.toml: make the two alike"
+            raise CaseError(f"{path}: column `{channel.head.text}` {said}")
     time, columns = on_one_time([recorded[column] for column in signals])
     scaled = {
         name: values * signal.scale + signal.offset

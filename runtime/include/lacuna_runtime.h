@@ -94,8 +94,8 @@ typedef struct {
   int record_events;  /* 1: a row before and a row after each event */
   long max_steps;     /* <= 0: none; a run that needs more ends as RT_STEP_COLLAPSE */
   int unchecked;      /* 1: accepted points are not looked at for numbers that are not finite and divisors at zero */
-  double patience;    /* s of computing in which at least a millionth of the run is to be done, else it ends as
-                         RT_STEP_COLLAPSE; <= 0: 60 */
+  double patience;    /* s of computing in which at least a millionth of the run is to be done, in steps of which 1e10
+                         are enough for all of it, else it ends as RT_STEP_COLLAPSE; <= 0: 60 */
 } rt_options;
 
 typedef enum { RT_LINEAR, RT_HOLD } rt_interpolation;

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define MDL_ABI_VERSION 19
+#define MDL_ABI_VERSION 20
 
 enum { MDL_FOLLOWS = 1, MDL_ARRIVAL = 2 }; /* bits of events_follow */
 
@@ -32,7 +32,8 @@ typedef enum {
   MDL_FAILURE_BOUND,     /* a parameter outside its min/max; `variable` says which */
   MDL_FAILURE_LOOP,      /* a function ran too long: loops and calls inside each other */
   MDL_FAILURE_STACK,     /* functions called each other too deep, or hold arrays too large for the stack */
-  MDL_FAILURE_FOREIGN    /* external C called ModelicaError, which has told why */
+  MDL_FAILURE_FOREIGN,   /* external C called ModelicaError, which has told why */
+  MDL_FAILURE_INEXACT    /* Integers are compared of which one is a product beyond 2^53 */
 } mdl_failure_kind;
 
 typedef struct {
@@ -185,7 +186,7 @@ typedef struct mdl_descriptor {
    * true and m->when (the condition before this pass) is false; event() updates m->when itself. */
   int (*event)(mdl_data *m, double t, double *x, const double *xdot, const double *v);
 
-  /* Check the other asserts at an accepted point; < 0 with m->failure set where one is violated. */
+  /* Check the other asserts at an accepted point; not 0, with m->failure set, where one is violated or has no value. */
   int (*check)(mdl_data *m, double t, const double *x, const double *xdot, const double *v);
 
   const struct mdl_tangents *tangents; /* derivatives (mdl_tangent.h); NULL where they were not asked for */

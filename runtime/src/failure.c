@@ -49,6 +49,8 @@ static const char *describe(mdl_failure_kind kind) {
     return "functions called each other too deep, or their arrays are too large";
   case MDL_FAILURE_FOREIGN:
     return "external C ended in an error, which it told above";
+  case MDL_FAILURE_INEXACT:
+    return "a product of Integers is compared, and is beyond 2^53, where not all are told apart";
   case MDL_FAILURE_NONE:
     break;
   }
@@ -60,6 +62,7 @@ static rt_status status_of(mdl_failure_kind kind) {
   case MDL_FAILURE_NONFINITE:
     return RT_NONFINITE;
   case MDL_FAILURE_DOMAIN:
+  case MDL_FAILURE_INEXACT:
   case MDL_FAILURE_LOOP:
   case MDL_FAILURE_STACK:
     return RT_DOMAIN;
@@ -146,7 +149,7 @@ rt_status rt_fail_model(rt_session *s, double time, const char *doing) {
   if (!named) variable = -1;
   if (f->kind == MDL_FAILURE_BOUND && named) return fail_bound(s, time, f);
   char value[40] = "";
-  if (f->kind != MDL_FAILURE_SINGULAR && f->kind != MDL_FAILURE_NEWTON)
+  if (f->kind != MDL_FAILURE_SINGULAR && f->kind != MDL_FAILURE_NEWTON && f->kind != MDL_FAILURE_INEXACT)
     snprintf(value, sizeof value, " (value %.9g)", isnan(f->value) ? fabs(f->value) : f->value);
   rt_fail(s, status_of(f->kind), time, variable, where, "%s at time %.9g s: %s%s%s%s", doing, time, describe(f->kind),
           named ? ", variable " : "", named ? d->variables[variable].name : "", value);
@@ -167,6 +170,15 @@ static int largest_in_tolerances(const rt_session *s, const double *amounts, dou
   return worst;
 }
 
+/* The equation that gives the derivative of a state, NULL where none does. */
+static const mdl_equation *derivative_of(const rt_session *s, int state) {
+  for (int k = 0; k < s->d->n_computed; k++) {
+    const mdl_computed *c = &s->d->computed[k];
+    if (c->storage == MDL_DERIVATIVE && c->index == state) return &s->d->equations[c->equation];
+  }
+  return NULL;
+}
+
 /* The solver asks for steps of h seconds, too small to get anywhere: the fault is in the state with the largest error
  * of the last step that was tried, or, where that tells nothing, in the one that changes fastest. */
 rt_status rt_fail_collapse(rt_session *s, double h, const char *why) {
@@ -182,7 +194,7 @@ rt_status rt_fail_collapse(rt_session *s, double h, const char *why) {
   }
   int variable = rt_state_variable(s, worst);
   const char *name = variable >= 0 ? s->d->variables[variable].name : "a state";
-  return rt_fail(s, RT_STEP_COLLAPSE, s->t, variable, NULL,
+  return rt_fail(s, RT_STEP_COLLAPSE, s->t, variable, derivative_of(s, worst),
                  "solver %s makes no progress at time %.9g s: %s (step %.3g s); %s %s", s->method->name, s->t, why, h,
                  name, reason);
 }

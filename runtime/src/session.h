@@ -9,6 +9,7 @@
 
 #include "dense.h"
 #include "lacuna_runtime.h"
+#include "patience.h"
 #include "result.h"
 
 struct rt_model {
@@ -153,8 +154,7 @@ struct rt_session {
   struct rt_transports *transports; /* transport.c; NULL: the model has none */
   rt_sensitivities *sensitivities;  /* NULL: none are asked for */
   int (*interrupted)(double time);  /* asked now and then; NULL: never */
-  long looks;
-  double looked_at, patient_from, patient_t; /* monotonic clock; processor time and t where patience began */
+  rt_patience patient;
   rt_failure failure;
   rt_result *result;
 };
@@ -280,7 +280,6 @@ rt_status rt_begin(rt_session *s);
 rt_status rt_advance(rt_session *s);
 rt_status rt_happen(rt_session *s);
 rt_status rt_check_asserts(rt_session *s);
-void rt_start_patience(rt_session *s);
 
 /* settings.c, events.c, initialise.c */
 void rt_session_declared(rt_session *s); /* every parameter back to its declared value */

@@ -11,21 +11,18 @@
 #include "undetermined.h"
 
 enum { MAX_TINY_STEPS = 100, STEPS_BETWEEN_LOOKS = 64, PIECES_OF_A_STEP = 6 };
-static const double most_steps = 1e10; /* of a fixed size: weeks */
-static const double look_every = 0.1;  /* s of wall time: has the caller lost interest? */
-static const double patience = 60;     /* s of computing that may bring less than */
-static const double headway = 1e-6;    /* of the run: at this pace it takes two years */
+static const double look_every = 0.1; /* s of wall time: has the caller lost interest? */
 
 rt_status rt_check_asserts(rt_session *s) {
   mdl_data *m = &s->data;
-  if (!s->d->n_asserts || s->d->check(m, s->t, m->x, m->xdot, m->v) >= 0) return RT_OK;
+  if (!s->d->n_asserts || !s->d->check(m, s->t, m->x, m->xdot, m->v)) return RT_OK;
   return rt_fail_model(s, s->t, "checking");
 }
 
 /* Settings that would keep a run from ever getting anywhere. */
 static rt_status check_settings(rt_session *s) {
   double span = s->stop - s->start, step = s->options.step, interval = s->recorder.interval;
-  if (step > 0 && (step < 16 * rt_time_resolution(s) || span / step > most_steps))
+  if (step > 0 && (step < 16 * rt_time_resolution(s) || span / step > RT_MOST_STEPS))
     return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL, "a step of %.9g s does not get through %.9g s", step, span);
   if (s->recorder.n_grid == 0 && interval > 0 && (span / interval) * (s->recorder.n + 2) > RT_MOST_VALUES)
     return rt_fail(s, RT_ARGUMENT, s->start, -1, NULL,
@@ -34,37 +31,13 @@ static rt_status check_settings(rt_session *s) {
   return RT_OK;
 }
 
-static double clock_of(clockid_t clock) {
-  struct timespec now;
-  clock_gettime(clock, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-void rt_start_patience(rt_session *s) {
-  s->patient_from = clock_of(CLOCK_THREAD_CPUTIME_ID);
-  s->patient_t = s->t;
-}
-
-/* Processor time, so that a run that was stopped for a while is not blamed for it. */
-static rt_status check_patience(rt_session *s) {
-  double span = s->stop - s->start, done = s->t - s->patient_t, limit = s->options.patience;
-  if (done >= headway * span) {
-    rt_start_patience(s);
-    return RT_OK;
-  }
-  if (clock_of(CLOCK_THREAD_CPUTIME_ID) - s->patient_from <= (limit > 0 ? limit : patience)) return RT_OK;
-  return rt_fail(s, RT_STEP_COLLAPSE, s->t, -1, NULL,
-                 "no progress at time %.9g s: %.3g s of computing brought %.3g s of %.9g s (step %.3g s)", s->t,
-                 limit > 0 ? limit : patience, done, span, s->t - s->t_previous);
-}
-
 /* Now and then: is there progress, and does the caller want to go on? */
 static rt_status look_up(rt_session *s) {
-  if (s->looks++ % STEPS_BETWEEN_LOOKS) return RT_OK;
-  double now = clock_of(CLOCK_MONOTONIC);
-  if (now - s->looked_at < look_every) return RT_OK;
-  s->looked_at = now;
-  rt_status status = check_patience(s);
+  if (s->patient.looks++ % STEPS_BETWEEN_LOOKS) return RT_OK;
+  double now = rt_clock_of(CLOCK_MONOTONIC);
+  if (now - s->patient.looked_at < look_every) return RT_OK;
+  s->patient.looked_at = now;
+  rt_status status = rt_check_patience(s);
   if (status || !s->interrupted || !s->interrupted(s->t)) return status;
   return rt_fail(s, RT_INTERRUPTED, s->t, -1, NULL, "interrupted at time %.9g s", s->t);
 }
@@ -196,7 +169,7 @@ rt_result *rt_session_run(rt_session *s, double start, double stop) {
   s->result = rt_result_new(s->recorder.n, s->sensitivities ? s->sensitivities->n : 0, s->d->n_p, expected_rows(s));
   if (!s->result) return NULL;
   rt_status status = rt_begin(s);
-  s->looked_at = clock_of(CLOCK_MONOTONIC);
+  s->patient.looked_at = rt_clock_of(CLOCK_MONOTONIC);
   rt_start_patience(s);
   while (!status && s->t + s->clock.tolerance < s->stop && !s->data.terminated)
     if (!(status = rt_advance(s))) status = rt_happen(s);

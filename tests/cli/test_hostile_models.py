@@ -64,6 +64,32 @@ def test_an_integer_beyond_what_is_exact_ends_the_run(tmp_path: Path) -> None:
     assert (status, "2^53" in said) == (1, True), said
 
 
+F = "function f input Integer k; output Real y; algorithm y := 0; if k*k + 1 > k*k then y := 1; end if; end f; "
+
+
+@pytest.mark.parametrize(
+    "used",
+    [
+        "Boolean c = k*k + 1 > k*k;",
+        "Real y = if k*k*k + 1 == k*k*k then 1 else 0;",
+        "Real y = f(k);",
+        "Real y = min(k*k, 7);",
+        "Real y = sign(k*k - 7);",
+        'equation assert(not k*k + 1 == k*k, "");',
+        "Integer n(start=0, fixed=true); equation when k*k + 1 <= k*k then n = pre(n) + 1; end when;",
+    ],
+)
+def test_what_a_product_beyond_2_53_decides_ends_the_run(tmp_path: Path, used: str) -> None:
+    """k k + 1 > k k was false, without a word; where a branch that does not hold compares, nothing is lost."""
+    text = f"model M {F} Integer k = if time < 0.5 then 3 else 1000000007; {used} end M;"
+    status, said = simulated(tmp_path, text)
+    assert (status, "2^53" in said or "(value nan)" in said) == (1, True), said
+    text = f"model M {F} Integer k = if time < 0.5 then 3 else 50000; {used} end M;"
+    assert simulated(tmp_path, text)[0] == 0
+    guarded = "model M Integer k = if time < 0.5 then 3 else 1000000007; Boolean c = k < 1000 and k*k > 10; end M;"
+    assert simulated(tmp_path, guarded)[0] == 0
+
+
 @pytest.mark.parametrize(
     ("kind", "value", "use", "given"),
     [

@@ -76,3 +76,57 @@ def test_a_file_is_not_compared_in_another_quantity(tmp_path: Path) -> None:
     with pytest.raises(Exception, match=r"y \[V\]: V is no rad/s, which y is in") as refused:
         lacuna.compare_with_file(turn(tmp_path, "rad/s"), recording(tmp_path, "y [V]"))
     assert lacuna.is_user_error(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("head", "unit"), [("n [Hz]", "rad/s"), ("n [kHz]", "rpm"), ("n [rpm]", "Hz"), ("n [rad/s]", "1/min")]
+)
+def test_a_frequency_is_no_speed(tmp_path: Path, head: str, unit: str) -> None:
+    """2 pi lie between them, and nobody knows which way: it was taken as 1."""
+    given = lacuna.recorded(recording(tmp_path, head), "n")
+    with pytest.raises(lacuna.UserError, match=f"cannot drive u: 2 pi lie between them .* is no {unit}"):
+        lacuna.load(turn(tmp_path, unit)).simulate(inputs={"u": given})
+    with pytest.raises(Exception, match=f"2 pi lie between them .* is no {unit}"):
+        lacuna.compare_with_file(turn(tmp_path, unit), recording(tmp_path, head.replace("n", "y", 1)))
+
+
+@pytest.mark.parametrize(
+    ("head", "unit"), [("n [Hz]", "1/s"), ("n [Hz]", "Hz"), ("n [rad/s]", "1/s"), ("n [1/s]", "rad/s")]
+)
+def test_what_may_be_either_is_taken_as_it_is(tmp_path: Path, head: str, unit: str) -> None:
+    given = lacuna.recorded(recording(tmp_path, head), "n")
+    assert lacuna.load(turn(tmp_path, unit)).simulate(inputs={"u": given})["y"][-1] == 120
+
+
+@pytest.mark.parametrize(
+    ("head", "unit", "last", "said"),
+    [
+        ("theta_d", "rad", 120, "theta_d is taken as it is, not in d"),  # it was 86400 times as much
+        ("theta_d", "", 120, "theta_d is taken as it is, not in d"),
+        ("phi_deg", "rad", np.deg2rad(120), "phi_deg is taken to be in deg"),
+        ("phi_rad", "rad", 120, ""),
+    ],
+)
+def test_a_unit_that_a_name_ends_like_is_believed_where_it_fits(
+    tmp_path: Path, head: str, unit: str, last: float, said: str
+) -> None:
+    given = lacuna.recorded(recording(tmp_path, head), head)
+    result = lacuna.load(turn(tmp_path, unit)).simulate(inputs={"u": given})
+    assert result["y"][-1] == pytest.approx(last, rel=1e-12)
+    assert [said in w for w in result.warnings] == [True] * bool(said)
+
+
+def test_a_column_called_as_a_variable_says_no_unit_by_its_end(tmp_path: Path) -> None:
+    """theta_d was looked for as theta, in days."""
+    (tmp_path / "M.mo").write_text("model M Real theta_d = 2; end M;", encoding="utf-8")
+    (tmp_path / "r.csv").write_text("time,theta_d\n0,2\n1,2\n", encoding="utf-8")
+    assert lacuna.compare_with_file(tmp_path / "M.mo", tmp_path / "r.csv").beyond == []
+
+
+def test_a_unit_that_is_none_is_said(tmp_path: Path) -> None:
+    (tmp_path / "r.csv").write_text("time,y\ns,furlong\n0,0\n1,0\n", encoding="utf-8")
+    given = lacuna.recorded(tmp_path / "r.csv", "y")
+    result = lacuna.load(turn(tmp_path, "rad/s")).simulate(inputs={"u": given})
+    assert "furlong is no unit known here" in result.warnings[0]
+    with pytest.raises(Exception, match="y is in furlong, which is no unit known here"):
+        lacuna.compare_with_file(turn(tmp_path, "rad/s"), tmp_path / "r.csv")

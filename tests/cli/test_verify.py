@@ -150,3 +150,16 @@ model X Real x = f(time); end X;
     assert not (place / "ran").exists()
     assert status_of("verify", "out", "--allow-external") == 0
     assert (place / "ran").exists()
+
+
+def test_a_folder_that_is_too_large_is_not_read_through(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """--data / read the whole disk, for the digest that verify compares."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("lacuna.verification.MOST_ENTRIES", 10)
+    Path("Decay.mo").write_text(MODEL)
+    Path("data").mkdir()
+    for count in range(20):
+        (Path("data") / str(count)).touch()
+    result = CliRunner().invoke(app, ["simulate", "Decay.mo", "--data", "data", "--out", "out"])
+    assert (result.exit_code, "warning: data holds more than 10 files" in result.output) == (0, True)
+    assert CliRunner().invoke(app, ["verify", "out"]).exit_code == 0

@@ -104,3 +104,17 @@ def test_names_with_dots_need_no_quotes(consistent_case: Path, tmp_path: Path) -
     assert case.uncertainty["shaft.J"] == 0.2
     assert case.own[name].initial == {"shaft.w": 3.0}
     assert case.own[name].parameters == {"shaft.disc.J": 2e-3}
+
+
+def test_a_head_that_says_another_unit_than_the_description_is_refused(consistent_case: Path, tmp_path: Path) -> None:
+    """i [mA] was read as A; i_mA may be a name."""
+    shutil.copytree(consistent_case, tmp_path / "case")
+    file = next((tmp_path / "case").glob("*.csv"))
+    head, rest = file.read_text().split("\n", 1)
+    for said, refused in (("i [A]", ""), ("i [mA]", "`i [mA]` is in mA by its head, and in A by case.toml")):
+        file.write_text(",".join(said if name == "i" else name for name in head.split(",")) + "\n" + rest)
+        if refused:
+            with pytest.raises(CaseError, match=re.escape(refused)):
+                load(tmp_path / "case")
+        else:
+            load(tmp_path / "case")

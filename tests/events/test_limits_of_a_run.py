@@ -140,3 +140,17 @@ def test_a_parameter_that_no_operator_takes_is_told_with_its_line(
 ) -> None:
     failure = simulated(tmp_path, text, parameters={parameter: -1.0}, stop=3.0).failure
     assert failure.line == line and why in failure.message
+
+
+def test_chattering_that_gets_somewhere_ends(tmp_path: Path) -> None:
+    """Steps of 1e-12 s bring 1e-6 of the run in seconds, and would bring all of it in weeks."""
+    text = """model Chatter
+      Real x(start=0.5, fixed=true);
+    equation
+      der(x) = noEvent(if x > 0 then -1 else 1);
+    end Chatter;
+    """
+    failure = runtime.simulate(compiled(tmp_path, text), stop=1.0, interval=0.1, patience=1.0).failure
+    assert failure is not None
+    assert (failure.status, failure.variable, failure.line) == ("step_collapse", "x", 4)
+    assert "1 s of computing brought" in str(failure)

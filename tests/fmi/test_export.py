@@ -146,3 +146,20 @@ def test_a_start_value_that_no_run_takes_is_refused(tmp_path: Path, name: str, v
     with pytest.raises(Exception, match=said) as refused:
         lacuna.export_fmu(model, tmp_path / "N.fmu", parameters={name: value})
     assert lacuna.is_user_error(refused.value) and not (tmp_path / "N.fmu").exists()
+
+
+def test_an_fmu_in_other_units_is_compared_in_the_models(tmp_path: Path) -> None:
+    """What is 0.5 V in the FMU was compared as 0.5 mV."""
+    text = 'model M\n  parameter Real a(unit="{0}") = {1};\n  Real x(start=0, fixed=true, unit="{0}");\n'
+    text += "equation\n  der(x)*{{number}} = a;\nend M;\n"
+    text = text.replace("{{number}}", "T").replace("equation", '  parameter Real T(unit="s") = 2;\nequation')
+    for folder, values in (("theirs", ("V", 1)), ("ours", ("mV", 1000)), ("ampere", ("A", 1))):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "M.mo").write_text(text.format(*values))
+    lacuna.export_fmu(tmp_path / "theirs" / "M.mo", tmp_path / "M.fmu")
+    found = lacuna.compare_with_file(tmp_path / "ours" / "M.mo", tmp_path / "M.fmu")
+    assert found.beyond == [] and "x" in {row[0] for row in found.rows}
+    with pytest.raises(Exception, match="a is in V, in the model in A"):
+        lacuna.compare_with_file(tmp_path / "ampere" / "M.mo", tmp_path / "M.fmu")
+    with pytest.raises(Exception, match="has a, which the comparison sets, in another unit"):
+        lacuna.compare_with_file(tmp_path / "ours" / "M.mo", tmp_path / "M.fmu", parameters={"a": 3.0})

@@ -6,8 +6,10 @@ from pathlib import Path
 import random
 
 import pytest
+from typer.testing import CliRunner
 
 import lacuna
+from lacuna.cli.main import app
 from lacuna.codegen.flat.text import dump_flat
 from lacuna.codegen.flatten import flatten
 from lacuna.codegen.library.classes import Library
@@ -101,3 +103,15 @@ end P;
 def test_what_does_not_parse_is_left_alone() -> None:
     with pytest.raises(Exception, match="P00"):
         lacuna.format_model("model M\n  Real x\nend M;\n")
+
+
+def test_a_folder_is_formatted_beside_what_cannot_be(tmp_path: Path) -> None:
+    """A file that is no UTF-8, or no Modelica, ended the command before those behind it."""
+    (tmp_path / "A.mo").write_bytes(b"model A \xff end A;\n")
+    (tmp_path / "B.mo").write_text("model B Real x = ; end B;\n")
+    (tmp_path / "C.mo").write_text("model C\nReal x = 1;\nend C;\n")
+    result = CliRunner().invoke(app, ["format", str(tmp_path)])
+    assert result.exit_code == 1
+    assert (tmp_path / "C.mo").read_text() == "model C\n  Real x = 1;\nend C;\n"
+    assert "A.mo: not a text in UTF-8" in result.output and "B.mo:1:" in result.output
+    assert "left as they are: 2 of 3 files" in result.output

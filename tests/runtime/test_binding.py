@@ -160,7 +160,7 @@ def test_a_run_that_fails_keeps_its_rows_and_says_why(tmp_path: Path):
     result = runtime.simulate(blows_up, stop=2.0, interval=0.1)
     assert not result.complete and result.failure.status == "step_collapse"
     assert result.failure.time == pytest.approx(1.0, abs=1e-3)
-    assert (result.failure.variable, result.failure.line) == ("x", 2) and "BlowsUp.mo:2:" in str(result.failure)
+    assert (result.failure.variable, result.failure.line) == ("x", 4) and "BlowsUp.mo:4:" in str(result.failure)
     np.testing.assert_allclose(result["x"][:9], 1 / (1 - result.time[:9]), rtol=1e-4)
 
 

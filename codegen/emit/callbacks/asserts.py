@@ -7,7 +7,8 @@ from lacuna.codegen.dae.events import DiscreteEquation
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.storage import Storage
 from lacuna.codegen.emit.text.body import Body
-from lacuna.codegen.symbolic.expr import Expr, walk
+from lacuna.codegen.emit.text.expression import is_doubtful
+from lacuna.codegen.symbolic.expr import RELATIONS, Expr, walk
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import all_statements
 
@@ -35,7 +36,9 @@ def of_the_run(p: Prepared) -> list[tuple[int, flat.Assert]]:
 
 def write_assert(body: Body, condition: Expr, row: int) -> None:
     body.line(f"if (!({body.value(condition)})) {{")
-    body.line(f"  (void)mdl_fail(m, MDL_FAILURE_ASSERT, {row}, 0.0);")
+    noted = any(n.op in RELATIONS and is_doubtful(n) for n in walk(condition))
+    only = "if (m->failure.kind == MDL_FAILURE_NONE) " if noted else ""
+    body.line(f"  {only}(void)mdl_fail(m, MDL_FAILURE_ASSERT, {row}, 0.0);")
     body.line("  return -1;")
     body.line("}")
 

@@ -53,8 +53,8 @@ static double mdl_next_switch(double g, double slope, double t, double next) {
 _HELPERS = {
     "mdl_word": WORDS,
     **NATIVE,
-    **HELPERS,
     "mdl_fail": _FAIL,
+    **HELPERS,
     "mdl_index": _INDEX,
     "mdl_enter": _ENTER,
     **SOLVES,

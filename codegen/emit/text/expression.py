@@ -4,7 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from lacuna.codegen.symbolic.expr import BOOLEAN, BUILTINS, INTEGER, Expr, call, const, div, mul, transform
+from lacuna.codegen.symbolic.expr import (
+    BOOLEAN,
+    BUILTINS,
+    INTEGER,
+    RELATIONS,
+    Expr,
+    call,
+    const,
+    div,
+    mul,
+    transform,
+    walk,
+)
 
 _BINARY = {
     "or": ("||", 2), "and": ("&&", 3), "==": ("==", 4), "<>": ("!=", 4), "<": ("<", 5), "<=": ("<=", 5),
@@ -15,9 +27,10 @@ _FUNCTIONS = {
     "abs": "fabs", "integer": "floor", "sign": "mdl_sign", "mod": "mdl_mod", "rem": "mdl_rem", "div": "mdl_div",
 }  # fmt: skip
 HELPERS = {
-    "mdl_min": "static inline double mdl_min(double a, double b) { return a < b ? a : b; }",
-    "mdl_max": "static inline double mdl_max(double a, double b) { return a > b ? a : b; }",
-    "mdl_sign": "static inline double mdl_sign(double a) { return (a > 0.0) - (a < 0.0); }",
+    # what is no number stays none: a != a
+    "mdl_min": "static inline double mdl_min(double a, double b) { return a < b || a != a ? a : b; }",
+    "mdl_max": "static inline double mdl_max(double a, double b) { return a > b || a != a ? a : b; }",
+    "mdl_sign": "static inline double mdl_sign(double a) { return a != a ? a : (a > 0.0) - (a < 0.0); }",
     "mdl_mod": "static inline double mdl_mod(double a, double b) { return a - floor(a / b) * b; }",
     "mdl_rem": "static inline double mdl_rem(double a, double b) { return a - trunc(a / b) * b; }",
     "mdl_div": "static inline double mdl_div(double a, double b) { return trunc(a / b); }",
@@ -25,6 +38,10 @@ HELPERS = {
     "mdl_times": "static inline double mdl_times(double a, double b) {\n"
     "  const double product = a * b;\n"
     "  return fabs(product) > 0x1p53 ? NAN : product;\n}",
+    # of sides that hold such a product: noted as a failure where one of them is no number
+    "mdl_compared": "static inline int mdl_compared(const mdl_data *m, double a, double b, int holds) {\n"
+    "  if (a != a || b != b) (void)mdl_fail((mdl_data *)m, MDL_FAILURE_INEXACT, -1, 0.0);\n"
+    "  return holds;\n}",
 }
 
 Lookup = Callable[[Expr], str | None]
@@ -71,6 +88,9 @@ def _print(e: Expr, name: Lookup) -> tuple[str, int]:
         return text, _UNARY if text.startswith("-") else _PRIMARY
     if e.op == "*" and not any(map(_keeps_size, e.args)):
         return f"mdl_times({_list(e.args, name)})", _PRIMARY
+    if e.op in RELATIONS and is_doubtful(e):
+        sides, (holds, _) = _list(e.args, name), _print_binary(e, name)
+        return f"mdl_compared(m, {sides}, {holds})", _PRIMARY
     if e.op in _BINARY:
         return _print_binary(e, name)
     if e.op == "start_time":
@@ -100,6 +120,11 @@ def _print(e: Expr, name: Lookup) -> tuple[str, int]:
     if e.op == "annotated":
         return _print(e.args[0], name)
     raise AssertionError(f"no C for {e.op}: {e}")
+
+
+def is_doubtful(relation: Expr) -> bool:
+    """Whether a product of Integers that may not be exact is compared; where it is not, it is no number."""
+    return any(n.op == "*" and not any(map(_keeps_size, n.args)) for side in relation.args for n in walk(side))
 
 
 def _keeps_size(factor: Expr) -> bool:

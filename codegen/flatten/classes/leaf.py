@@ -6,8 +6,9 @@ from dataclasses import replace
 from functools import cached_property
 from math import prod
 
-from lacuna.codegen.errors import Diagnostic
+from lacuna.codegen.errors import Diagnostic, Span
 from lacuna.codegen.flatten.classes.types import ATTRIBUTES, EXTERNAL, Type
+from lacuna.codegen.flatten.expressions.constants import evaluate, is_parameter
 from lacuna.codegen.flatten.expressions.enumerations import IndexType, literal
 from lacuna.codegen.flatten.expressions.lower import modifier_value
 from lacuna.codegen.flatten.names.component import Component
@@ -71,10 +72,6 @@ class Leaf:
             if inner is not None:
                 message = f"{name} of {self.name} is a value and has no {inner}"
                 raise Diagnostic("R035", message, child.span, f"{inner} is an attribute of the variable")
-        fixed = self.modifier.children.get("fixed")
-        if self.variability == "constant" and self._is_false(fixed):
-            hint = "declare it as a parameter, or leave fixed out"
-            raise Diagnostic("R035", f"the constant {self.name} has fixed = false (8.6)", fixed.span, hint)
 
     @property
     def is_structural(self) -> bool:
@@ -82,13 +79,31 @@ class Leaf:
 
     @cached_property
     def is_free(self) -> bool:
-        """A parameter that initial equations determine."""
-        return self.variability == "parameter" and self._is_false(self.modifier.children.get("fixed"))
+        """A parameter that initial equations determine, in an array some of it; one with a binding has its value by
+        that (8.6)."""
+        free = self.variability == "parameter" and self.modifier.value is None
+        return free and any(value is ex.FALSE for value in self.fixed)
 
-    @staticmethod
-    def _is_false(fixed: Modifier | None) -> bool:
-        value = fixed.value if fixed is not None else None
-        return value is ex.FALSE or (isinstance(value, ast.Literal) and value.value is False)
+    @cached_property
+    def fixed(self) -> tuple[Expr | None, ...]:
+        """The attribute of each element, known at translation: it decides which equations there are at the start."""
+        found = self.attribute("fixed")
+        if found is None:
+            return (None,) * len(self.names)
+        place, what = self.modifier.children["fixed"].span, f"fixed of {self.name}"
+        return tuple(self._fixed(value, what, place) for value in items_of(found))
+
+    def _fixed(self, value: Value, what: str, place: Span) -> Expr:
+        context = self.instance.context
+        if not isinstance(value, Expr) or value.type != ex.BOOLEAN:
+            raise Diagnostic("R024", f"{what} is no Boolean", place, "write true or false")
+        if not is_parameter(value, context):
+            raise Diagnostic("R055", f"{what} varies in time", place, "use parameters and constants")
+        constant = evaluate(value, context, place, what)
+        if self.variability == "constant" and constant is ex.FALSE:
+            hint = "declare it as a parameter, or leave fixed out"
+            raise Diagnostic("R035", f"the constant {self.name} has fixed = false (8.6)", place, hint)
+        return constant
 
     def value(self) -> Value:
         """The variable(s) as expressions; a String is its text."""

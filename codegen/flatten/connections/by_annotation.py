@@ -10,6 +10,7 @@ from lacuna.codegen.flatten.classes.leaf import Leaf
 from lacuna.codegen.flatten.connections.connection_sets import ConnectionSets
 from lacuna.codegen.flatten.connections.connectors import End, parts
 from lacuna.codegen.flatten.expressions.constants import evaluate
+from lacuna.codegen.flatten.names.annotations import warn_of_slips
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.syntax import ast
@@ -20,7 +21,7 @@ MUST, ONCE = "mustBeConnected", "mayOnlyConnectOnce"
 def check_annotations(leaves: Iterable[Leaf], context: Context) -> None:
     """Raises R060 for a connector of a component that is connected from outside less or more than it says."""
     sets = context.table(ConnectionSets)
-    for node, said in _annotated(leaves):
+    for node, said in _annotated(leaves, context):
         with context.attempt():
             names = [part.end.name for part in parts(node, False).values() if part.kind in ("flow", "potential")]
             around = node.instance if isinstance(node, Leaf) else node.parent
@@ -33,7 +34,7 @@ def check_annotations(leaves: Iterable[Leaf], context: Context) -> None:
                 raise Diagnostic("R060", message, node.span, "connect it once")
 
 
-def _annotated(leaves: Iterable[Leaf]) -> Iterator[tuple[Leaf | Instance, dict[str, str]]]:
+def _annotated(leaves: Iterable[Leaf], context: Context) -> Iterator[tuple[Leaf | Instance, dict[str, str]]]:
     """Connectors of components, each once, with the messages of their annotations."""
     seen: set[int] = set()
     for leaf in leaves:
@@ -41,6 +42,7 @@ def _annotated(leaves: Iterable[Leaf]) -> Iterator[tuple[Leaf | Instance, dict[s
         while node is not None and id(node) not in seen:
             seen.add(id(node))
             around = node.instance if isinstance(node, Leaf) else node.parent
+            warn_of_slips(node.declaration.annotation if node.declaration else None, (MUST, ONCE), context)
             said = _messages(node.declaration)
             if said and around is not None and around.parent is not None:
                 yield node, said

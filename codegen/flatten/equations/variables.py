@@ -12,6 +12,7 @@ from lacuna.codegen.flatten.classes.types import EXTERNAL
 from lacuna.codegen.flatten.equations.equations import real_or_same
 from lacuna.codegen.flatten.expressions.constants import evaluate, is_parameter, variability
 from lacuna.codegen.flatten.expressions.enumerations import enumeration_of, require_same
+from lacuna.codegen.flatten.names.annotations import warn_of_slips
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.values import Record, items_of
 from lacuna.codegen.symbolic import expr as ex
@@ -31,10 +32,11 @@ def flatten_variables(leaf: Leaf, model: flat.FlatModel) -> None:
     context = leaf.instance.context
     values = {name: leaf.attribute(name) for name in leaf.modifier.children}
     binding = leaf.binding()
+    warn_of_slips(leaf.declaration.annotation, ["Evaluate"], context)
     for position, name in enumerate(leaf.names):
         _note_places(leaf, name)
         attributes = {k: leaf.element(v, position) for k, v in values.items() if v is not None}
-        variable = _variable(leaf, name, attributes)
+        variable = _variable(leaf, position, attributes)
         value = leaf.element(binding, position)
         if leaf.is_structural:
             variable.binding = _parameter_value(leaf, variable, value, context)
@@ -78,14 +80,15 @@ def _note_places(leaf: Leaf, name: str) -> None:
     places |= {(name, key): child.span for key, child in leaf.modifier.children.items()}
 
 
-def _variable(leaf: Leaf, name: str, attributes: dict[str, Expr | str]) -> flat.Variable:
-    context, span = leaf.instance.context, leaf.span
+def _variable(leaf: Leaf, position: int, attributes: dict[str, Expr | str]) -> flat.Variable:
+    context, span, name = leaf.instance.context, leaf.span, leaf.names[position]
     result = flat.Variable(
         name,
         span,
         leaf.primitive,
         leaf.variability,
         description=leaf.declaration.description,
+        fixed=leaf.fixed[position],
         final=leaf.modifier.final,
         evaluated=leaf.is_structural and not leaf.is_free and _is_evaluated(leaf.declaration.annotation),
     )
@@ -96,11 +99,6 @@ def _variable(leaf: Leaf, name: str, attributes: dict[str, Expr | str]) -> flat.
                 hint = "use parameters and constants"
                 raise Diagnostic("R055", f"{key} of {name} varies in time", leaf.modifier.children[key].span, hint)
             setattr(result, key, value)
-    if "fixed" in attributes:
-        place = leaf.modifier.children["fixed"].span
-        result.fixed = _of_type(attributes["fixed"], BOOLEAN, f"fixed of {name}", place)
-        if not is_parameter(result.fixed, context):
-            raise Diagnostic("R055", f"fixed of {name} varies in time", place, "use parameters and constants")
     for key in ("unit", "quantity", "displayUnit"):
         if key in attributes:
             text = _text(attributes[key], key, leaf)
@@ -177,6 +175,11 @@ def _parameter_value(leaf: Leaf, variable: flat.Variable, value: Expr | None, co
         if leaf.variability == "constant" and variability(checked, context) != "constant":
             message = f"the constant {variable.name} depends on parameters: {ex.to_text(checked)}"
             raise Diagnostic("R055", message, span, "declare it as a parameter, or use constants only")
+        if variable.fixed is ex.FALSE:
+            variable.fixed = None
+            message = f"{variable.name} has fixed = false and a value: it has that value (8.6)"
+            hint = "drop the value where initial equations are to determine it, or else fixed = false"
+            context.warnings.append(Diagnostic("W012", message, span, hint, severity="warning"))
         return checked
     if variable.fixed is ex.FALSE:
         return None
@@ -199,7 +202,7 @@ def add_used_constants(model: flat.FlatModel, context: Context, expressions: lis
                 leaf, position = context.scalars[name]
                 value = leaf.element(leaf.binding(), position)
                 attributes = {k: leaf.element(leaf.attribute(k), position) for k in leaf.modifier.children}
-                variable = _variable(leaf, name, {k: v for k, v in attributes.items() if v is not None})
+                variable = _variable(leaf, position, {k: v for k, v in attributes.items() if v is not None})
                 variable.binding = _parameter_value(leaf, variable, value, context)
                 model.variables[name] = variable
                 if variable.binding is not None:

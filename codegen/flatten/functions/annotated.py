@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.flatten.expressions.constants import is_parameter
 from lacuna.codegen.flatten.functions.locals import Signature, signature_of
+from lacuna.codegen.flatten.names.annotations import warn_of_slips
 from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import find_class
 from lacuna.codegen.flatten.names.values import (
@@ -124,6 +125,7 @@ def _key(signature: Signature, arguments: dict[str, Value], level: _Level, conte
 
 def _annotations(signature: Signature, context: Context) -> list[_Annotation]:
     cls = signature.cls
+    warn_of_slips(cls.annotation, ("derivative", "GenerateEvents"), context)
     entries = cls.annotation.arguments if cls.annotation is not None else ()
     return [_annotation(a, signature, context) for a in entries if a.name == "derivative"]
 

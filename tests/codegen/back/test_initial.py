@@ -10,6 +10,7 @@ import pytest
 from lacuna import runtime
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.emit.callbacks import large
+from lacuna.codegen.errors import Diagnostic
 
 STEADY = """model Steady "A DC motor that starts in steady state and is loaded after half a second"
   parameter Real R=1, L=0.01, k=0.1, J=0.001, d=1e-4, V=12;
@@ -169,3 +170,41 @@ def test_what_a_mode_leaves_open_starts_at_its_start_value(
 def test_what_a_mode_contradicts_is_refused(tmp_path: Path) -> None:
     result = simulated(tmp_path, STICKS.format("1"), stop=1.0)
     assert "linear equations have no solution, or no unique one" in str(result.failure)
+
+
+BOUND = """model Bound
+  parameter Real p(fixed=false) = 2;
+  parameter Real q[2](fixed={false, true}) = {p, 1};
+  Real x(start=1, fixed=true);
+equation
+  der(x) = p + q[1] + q[2];
+end Bound;
+"""
+
+
+def test_a_parameter_with_a_value_has_that_value_and_a_warning_says_so(tmp_path: Path) -> None:
+    """8.6: solved from its binding, with a diagnostic. An initial equation for it is one too many."""
+    (tmp_path / "Bound.mo").write_text(BOUND)
+    compiled = compile_model(str(tmp_path / "Bound.mo"))
+    assert [(w.code, w.span.line) for w in compiled.report.warnings] == [("W012", 2), ("W012", 3)]
+    assert runtime.simulate(runtime.Model(compiled.path))["x"][-1] == pytest.approx(6, rel=1e-12)
+    with pytest.raises(Diagnostic, match=r"too many initial equations: nothing in p = 5 is unknown"):
+        simulated(tmp_path, BOUND.replace("equation\n", "initial equation\n  p = 5;\nequation\n", 1))
+
+
+def test_fixed_may_be_a_parameter(tmp_path: Path) -> None:
+    """x + y = 5 with x fixed at 1 gives y = 4, and p is what der(x) = 7 asks for."""
+    text = """model Chosen
+  parameter Boolean given = true;
+  parameter Real p(fixed=not given);
+  Real y(start=0, fixed=not given), x(start=1, fixed=given);
+initial equation
+  x + y = 5;
+  der(x) = 7;
+equation
+  der(y) = 0;
+  der(x) = p;
+end Chosen;
+"""
+    result = simulated(tmp_path, text, stop=0.5)
+    assert (result["y"][0], result["x"][-1]) == pytest.approx((4, 4.5), rel=1e-9)

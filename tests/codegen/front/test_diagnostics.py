@@ -89,3 +89,21 @@ def test_a_file_declares_a_class_once(tmp_path: Path) -> None:
     with pytest.raises(Diagnostic) as caught:
         flatten_text(tmp_path, "model M Real x = 1; end M;\nmodel M Real y = 1; end M;")
     assert (caught.value.code, caught.value.span.line, len(caught.value.notes)) == ("R010", 2, 1)
+
+
+def test_annotations_that_are_nearly_read_are_warned_of_where_they_stand(tmp_path: Path) -> None:
+    """An experiment's StopTimee or a parameter's evaluate did nothing; what other tools read is not looked at."""
+    text = """model M
+  parameter Real c = 0 annotation(evaluate=true, Dialog(group="a"), __Tool_evaluate=true);
+  Real x(start=1, fixed=true);
+equation
+  der(x) = -c*x;
+  annotation(Icon(graphics={}), experimet(StopTime=3), experiment(StopTimee=2, Runs=3, __Tool_Stop=3));
+end M;"""
+    found = [(w.code, w.span.line, w.span.column, w.hint) for w in flatten_text(tmp_path, text).warnings]
+    assert found == [
+        ("W013", 2, 35, "did you mean Evaluate?"),
+        ("W013", 6, 33, "did you mean experiment?"),
+        ("W013", 6, 67, "did you mean StopTime?"),
+        ("W013", 6, 80, "it has StartTime, StopTime, Tolerance, Interval"),
+    ]

@@ -16,6 +16,7 @@ from lacuna.codegen.flatten.expressions.lower import lower
 from lacuna.codegen.flatten.functions.kept.writer import Writer
 from lacuna.codegen.flatten.functions.library.data_files import folder_of, text_of
 from lacuna.codegen.flatten.functions.locals import Signature
+from lacuna.codegen.flatten.names.annotations import warn_of_slips
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Array, Value, items_of, shape_of
 from lacuna.codegen.symbolic.expr import Expr
@@ -111,6 +112,7 @@ def _note_code(cls: ast.Class, scope: Scope) -> bool:
     """Keep the texts and libraries that the annotation names; whether there is a text."""
     code, span = scope.context.table(ForeignCode), cls.external.span
     inner = Scope(scope.context, cls, None, in_function=True)
+    warn_of_slips(cls.external.annotation, _KEYS, scope.context)
     said = {a.name: a.modification.value for a in (cls.external.annotation or ast.Modification(span)).arguments}
     given = {name: _texts(lower(e, inner)) for name, e in said.items() if e is not None and name in _KEYS}
     headers = _folder(given.get("IncludeDirectory"), "Resources/Include", cls, scope)
