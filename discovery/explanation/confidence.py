@@ -65,7 +65,9 @@ def tie(finding: Finding) -> list[dict[str, str]]:
     alike, _ = finding.ranked.attachment.alike
     others = [{"effect": alike, "location": finding.ranked.attachment.location}] if alike else []
     others += [{"effect": "sensor.offset", "location": f"sensor:{finding.instrument}"}] if finding.instrument else []
-    return [{"effect": effect, "location": location} for effect, location in identities] + others
+    named = [{"effect": effect, "location": location} for effect, location in identities]
+    others += [named[0] | {"of": finding.moved}] if finding.moved else []
+    return named + others
 
 
 def alternatives(finding: Finding, share: float) -> list[dict[str, Any]]:

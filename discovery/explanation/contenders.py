@@ -13,13 +13,14 @@ MOST = 3  # rivals of the first explanation
 
 
 def contenders(result: Explanation) -> list[Rival]:
-    """The first explanation and its rivals; none where nothing is open, or where it is an instrument's error or not.
+    """The first explanation and its rivals; none where nothing is open, or where it is an instrument's error or not,
+    or a law of one input or another.
 
     Of findings: the first that is tied, and what it is tied with: at other places, else of other physics there. Where
     nothing stands: the best of all that was tried, the next best, and the believed model. A law that holds another as a
     special case is no rival of it: no experiment speaks for the simpler one.
     """
-    if any(f.instrument for f in result.findings):
+    if any(f.instrument or f.moved for f in result.findings):
         return []
     for finding in result.findings:
         if rivals := finding.elsewhere or _of_another_kind(finding):

@@ -1,4 +1,5 @@
-"""Whether a finding is told from an error of what is recorded of an input: its offset."""
+"""Whether a finding is told from what else the inputs say: an offset of what is recorded of one, another one that moves
+as the one does of which it is a law."""
 
 from __future__ import annotations
 
@@ -38,6 +39,32 @@ def offset_instead(result: Explanation) -> tuple[Signal, float] | None:
         if np.sum((own - share * moved) ** 2) < SAME * float(own @ own) and abs(offset) <= largest:
             return signal, offset
     return None
+
+
+def moved_as_one(result: Explanation) -> tuple[Signal, Signal] | None:
+    """(the input that the only finding is a law of alone, another one that is in proportion to it in all recordings):
+    a law of either would do the same. None where there are no such inputs."""
+    (first, *others), inputs = result.findings, result.case.inputs
+    read = {variable for _, variable in first.ranked.attachment.signals}
+    own = next((s for s in inputs if {s.variable} == read), None)
+    if others or own is None:
+        return None
+    course = _course(result, own)
+    for signal in inputs:
+        if signal is not own and _in_proportion(course, _course(result, signal)):
+            return own, signal
+    return None
+
+
+def _course(result: Explanation, signal: Signal) -> np.ndarray:
+    return np.concatenate([r.columns[signal.column] for r in (*result.case.fit, *result.case.validate)])
+
+
+def _in_proportion(one: np.ndarray, other: np.ndarray) -> bool:
+    both = np.isfinite(one) & np.isfinite(other)
+    one, other = one[both], other[both]
+    left = one - other * (one @ other) / max(float(other @ other), 1e-300)
+    return bool(np.ptp(one) > 0 and np.sum(left**2) < SAME**2 * float(one @ one))
 
 
 def _outputs(final: Fit, point: Mapping[str, float], recordings: Sequence[Recording]) -> np.ndarray | None:

@@ -12,7 +12,7 @@ from lacuna.discovery.efforts.instruments import NATS, gained, log_evidence, onl
 from lacuna.discovery.efforts.located import Site
 from lacuna.discovery.efforts.places.opened import ALIKE
 from lacuna.discovery.explanation.explanation import Explanation
-from lacuna.discovery.explanation.input_error import offset_instead
+from lacuna.discovery.explanation.input_error import moved_as_one, offset_instead
 from lacuna.discovery.fit.evidence import (
     CLEARLY,
     astray,
@@ -132,6 +132,15 @@ def _conclude_from_findings(result: Explanation) -> None:
             f"{signal.column} would do: physics or an instrument"
         )
         result.experiment = f"record {signal.column} by a second instrument, or where it is known to be zero"
+    elif pair := moved_as_one(result):
+        own, other = pair
+        result.findings[0] = replace(first, moved=other.column)
+        result.verdict = "undetermined"
+        result.reason = (
+            f"{_told(first.ranked)} may as well be one of {other.column}, which was always in one proportion to "
+            f"{own.column}"
+        )
+        result.experiment = f"record a motion in which {own.column} and {other.column} go apart"
     else:
         result.verdict = "missing_physics"
         turning = dict.fromkeys(v for f in result.findings if (v := f.ranked.attachment.alike[1]))

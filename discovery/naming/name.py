@@ -93,6 +93,7 @@ class Finding:
     before: Judgement
     after: Judgement
     instrument: str = ""  # the column of an input, of whose constant error it is not told
+    moved: str = ""  # the column of an input that moves as the one does of which it is a law
 
     @property
     def elsewhere(self) -> list[Ranked]:
