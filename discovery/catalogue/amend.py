@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.modifications import entries, modified, wrapped
 from lacuna.discovery.catalogue.places import Line, Shaft, Structure
-from lacuna.discovery.efforts.places.copied import copied
+from lacuna.discovery.efforts.places.copied import Added, copied
 from lacuna.discovery.efforts.places.families import meant
 from lacuna.discovery.efforts.places.sites import Site
 
@@ -47,22 +47,6 @@ class Amendment:
         """Modelica source of the class; `values` gives parameters of the effects by full name."""
         writer = _Writer(self, values or {})
         return writer.write(name, comment)
-
-
-@dataclass
-class Added:
-    """A variable that is added at a place: a sum of terms, of each element where arrays are on the way."""
-
-    site: Site
-    variable: str
-    sums: dict[tuple[int, ...], list[str]] = field(default_factory=dict)
-
-    def value(self, element: tuple[int, ...] = ()) -> str:
-        """Its binding, or that of a part of the array."""
-        _, shape = self.site.element
-        if len(element) == len(shape):
-            return " + ".join(self.sums.get(element, ["0"]))
-        return "{" + ", ".join(self.value((*element, k)) for k in range(1, shape[len(element)] + 1)) + "}"
 
 
 class _Writer:

@@ -168,7 +168,7 @@ def test_a_parameter_varies_inside_the_side_that_a_term_is_added_to(tmp_path: Pa
     (k,) = varying(sites.places, {"k": 2})
     assert not varying(sites.places, {"k": 3})  # a third one would not vary with them
     torque = next(s for s in sites.places if s.label.startswith("J*der(w)"))
-    for edits in ({k: "varies", torque: "acts"}, {torque: "acts", k: "varies"}):
+    for edits in ([(k, "varies"), (torque, "acts")], [(torque, "acts"), (k, "varies")]):
         _, lines = copied(sites.cls, edits)
         assert "    J*der(w) = ( i*(k + varies)) + acts;" in lines
 

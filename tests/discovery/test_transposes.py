@@ -9,6 +9,7 @@ from lacuna.discovery.efforts.latent.chains import Latent, Piece
 from lacuna.discovery.efforts.latent.smoother import Whitener, thinned
 from lacuna.discovery.efforts.laws.regression import BLOCK, DISCREPANCIES, Regression
 from lacuna.discovery.efforts.located import Guided
+from lacuna.discovery.efforts.places.sites import Site as Place
 from lacuna.discovery.law.law import Site
 from lacuna.discovery.law.law_terms import Group, Variable
 
@@ -35,8 +36,8 @@ def test_a_regression_equals_least_squares_on_all_columns_at_once() -> None:
     pieces = [_moving(piece(40, missing=7)), _moving(piece(35))]
     groups = [Group(("1",)), Group(("x1", "x1^2")), Group(("0*x1",)), Group(("x1", "x1^3"))]
     groups += [Group((f"sin({k}*x1)", f"cos({k}*x1)")) for k in range(1, BLOCK)]
-    site = Site(None, "here", "1", (Variable("x1", "x", "1", "state", 1.0),), (1, 1))
-    regression = Regression(Guided({}, pieces, [], np.zeros(2), LATENT), site, 1)
+    site = Site(Place("equation", "x = 1"), "here", "1", (Variable("x1", "x", "1", "state", 1.0),), (1, 1))
+    regression = Regression(Guided({}, pieces, [], np.zeros(2), LATENT), site, [1])
     every = regression.add(groups)
     several = [(0,), (1,), (9,)]
     found = regression._deviances(several, every)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 import re
 
@@ -13,6 +14,22 @@ from lacuna.discovery.efforts.places.sites import Site, Step, occurrences
 
 Edit = tuple[tuple[Step, ...], Site, str]  # what is left of the way to a site, the site, what is added there
 Change = tuple[int, bool, str, int]  # where, whether after others there, what is put in, in place of what up to where
+
+
+@dataclass
+class Added:
+    """A variable that is added at a place: a sum of terms, of each element where arrays are on the way."""
+
+    site: Site
+    variable: str
+    sums: dict[tuple[int, ...], list[str]] = field(default_factory=dict)
+
+    def value(self, element: tuple[int, ...] = ()) -> str:
+        """Its binding, or that of a part of the array."""
+        _, shape = self.site.element
+        if len(element) == len(shape):
+            return " + ".join(self.sums.get(element, ["0"]))
+        return "{" + ", ".join(self.value((*element, k)) for k in range(1, shape[len(element)] + 1)) + "}"
 
 
 def copied(cls: ast.Class, edits: Sequence[tuple[Site, str]]) -> tuple[str, list[str]]:
