@@ -256,5 +256,6 @@ def _together(a: Variable, b: Variable, signed: bool, once: bool) -> list[Group]
     found = [Group((f"{x}*{y}^2",)), Group((f"{x}*abs{y}",)), saturating]
     rubs = signed and a.kind != "rate"
     found += [Group((f"{a.dry}*abs{y}",))] if rubs else []
-    found += [g for factor in (x, a.dry)[: 1 + rubs] for g in _exponential(f"{{q}}*{y}", f"{factor}*")]
+    found += _exponential(f"{{q}}*{y}", f"{x}*")
+    found += _exponential(f"{{q}}*{y}", f"{a.dry}*") if rubs and a.sticks else []
     return [Group((f"{x}*{y}",)), *found] if once else found
