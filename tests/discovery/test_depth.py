@@ -25,8 +25,11 @@ WORKS = """package Works "Units of two bodies"
     parameter Real C(unit="J/K") = 100;
     Heat port;
     Real T(unit="K", start=0, fixed=true);
+  protected
+    Real stored(unit="J");
   equation
     T = port.T;
+    stored = C*T;
     C*der(T) = port.Q;
   end Body;
   model Link

@@ -84,7 +84,9 @@ def _added(site: Site, variable: str, cls: ast.Class, text: str, starts: list[in
     declared += _joining(site, variable) if site.port else []
     owner = _declarations_end(cls, text, starts)
     margin = _margin(text[owner:].lstrip("\n"))
-    changes.append((owner, False, "".join(f"\n{margin}{line}" for line in declared), owner))
+    hidden = site.instance and re.search(r"\bprotected\b", text[starts[cls.span.line - 1] : owner])
+    section = f"\n{margin[2:]}public" if hidden else ""  # it is given from outside
+    changes.append((owner, False, section + "".join(f"\n{margin}{line}" for line in declared), owner))
     if joins:
         changes.append((owner, True, "".join([f"\n{margin[2:]}equation", *(f"\n{margin}{j}" for j in joins)]), owner))
     return changes
