@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from lacuna.discovery.experiment.separation import Rival, released
 from lacuna.discovery.explanation.explanation import Explanation
+from lacuna.discovery.explanation.wording import at
 from lacuna.discovery.law.law import law_at
 from lacuna.discovery.naming.comparison import Ranked, price
 from lacuna.discovery.naming.name import Finding
@@ -52,7 +53,7 @@ def named(ranked: Ranked) -> str:
     """What it is and where; of a law, with its numbers."""
     attachment = ranked.attachment
     if attachment.expression is not None:
-        return f"{law_at(attachment, ranked.fit.point)} at {attachment.location}"
+        return f"{law_at(attachment, ranked.fit.point)} {at(attachment.location)}"
     return f"{attachment.effect.title[0].lower()}{attachment.effect.title[1:]} at {attachment.location}"
 
 

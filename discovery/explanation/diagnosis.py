@@ -13,7 +13,7 @@ from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.experiment.files import described
 from lacuna.discovery.explanation.confidence import alternatives, certainty, confidence, explained, odds, tie
 from lacuna.discovery.explanation.explanation import Explanation
-from lacuna.discovery.explanation.wording import in_words
+from lacuna.discovery.explanation.wording import at, in_words
 from lacuna.discovery.fit.evidence import CLEARLY, whiteness
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.free import Free
@@ -259,7 +259,7 @@ def _named(result: Explanation, finding: Finding) -> str:
         form = _form(result, finding)
         named = f" ({in_words(form)})" if form else ""
         added = f" added to {_coefficient(finding)}," if _coefficient(finding) else ""
-        return f"a term {law_text(result, finding)}{added} at {a.location}{named}{_as_well(a)}{or_else}"
+        return f"a term {law_text(result, finding)}{added} {at(a.location)}{named}{_as_well(a)}{or_else}"
     return f"{a.effect.title[0].lower()}{a.effect.title[1:]} at {a.location}{or_else}"
 
 

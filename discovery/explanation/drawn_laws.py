@@ -102,7 +102,8 @@ def _unit(finding: Finding) -> str:
 def _values(result: Explanation, finding: Finding, recording: Recording) -> np.ndarray:
     """(n,) what the law gives along a recording, in the sense in which an effort acts there."""
     attachment, machine = finding.ranked.attachment, result.final.machine
-    site, port, own = attachment.site, attachment.site.port, attachment.component
+    site = attachment.site.parts[0] if attachment.site.members else attachment.site
+    port, own = site.port, attachment.component
     plus, minus = f"{own}.effort", None
     if site.outside:
         plus, minus = {

@@ -13,6 +13,7 @@ from lacuna.discovery.efforts.located import Site
 from lacuna.discovery.efforts.places.opened import ALIKE
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.explanation.input_error import moved_as_one, offset_instead
+from lacuna.discovery.explanation.wording import at
 from lacuna.discovery.fit.evidence import (
     CLEARLY,
     astray,
@@ -171,7 +172,7 @@ def _turn_as_one(result: Explanation, one: Ranked, other: Ranked) -> bool:
 
 def _told(ranked: Ranked | Candidate) -> str:
     law = law_at(ranked.attachment, ranked.fit.point)
-    return f"a term {law} at {ranked.attachment.location}" if law else ranked.attachment.label
+    return f"a term {law} {at(ranked.attachment.location)}" if law else ranked.attachment.label
 
 
 def _taken(result: Explanation) -> float:

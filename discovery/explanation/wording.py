@@ -80,3 +80,8 @@ def equation_of(result: Explanation, finding: Finding) -> str:
     body = Path(cls.span.file).read_text(encoding="utf-8").partition("\nequation\n")[2]
     lines = body.partition("\n  annotation")[0].partition("\nend ")[0].splitlines()
     return "\n".join(line.strip() for line in lines)
+
+
+def at(location: str) -> str:
+    """Where something is, in words: at one place, or at every element of an array."""
+    return f"at every {location}" if "[:]" in location else f"at {location}"
