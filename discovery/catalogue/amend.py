@@ -38,10 +38,13 @@ class Amendment:
                 return f"{attachment.component}.y"
         return variable
 
-    def added(self) -> frozenset[str]:
-        """Names of components and variables that the amended model has and the believed one has not."""
-        parts = {a.component for a in self.attachments}
-        return frozenset(parts | {_missing(k) for k in range(len(parts))})
+    def adds(self, variable: str) -> bool:
+        """Whether a variable, or the one whose rate it is, stands in a component that the believed model has not, or is
+        what is added to it, also inside of its components."""
+        first, *inner = (part.partition("[")[0] for part in variable.removeprefix("der(").split("."))
+        parts = {name for a in self.attachments for name in _components(a)}
+        terms = {_missing(k) for k in range(2 * len(parts))}  # an exchange adds two
+        return first in parts or any(name.removeprefix("at_") in terms for name in (first, *inner))
 
     def text(self, name: str, values: dict[str, float] | None = None, comment: str = "") -> str:
         """Modelica source of the class; `values` gives parameters of the effects by full name."""
@@ -139,8 +142,7 @@ class _Writer:
             self.equations.append(f"{attachment.component}.{name} = {variable};")
 
     def _phases(self, attachment: Attachment) -> None:
-        first = attachment.component
-        names = [first, *(f"{first}_{line.phase}" for line in attachment.lines[1:])]
+        names = _components(attachment)
         for k, (name, line) in enumerate(zip(names, attachment.lines, strict=True)):
             shared = {p.name: attachment.full_name(p.name) for p in attachment.effect.parameters} if k else {}
             self._declare(attachment, bound=shared, name=name)
@@ -190,7 +192,7 @@ class _Writer:
         every one of a family by a component of its own."""
         site, together = attachment.site, attachment.site.together
         for k, part in enumerate(site.parts if site.members else (site,)):
-            name = f"{attachment.component}_{k + 1}" if k else attachment.component
+            name = _components(attachment)[k]
             shared = {p.name: attachment.full_name(p.name) for p in attachment.effect.parameters} if k else {}
             self._declare(attachment, ", ".join(_read_by(attachment, k)), shared, name)
             if together is None:
@@ -263,6 +265,13 @@ class _Writer:
             self.equations += [
                 f"connect({name}.flange, {shaft.flange});", f"{name}.phi = {name}_phi;", f"{name}.w = {name}_w;",
             ]  # fmt: skip
+
+
+def _components(attachment: Attachment) -> list[str]:
+    """Those of an attachment: one, or one for each phase or member of a family, of which the first says the numbers."""
+    members = range(2, 1 + len(attachment.site.members)) if attachment.site else ()
+    further = [*(line.phase for line in attachment.lines[1:]), *members]
+    return [attachment.component, *(f"{attachment.component}_{which}" for which in further)]
 
 
 def _read_by(attachment: Attachment, member: int) -> list[str]:

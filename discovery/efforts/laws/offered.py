@@ -26,7 +26,7 @@ def offered_at(locator: Locator, place: Place, guided: Guided) -> tuple[Regressi
     """The regression at a place, or at all of a family at once, and all groups of terms that may stand there."""
     along, members = [p.along for p in guided.pieces], place.sites[0].members
     answering = _answering(locator, along[0], place.column)
-    added, known = locator.base.machine.amendment.added(), locator.base.machine.model.variables
+    added, known = locator.base.machine.amendment.adds, locator.base.machine.model.variables
     near = re.sub(r"^der\((.*)\)$", r"\1", members[0]) if members else place.location
     seen = [_of_all(a, members) for a in along] if members else along
     found = variables(seen, near, known, locator.opened.linear.states, answering, added)

@@ -5,7 +5,7 @@ Besides states, inputs and what else moves, a state less what is of its unit is 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -25,7 +25,7 @@ MOVES = 1e-6  # share of its largest value that a variable must move by
 
 def variables(
     along: Sequence[Along], location: str, known: Mapping[str, ModelVariable], states: list[str],
-    answering: frozenset[str], added: frozenset[str] = frozenset(),
+    answering: frozenset[str], added: Callable[[str], bool] = lambda name: False,
 ) -> list[Variable]:  # fmt: skip
     """The variables of a law at `location`, the nearest first; those that follow from another one are left out, and
     those of components that were `added` to the believed model: what is found there may yet be found anew.
@@ -36,7 +36,7 @@ def variables(
     units = {n: v.unit for n, v in known.items()}
     names = [n for n, v in along[0].values.items() if np.ndim(v) == 1 and (n in units or n.startswith("der("))]
     names = [n for n in names if not n.startswith("probe") and (n not in answering or n.startswith("der("))]
-    names = [n for n in names if n.removeprefix("der(").partition(".")[0] not in added]
+    names = [n for n in names if not added(n)]
     largest: dict[str, float] = {}
     for n in names:
         unit = units.get(n, n)
@@ -67,21 +67,21 @@ def variables(
         courses.append(scaled)
         if len(kept) == MOST:
             break
-    believed = {n: u for n, u in units.items() if n.partition(".")[0] not in added}
+    believed = {n: u for n, u in units.items() if not added(n)}
     moving = [n for n in states if n in names and np.ptp(np.concatenate([a.values[n] for a in along])) > 0]
     kept += _differences(along, kept, moving, believed, location)
     return [*_with_rates(along, kept, states), *_of_recordings(along, known, added, len(kept))]
 
 
 def _of_recordings(
-    along: Sequence[Along], known: Mapping[str, ModelVariable], added: frozenset[str], count: int
+    along: Sequence[Along], known: Mapping[str, ModelVariable], added: Callable[[str], bool], count: int
 ) -> list[Variable]:  # fmt: skip
     """Parameters that differ between recordings, none of which follows from another: what a law's coefficient may be
     of, as friction is of the load that is carried."""
     found: list[Variable] = []
     courses: list[np.ndarray] = []
     fixed = (n for n, v in known.items() if v.kind == "parameter" and np.ndim(along[0].values.get(n, ())) == 0)
-    for name in (n for n in fixed if n.partition(".")[0] not in added):
+    for name in (n for n in fixed if not added(n)):
         values = np.array([float(a.values[name]) for a in along])
         size = float(np.abs(values).max(initial=0.0))
         if np.ptp(values) <= MOVES * size or any(_says_nothing_new(values / size, c) for c in courses):
