@@ -92,9 +92,7 @@ def same_unit(model: str, column: str) -> bool:
     if not model:
         return True
     if _zeros_differ(model, column) or _cycles_for_angle(model, column):
-        return (
-            False  # the scales of degC and K differ by more than a factor, which is all that a column is converted by
-        )
+        return False  # degC and K differ by more than a factor, which is all that a column is converted by
     return parse_unit(model.replace("ohm", "Ohm")).same(parse_unit(column.replace("ohm", "Ohm")))
 
 

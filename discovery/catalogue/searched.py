@@ -9,6 +9,7 @@ from pathlib import Path
 
 from lacuna.codegen.cache import Cache
 from lacuna.codegen.compile import translate
+from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.library.classes import Library
 from lacuna.codegen.structure.sorting.tearing import Assignment
@@ -33,23 +34,20 @@ def write_source(amendment: Amendment) -> Path:
 def believed_structure(case: Case, library: Library) -> Structure:
     """What is read of a case's model, whose states are those of which the case gives start values."""
     structure = read(library, case.base)
-    named = [n for start in (case.initial, *(own.initial for own in case.own.values())) for n in start]
-    if named:
-        structure.states = _chosen(structure, named, case.search_path)
+    named = dict.fromkeys(n for start in (case.initial, *(own.initial for own in case.own.values())) for n in start)
+    structure.states = _chosen(structure, named, case.search_path) if named else ()
     return structure
 
 
 def _chosen(structure: Structure, named: Iterable[str], search_path: Sequence[str] | None) -> tuple[str, ...]:
     """Of variables `named` as states those that are none where the model says nothing of it, and can be: the position
     of a mass whose spring prefers its own deflection."""
-    plain = Amendment(structure)
-    believed, _ = translate(str(write_source(plain)), search_path=search_path)
-    known = believed_aliases(plain, search_path)
-    states = set(believed.system.states)
-    wanted = tuple(
-        n for n in dict.fromkeys(named)
-        if n in believed.declared.variables and not {n, known.get(n, (n, 1))[0]} & states
-    )  # fmt: skip
+    believed, _ = translate(str(write_source(Amendment(structure))), search_path=search_path)
+    states, known = set(believed.system.states), _aliases(believed)
+    variables = (n for n in named if n in believed.declared.variables)
+    wanted = tuple(n for n in variables if not {n, known.get(n, (n, 1))[0]} & states)
+    if not wanted:
+        return ()
     try:
         translate(str(write_source(Amendment(replace(structure, states=wanted)))), search_path=search_path)
     except Diagnostic:
@@ -62,6 +60,10 @@ def believed_aliases(amendment: Amendment, search_path: Sequence[str] | None) ->
     equation such as T = Th may make two of them. So is a speed that is the rate of an angle which a component measures
     the other way: the state is then that component's."""
     believed, _ = translate(str(write_source(Amendment(amendment.structure))), search_path=search_path)
+    return _aliases(believed)
+
+
+def _aliases(believed: Prepared) -> Mapping[str, tuple[str, int]]:
     same = {var(n): (n, 1) for n in believed.system.states}
     for step in believed.explicit:
         if isinstance(step, Assignment):

@@ -98,54 +98,51 @@ def _attained(result: Explanation) -> dict[str, float]:
 
 
 def _conclude_from_findings(result: Explanation) -> None:
-    """Physics is missing, unless every finding is tied with another place or nearly all of what is missing is left."""
-    first = result.findings[0]
+    """Physics is missing, unless something speaks against what was found, or for something else as much."""
     if _accuses_sensors(result) and _equations_may_be_wrong(result):
-        _withdraw(result, first.ranked)
+        _withdraw(result, result.findings[0].ranked)
         return
+    if doubt := _doubt(result):
+        result.verdict, (result.reason, result.experiment) = "undetermined", doubt
+        return
+    result.verdict = "missing_physics"
+    turning = dict.fromkeys(v for f in result.findings if (v := f.ranked.attachment.alike[1]))
+    result.experiment = f"record a motion in which {' and '.join(turning)} turns" if turning else ""
+
+
+def _doubt(result: Explanation) -> tuple[str, str] | None:
+    """(why the findings are none, what to record): they do not hold, nearly all of what is missing is left, they are
+    tied with another place, or what is recorded of the inputs would do the same. None where nothing of this is."""
+    first = result.findings[0]
+    label, others = first.ranked.attachment.label, first.naming.ranked[1:]
     if not pays(result.before.validate, result.after.validate, result.floor):
-        result.verdict = "undetermined"
-        result.reason = (
-            f"{first.ranked.attachment.label} explains the recordings that it was fitted to, but does not hold on "
-            "those that only judge"
-        )
-        result.experiment = experiment_for(first.ranked, first.naming.ranked[1:])
-        return
+        reason = "explains the recordings that it was fitted to, but does not hold on those that only judge"
+        return f"{label} {reason}", experiment_for(first.ranked, others)
     if (taken := _taken(result)) < LEAST_TAKEN:
-        result.verdict = "undetermined"
-        result.reason = (
-            f"{first.ranked.attachment.label} fits best, but takes only {taken:.0%} of the error on unseen recordings "
-            "that is above noise away: what is missing is something else"
+        reason = (
+            f"{label} fits best, but takes only {taken:.0%} of the error on unseen recordings that is above noise "
+            "away: what is missing is something else"
         )
-        result.experiment = experiment_for(first.ranked, first.naming.ranked[1:])
-    elif all(_is_anywhere(result, f) for f in result.findings):
-        result.verdict = "undetermined"
+        return reason, experiment_for(first.ranked, others)
+    if all(_is_anywhere(result, f) for f in result.findings):
         rivals = first.elsewhere
         names = ", ".join(dict.fromkeys(r.attachment.label for r in rivals[:3]))
-        result.reason = f"{first.ranked.attachment.label} and {names} explain the data equally well"
-        result.experiment = experiment_for(first.ranked, rivals)
-    elif error := offset_instead(result):
+        return f"{label} and {names} explain the data equally well", experiment_for(first.ranked, rivals)
+    if error := offset_instead(result):
         signal, offset = error
         result.findings[0] = replace(first, instrument=signal.column)
-        result.verdict = "undetermined"
-        result.reason = (
+        reason = (
             f"{_told(first.ranked)} does what an offset of {offset:.3g} {signal.si_unit} in the recorded "
             f"{signal.column} would do: physics or an instrument"
         )
-        result.experiment = f"record {signal.column} by a second instrument, or where it is known to be zero"
-    elif pair := moved_as_one(result):
+        return reason, f"record {signal.column} by a second instrument, or where it is known to be zero"
+    if pair := moved_as_one(result):
         own, other = pair
         result.findings[0] = replace(first, moved=other.column)
-        result.verdict = "undetermined"
-        result.reason = (
-            f"{_told(first.ranked)} may as well be one of {other.column}, which was always in one proportion to "
-            f"{own.column}"
-        )
-        result.experiment = f"record a motion in which {own.column} and {other.column} go apart"
-    else:
-        result.verdict = "missing_physics"
-        turning = dict.fromkeys(v for f in result.findings if (v := f.ranked.attachment.alike[1]))
-        result.experiment = f"record a motion in which {' and '.join(turning)} turns" if turning else ""
+        proportion = f"which was always in one proportion to {own.column}"
+        reason = f"{_told(first.ranked)} may as well be one of {other.column}, {proportion}"
+        return reason, f"record a motion in which {own.column} and {other.column} go apart"
+    return None
 
 
 def _is_anywhere(result: Explanation, finding: Finding) -> bool:

@@ -5,6 +5,7 @@ block SensorBacklash "Sensor that follows through a play"
   parameter Types.Time interval(final min=0) = 1e-3 "Time between the samples";
   Real x "Middle of the play, which follows at once where it is taken along";
   Real free "Way in the play";
+  // the middle follows within a tenth of the time between samples: what is quicker is not seen
 initial equation
   x = u;
 equation

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from lacuna.codegen.compile import compile_model
+from lacuna.codegen.library.classes import Library
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.places import read as structure_of
+from lacuna.discovery.efforts.places.insertion import probe
+from lacuna.discovery.efforts.places.sites import Site
 from lacuna.runtime import Model, RecordedInput, simulate
 
 TANK = """model Tank "A tank with an outlet"
@@ -42,3 +47,24 @@ def record(
     )  # fmt: skip
     columns = {"time": time, **inputs} | {n: run[v] + errors[n] for n, v in outputs.items()}
     np.savetxt(path, np.column_stack(list(columns.values())), "%.8g", ",", header=",".join(columns), comments="")
+
+
+def acted(
+    source: Path, model: str, sites: Sequence[Site], effort: float, names: Sequence[str], times: np.ndarray,
+    silent: Sequence[str] = (),
+) -> list[np.ndarray]:  # fmt: skip
+    """Variables at `times` of a `model`, which stands in the file or the folder `source`, with a constant effort at
+    each of its sites; the inputs of its own, `silent`, are zero."""
+    pairs = [probe(site, k) for k, site in enumerate(sites)]
+    structure = structure_of(Library([str(source)]), model)
+    amendment = Amendment(structure, attachments=[a for a, _ in pairs], inputs=tuple(n for _, n in pairs))
+    file = (source if source.is_dir() else source.parent) / "Amended.mo"
+    file.write_text(amendment.text("Amended"))
+    machine = Model(compile_model(str(file), search_path=[str(source)]).path)
+    inputs = {n: RecordedInput([0.0], [effort], "hold") for _, n in pairs}
+    inputs |= {n: RecordedInput([0.0], [0.0], "hold") for n in silent}
+    run = simulate(
+        machine, solver="dopri5", rtol=1e-9, inputs=inputs, start=0.0, stop=float(times[-1]), output_times=times,
+        outputs=list(names), events=False,
+    )  # fmt: skip
+    return [np.array(run[n]) for n in names]

@@ -7,13 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lacuna.codegen.compile import compile_model
 from lacuna.codegen.library.classes import Library
-from lacuna.discovery.catalogue.amend import Amendment
-from lacuna.discovery.catalogue.places import read as structure_of
-from lacuna.discovery.efforts.places.insertion import probe
 from lacuna.discovery.efforts.places.reading import ALGORITHM, read
-from lacuna.runtime import Model, RecordedInput, simulate
+
+from .recorded import acted
 
 REACTOR = """model Reactor "A declaration must come before the first section, of whatever kind it is"
   function rate
@@ -61,14 +58,7 @@ def test_what_is_assigned_once_is_a_place_and_what_is_assigned_again_is_said_to_
 @pytest.mark.parametrize("label", ["r = rate(s)", "der(s) = -r"])
 def test_an_effort_acts_where_it_is_put(reactor: Path, label: str) -> None:
     """r = 0.1 s + e, s' = -r: s = 2 exp(-0.1 t) - e/0.1 (1 - exp(-0.1 t)); added to s' itself, with the other sign."""
-    library = Library([str(reactor)])
-    site = next(s for s in read(library, "Reactor").places if s.label == label)
-    attachment, name = probe(site, 0)
-    amendment = Amendment(structure_of(library, "Reactor"), [attachment], inputs=(name,))
-    path = reactor.parent / "Probed.mo"
-    path.write_text(amendment.text("Probed"))
-    model = Model(compile_model(str(path), search_path=[str(reactor)]).path)
-    inputs = {name: RecordedInput([0.0], [0.5], "hold")}
-    run = simulate(model, solver="dopri5", rtol=1e-9, inputs=inputs, start=0.0, stop=5.0, outputs=["s"])
+    site = next(s for s in read(Library([str(reactor)]), "Reactor").places if s.label == label)
+    (s,) = acted(reactor, "Reactor", [site], 0.5, ["s"], np.array([0.0, 5.0]))
     expected = 2 * np.exp(-0.5) + (-1 if label.startswith("r") else 1) * 5.0 * (1 - np.exp(-0.5))
-    assert run["s"][-1] == pytest.approx(expected, rel=1e-6)
+    assert s[-1] == pytest.approx(expected, rel=1e-6)

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from lacuna.codegen.compile import compile_model
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import load
-from lacuna.discovery.catalogue.amend import Amendment
-from lacuna.discovery.catalogue.places import read as structure_of
-from lacuna.discovery.efforts.places.insertion import probe
 from lacuna.discovery.efforts.places.reading import read
 from lacuna.discovery.efforts.places.sites import MOST, Site
 from lacuna.discovery.explain import explain
-from lacuna.runtime import Model, RecordedInput, simulate
+
+from .recorded import acted
 
 WALL = """package Building "A wall in layers"
   connector Heat
@@ -89,18 +85,7 @@ def places(path: Path) -> dict[str, Site]:
 
 def opened(path: Path, site: Site, names: list[str]) -> list[np.ndarray]:
     """Variables over 100 s with an effort of 5 at a site."""
-    attachment, name = probe(site, 0)
-    amendment = replace(
-        Amendment(structure_of(Library([str(path)]), "Building.Wall")), attachments=[attachment], inputs=(name,)
-    )
-    file = path.parent / "Amended.mo"
-    file.write_text(amendment.text("Amended"))
-    model = Model(compile_model(str(file), search_path=[str(path)]).path)
-    run = simulate(
-        model, solver="dopri5", rtol=1e-9, inputs={name: RecordedInput([0.0], [5.0], "hold")}, start=0.0, stop=100.0,
-        output_times=TIME, outputs=names, events=False,
-    )  # fmt: skip
-    return [np.array(run[n]) for n in names]
+    return acted(path, "Building.Wall", [site], 5.0, names, TIME)
 
 
 def test_ports_and_equations_of_arrays_are_places(wall: Path) -> None:

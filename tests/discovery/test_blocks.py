@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from lacuna.codegen.compile import compile_model
 from lacuna.codegen.library.classes import Library
-from lacuna.discovery.catalogue.amend import Amendment
-from lacuna.discovery.catalogue.places import read as structure_of
-from lacuna.discovery.efforts.places.insertion import probe
 from lacuna.discovery.efforts.places.reading import read
 from lacuna.discovery.efforts.places.sites import Site
-from lacuna.runtime import Model, RecordedInput, simulate
+
+from .recorded import acted
 
 LINE = """package Process "Signals and parts"
   connector ConcIn = input Real(unit="mol/m3");
@@ -58,19 +54,9 @@ def places(path: Path) -> dict[str, Site]:
     return {s.label: s for s in read(Library([str(path)]), "Line").places}
 
 
-def opened(path: Path, site: Site, amount: float) -> tuple[np.ndarray, np.ndarray]:
+def opened(path: Path, site: Site, amount: float) -> list[np.ndarray]:
     """(first.c, second.c) over 400 s with an effort of this amount at a site."""
-    attachment, name = probe(site, 0)
-    library = Library([str(path)])
-    amendment = replace(Amendment(structure_of(library, "Line")), attachments=[attachment], inputs=(name,))
-    file = path.parent / "Amended.mo"
-    file.write_text(amendment.text("Amended"))
-    model = Model(compile_model(str(file), search_path=[str(path)]).path)
-    run = simulate(
-        model, solver="dopri5", rtol=1e-9, inputs={name: RecordedInput([0.0], [amount], "hold")}, start=0.0, stop=400.0,
-        output_times=np.linspace(0, 400, 41), outputs=["first.c", "second.c"], events=False,
-    )  # fmt: skip
-    return np.array(run["first.c"]), np.array(run["second.c"])
+    return acted(path, "Line", [site], amount, ["first.c", "second.c"], np.linspace(0, 400, 41))
 
 
 def test_every_balance_and_signal_of_the_parts_is_a_place(line: Path) -> None:

@@ -14,7 +14,9 @@ from lacuna.discovery.catalogue.places import read as structure_of
 from lacuna.discovery.efforts.places.insertion import probe
 from lacuna.discovery.efforts.places.reading import LIBRARY, MANY, REDECLARED, read
 from lacuna.discovery.efforts.places.sites import Site
-from lacuna.runtime import Model, RecordedInput, simulate
+from lacuna.runtime import Model
+
+from .recorded import acted
 
 WORKS = """package Works "Units of two bodies"
   connector Heat
@@ -117,17 +119,7 @@ def places(folder: Path, name: str = "Works.Hall") -> dict[str, Site]:
 def opened(folder: Path, labels: list[str], names: list[str]) -> list[np.ndarray]:
     """Variables at TIME with an effort of 6 at each of some sites."""
     found = places(folder)
-    pairs = [probe(found[label], k) for k, label in enumerate(labels)]
-    structure = structure_of(Library([str(folder)]), "Works.Hall")
-    amendment = Amendment(structure, attachments=[a for a, _ in pairs], inputs=tuple(n for _, n in pairs))
-    file = folder / "Amended.mo"
-    file.write_text(amendment.text("Amended"))
-    model = Model(compile_model(str(file), search_path=[str(folder)]).path)
-    run = simulate(
-        model, solver="dopri5", rtol=1e-9, inputs={n: RecordedInput([0.0], [6.0], "hold") for _, n in pairs},
-        start=0.0, stop=TIME[-1], output_times=TIME, outputs=names, events=False,
-    )  # fmt: skip
-    return [np.array(run[n]) for n in names]
+    return acted(folder, "Works.Hall", [found[label] for label in labels], 6.0, names, TIME)
 
 
 def test_places_inside_components_are_read_at_any_depth(works: Path) -> None:
@@ -183,3 +175,18 @@ def test_several_places_of_one_copied_class_keep_apart(works: Path) -> None:
 def test_what_is_not_gone_into_is_said_to_be_closed(works: Path) -> None:
     closed = dict(read(Library([str(works)]), "Works.Variant").closed)
     assert closed == {"changed.many": MANY, "changed.body": REDECLARED, "rack": LIBRARY}
+
+
+def test_what_an_amendment_adds_is_no_variable_of_the_believed_model(works: Path) -> None:
+    """Else a second law could be a function of the first one's effort."""
+    found = places(works)
+    sites = [found["node unit[2].link.b"], found["equation wing.unit.two: C*der(T) = port.Q"]]
+    structure = structure_of(Library([str(works)]), "Works.Hall")
+    pairs = [probe(site, k) for k, site in enumerate(sites)]
+    amendment = Amendment(structure, attachments=[a for a, _ in pairs], inputs=tuple(n for _, n in pairs))
+    file = works / "Amended.mo"
+    file.write_text(amendment.text("Amended"))
+    amended = Model(compile_model(str(file), search_path=[str(works)]).path).variables
+    file.write_text(Amendment(structure).text("Amended"))
+    believed = Model(compile_model(str(file), search_path=[str(works)]).path).variables
+    assert {n for n in amended if amendment.adds(n)} == amended.keys() - believed.keys() - {n for _, n in pairs}

@@ -7,16 +7,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lacuna.codegen.compile import compile_model
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read as structure_of
-from lacuna.discovery.efforts.places.insertion import probe
 from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.efforts.places.reading import read
 from lacuna.discovery.efforts.places.sites import Site
-from lacuna.runtime import Model, RecordedInput, simulate
+
+from .recorded import acted
 
 FILES = {
     "package": 'package Cart "A cart on a rail"\nend Cart;\n',
@@ -66,17 +65,10 @@ def test_inherited_equations_and_those_of_inherited_components_are_places(cart: 
 )
 def test_what_is_added_there_acts(cart: Path, label: str, steady: float) -> None:
     """A constant effort of 6 N moves the cart at 2 m/s in the end, wherever on the way it is added."""
-    attachment, name = probe(places(cart)[label], 0)
-    library = Library([str(cart)])
-    amendment = Amendment(structure_of(library, "Cart.Driven"), attachments=[attachment], inputs=(name,))
-    file = cart / "Amended.mo"
-    file.write_text(amendment.text("Amended"))
-    model = Model(compile_model(str(file), search_path=[str(cart)]).path)
-    inputs = {name: RecordedInput([0.0], [6.0], "hold"), "u": RecordedInput([0.0], [0.0], "hold")}
-    run = simulate(model, solver="dopri5", rtol=1e-9, inputs=inputs, start=0.0, stop=40.0, outputs=["v"])
-    assert run["v"][-1] == pytest.approx(steady, rel=1e-6)
-    mid = simulate(model, solver="dopri5", rtol=1e-9, inputs=inputs, start=0.0, stop=5 / 3, outputs=["v"])
-    assert mid["v"][-1] == pytest.approx(2 * (1 - np.exp(-1)), rel=0.1)  # of 5 kg, as the variant has it
+    times = np.array([0.0, 5 / 3, 40.0])
+    ((_, mid, last),) = acted(cart, "Cart.Driven", [places(cart)[label]], 6.0, ["v"], times, silent=["u"])
+    assert last == pytest.approx(steady, rel=1e-6)
+    assert mid == pytest.approx(2 * (1 - np.exp(-1)), rel=0.1)  # of 5 kg, as the variant has it
 
 
 def test_a_case_of_such_a_model_is_opened(cart: Path) -> None:

@@ -127,16 +127,10 @@ def _broken(site: Site, variable: str, text: str, starts: list[int]) -> list[Cha
 
 def _joining(site: Site, variable: str) -> list[str]:
     """What gives the variable as a flow in a component's class, or loses it across, and its component."""
-    port, at, cls = site.port, f"at_{variable}", f"At_{variable}"
-    one = site.kind == "node"
-    flows = [f"port.{port.flow} = -effort"] if one else [f"a.{port.flow} + b.{port.flow} = 0"]
-    if site.kind == "branch":
-        flows.append(f"b.{port.flow} = -effort")
-    elif site.kind == "edge":
-        flows.append(f"a.{port.potential} - b.{port.potential} = effort")
+    (ports, does), cls = site.acting("effort"), f"At_{variable}"
     return [
-        f"model {cls}", f"  {port.path} {'port' if one else 'a, b'};", "  input Real effort;", "equation",
-        *(f"  {flow};" for flow in flows), f"end {cls};", f"{cls} {at}(effort={variable});",
+        f"model {cls}", f"  {ports}", "  input Real effort;", "equation", *(f"  {equation}" for equation in does),
+        f"end {cls};", f"{cls} at_{variable}(effort={variable});",
     ]  # fmt: skip
 
 

@@ -11,13 +11,11 @@ import re
 
 from lacuna.discovery.efforts.places.sites import Site
 
-Families = list[tuple[Site, tuple[int, ...]]]  # one place that is all of a family, the numbers of these
-
 _INDEX = re.compile(r"\[[^\]]*\]")
 
 
-def families(sites: Sequence[Site], acting: Iterable[int]) -> Families:
-    """Those of places that are `acting` and differ by an index only."""
+def families(sites: Sequence[Site], acting: Iterable[int]) -> list[tuple[Site, tuple[int, ...]]]:
+    """(a place that is all of a family, the numbers of these) of places that are `acting` and differ by an index."""
     of: dict[tuple, dict[str, int]] = {}
     for k in acting:
         if (found := _membership(sites[k])) is not None:

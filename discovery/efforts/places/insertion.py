@@ -67,26 +67,13 @@ def component(
     """Source of a class that gives the effort `text`: into a node, lost across an edge, from the first port of a
     component to its second beside it, or added to an equation."""
     site = site.parts[0] if site.members else site
-    lines = [f'model {name} "{title}"']
-    port, outside = site.port, site.outside
-    if outside and site.kind == "node":
-        lines.append(f"  {port.path} port;")
-    elif outside:
-        lines.append(f"  {port.path} a, b;")
-    else:
-        lines.append(f"  Real effort{_unit(unit)};")
+    declared, does = site.acting(text) if site.outside else (f"Real effort{_unit(unit)};", [f"effort = {text};"])
+    lines = [f'model {name} "{title}"', f"  {declared}"]
     for local, _, its in signals:
         lines.append(f"  input Real {local}{_unit(its)};")
     lines += [f'  parameter Real {p.name}{_unit(p.unit)} = {p.default:.10g} "{p.description}";' for p in parameters]
     lines += [*states.declarations(), *states.beginning(), "equation", *states.equations()]
-    if outside and site.kind == "node":
-        lines.append(f"  port.{port.flow} = -({text});")
-    elif outside and site.kind == "edge":
-        lines += [f"  a.{port.flow} + b.{port.flow} = 0;", f"  a.{port.potential} - b.{port.potential} = {text};"]
-    elif outside:
-        lines += [f"  a.{port.flow} + b.{port.flow} = 0;", f"  b.{port.flow} = -({text});"]
-    else:
-        lines.append(f"  effort = {text};")
+    lines += [f"  {equation}" for equation in does]
     return "\n".join([*lines, f"end {name};"])
 
 

@@ -63,19 +63,21 @@ class Joined:
         together: dict[str, list[str]] = {}
         for end in self.ports:
             together.setdefault(root(self._group, end), []).append(end)
+        own: dict[str, set[str]] = {}  # ports of components
+        for end in self.ports:
+            own.setdefault(end.rpartition(".")[0], set()).add(end)
         nodes = []
         for first, ends in together.items():
             order = sorted(ends, key=lambda end: (end.count("."), end != first))
             owner, port = _owner(order[0]), self.ports[first]
-            way, whole = self.ways[owner], self._whole(order)
+            way, whole = self.ways[owner], self._whole(order, own)
             nodes.append(Site("node", order[0], tuple(order), port, instance=owner, left=whole, way=way))
         return [*nodes, *self._branches(), *self._found]
 
-    def _whole(self, ends: list[str]) -> str:
+    def _whole(self, ends: list[str], own: dict[str, set[str]]) -> str:
         """A component that has all its ports at a node, and no others inside; "" where none has."""
         for name in dict.fromkeys(end.rpartition(".")[0] for end in ends):
-            own = {end for end in self.ports if end.rpartition(".")[0] == name}
-            if name not in self.ways and own <= set(ends):
+            if name not in self.ways and own[name] <= set(ends):
                 return name
         return ""
 

@@ -77,7 +77,7 @@ class _Reading:
         """Go on into a component, or into each of an array."""
         child, element = node.child(name), node.elements[name]
         parts = child.items if isinstance(child, ArrayNode) else [child]
-        if not parts or not _is_made_of(parts[0]) or parts[0].name != node.path_of(name) + _subscript(child, 0):
+        if not parts or not _is_made_of(parts[0]) or child.name != node.path_of(name):
             return
         cls = parts[0].cls
         if not _is_own(cls, self.top.cls):
@@ -96,12 +96,6 @@ class _Reading:
 
 def _is_made_of(node: Node | None) -> bool:
     return isinstance(node, Instance) and node.cls.kind in ("model", "block", "class")
-
-
-def _subscript(child: Node, number: int) -> str:
-    if not isinstance(child, ArrayNode):
-        return ""
-    return "[" + ",".join(map(str, list(indices(tuple(child.shape)))[number])) + "]"
 
 
 def _is_declared(node: Instance, name: str, cls: ast.Class) -> bool:

@@ -87,6 +87,15 @@ class Site:
         takes in."""
         return self.port is not None and not self.instance
 
+    def acting(self, effort: str) -> tuple[str, list[str]]:
+        """(declaration of the ports, equations) of what lets an effort flow into a node, lets it flow past a component
+        from its first port to the second, or loses it in a connection."""
+        flow, potential = self.port.flow, self.port.potential
+        if self.kind == "node":
+            return f"{self.port.path} port;", [f"port.{flow} = -({effort});"]
+        does = f"b.{flow} = -({effort})" if self.kind == "branch" else f"a.{potential} - b.{potential} = {effort}"
+        return f"{self.port.path} a, b;", [f"a.{flow} + b.{flow} = 0;", f"{does};"]
+
     @property
     def ports(self) -> tuple[str, ...]:
         """Where it is joined, as the class says it in which it stands."""
