@@ -2,12 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Protocol
 
 from lacuna.discovery.catalogue.catalogue import Effect
 from lacuna.discovery.catalogue.places import Device, Line, Part, Shaft
 from lacuna.discovery.efforts.places.sites import Site
+
+
+class Empirical(Protocol):
+    """What is asked of a law that no catalogue holds; `values` by its component's own names."""
+
+    def expression(self, values: Mapping[str, float]) -> str:
+        """In variables of the model."""
+
+    def form(self, values: Mapping[str, float]) -> str:
+        """The name of a known form that it has; "" where it has none."""
+
+    def alike(self) -> tuple[str, str]:
+        """The name of what it is not told from, and the variable to blame."""
 
 
 @dataclass(frozen=True)
@@ -26,15 +40,18 @@ class Attachment:
     signals: tuple[tuple[str, str], ...] = ()  # input of the effect -> variable of the model
     values: tuple[tuple[str, float], ...] = ()
     definition: str = ""  # source of the effect's class where it is in no library
-    expression: Callable[[dict[str, float]], str] | None = None  # of an empirical law, in variables of the model
-    form: Callable[[dict[str, float]], str] | None = None  # its name, where it has the form of a known one
-    alike: tuple[str, str] = ("", "")  # the name of what it is not told from, and the variable that never turns
+    law: Empirical | None = None  # where the effect is of no catalogue
 
     @property
     def label(self) -> str:
         extra = "".join(f", {n}={v:g}" for n, v in self.values)
         signals = "".join(f", {n} from {v}" for n, v in self.signals)
         return f"{self.effect.identifier} at {self.location} ({self.effect.name}{extra}{signals})"
+
+    @property
+    def alike(self) -> tuple[str, str]:
+        """The name of what it is not told from, and the variable that never turns."""
+        return self.law.alike() if self.law else ("", "")
 
     def full_name(self, parameter: str) -> str:
         return f"{self.component}.{parameter}"

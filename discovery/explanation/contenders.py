@@ -52,7 +52,7 @@ def _told(first: Ranked, others: list[Ranked], most: int = MOST) -> list[Rival]:
 def named(ranked: Ranked) -> str:
     """What it is and where; of a law, with its numbers."""
     attachment = ranked.attachment
-    if attachment.expression is not None:
+    if attachment.law is not None:
         return f"{law_at(attachment, ranked.fit.point)} {at(attachment.location)}"
     return f"{attachment.effect.title[0].lower()}{attachment.effect.title[1:]} at {attachment.location}"
 

@@ -73,7 +73,7 @@ def _finding(result: Explanation, finding: Finding, errors: dict[str, float]) ->
             parameters[parameter.name] = {"value": value, "std": errors.get(full, 0.0), "unit": unit}
     if attachment.effect.polar:
         _positive_phase(parameters, attachment.effect.polar[1])
-    law = {"law": law_text(result, finding)} if attachment.expression else {}
+    law = {"law": law_text(result, finding)} if attachment.law else {}
     if form := _form(result, finding):
         law["form"] = form
     if added := _coefficient(finding):
@@ -255,7 +255,7 @@ def _named(result: Explanation, finding: Finding) -> str:
     a = finding.ranked.attachment
     others = dict.fromkeys(r.attachment.label for r in finding.elsewhere) if finding.tied else {}
     or_else = f" (or {', '.join(others)}: the data does not tell)" if others else ""
-    if a.expression is not None:
+    if a.law is not None:
         form = _form(result, finding)
         named = f" ({in_words(form)})" if form else ""
         added = f" added to {_coefficient(finding)}," if _coefficient(finding) else ""

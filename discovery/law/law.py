@@ -34,7 +34,7 @@ class Site:
 
 @dataclass(frozen=True)
 class Law:
-    """Groups of terms at a site; coefficients are c_1, c_2, ... in the order of the terms."""
+    """An `Empirical` law: groups of terms at a site; coefficients are c_1, c_2, ... in the order of the terms."""
 
     site: Site
     groups: tuple[Group, ...] = ()
@@ -64,7 +64,7 @@ class Law:
     def references(self) -> list[Variable]:
         return [v for v in self.site.variables if f"{v.local}_ref" in self.text()]
 
-    def expression(self, values: dict[str, float]) -> str:
+    def expression(self, values: Mapping[str, float]) -> str:
         """The law in variables of the model, with its numbers; `values` by the component's own names."""
         terms = []
         for c, text, shapes in self.numbered():
@@ -100,7 +100,7 @@ class Law:
         names = [(form_of([(v.dry, {})], [v], self.site.unit, {}), v.name) for v in steady]
         return next((pair for pair in names if pair[0]), ("", ""))
 
-    def form(self, values: dict[str, float]) -> str:
+    def form(self, values: Mapping[str, float]) -> str:
         """The name of a known form that the law has; "" where it has none."""
         terms = [(text, shapes) for _, text, shapes in self.numbered()]
         return form_of(terms, self.site.variables, self.site.unit, values)
@@ -112,12 +112,12 @@ def component_of(law: Law) -> str:
 
 def law_at(attachment: Attachment, point: Mapping[str, float]) -> str:
     """A law with its numbers at a point, in variables of the model; "" for a named effect."""
-    return attachment.expression(own_values(attachment, point)) if attachment.expression else ""
+    return attachment.law.expression(own_values(attachment, point)) if attachment.law else ""
 
 
 def form_at(attachment: Attachment, point: Mapping[str, float]) -> str:
     """The name of a known form that a law has at a point; "" where it has none."""
-    return attachment.form(own_values(attachment, point)) if attachment.form else ""
+    return attachment.law.form(own_values(attachment, point)) if attachment.law else ""
 
 
 def own_values(attachment: Attachment, point: Mapping[str, float]) -> dict[str, float]:
@@ -150,8 +150,7 @@ def attach(law: Law) -> Attachment:
         lines=(place,) if isinstance(place, Line) else (),
         device=place if isinstance(place, Device) else None,
         site=place if isinstance(place, sites.Site) else None,
-        signals=signals, definition=_source(law, signals), expression=law.expression,
-        form=law.form, alike=law.alike(),
+        signals=signals, definition=_source(law, signals), law=law,
     )  # fmt: skip
 
 

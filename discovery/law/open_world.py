@@ -17,7 +17,7 @@ from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.fit.evidence import FAR, like_noise, nearly_noise, within_instruments
 from lacuna.discovery.law.beyond import margin
 from lacuna.discovery.law.pairs import Place, is_short, paired, two_places
-from lacuna.discovery.law.several import among_sensors, apart, go_on, take_if_less
+from lacuna.discovery.law.several import among_sensors, apart, go_on, simplify, take_if_less
 from lacuna.discovery.naming.comparison import (
     MIN_GAIN,
     TIE,
@@ -87,6 +87,7 @@ def explain_open(
         if two is not None:
             take_if_less(search, two, unbegun.fit)
     among_sensors(search, progress)
+    simplify(search, progress)
 
 
 def _one_by_one(

@@ -19,6 +19,9 @@ from lacuna.discovery.efforts.located import Site
 from lacuna.discovery.fit.evidence import pays, within_instruments
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.law.beyond import MARGIN
+from lacuna.discovery.law.empirical_law import simplified
+from lacuna.discovery.law.law import Law, own_values
+from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.naming.candidate_fit import without
 from lacuna.discovery.naming.comparison import MIN_GAIN, TIE, Ranked, price, score, told_by_data
 from lacuna.discovery.naming.judge import Judgement, try_judge
@@ -72,6 +75,23 @@ def apart(search: Search, unbegun: Search, single: Candidate, library: Library, 
         take_if_less(search, trial, unbegun.fit)
 
 
+def simplify(search: Search, progress: Progress) -> None:
+    """Each of several laws without what it does not need, given the others: terms that stood for what was missing
+    elsewhere, before that was found."""
+    for k in range(len(search.findings) if len(search.findings) > 1 else 0):
+        ranked = search.findings[k].ranked
+        law = ranked.attachment.law
+        amendment, base = _taken_out(search, k) if isinstance(law, Law) else (search.amendment, None)
+        if base is None:
+            continue
+        progress(f"what is not needed at {ranked.attachment.location}")
+        values = own_values(ranked.attachment, search.fit.point)
+        present = Proposal(law, values, replace(ranked.candidate, fit=search.fit))
+        simpler = simplified(search.case, amendment, base, present)
+        if simpler is not present:
+            _take_instead(search, k, base, simpler.candidate, 0.0)
+
+
 def take_if_less(search: Search, trial: Search, base: Fit) -> bool:
     """Take what another search has found where deviance and prices, those of `base` being none, are less."""
     correlation = min(search.fit, trial.fit, key=lambda f: f.deviance()).correlation()
@@ -99,8 +119,12 @@ def _find_anew(search: Search, k: int, library: Library, progress: Progress) -> 
         return
     law = _best(search, amendment, base, library, progress, lambda site: site.place.named(old.location))
     if law is not None:
-        ranked = Ranked(law, law.fit, score(law, base, law.fit.correlation()), 1.0)
-        _exchange(search, k, base, Naming([ranked], []), ranked, MARGIN if old.effect.identifier != "unknown" else 0.0)
+        _take_instead(search, k, base, law, MARGIN if old.effect.identifier != "unknown" else 0.0)
+
+
+def _take_instead(search: Search, k: int, base: Fit, law: Candidate, margin: float) -> None:
+    ranked = Ranked(law, law.fit, score(law, base, law.fit.correlation()), 1.0)
+    _exchange(search, k, base, Naming([ranked], []), ranked, margin)
 
 
 def _taken_out(search: Search, k: int) -> tuple[Amendment, Fit | None]:
