@@ -239,13 +239,12 @@ class Locator:
             told, point, pieces = now, trial, led
 
     def beside(self, locator: Locator, site: Site) -> Locator:
-        """Itself, where efforts are looked for beside the one that `locator` found at a place."""
+        """Itself, where efforts are looked for beside the one that `locator` found at a place, or in a reading."""
         latent = locator.latent(site)
         none = Colour(np.zeros(0, dtype=int), np.zeros((1, 0)), np.zeros((1, 0)))
         there = copy(self)
-        there.colour = (self.colour or none).with_effort(
-            int(latent.column[0]), float(latent.size[0]), float(latent.time[0])
-        )
+        chain = int(latent.column[0]), int(latent.sensor[0]), float(latent.size[0]), float(latent.time[0])
+        there.colour = (self.colour or none).beside(*chain)
         return there
 
     def guided(self, site: Site) -> Guided:

@@ -14,10 +14,12 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.find import WORTH, Found, add_laws, places_of
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
+from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.fit.evidence import FAR, like_noise, nearly_noise, within_instruments
 from lacuna.discovery.law.beyond import margin
-from lacuna.discovery.law.pairs import Place, is_short, paired, two_places
-from lacuna.discovery.law.several import among_sensors, apart, go_on, simplify, take_if_less
+from lacuna.discovery.law.together.pairs import Place, is_short, paired, two_places
+from lacuna.discovery.law.together.several import among_sensors, apart, go_on, simplify, take_if_less
+from lacuna.discovery.law.together.unheard import beside_error, to_be_left_out
 from lacuna.discovery.naming.comparison import (
     MIN_GAIN,
     TIE,
@@ -79,6 +81,8 @@ def explain_open(
             _take(search, unbegun, found, progress)
         return
     pair = _pair(search, found, progress)
+    if _beside_error(search, unbegun, found, pair, library, progress):
+        return
     told = pair is not None and pair[1].site.explains > WORTH
     two = _two(unbegun, found, pair, progress) if told else None
     short = two is not None and within_instruments(two.fit) and all(map(is_short, two.findings))
@@ -108,20 +112,41 @@ def _one_by_one(
         take_if_less(search, two, unbegun.fit)
 
 
+def _beside_error(
+    search: Search, unbegun: Search, found: Found, pair: tuple[Place, Place] | None, library: Library,
+    progress: Progress,
+) -> bool:  # fmt: skip
+    """Whether a law beside an error of a sensor leaves noise, where these tell more than efforts at two places do."""
+    if not found.sites or not _is_left(search, found):
+        return False
+    told = _log(pair[1].locator, pair[1].site) if pair else found.null + max(s.gain for s in found.sites)
+    sensor = to_be_left_out(found, told, progress)
+    trial = sensor and beside_error(unbegun, sensor, library, progress)
+    return trial is not None and take_if_less(search, trial, unbegun.fit) and within_instruments(search.fit)
+
+
+def _log(locator: Locator, site: Site) -> float:
+    return locator.null + site.gain
+
+
 def _two(unbegun: Search, found: Found, pair: tuple[Place, Place], progress: Progress) -> Search | None:
     return two_places(unbegun, pair, next(iter(found.laws), None), progress)
 
 
 def _pair(search: Search, found: Found, progress: Progress) -> tuple[Place, Place] | None:
-    """The two places whose efforts tell more than one does, unless a short law at the best one leaves noise, or what
-    the search has found does."""
-    short = bool(found.laws) and not found.single and within_instruments(found.laws[0].fit)
-    if found.locator is None or short or within_instruments(search.fit):
+    """The two places whose efforts tell more than one does, where something is left to be told."""
+    if found.locator is None or not _is_left(search, found):
         return None
     try:
         return paired(found, progress)
     except (NotNumeric, SimulationError, np.linalg.LinAlgError):
         return None
+
+
+def _is_left(search: Search, found: Found) -> bool:
+    """Whether what the search has found leaves more than noise, and so does a short law at the best place."""
+    short = bool(found.laws) and not found.single and within_instruments(found.laws[0].fit)
+    return not short and not within_instruments(search.fit)
 
 
 def _take(search: Search, unbegun: Search, found: Found, progress: Progress) -> bool:

@@ -92,7 +92,7 @@ def answers(p: Piece, column: int) -> np.ndarray:
 
 LATENT = Latent(np.array([1]), np.array([-1]), np.array([0.8]), np.array([3.0]))
 COLOUR = Colour(np.array([1, 0, 1]), np.array([[0.5, 0.2, 1.1]]), np.array([[2.0, 0.7, 40.0]]))
-TWO = replace(LATENT, colour=COLOUR.with_effort(0, 0.6, 5.0))
+TWO = replace(LATENT, colour=COLOUR.beside(0, -1, 0.6, 5.0))
 
 
 @pytest.mark.parametrize(

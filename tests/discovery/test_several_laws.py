@@ -26,8 +26,8 @@ from lacuna.discovery.fit.fit import believed, fit
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import noise_of
 from lacuna.discovery.fit.solver.free import Free
-from lacuna.discovery.law.pairs import Place, paired
-from lacuna.discovery.law.several import _is_of_form, finding
+from lacuna.discovery.law.together.pairs import Place, paired
+from lacuna.discovery.law.together.several import _is_of_form, finding
 from lacuna.discovery.naming.candidate_fit import without
 from lacuna.discovery.naming.foretold import DRAWS, foretold
 from lacuna.discovery.naming.screen import Candidate

@@ -29,11 +29,11 @@ class Colour:
         """Those of hypothesis k alone."""
         return replace(self, size=self.size[k : k + 1], time=self.time[k : k + 1])
 
-    def with_effort(self, column: int, size: float, time: float) -> Colour:
-        """The same, of one hypothesis, and an effort."""
+    def beside(self, column: int, sensor: int, size: float, time: float) -> Colour:
+        """The same, of one hypothesis, and an effort, or a further error of a sensor."""
         own = np.full(len(self.sensor), -1) if self.column is None else self.column
         return Colour(
-            np.append(self.sensor, -1), np.append(self.size, [[size]], 1), np.append(self.time, [[time]], 1),
+            np.append(self.sensor, sensor), np.append(self.size, [[size]], 1), np.append(self.time, [[time]], 1),
             np.append(own, column),
         )  # fmt: skip
 

@@ -25,7 +25,7 @@ from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.law.empirical_law import fitted_law, free_of, held_of, simplified
 from lacuna.discovery.law.law import attach, component_of
 from lacuna.discovery.law.law_screen import Proposal
-from lacuna.discovery.law.several import finding, paid
+from lacuna.discovery.law.together.several import finding, paid
 from lacuna.discovery.naming.comparison import MIN_GAIN, price, score, told_by_data
 from lacuna.discovery.naming.judge import try_judge
 from lacuna.discovery.naming.left_out import left_out
