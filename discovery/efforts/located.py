@@ -159,12 +159,13 @@ class Locator:
 
     def hypotheses(self) -> tuple[Latent, list[tuple[str, int]]]:
         longest = max(p.along.time[-1] - p.along.time[0] for p in self.pieces)
-        misfit = self._size([p.data[:, :, 0] for p in self.pieces])
-        rows, owners = [], []
+        misfit, rows, owners = self._size([p.data[:, :, 0] for p in self.pieces]), [], []
         for number, place in enumerate(self.places):
             answer = [p.along.response(np.array([place.column]), np.ones((len(p.along.time), 1)))[:, :, 0]
                       for p in self.pieces]  # fmt: skip
-            unit = misfit / max(self._size(answer), 1e-300)
+            if (size := self._size(answer)) == 0:  # nothing of it is recorded
+                continue
+            unit = misfit / size
             rows += [(place.column, -1, s * unit, t * longest) for s in SIZES for t in TIMES]
             owners += [("effort", number)] * (len(SIZES) * len(TIMES))
         for number in range(len(self.case.outputs)):

@@ -194,8 +194,8 @@ validate = ["r3.csv"]
 """
 
 
-def cascade(folder: Path, concealed: str) -> Path:
-    """A case of the two tanks whose truth is another class of the same variables."""
+def cascade(folder: Path, concealed: str, lower: str = "lower") -> Path:
+    """A case of the two tanks whose truth is another class of the same variables; the sensor below shows `lower`."""
     machine = truth(folder, "Cascade", concealed)
     case = folder / "case"
     case.mkdir()
@@ -205,7 +205,7 @@ def cascade(folder: Path, concealed: str) -> Path:
     for n in (1, 2, 3):
         q = np.repeat(random.uniform(2e-5, 1.8e-4, 10), 30)
         errors = {v: 0.001 * random.normal(size=300) for v in ("upper", "lower")}
-        record(case / f"r{n}.csv", machine, time, {"q": q}, {v: v for v in errors}, errors)
+        record(case / f"r{n}.csv", machine, time, {"q": q}, {"upper": "upper", "lower": lower}, errors)
     return case
 
 

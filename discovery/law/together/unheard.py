@@ -17,7 +17,7 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case, CaseError, Signal
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
-from lacuna.discovery.efforts.find import Found, add_laws, places_of, simplest
+from lacuna.discovery.efforts.find import TRIED, Found, add_laws, places_of, simplest
 from lacuna.discovery.efforts.instruments import NATS
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.fit.evidence import pays, within_instruments
@@ -32,14 +32,12 @@ from lacuna.discovery.naming.screen import Candidate
 from lacuna.discovery.naming.search import Search
 from lacuna.runtime import SimulationError
 
-TRIED = 3  # sensors beside whose errors places are weighed: those that explain most by themselves
-
 Progress = Callable[[str], None]
 
 
 def to_be_left_out(found: Found, told: float, progress: Progress) -> Signal | None:
-    """The sensor of which an error, beside an effort at a place, has the most log evidence, if that is more than what
-    was `told`; None where there is none, or no other one."""
+    """Of the sensors whose errors explain most by themselves, the one of which an error beside an effort at a place has
+    the most log evidence, if that is more than what was `told`; None where there is none, or no other sensor."""
     locator = found.locator
     sensors = [s for s in found.sites if s.place is None and s.gain > NATS]
     if locator is None or len(locator.case.outputs) < 2:
