@@ -26,8 +26,11 @@ from lacuna.discovery.fit.fit import believed, fit
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import noise_of
 from lacuna.discovery.fit.solver.free import Free
+from lacuna.discovery.law.empirical_law import fitted_law
+from lacuna.discovery.law.law import Law, own_values
+from lacuna.discovery.law.law_terms import Group
 from lacuna.discovery.law.together.pairs import Place, paired
-from lacuna.discovery.law.together.several import _is_of_form, finding
+from lacuna.discovery.law.together.several import _is_of_form, _taken_out, finding, simplify
 from lacuna.discovery.naming.candidate_fit import without
 from lacuna.discovery.naming.foretold import DRAWS, foretold
 from lacuna.discovery.naming.screen import Candidate
@@ -136,3 +139,23 @@ def test_a_law_that_another_is_a_function_of_stays() -> None:
     found = SimpleNamespace(estimate=SimpleNamespace(free=[]), fixed={}, machine=SimpleNamespace(amended=amended))
     ranked = SimpleNamespace(attachment=SimpleNamespace(component="law_T2"))
     assert without(found, ranked, None) is None
+
+
+def test_a_term_that_stood_for_what_is_missing_elsewhere_goes(tmp_path: Path) -> None:
+    """A constant in the upper tank's law beside what is missing there: once the lower one's stands it is nothing."""
+    result = explain(load(cascade(tmp_path, TORRICELLI.replace("q - k*upper", "q - k*upper - 2e-3*upper^3"))))
+    search = Search(
+        result.case, [], result.lead, result.floor, result.amendment, result.final, result.after, result.findings
+    )
+    k = next(k for k, f in enumerate(search.findings) if f.ranked.attachment.location == "upper")
+    ranked = search.findings[k].ranked
+    law, start = ranked.attachment.law, own_values(ranked.attachment, search.fit.point)
+    richer = Law(law.site, (*law.groups, Group(("1",))))
+    added = f"c_{len(richer.numbered())}"
+    amendment, base = _taken_out(search, k)
+    law = fitted_law(search.case, amendment, base, richer, start | {added: 0.01 * start["c_1"]})
+    search.findings[k] = finding(law, base, result.before, result.after)
+    search.take([*amendment.attachments, law.attachment], law.fit, result.after)
+    simplify(search, lambda text: None)
+    kept = [f.ranked.attachment for f in search.findings if f.ranked.attachment.location == "upper"]
+    assert [len(a.law.groups) for a in kept] == [len(richer.groups) - 1]
