@@ -214,13 +214,13 @@ def _scalars(believed: Prepared) -> list[str]:
 
 
 def _read(believed: Prepared, names: Iterable[str]) -> dict[str, int]:
-    """Those of the class itself that are no arrays and that nothing but equations reads: how many, of each.
+    """Those that are no arrays and that nothing but equations reads, fields of records among them: how many, of each.
     None beside algorithms and when-clauses, in which they would stay."""
     if believed.declared.algorithms or believed.declared.whens:
         return {}
     variables = believed.declared.variables
     bound = {str(n.value) for v in variables.values() if v.binding is not None for n in leaves(v.binding)}
-    plain = [n for n in names if n in variables and "." not in n and "[" not in n and n not in bound]
+    plain = [n for n in names if n in variables and "[" not in n and n not in bound]
     return {n: sum(var(n) in leaves(e.lhs) | leaves(e.rhs) for e in believed.declared.equations) for n in plain}
 
 
