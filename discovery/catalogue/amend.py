@@ -240,6 +240,7 @@ class _Writer:
     def _reads(self, attachment: Attachment, earlier: Amendment) -> None:
         self._declare(attachment)
         self.equations.append(f"{attachment.component}.u = {earlier.output(attachment.variable)};")
+        self._signals(attachment)
 
     def _probes(self) -> None:
         for k, place in enumerate(self.amendment.probes):

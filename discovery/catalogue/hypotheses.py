@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import product
 
-from lacuna.discovery.case.cases import Case
+from lacuna.discovery.case.cases import Case, Signal
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.catalogue import Effect
@@ -151,10 +151,19 @@ def _on_sensors(case: Case, structure: Structure, effect: Effect) -> list[Attach
     """On a device whose force is recorded, the force of an effect's twin is the very same signal: one name suffices."""
     forces = {d.variable for d in structure.devices} if effect.twin else set()
     return [
-        Attachment(effect, _component(effect, s.column), f"sensor:{s.column}", variable=s.variable, values=values)
+        Attachment(
+            effect, _component(effect, s.column), f"sensor:{s.column}", variable=s.variable, signals=signals,
+            values=values,
+        )
         for s in case.outputs if effect.unit in ("", s.si_unit) and s.variable not in forces
-        for values in _intervals(case, effect, finer=False)
+        for signals in _recorded_beside(case, s, effect) for values in _intervals(case, effect, finer=False)
     ]  # fmt: skip
+
+
+def _recorded_beside(case: Case, sensor: Signal, effect: Effect) -> list[tuple[tuple[str, str], ...]]:
+    """What an error of a sensor may be of: each other variable of its unit that is recorded."""
+    others = [s.variable for s in case.outputs if s.si_unit == sensor.si_unit and s.variable != sensor.variable]
+    return [tuple((name, variable) for name in effect.signals) for variable in others] if effect.signals else [()]
 
 
 _PLACES = {

@@ -7,6 +7,7 @@ recordings of the fit set that it was not fitted to better than no law does.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -154,9 +155,10 @@ def _take(search: Search, unbegun: Search, found: Found, progress: Progress) -> 
     correlation = law.fit.correlation()
     ranked = [Ranked(c, c.fit, score(c, base, correlation)) for c in _one_a_place(found.laws)]
     gain = ranked[0].score
-    if max(gain, told_by_data(law, base, correlation)) > -MIN_GAIN or (
-        search.findings and not _better(search, unbegun, law, gain, correlation)
-    ):
+    if max(gain, told_by_data(law, base, correlation)) > -MIN_GAIN:
+        return False
+    if search.findings and not _better(search, unbegun, law, gain, correlation):
+        _tie(search, ranked[0], gain - _score_of(search, unbegun, correlation), found)
         return False
     progress("what the law says of recordings left out")
     if not _tells(unbegun, ranked[0], correlation):
@@ -169,6 +171,18 @@ def _take(search: Search, unbegun: Search, found: Found, progress: Progress) -> 
     search.take([law.attachment], law.fit, after)
     search.reason = ""
     return True
+
+
+def _tie(search: Search, law: Ranked, more: float, found: Found) -> None:
+    """A law that costs `more` than an error of a sensor, by less than a tie, as a rival of that error; what is off in a
+    reading that changes no state is the same as its sensor."""
+    same = {s.location for s in found.sites if s.place is not None and s.place.reading}
+    finding = search.findings[0]
+    alone = len(search.findings) == 1 and finding.ranked.attachment.variable
+    if alone and more < TIE and law.attachment.location not in same:
+        finding.naming.ranked.append(replace(law, score=finding.ranked.score + more))
+        finding.naming.ranked.sort(key=lambda r: r.score)
+        confidences(finding.naming.ranked)
 
 
 def _better(search: Search, unbegun: Search, law: Candidate, gain: float, correlation: dict[str, float]) -> bool:

@@ -12,6 +12,8 @@ import pytest
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.explain import explain
 
+from .test_efforts import BELIEVED, cascade
+
 CART = """model Cart "On a rail, drawn by a force"
   parameter Real m(unit="kg", min=0) = 4;
   parameter Real d(unit="N.s/m", min=0) = 2;
@@ -113,3 +115,13 @@ def test_an_error_of_one_sensor_is_found(
 
 def _rates(state: np.ndarray, force: float) -> np.ndarray:
     return np.array([state[1], (force - 2 * state[1] - 8 * state[0]) / 4])
+
+
+def test_a_sensor_that_shows_a_part_of_another_ones_quantity(tmp_path: Path) -> None:
+    shown = BELIEVED.replace("equation", "  Real shown;\nequation\n  shown = lower + 0.05*upper;", 1)
+    found = explain(load(cascade(tmp_path, shown, "shown")))
+    assert found.verdict == "missing_physics", found.reason
+    (finding,) = found.findings
+    attachment = finding.ranked.attachment
+    assert (attachment.effect.identifier, attachment.location) == ("sensor.crosstalk", "sensor:lower")
+    assert found.final.point[attachment.full_name("share")] == pytest.approx(0.05, rel=0.05)

@@ -45,3 +45,43 @@ def test_a_constant_loss_is_not_told_from_an_offset_of_the_inflow(tmp_path: Path
 def test_a_loss_that_is_none_at_rest_is_told(tmp_path: Path) -> None:
     found = explain(load(drained(tmp_path, "6e-5*sqrt(h)")))
     assert found.verdict == "missing_physics" and offset_instead(found) is None
+
+
+STORE = """model Store "A flywheel near its working speed"
+  parameter Real J(unit="kg.m2", min=0) = 2.2;
+  parameter Real k(unit="N.m/A", min=0) = 0.4;
+  input Real i(unit="A");
+  Real w(unit="rad/s", start=1500, fixed=true);
+equation
+  J*der(w) = k*i{loss};
+end Store;
+"""
+STORED = """model = "Store.mo"
+[uncertainty]
+J = 0.03
+k = 0
+[signals.i]
+role = "input"
+unit = "A"
+[signals.w]
+role = "output"
+unit = "rad/s"
+noise_std = 0.4
+[recordings]
+fit = ["r1.csv", "r2.csv"]
+validate = ["r3.csv"]
+"""
+
+
+def test_a_constant_torque_is_not_told_from_a_sensor_whose_zero_drifts(tmp_path: Path) -> None:
+    machine, case = truth(tmp_path, "Store", STORE.format(loss=" - 0.8")), tmp_path / "case"
+    case.mkdir()
+    (case / "Store.mo").write_text(STORE.format(loss=""), encoding="utf-8")
+    (case / "case.toml").write_text(STORED, encoding="utf-8")
+    random, time = np.random.default_rng(3), np.arange(400) * 0.1
+    for n in (1, 2, 3):
+        current, error = np.repeat(random.uniform(-5, 5, 20), 20), 0.4 * random.normal(size=400)
+        record(case / f"r{n}.csv", machine, time, {"i": current}, {"w": "w"}, {"w": error})
+    result = explain(load(case))
+    assert result.verdict == "undetermined"
+    assert "sensor.drift" in result.reason and "at w" in result.reason
