@@ -149,9 +149,12 @@ def _exchange(search: Search, k: int, base: Fit, naming: Naming, ranked: Ranked,
 
 
 def among_sensors(search: Search, progress: Progress) -> None:
-    """Look at errors of sensors again, in the place of each of several laws."""
-    for k in range(len(search.findings) if len(search.findings) > 1 else 0):
+    """Look at errors of sensors again, in the place of each of several laws; what these do without is dropped."""
+    before = list(search.findings)
+    for k in range(len(before) if len(before) > 1 else 0):
         _sensor_instead(search, k, progress)
+    if any(now is not old for now, old in zip(search.findings, before, strict=True)):
+        search.drop_needless(progress)
 
 
 def _sensor_instead(search: Search, k: int, progress: Progress) -> None:
