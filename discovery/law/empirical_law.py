@@ -24,7 +24,7 @@ from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.law.law import Law, attach, component_of, own_values
 from lacuna.discovery.law.law_screen import Effort, Proposal, screened, sites
-from lacuna.discovery.law.law_terms import Group, Variable, exponent, stribeck
+from lacuna.discovery.law.law_terms import DRY, Group, Shape, Variable, exponent, stribeck
 from lacuna.discovery.naming.comparison import best_correlation, score
 from lacuna.discovery.naming.race import ROUNDS, run_round, still_in
 from lacuna.discovery.naming.screen import Candidate
@@ -194,9 +194,10 @@ def _with_fixed(law: Law, values: dict[str, float], name: str, value: float) -> 
 
 def varied(best: Proposal) -> list[Proposal]:
     """A fitted law with any exponent in the place of one that physics has, with dry friction that truly sticks in that
-    of a steep one, or with one that falls from rest on in that of a level one; one group at a time."""
+    of a steep one, with one that falls from rest on in that of a level one, or with a sign as steep as the data says;
+    one group at a time."""
     law, values = best.law, own_values(best.candidate.attachment, best.candidate.fit.point)
-    found = [*_stuck(law, values), *_falling(law, values)]
+    found = [*_stuck(law, values), *_falling(law, values), *_steep(law, values)]
     for n, group in enumerate(law.groups):
         text = group.texts[0]
         linear = re.fullmatch(r"\((\w+)/\w+_ref\)", text)
@@ -215,6 +216,20 @@ def _stuck(law: Law, values: dict[str, float]) -> list[Proposal]:
         _sticking(law, values, n, v) for n, g in enumerate(law.groups) for v in law.site.variables
         if v.sticks and g.texts == (f"tanh({{q}}*{v.scaled})",)
     ]  # fmt: skip
+
+
+def _steep(law: Law, values: dict[str, float]) -> list[Proposal]:
+    """The law with a smooth sign of any steepness in the place of a variable's own: under load what creeps near zero is
+    told by it."""
+    found, steepness = [], Shape("q", "1", 50.0, 0.5, 5e3, (), 40.0)  # from that of DRY
+    for n, group in enumerate(law.groups):
+        for v in law.site.variables if len(group.texts) == 1 and not group.shapes else ():
+            smooth = f"tanh({{q}}*{v.scaled})"
+            text = group.texts[0].replace(v.dry, smooth).replace(DRY.format(x=v.scaled), smooth)
+            if text != group.texts[0]:
+                groups = (*law.groups[:n], Group((text,), (steepness,)), *law.groups[n + 1 :])
+                found.append(Proposal(Law(law.site, groups), values | {f"q_{n + 1}": steepness.start}))
+    return found
 
 
 def _falling(law: Law, values: dict[str, float]) -> list[Proposal]:

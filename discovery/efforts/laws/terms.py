@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from lacuna.discovery.efforts.places.insertion import KEPT
-from lacuna.discovery.law.law_terms import EXPONENTS, Group, Shape, Variable, exponent, stribeck
+from lacuna.discovery.law.law_terms import DRY, EXPONENTS, Group, Shape, Variable, exponent, stribeck
 
 LEAST = 1.5  # cycles over the range: less of a wave is a bend, which powers say with fewer numbers
 CYCLES = 30  # of a wave along a variable, over the range that it has
@@ -51,7 +51,7 @@ def groups(
         for b in plain:
             if a is not b and b.kind != "rate":
                 both = a.kind != "rate" and a.local > b.local
-                result += _together(a, b, ranges[a.local][0] < 0 < ranges[a.local][1], not both)
+                result += _together(a, b, ranges, not both)
     return result + [g for v in found if v.kind == "recording" for g in _in_proportion(v, result)]
 
 
@@ -247,15 +247,17 @@ def saturating(v: Variable) -> Group:
     return Group((f"(1/(1 + {{q}}*{v.scaled}^2) - 1)",), (Shape("q", "1", 1.0, 0.01, 100.0, (), 0.9),))
 
 
-def _together(a: Variable, b: Variable, signed: bool, once: bool) -> list[Group]:
-    """Products: those that are alike both ways once."""
+def _together(a: Variable, b: Variable, ranges: dict[str, tuple[float, float]], once: bool) -> list[Group]:
+    """Products: those that are alike both ways once. Friction whose level goes through zero holds nothing there: it has
+    a smooth sign."""
     x, y = a.scaled, b.scaled
     if b.switch:  # any function of it is the same again
         return [Group((f"{x}*{y}",))] if once else []
     saturating = Group((f"({x}/(1 + {{q}}*{y}^2) - {x})",), (Shape("q", "1", 1.0, 0.01, 100.0, (), 0.9),))
     found = [Group((f"{x}*{y}^2",)), Group((f"{x}*abs{y}",)), saturating]
-    rubs = signed and a.kind != "rate"
-    found += [Group((f"{a.dry}*abs{y}",))] if rubs else []
+    rubs = ranges[a.local][0] < 0 < ranges[a.local][1] and a.kind != "rate"
+    holds = ranges[b.local][0] > AWAY or ranges[b.local][1] < -AWAY
+    found += [Group((f"{a.dry if holds else DRY.format(x=x)}*abs{y}",))] if rubs else []
     found += _exponential(f"{{q}}*{y}", f"{x}*")
     found += _exponential(f"{{q}}*{y}", f"{a.dry}*") if rubs and a.sticks else []
     return [Group((f"{x}*{y}",)), *found] if once else found
