@@ -152,18 +152,23 @@ def _on_sensors(case: Case, structure: Structure, effect: Effect) -> list[Attach
     forces = {d.variable for d in structure.devices} if effect.twin else set()
     return [
         Attachment(
-            effect, _component(effect, s.column), f"sensor:{s.column}", variable=s.variable, signals=signals,
-            values=values,
+            effect, _component(effect, "_".join([s.column, *beside])), f"sensor:{s.column}", variable=s.variable,
+            signals=signals, values=values,
         )
         for s in case.outputs if effect.unit in ("", s.si_unit) and s.variable not in forces
-        for signals in _recorded_beside(case, s, effect) for values in _intervals(case, effect, finer=False)
+        for beside, signals in _recorded_beside(case, s, effect) for values in _intervals(case, effect, finer=False)
     ]  # fmt: skip
 
 
-def _recorded_beside(case: Case, sensor: Signal, effect: Effect) -> list[tuple[tuple[str, str], ...]]:
-    """What an error of a sensor may be of: each other variable of its unit that is recorded."""
-    others = [s.variable for s in case.outputs if s.si_unit == sensor.si_unit and s.variable != sensor.variable]
-    return [tuple((name, variable) for name in effect.signals) for variable in others] if effect.signals else [()]
+def _recorded_beside(
+    case: Case, sensor: Signal, effect: Effect
+) -> list[tuple[list[str], tuple[tuple[str, str], ...]]]:  # fmt: skip
+    """(columns, the effect's inputs) of what an error of a sensor may be of: each other variable of its unit that is
+    recorded."""
+    if not effect.signals:
+        return [([], ())]
+    others = [s for s in case.outputs if s.si_unit == sensor.si_unit and s.variable != sensor.variable]
+    return [([s.column], tuple((name, s.variable) for name in effect.signals)) for s in others]
 
 
 _PLACES = {

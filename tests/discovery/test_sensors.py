@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -10,6 +11,9 @@ import numpy as np
 import pytest
 
 from lacuna.discovery.case.cases import load
+from lacuna.discovery.catalogue import catalogue, places
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.explain import explain
 
 from .test_efforts import BELIEVED, cascade
@@ -125,3 +129,14 @@ def test_a_sensor_that_shows_a_part_of_another_ones_quantity(tmp_path: Path) -> 
     attachment = finding.ranked.attachment
     assert (attachment.effect.identifier, attachment.location) == ("sensor.crosstalk", "sensor:lower")
     assert found.final.point[attachment.full_name("share")] == pytest.approx(0.05, rel=0.05)
+
+
+def test_errors_that_are_of_several_other_sensors_have_names_of_their_own(tmp_path: Path) -> None:
+    """They are screened in one model."""
+    case = load(cascade(tmp_path, BELIEVED))
+    case.signals["level"] = replace(case.signals["upper"], column="level", variable="level")
+    effects = [e for e in catalogue.read(case.library()) if e.identifier == "sensor.crosstalk"]
+    structure = places.read(case.library(), case.base)
+    found = enumerate_attachments(case, structure, effects, Amendment(structure))
+    assert len(found) == len({a.component for a in found}) == 6
+    assert {a.signals for a in found if a.variable == "level"} == {(("other", "upper"),), (("other", "lower"),)}

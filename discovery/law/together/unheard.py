@@ -62,9 +62,9 @@ def beside_error(unbegun: Search, sensor: Signal, library: Library, progress: Pr
     progress(f"looking for a law without {sensor.column}")
     try:
         law = _law_without(unbegun, sensor, library, progress)
+        with_law = law and _with(unbegun, law)
     except (CaseError, Diagnostic, SimulationError):
         return None
-    with_law = law and _with(unbegun, law)
     naming = with_law and _errors_of(unbegun, sensor, with_law, progress)
     if not naming or naming.simplest is None or naming.simplest.score > -MIN_GAIN:
         return None
