@@ -186,5 +186,5 @@ def test_a_law_in_one_equation_of_a_state_space_is_found_there(tmp_path: Path) -
     found = explain(load(_rig(tmp_path / "case", lags=0.0, cubic=800.0)))
     assert found.verdict == "missing_physics", found.reason
     assert found.findings[0].ranked.attachment.location == "x[1]"
-    law = found.findings[0].ranked.attachment.expression
+    law = found.findings[0].ranked.attachment.law
     assert law is not None and "x[2]" in found.findings[0].ranked.attachment.effect.signature
