@@ -81,7 +81,7 @@ def test_a_loss_that_no_catalogue_holds_is_found_as_a_law(
     law = find(case, machine.amendment, base)
     prefix = f"{law.attachment.component}."
     values = {n.removeprefix(prefix): v for n, v in law.fit.point.items() if n.startswith(prefix)}
-    text = law.attachment.expression(values)
+    text = law.attachment.law.expression(values)
     assert law.attachment.location == "shaft" and "shaft.w" in text and shape in text
     at_200 = text.replace("^", "**").replace("shaft.w", "200.0").replace("shaft.phi", str(phi))
     known = {"sign": np.sign, "abs": abs, "sin": np.sin, "cos": np.cos}
