@@ -19,7 +19,7 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.efforts.places import sites as places
 from lacuna.discovery.fit.evidence import is_noise
-from lacuna.discovery.fit.fit import Fit, fit
+from lacuna.discovery.fit.fit import Fit, fit, linearised
 from lacuna.discovery.fit.machine import try_machine
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.law.law import Law, attach, component_of, own_values
@@ -90,6 +90,16 @@ def unfitted(
     first = (believed or base.point) | {attachment.full_name(n): v for n, v in start.items()}
     free, held = free_of(law, attachment, start), held_of(law, attachment, start)
     return None if machine is None else Candidate(attachment, machine, free, held, first, pick=law.pick())
+
+
+def unmoved(case: Case, amendment: Amendment, base: Fit, proposal: Proposal) -> tuple[Amendment, Fit] | None:
+    """(the model with a law where that starts, as a fit that does not move); None where it cannot be simulated."""
+    candidate = unfitted(case, amendment, base, proposal.law, proposal.start, proposal.point)
+    if candidate is None:
+        return None
+    free, fixed = [*base.estimate.free, *candidate.free], base.fixed | candidate.fixed
+    there = linearised(candidate.machine, case.fit, base.noise, free, fixed, candidate.start)
+    return None if there is None else (candidate.machine.amendment, there)
 
 
 def race(case: Case, base: Fit, pool: list[Candidate], leader: Candidate | None) -> None:

@@ -15,7 +15,6 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.find import WORTH, Found, add_laws, places_of
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
-from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.fit.evidence import FAR, like_noise, nearly_noise, within_instruments
 from lacuna.discovery.law.beyond import margin
 from lacuna.discovery.law.together.pairs import Place, is_short, paired, two_places
@@ -120,14 +119,10 @@ def _beside_error(
     """Whether a law beside an error of a sensor leaves noise, where these tell more than efforts at two places do."""
     if not found.sites or not _is_left(search, found):
         return False
-    told = _log(pair[1].locator, pair[1].site) if pair else found.null + max(s.gain for s in found.sites)
+    told = pair[1].log if pair else found.null + max(s.gain for s in found.sites)
     sensor = to_be_left_out(found, told, progress)
     trial = sensor and beside_error(unbegun, sensor, library, progress)
     return trial is not None and take_if_less(search, trial, unbegun.fit) and within_instruments(search.fit)
-
-
-def _log(locator: Locator, site: Site) -> float:
-    return locator.null + site.gain
 
 
 def _two(unbegun: Search, found: Found, pair: tuple[Place, Place], progress: Progress) -> Search | None:

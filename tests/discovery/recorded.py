@@ -35,6 +35,18 @@ def truth(folder: Path, name: str, text: str, cls: str = "") -> Model:
     return Model(compile_model(f"{path}:{cls}" if cls else str(path), units="warn").path)
 
 
+def concealed(
+    folder: Path, name: str, machine: str, believed: str, case: str, cls: str = ""
+) -> tuple[Path, Model]:  # fmt: skip
+    """(folder of a case without recordings, the machine that is concealed): the texts of the file `name` as it is and
+    as it is believed to be, and that of case.toml; `cls` as in `truth`."""
+    there = folder / "case"
+    there.mkdir()
+    (there / f"{name}.mo").write_text(believed, encoding="utf-8")
+    (there / "case.toml").write_text(case, encoding="utf-8")
+    return there, truth(folder, name, machine, cls)
+
+
 def record(
     path: Path, machine: Model, time: np.ndarray, inputs: Mapping[str, np.ndarray], outputs: Mapping[str, str],
     errors: Mapping[str, np.ndarray],

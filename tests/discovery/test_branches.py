@@ -15,7 +15,7 @@ from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.efforts.places.reading import read
 from lacuna.discovery.explain import explain
 
-from .recorded import record, truth
+from .recorded import concealed, record
 
 WAGONS = """package Wagons
   connector Hook
@@ -97,11 +97,7 @@ validate = ["r3.csv"]
 def train(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A case in which the buffer between two wagons stiffens."""
     folder = tmp_path_factory.mktemp("train")
-    machine = truth(folder, "Wagons", STIFFENING, "Wagons.Train")
-    case = folder / "case"
-    case.mkdir()
-    (case / "Wagons.mo").write_text(BELIEVED, encoding="utf-8")
-    (case / "case.toml").write_text(CASE, encoding="utf-8")
+    case, machine = concealed(folder, "Wagons", STIFFENING, BELIEVED, CASE, "Wagons.Train")
     random, time = np.random.default_rng(8), np.arange(600) * 0.02
     for n in (1, 2, 3):
         u = 1500 * np.repeat(random.uniform(-1, 1, 20), 30)

@@ -29,7 +29,7 @@ from lacuna.discovery.fit.lead import fit_believed
 from lacuna.discovery.fit.machine import Machine
 from lacuna.runtime import Model, RecordedInput, simulate
 
-from .recorded import record, truth
+from .recorded import concealed, record
 
 DATA = np.random.default_rng(5)
 
@@ -194,18 +194,14 @@ validate = ["r3.csv"]
 """
 
 
-def cascade(folder: Path, concealed: str, lower: str = "lower") -> Path:
+def cascade(folder: Path, machine: str, lower: str = "lower") -> Path:
     """A case of the two tanks whose truth is another class of the same variables; the sensor below shows `lower`."""
-    machine = truth(folder, "Cascade", concealed)
-    case = folder / "case"
-    case.mkdir()
-    (case / "Cascade.mo").write_text(BELIEVED, encoding="utf-8")
-    (case / "case.toml").write_text(CASE, encoding="utf-8")
+    case, tanks = concealed(folder, "Cascade", machine, BELIEVED, CASE)
     random, time = np.random.default_rng(3), np.arange(300) * 2.0
     for n in (1, 2, 3):
         q = np.repeat(random.uniform(2e-5, 1.8e-4, 10), 30)
         errors = {v: 0.001 * random.normal(size=300) for v in ("upper", "lower")}
-        record(case / f"r{n}.csv", machine, time, {"q": q}, {"upper": "upper", "lower": lower}, errors)
+        record(case / f"r{n}.csv", tanks, time, {"q": q}, {"upper": "upper", "lower": lower}, errors)
     return case
 
 

@@ -10,17 +10,14 @@ import pytest
 from lacuna.discovery.case.cases import load
 from lacuna.discovery.explain import explain
 
-from .recorded import record, truth
+from .recorded import concealed, record
 from .test_sensors import CART, CASE
 
 
 @pytest.mark.parametrize("creep", [0.15, 0.05])  # m/s, over which the sign turns
 def test_friction_that_grows_with_a_force_of_either_sign_is_found(creep: float, tmp_path: Path) -> None:
     rubbing = CART.replace("- c*x;", f"- c*x - 3*tanh(v/{creep})*abs(x);")
-    machine, case = truth(tmp_path, "Cart", rubbing), tmp_path / "case"
-    case.mkdir()
-    (case / "Cart.mo").write_text(CART, encoding="utf-8")
-    (case / "case.toml").write_text(CASE.replace('interpolation = "hold"\n', ""), encoding="utf-8")
+    case, machine = concealed(tmp_path, "Cart", rubbing, CART, CASE.replace('interpolation = "hold"\n', ""))
     random, time = np.random.default_rng(8), 0.05 * np.arange(600)
     for n in (1, 2, 3):
         force = np.repeat(random.uniform(-6, 6, 12), 50)

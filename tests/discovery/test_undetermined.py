@@ -12,7 +12,7 @@ from lacuna.discovery.explain import explain
 from lacuna.discovery.explanation.confidence import tie
 from lacuna.discovery.explanation.input_error import offset_instead
 
-from .recorded import TANK, record, truth
+from .recorded import TANK, concealed, record, truth
 
 
 def drained(folder: Path, lost: str) -> Path:
@@ -74,10 +74,7 @@ validate = ["r3.csv"]
 
 
 def test_a_constant_torque_is_not_told_from_a_sensor_whose_zero_drifts(tmp_path: Path) -> None:
-    machine, case = truth(tmp_path, "Store", STORE.format(loss=" - 0.8")), tmp_path / "case"
-    case.mkdir()
-    (case / "Store.mo").write_text(STORE.format(loss=""), encoding="utf-8")
-    (case / "case.toml").write_text(STORED, encoding="utf-8")
+    case, machine = concealed(tmp_path, "Store", STORE.format(loss=" - 0.8"), STORE.format(loss=""), STORED)
     random, time = np.random.default_rng(3), np.arange(400) * 0.1
     for n in (1, 2, 3):
         current, error = np.repeat(random.uniform(-5, 5, 20), 20), 0.4 * random.normal(size=400)

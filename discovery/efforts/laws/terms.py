@@ -18,7 +18,7 @@ from lacuna.discovery.law.law_terms import DRY, EXPONENTS, Group, Shape, Variabl
 LEAST = 1.5  # cycles over the range: less of a wave is a bend, which powers say with fewer numbers
 CYCLES = 30  # of a wave along a variable, over the range that it has
 TURN = 1.6  # rad from one wave number to the next at the ends of the range: so that none is missed
-AWAY = 0.05  # of its largest value, that a variable stays above for laws that divide by it
+AWAY = 0.05  # of its largest value, that a variable stays above for laws that divide by it, or hold by it at rest
 BEYOND = (1.5, 2.0)  # powers of what is beyond a threshold: weirs, contacts
 DAMPED = 0.1  # damping ratio of what swings, where it starts: as most joints and mounts have
 OCTAVES = 3.0  # from one time constant of a relaxation to the next: half a bandwidth either way

@@ -7,6 +7,7 @@ it changes where it changes no state.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
@@ -221,7 +222,8 @@ def _read(believed: Prepared, names: Iterable[str]) -> dict[str, int]:
     variables = believed.declared.variables
     bound = {str(n.value) for v in variables.values() if v.binding is not None for n in leaves(v.binding)}
     plain = [n for n in names if n in variables and "[" not in n and n not in bound]
-    return {n: sum(var(n) in leaves(e.lhs) | leaves(e.rhs) for e in believed.declared.equations) for n in plain}
+    reads = Counter(leaf for e in believed.declared.equations for leaf in leaves(e.lhs) | leaves(e.rhs))
+    return {n: reads[var(n)] for n in plain}
 
 
 def _openable(case: Case, amendment: Amendment, sites: list[Site], closed: list[tuple[str, str]]) -> list[Site]:

@@ -13,17 +13,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.find import TRIED, Found, alike, simplest
 from lacuna.discovery.efforts.instruments import NATS
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
 from lacuna.discovery.fit.evidence import nearly_noise, pays
-from lacuna.discovery.fit.fit import Fit, linearised
-from lacuna.discovery.fit.machine import try_machine
-from lacuna.discovery.law.empirical_law import fitted_law, free_of, held_of, simplified
-from lacuna.discovery.law.law import attach, component_of
+from lacuna.discovery.fit.fit import Fit
+from lacuna.discovery.law.empirical_law import fitted_law, simplified, unmoved
+from lacuna.discovery.law.law import component_of
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.law.together.several import finding, paid
 from lacuna.discovery.naming.comparison import MIN_GAIN, price, score, told_by_data
@@ -55,6 +53,11 @@ class Place:
             for proposal in offered:
                 proposal.point = guided.point
             yield offered
+
+    @property
+    def log(self) -> float:
+        """Log evidence of an effort here beside the other one."""
+        return self.locator.null + self.site.gain
 
     def alike(self, other: Site) -> list[Place]:
         """Places at which an effort leaves hardly more than at this one: of two that are coupled stiffly a smooth
@@ -188,22 +191,9 @@ class Joining:
         """The second law fitted together with the first."""
         sides = [f"{p.law.text()} at {p.law.site.location}" for p in (one, two)]
         self.progress(f"fitting {' and '.join(sides)}")
-        beside = self._with(one)
+        beside = unmoved(self.case, self.amendment, self.base, one)
         fitted = beside and fitted_law(self.case, *beside, two.law, two.start, (two.point or {}) | beside[1].point)
         return Both(one, replace(two, candidate=fitted), fitted.fit) if fitted else None
-
-    def _with(self, law: Proposal) -> tuple[Amendment, Fit] | None:
-        """(the model with a law where that starts, as a fit that does not move); None where it cannot be simulated."""
-        attachment, base = attach(law.law), self.base
-        own = replace(self.amendment, attachments=[*self.amendment.attachments, attachment])
-        machine, _ = try_machine(self.case, own, base.machine)
-        if machine is None:
-            return None
-        free = [*base.estimate.free, *free_of(law.law, attachment, law.start)]
-        point = (law.point or base.point) | {attachment.full_name(n): v for n, v in law.start.items()}
-        fixed = base.fixed | held_of(law.law, attachment, law.start)
-        there = linearised(machine, self.case.fit, base.noise, free, fixed, point)
-        return None if there is None else (own, there)
 
     def _simplified(self, both: Both) -> Both:
         """Both laws without what they do not need, each beside the other."""
@@ -214,7 +204,7 @@ class Joining:
 
     def _simpler(self, one: Proposal, two: Proposal) -> tuple[Proposal, Proposal, Fit] | None:
         """(the first law, the second without what it does not need beside it, their fit)."""
-        both, beside = self._joint(one, two), self._with(one)
+        both, beside = self._joint(one, two), unmoved(self.case, self.amendment, self.base, one)
         if both is None or beside is None:
             return None
         two = simplified(self.case, *beside, both.two)

@@ -167,11 +167,20 @@ def _sensor_instead(search: Search, k: int, progress: Progress) -> None:
     amendment, base = _taken_out(search, k)
     if base is None:
         return
-    every = enumerate_attachments(search.case, amendment.structure, search.effects, amendment)
-    candidates, _ = screen_all(search.case, amendment, [a for a in every if a.variable], base, progress)
-    naming = compete(search.case, candidates, base, final=True, progress=progress)
+    naming = errors_of_sensors(search, amendment, base, progress)
     if naming.simplest is not None:
         _exchange(search, k, base, naming, naming.simplest, TIE)
+
+
+def errors_of_sensors(
+    search: Search, amendment: Amendment, base: Fit, progress: Progress, only: str = ""
+) -> Naming:  # fmt: skip
+    """What may be wrong with the sensors, or with `only` that of one variable, beside what `base`, the fit of
+    `amendment`, has."""
+    every = enumerate_attachments(search.case, amendment.structure, search.effects, amendment)
+    errors = [a for a in every if a.variable and only in ("", a.variable)]
+    candidates, _ = screen_all(search.case, amendment, errors, base, progress)
+    return compete(search.case, candidates, base, progress=progress)
 
 
 def _is_of_form(sites: list[Site], free: Callable[[Site], bool]) -> bool:

@@ -16,18 +16,20 @@ import numpy as np
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import Case, CaseError, Signal
-from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.efforts.find import TRIED, Found, add_laws, places_of, simplest
 from lacuna.discovery.efforts.instruments import NATS
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.fit.evidence import pays, within_instruments
-from lacuna.discovery.fit.fit import Fit, linearised
+from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.lead import fit_believed
-from lacuna.discovery.law.together.several import finding
+from lacuna.discovery.law.empirical_law import unmoved
+from lacuna.discovery.law.law import own_values
+from lacuna.discovery.law.law_screen import Proposal
+from lacuna.discovery.law.together.several import errors_of_sensors, finding
 from lacuna.discovery.naming.comparison import MIN_GAIN
 from lacuna.discovery.naming.judge import try_judge
 from lacuna.discovery.naming.left_out import left_out
-from lacuna.discovery.naming.name import Finding, Naming, compete, screen_all
+from lacuna.discovery.naming.name import Finding
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.discovery.naming.search import Search
 from lacuna.runtime import SimulationError
@@ -62,13 +64,17 @@ def beside_error(unbegun: Search, sensor: Signal, library: Library, progress: Pr
     progress(f"looking for a law without {sensor.column}")
     try:
         law = _law_without(unbegun, sensor, library, progress)
-        with_law = law and _with(unbegun, law)
     except (CaseError, Diagnostic, SimulationError):
         return None
-    naming = with_law and _errors_of(unbegun, sensor, with_law, progress)
-    if not naming or naming.simplest is None or naming.simplest.score > -MIN_GAIN:
+    base = unbegun.fit
+    beside = law and unmoved(unbegun.case, unbegun.amendment, base, _as_found(law, base))
+    if not beside:
         return None
-    ranked, base = naming.simplest, unbegun.fit
+    amendment, with_law = beside
+    naming = errors_of_sensors(unbegun, amendment, with_law, progress, only=sensor.variable)
+    ranked = naming.simplest
+    if ranked is None or ranked.score > -MIN_GAIN:
+        return None
     between, after = (try_judge(f.machine, f.point) for f in (with_law, ranked.fit))
     if between is None or after is None:
         return None
@@ -92,6 +98,12 @@ def _law_without(unbegun: Search, sensor: Signal, library: Library, progress: Pr
     return law if law is not None and within_instruments(law.fit) else None
 
 
+def _as_found(law: Candidate, base: Fit) -> Proposal:
+    """A law that starts where it was fitted to the other sensors, starts that only `base` has as they are there."""
+    values = own_values(law.attachment, law.fit.point)
+    return Proposal(law.attachment.law, values, point=base.point | law.fit.point)
+
+
 def without_sensor(case: Case, sensor: Signal) -> Case:
     """The case as if this sensor were not there: states that it was to give the start of start anywhere."""
 
@@ -103,21 +115,3 @@ def without_sensor(case: Case, sensor: Signal) -> Case:
     own = {name: replace(o, initial=unknown(o.initial)) for name, o in case.own.items()}
     noise = {c: n for c, n in case.noise.items() if c != sensor.column}
     return replace(case, signals=signals, initial=unknown(case.initial), own=own, noise=noise)
-
-
-def _with(unbegun: Search, law: Candidate) -> Fit | None:
-    """The law in the model that all sensors are held against, as a fit that does not move."""
-    base = unbegun.fit
-    amendment = replace(unbegun.amendment, attachments=[*unbegun.amendment.attachments, law.attachment])
-    machine = base.machine.amended(amendment)
-    free, fixed = [*base.estimate.free, *law.free], base.fixed | law.fixed
-    return linearised(machine, unbegun.case.fit, base.noise, free, fixed, base.point | law.fit.point)
-
-
-def _errors_of(unbegun: Search, sensor: Signal, base: Fit, progress: Progress) -> Naming:
-    """What may be wrong with the sensor, beside the law that `base` has."""
-    case, amendment = unbegun.case, base.machine.amendment
-    every = enumerate_attachments(case, amendment.structure, unbegun.effects, amendment)
-    own = [a for a in every if a.variable == sensor.variable]
-    candidates, _ = screen_all(case, amendment, own, base, progress)
-    return compete(case, candidates, base, progress=progress)
