@@ -18,7 +18,8 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
 from lacuna.discovery.efforts.latent.evidence import evidence
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
-from lacuna.discovery.efforts.located import SIZES, TIMES, Locator, thinned_all
+from lacuna.discovery.efforts.latent.thinned import thinned_all
+from lacuna.discovery.efforts.located import SIZES, TIMES, Locator
 from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.fit.evidence import INSTRUMENTS, may_be_coloured
 from lacuna.discovery.fit.fit import Fit
@@ -92,18 +93,16 @@ def _worst(locator: Locator) -> np.ndarray:
     return np.where(given, np.sqrt(INSTRUMENTS**2 - 1.0) * locator.noise, WORST * spans)
 
 
-_NOWHERE = Latent(np.array([-1]), np.array([-1]), np.zeros(1), np.ones(1))
+_NOWHERE = Latent(np.array([[-1]]), np.array([-1]), np.zeros(1), np.ones(1))
 _NOTHING = replace(_NOWHERE, colour=Colour(np.zeros(0, dtype=int), np.zeros((1, 0)), np.zeros((1, 0))))
 
 
 def _with_effort(locator: Locator, pieces: list[Piece], colour: Colour) -> Latent:
     """The place, size and time constant of the effort that explains most beside these errors of sensors."""
     rows, _ = locator.hypotheses()
-    efforts = np.flatnonzero(rows.column >= 0)
-    tried = Latent(rows.column[efforts], rows.sensor[efforts], rows.size[efforts], rows.time[efforts])
-    best = int(np.nanargmax(evidence(pieces, replace(tried, colour=colour.repeated(len(efforts)))).log))
-    chosen = (v[best : best + 1] for v in (tried.column, tried.sensor, tried.size, tried.time))
-    return Latent(*chosen, colour)
+    efforts = np.flatnonzero(rows.width > 0)
+    tried = replace(rows.of(efforts), colour=colour.of([0] * len(efforts)))
+    return tried.of([int(np.nanargmax(evidence(pieces, tried).log))])
 
 
 def _fitted(pieces: list[Piece], latent: Latent, worst: np.ndarray) -> tuple[Latent, float]:
@@ -147,10 +146,9 @@ def _grid(sizes: np.ndarray, times: np.ndarray) -> Rows:
 
 def _best(pieces: list[Piece], latent: Latent, k: int, rows: Rows, worst: np.ndarray) -> tuple[Latent, float]:
     """The hypothesis with chain k at the best of these rows, and its log evidence."""
-    count = len(rows[0])
-    colour = latent.colour.repeated(count)
+    tried = latent.of([0] * len(rows[0]))
+    colour = tried.colour
     colour.size[:, k], colour.time[:, k] = np.minimum(rows[0], worst[colour.sensor[k]]), rows[1]
-    fields = (np.repeat(v, count) for v in (latent.column, latent.sensor, latent.size, latent.time))
-    log = evidence(pieces, Latent(*fields, colour)).log
+    log = evidence(pieces, tried).log
     best = int(np.nanargmax(log))
-    return replace(latent, colour=colour.one(best)), float(log[best])
+    return tried.of([best]), float(log[best])

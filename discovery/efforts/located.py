@@ -14,17 +14,17 @@ from lacuna.discovery.case.values import is_read, is_start, state_of
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
 from lacuna.discovery.efforts.latent.evidence import evidence
-from lacuna.discovery.efforts.latent.smoother import Whitener, acting, courses, thinned
+from lacuna.discovery.efforts.latent.smoother import Whitener, acting, courses
+from lacuna.discovery.efforts.latent.thinned import thinned_all
 from lacuna.discovery.efforts.places.opened import Opened
 from lacuna.discovery.efforts.places.place import Place
-from lacuna.discovery.fit.evidence import LEFT, SIGMAS
+from lacuna.discovery.fit.evidence import SIGMAS
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.runtime import RecordedInput, SimulationError
 
 SIZES = 10.0 ** np.arange(-1.0, 2.1, 0.5)  # of the effort that would explain the misfit by itself: half decades
 TIMES = (1 / 300, 1 / 50, 1 / 8)  # of the longest recording: shorter is noise, longer is a constant
-SAMPLES = 1500, 6000  # of all recordings together, that hypotheses are weighed on: few, and most
 
 
 @dataclass
@@ -149,7 +149,7 @@ class Locator:
             place = self.places[number] if kind == "effort" else None
             location = place.location if place else f"sensor:{self.case.outputs[number].column}"
             site = Site(location, kind, gain, max(0.0, min(1.0, gain / whole)), place)
-            self._chosen[id(site)] = _one(hypotheses, best), found.mean[best]
+            self._chosen[id(site)] = hypotheses.of([best]), found.mean[best]
             result.append(site)
         return sorted(result, key=lambda s: -s.gain)
 
@@ -161,20 +161,26 @@ class Locator:
         longest = max(p.along.time[-1] - p.along.time[0] for p in self.pieces)
         misfit, rows, owners = self._size([p.data[:, :, 0] for p in self.pieces]), [], []
         for number, place in enumerate(self.places):
-            answer = [p.along.response(np.array([place.column]), np.ones((len(p.along.time), 1)))[:, :, 0]
-                      for p in self.pieces]  # fmt: skip
-            if (size := self._size(answer)) == 0:  # nothing of it is recorded
+            size = self._size([self._answer(p, place) for p in self.pieces])
+            if size == 0:  # nothing of it is recorded
                 continue
             unit = misfit / size
-            rows += [(place.column, -1, s * unit, t * longest) for s in SIZES for t in TIMES]
+            rows += [(place.columns, -1, s * unit, t * longest) for s in SIZES for t in TIMES]
             owners += [("effort", number)] * (len(SIZES) * len(TIMES))
         for number in range(len(self.case.outputs)):
-            rows += [(-1, number, s * misfit * self.noise[number], t * longest) for s in SIZES for t in TIMES]
+            rows += [((), number, s * misfit * self.noise[number], t * longest) for s in SIZES for t in TIMES]
             owners += [("sensor", number)] * (len(SIZES) * len(TIMES))
-        rows.append((-1, -1, 0.0, longest))
-        column, sensor, size, time = (np.array(v) for v in zip(*rows, strict=True))
-        colour = self.colour.repeated(len(size)) if self.colour else None
-        return Latent(column.astype(int), sensor.astype(int), size, time, colour), [*owners, ("none", 0)]
+        rows.append(((), -1, 0.0, longest))
+        columns, sensor, size, time = zip(*rows, strict=True)
+        widest = max(1, *map(len, columns))
+        column = np.array([[*own, *[-1] * (widest - len(own))] for own in columns])
+        colour = self.colour.of([0] * len(size)) if self.colour else None
+        return Latent(column, np.array(sensor), np.array(size), np.array(time), colour), [*owners, ("none", 0)]
+
+    def _answer(self, piece: Piece, place: Place) -> np.ndarray:
+        """(n, y) outputs to an effort of one at a place; in units of power at all places of a family."""
+        each = piece.along.response(np.array(place.columns), np.ones((len(piece.along.time), len(place.columns))))
+        return np.sqrt(np.sum(each**2, axis=2))
 
     def white(self, site: Site) -> bool:
         """Whether what the effort at this place leaves has no memory from one sample to the next."""
@@ -241,11 +247,9 @@ class Locator:
 
     def beside(self, locator: Locator, site: Site) -> Locator:
         """Itself, where efforts are looked for beside the one that `locator` found at a place, or in a reading."""
-        latent = locator.latent(site)
         none = Colour(np.zeros(0, dtype=int), np.zeros((1, 0)), np.zeros((1, 0)))
         there = copy(self)
-        chain = int(latent.column[0]), int(latent.sensor[0]), float(latent.size[0]), float(latent.time[0])
-        there.colour = (self.colour or none).beside(*chain)
+        there.colour = (self.colour or none).beside(locator.latent(site))
         return there
 
     def guided(self, site: Site) -> Guided:
@@ -270,31 +274,5 @@ def _response(along: Along, efforts: Sequence[tuple[int, np.ndarray]]) -> np.nda
     return sum(answers, np.zeros(along.read.shape[:2]))
 
 
-def thinned_all(pieces: list[Piece], samples: tuple[int, int] = SAMPLES) -> list[Piece]:
-    """The recordings with so few samples that a search over many hypotheses is quick; with more, up to the second
-    number, where the misfit lives between those: a resonance, a commutation."""
-    count = sum(len(p.along.time) for p in pieces)
-    every, least = (-(-count // n) for n in samples)
-    while every > least and not all(_follows(p, every) for p in pieces):
-        every = max(every // 2, least)
-    return [thinned(p, every) for p in pieces]
-
-
-def _follows(piece: Piece, every: int) -> bool:
-    """Whether the misfit is linear between every so many samples, but for noise, which leaves a power of 1.5 there."""
-    left = piece.data[:, :, 0] / piece.noise
-    if len(left) <= 2 * every:
-        return True
-    between = left[every:-every] - (left[: -2 * every] + left[2 * every :]) / 2
-    seen = np.isfinite(between)
-    power = np.sum(np.where(seen, between, 0.0) ** 2, axis=0) / np.maximum(seen.sum(axis=0), 1)
-    return bool(np.all(power < 1.5 * LEFT**2))
-
-
 def _values(free: list[Free], sigma: np.ndarray, mean: np.ndarray) -> dict[str, float]:
     return {f.name: f.clip(f.centre + s * m) for f, s, m in zip(free, sigma, mean, strict=True)}
-
-
-def _one(latent: Latent, k: int) -> Latent:
-    rows = (v[k : k + 1] for v in (latent.column, latent.sensor, latent.size, latent.time))
-    return Latent(*rows, latent.colour.one(k) if latent.colour else None)

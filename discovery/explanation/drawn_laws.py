@@ -13,8 +13,9 @@ from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.latent.chains import Latent, Piece
 from lacuna.discovery.efforts.latent.evidence import evidence
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
-from lacuna.discovery.efforts.latent.smoother import courses, thinned
-from lacuna.discovery.efforts.located import SAMPLES, SIZES, TIMES, Locator
+from lacuna.discovery.efforts.latent.smoother import courses
+from lacuna.discovery.efforts.latent.thinned import SAMPLES, thinned
+from lacuna.discovery.efforts.located import SIZES, TIMES, Locator
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.explanation.figures import ABOVE
 from lacuna.discovery.explanation.wording import HALF_WIDTH
@@ -92,7 +93,7 @@ def _column(locator: Locator, finding: Finding) -> int | None:
     """The input of the opened model that acts where the law does."""
     own = finding.ranked.attachment.site
     everywhere = [p for place in locator.places for p in (place, *place.other)]
-    return next((p.column for p in everywhere for s in p.sites if (s.kind, s.label) == (own.kind, own.label)), None)
+    return next((p.columns[0] for p in everywhere for s in p.sites if (s.kind, s.label) == (own.kind, own.label)), None)
 
 
 def _unit(finding: Finding) -> str:
@@ -133,10 +134,9 @@ def _likeliest(piece: Piece, column: int) -> Latent:
     misfit = piece.data[:, :, 0] / piece.noise
     unit = np.sqrt(np.nanmean(misfit**2) / max(np.mean(answer**2), 1e-300))
     size, time = (g.ravel() for g in np.meshgrid(SIZES * unit, np.array(TIMES) * np.ptp(along.time)))
-    many = Latent(np.full(count, column), np.full(count, -1), size, time)
+    many = Latent(np.full((count, 1), column), np.full(count, -1), size, time)
     log = evidence([thinned(piece, -(-len(along.time) // SAMPLES[0]))], many).log
-    best = int(np.argmax(np.where(np.isfinite(log), log, -np.inf)))
-    return Latent(*(v[best : best + 1] for v in (many.column, many.sensor, size, time)))
+    return many.of([int(np.argmax(np.where(np.isfinite(log), log, -np.inf)))])
 
 
 def _figure(drawn: list[Drawn]) -> Figure:

@@ -18,7 +18,8 @@ from lacuna.discovery.catalogue.places import read as read_structure
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.latent.chains import Colour, Latent, Piece
 from lacuna.discovery.efforts.latent.evidence import evidence
-from lacuna.discovery.efforts.latent.smoother import Whitener, courses, thinned
+from lacuna.discovery.efforts.latent.smoother import Whitener, courses
+from lacuna.discovery.efforts.latent.thinned import thinned
 from lacuna.discovery.efforts.located import Locator
 from lacuna.discovery.efforts.places.opened import opened
 from lacuna.discovery.efforts.places.reading import read
@@ -61,9 +62,10 @@ def dense(p: Piece, latent: Latent) -> tuple[np.ndarray, np.ndarray]:
         start[k] = p.along.read[k] @ free
         free = p.along.step[k] @ free if k < len(apart) - 1 else free
     seen = np.isfinite(p.data).all(axis=2)
-    g, s = answers(p, latent.column[0])[seen], start[seen]
+    every, s = [answers(p, c)[seen] for c in latent.column[0]], start[seen]
+    g = every[0]
     noise = np.broadcast_to(p.noise, seen.shape)[seen]
-    cover = g @ effort @ g.T + s @ np.diag(p.start**2) @ s.T + np.diag(noise**2)
+    cover = sum(g @ effort @ g.T for g in every) + s @ np.diag(p.start**2) @ s.T + np.diag(noise**2)
     when, output = np.nonzero(seen)
     apart = np.abs(np.subtract.outer(p.along.time[when], p.along.time[when]))
     own = latent.colour
@@ -90,13 +92,16 @@ def answers(p: Piece, column: int) -> np.ndarray:
     return answer
 
 
-LATENT = Latent(np.array([1]), np.array([-1]), np.array([0.8]), np.array([3.0]))
+LATENT = Latent(np.array([[1]]), np.array([-1]), np.array([0.8]), np.array([3.0]))
 COLOUR = Colour(np.array([1, 0, 1]), np.array([[0.5, 0.2, 1.1]]), np.array([[2.0, 0.7, 40.0]]))
-TWO = replace(LATENT, colour=COLOUR.beside(0, -1, 0.6, 5.0))
+BOTH = replace(LATENT, column=np.array([[1, 0]]), colour=COLOUR)
+TWO = replace(LATENT, colour=COLOUR.beside(Latent(np.array([[0]]), np.array([-1]), np.array([0.6]), np.array([5.0]))))
 
 
 @pytest.mark.parametrize(
-    "latent", [LATENT, replace(LATENT, colour=COLOUR), TWO], ids=["white", "coloured", "beside another effort"]
+    "latent",
+    [LATENT, replace(LATENT, colour=COLOUR), TWO, BOTH],
+    ids=["white", "coloured", "beside another effort", "at two places, coloured"],
 )
 def test_the_smoother_equals_one_dense_solve(latent: Latent) -> None:
     pieces = [piece(30, missing=7), piece(21)]
@@ -119,6 +124,17 @@ def test_the_smoother_equals_one_dense_solve(latent: Latent) -> None:
         variance = latent.size[0] ** 2 - np.sum(crossed * np.linalg.solve(c, crossed.T).T, axis=1)
         np.testing.assert_allclose(error**2, variance, rtol=1e-7)
         at += len(c)
+
+
+def test_hypotheses_of_several_widths_side_by_side_are_each_by_itself() -> None:
+    none = Latent(np.array([[-1]]), np.array([1]), np.array([0.4]), np.array([2.0]))
+    alone = [LATENT, BOTH.of([0]), none]
+    alone = [replace(x, colour=COLOUR) for x in alone]
+    column = np.array([[1, -1], [1, 0], [-1, -1]])
+    fields = (np.concatenate([getattr(x, f) for x in alone]) for f in ("sensor", "size", "time"))
+    beside = Latent(column, *fields, COLOUR.of([0, 0, 0]))
+    pieces = [piece(30, missing=7), piece(21)]
+    np.testing.assert_allclose(evidence(pieces, beside).log, [evidence(pieces, x).log[0] for x in alone], rtol=1e-12)
 
 
 def test_whitened_columns_make_the_dense_gram_matrix() -> None:
@@ -151,7 +167,7 @@ def test_a_model_without_states_is_thinned_too() -> None:
 
 
 def test_an_effort_of_no_size_is_none() -> None:
-    none = Latent(np.array([-1]), np.array([-1]), np.array([0.0]), np.array([1.0]))
+    none = Latent(np.array([[-1]]), np.array([-1]), np.array([0.0]), np.array([1.0]))
     p = piece(12)
     p.start[:] = 0.0
     p.data = p.data[:, :, :1]

@@ -12,7 +12,7 @@ from lacuna.discovery.efforts.places.sites import Site
 
 
 def place(location: str, *sites: Site) -> Place:
-    return Place(location, sites, 0, "N.m")
+    return Place(location, sites, (0,), "N.m")
 
 
 def test_both_ends_of_a_shaft_whose_twist_is_a_state_have_their_own_names() -> None:

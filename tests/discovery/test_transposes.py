@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from lacuna.discovery.efforts.latent.chains import Latent, Piece
-from lacuna.discovery.efforts.latent.smoother import Whitener, thinned
+from lacuna.discovery.efforts.latent.smoother import Whitener
+from lacuna.discovery.efforts.latent.thinned import thinned
 from lacuna.discovery.efforts.laws.regression import BLOCK, DISCREPANCIES, Regression
 from lacuna.discovery.efforts.located import Guided
 from lacuna.discovery.efforts.places.sites import Site as Place

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,42 +22,55 @@ class Colour:
     time: np.ndarray  # (h, c) s
     column: np.ndarray | None = None  # (c,) int; -1: it is an error of a sensor. None: all are
 
-    def repeated(self, count: int) -> Colour:
-        """Those of the first hypothesis for each of `count`."""
-        return replace(self, size=np.tile(self.size[:1], (count, 1)), time=np.tile(self.time[:1], (count, 1)))
+    def of(self, rows: Sequence[int]) -> Colour:
+        """Those of these hypotheses alone."""
+        return replace(self, size=self.size[rows], time=self.time[rows])
 
-    def one(self, k: int) -> Colour:
-        """Those of hypothesis k alone."""
-        return replace(self, size=self.size[k : k + 1], time=self.time[k : k + 1])
-
-    def beside(self, column: int, sensor: int, size: float, time: float) -> Colour:
-        """The same, of one hypothesis, and an effort, or a further error of a sensor."""
+    def beside(self, other: Latent) -> Colour:
+        """The same, of one hypothesis, and the efforts, or the error of a sensor, of another one."""
         own = np.full(len(self.sensor), -1) if self.column is None else self.column
+        column, count = other.column[0], other.column.shape[1]
+        sensor = np.full(count, -1)
+        sensor[0] = other.sensor[0]
+        size, time = (np.repeat(v[:1, None], count, axis=1) for v in (other.size, other.time))
         return Colour(
-            np.append(self.sensor, sensor), np.append(self.size, [[size]], 1), np.append(self.time, [[time]], 1),
+            np.append(self.sensor, sensor), np.hstack([self.size, size]), np.hstack([self.time, time]),
             np.append(own, column),
         )  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Latent:
-    """Hypotheses side by side: the column where the effort acts (-1: nowhere), its size s and its time constant l, s.
+    """Hypotheses side by side: the columns where efforts act (-1: nowhere), their size s and their time constant l, s.
 
+    At the places of a family each has an effort of a course of its own, all of one size and time constant.
     A `sensor` (an output's number, -1: none) has the effort added to its reading instead. `colour` is what instruments
     may have of their own.
     """
 
-    column: np.ndarray  # (h,) int
+    column: np.ndarray  # (h, m) int; those of fewer columns end in -1
     sensor: np.ndarray  # (h,) int
     size: np.ndarray  # (h,)
     time: np.ndarray  # (h,)
     colour: Colour | None = None
 
+    def of(self, rows: Sequence[int]) -> Latent:
+        """These hypotheses alone, with as many columns as they need."""
+        widest = max(1, int(np.max(self.width[rows])))
+        own = (v[rows] for v in (self.sensor, self.size, self.time))
+        return Latent(self.column[rows][:, :widest], *own, self.colour.of(rows) if self.colour else None)
+
+    @property
+    def width(self) -> np.ndarray:
+        """(h,) how many columns each acts in."""
+        return np.sum(self.column >= 0, axis=1)
+
     def of_library(self) -> tuple[CLatent, list[np.ndarray]]:
-        """The same for the library's filters: of each hypothesis its effort, then its colour; and the arrays that have
+        """The same for the library's filters: of each hypothesis its efforts, then its colour; and the arrays that have
         to last as long."""
-        parts = [self.column, self.sensor], [self.size, self.time]
-        whole = [np.reshape(a, (-1, 1)) for part in parts for a in part]
+        none = np.full(self.column[:, 1:].shape, -1)
+        size, time = (np.broadcast_to(v[:, None], self.column.shape) for v in (self.size, self.time))
+        whole = [self.column, np.hstack([self.sensor[:, None], none]), size, time]
         if self.colour is not None:
             colour, none = self.colour, np.full(len(self.colour.sensor), -1)
             own = (none if colour.column is None else colour.column, colour.sensor, colour.size, colour.time)

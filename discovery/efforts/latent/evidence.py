@@ -36,8 +36,17 @@ def evidence(pieces: Sequence[Piece], latent: Latent) -> Evidence:
 
 
 def products(pieces: Sequence[Piece], latent: Latent) -> tuple[np.ndarray, np.ndarray]:
-    """(products of the whitened columns (h, m, m), log determinant (h,) of the innovations), of all recordings."""
+    """(products of the whitened columns (h, m, m), log determinant (h,) of the innovations), of all recordings. Those
+    that act in as many columns go side by side."""
     columns = pieces[0].data.shape[2]
+    gram, logdet = np.zeros((len(latent.size), columns, columns)), np.zeros(len(latent.size))
+    for width in np.unique(latent.width):
+        rows = np.flatnonzero(latent.width == width)
+        gram[rows], logdet[rows] = _products(pieces, latent.of(rows), columns)
+    return gram, logdet
+
+
+def _products(pieces: Sequence[Piece], latent: Latent, columns: int) -> tuple[np.ndarray, np.ndarray]:
     gram, logdet = np.zeros((len(latent.size), columns, columns)), np.zeros(len(latent.size))
     forces, _forces = latent.of_library()
     for piece in pieces:

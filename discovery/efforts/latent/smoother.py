@@ -11,7 +11,6 @@ The arithmetic is in C++ (analysis/native/src/latent.cpp).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -78,7 +77,7 @@ def courses(pieces: Sequence[Piece], latent: Latent, mean: np.ndarray) -> list[n
 def acting(pieces: Sequence[Piece], latent: Latent, mean: np.ndarray) -> list[list[tuple[int, np.ndarray]]]:
     """(column, course (n,)) of every effort of one hypothesis on each recording: its own, and those beside it."""
     beside = latent.colour.column if latent.colour is not None and latent.colour.column is not None else ()
-    columns = [(0, int(latent.column[0])), *((1 + k, int(c)) for k, c in enumerate(beside) if c >= 0)]
+    columns = [(k, int(c)) for k, c in enumerate((*latent.column[0], *beside)) if c >= 0]
     return [[(column, means[k]) for k, column in columns] for means, _ in _smoothed(pieces, latent, mean)]
 
 
@@ -106,20 +105,3 @@ def _checked(failed: int) -> None:
 
 def _left(pieces: Sequence[Piece], mean: np.ndarray) -> list[np.ndarray]:
     return [p.data[:, :, 0] + p.data[:, :, 1:] @ mean for p in pieces]
-
-
-def thinned(piece: Piece, every: int) -> Piece:
-    """The same with one sample in `every`, efforts held in between; no more is lost than the readings left out."""
-    if every <= 1:
-        return piece
-    along, n = piece.along, len(piece.along.time)
-    kept = np.arange(0, n, every)
-    begins = kept[:-1]
-    step, drive = along.step[begins], along.drive[begins]
-    for k in range(1, every):
-        step, drive = along.step[begins + k] @ step, along.step[begins + k] @ drive + along.drive[begins + k]
-    thin = replace(
-        along, time=along.time[kept], step=step, drive=drive, read=along.read[kept], feed=along.feed[kept],
-        direct=along.direct[kept],
-    )  # fmt: skip
-    return Piece(thin, piece.data[kept], piece.noise, piece.start)

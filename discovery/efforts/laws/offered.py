@@ -25,7 +25,7 @@ from lacuna.units import parse_unit
 def offered_at(locator: Locator, place: Place, guided: Guided) -> tuple[Regression, range]:
     """The regression at a place, or at all of a family at once, and all groups of terms that may stand there."""
     along, members = [p.along for p in guided.pieces], place.sites[0].members
-    answering = _answering(locator, along[0], place.column)
+    answering = _answering(locator, along[0], place.columns[0])
     added, known = locator.base.machine.amendment.adds, locator.base.machine.model.variables
     near = re.sub(r"^der\((.*)\)$", r"\1", members[0]) if members else place.location
     seen = [_of_all(a, members) for a in along] if members else along
@@ -54,7 +54,7 @@ def offered_at(locator: Locator, place: Place, guided: Guided) -> tuple[Regressi
         terms += [saturating(v) for v in found if v.kind != "rate"]
     terms = [g for g in terms if not _reads_only(g, found, told)]
     where = LawSite(place.sites[0], place.location, place.unit, tuple(found), counts(found, terms))
-    regression = Regression(guided, where, place.every or (place.column,))
+    regression = Regression(guided, where, place.columns)
     return regression, regression.add(terms)
 
 
@@ -86,7 +86,7 @@ def _ranged(
 
 def _unheld(locator: Locator, guided: Guided, found: list[Variable]) -> list[Variable]:
     """The rates that an effort at a place sets at once, as they would be without the one that guides the run."""
-    rates, column = [], int(guided.latent.column[0])
+    rates, column = [], int(guided.latent.column[0, 0])
     for v in (v for v in found if v.sticks):
         name, largest = f"der({v.name})", 0.0
         row = unknowns(locator).index(name)

@@ -76,17 +76,16 @@ class Opened:
         return self._with_families(found, groups)
 
     def _with_families(self, places: list[Place], groups: list[list[int]]) -> list[Place]:
-        """The places with the families that they are of; of those whose members are the same places, the one that has
+        """The places and the families that they are of; of those whose members are the same places, the one that has
         the name of these, or is nearest to a balance."""
         of = {k: n for n, group in enumerate(groups) for k in group}
         wholes: dict[frozenset[int], Place] = {}
         for site, columns in sorted(families(self.sites, sorted(of)), key=lambda f: ORDER[f[0].parts[0].kind]):
             members = frozenset(of[k] for k in columns)
-            whole = Place(site.label, (site,), columns[0], self._unit(columns[0]), every=columns)
+            whole = Place(site.label, (site,), columns, self._unit(columns[0]))
             if members not in wholes or site.members[0] == places[of[columns[0]]].location:
                 wholes[members] = whole
-        own = [tuple(w for members, w in wholes.items() if n in members) for n in range(len(places))]
-        return [replace(place, other=(*place.other, *whole)) for place, whole in zip(places, own, strict=True)]
+        return [*places, *wholes.values()]
 
     def _effect(self, along: Along) -> np.ndarray:
         """(n, x + y, sites): rates of the states and outputs, each in its own size, that an effort causes at once."""
@@ -107,7 +106,7 @@ class Opened:
         if (own := self._of_several(order)) is not None:
             location = own
         sites, reading = tuple(self.sites[k] for k in order), changed is not states
-        place = Place(location, sites, chosen, self._unit(chosen), reading=reading)
+        place = Place(location, sites, (chosen,), self._unit(chosen), reading=reading)
         told = [k for k in order[1:] if self.sites[k].kind == "input"]
         apart = _other(effect, [chosen, *told, *(k for k in order[1:] if k not in told)])
         inputs = [k for k in told if k not in apart]
@@ -126,7 +125,7 @@ class Opened:
         site = self.sites[k]
         location = site.label if site.kind == "input" else place.location
         only = site.label if proportional else ""
-        return replace(place, location=location, sites=(site,), column=k, unit=self._unit(k), only=only)
+        return replace(place, location=location, sites=(site,), columns=(k,), unit=self._unit(k), only=only)
 
     def _unit(self, number: int) -> str:
         return unit_of(self.sites[number], self.believed)

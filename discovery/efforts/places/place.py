@@ -12,21 +12,20 @@ ORDER = {"node": 0, "equation": 1, "branch": 2, "edge": 3, "signal": 4, "exchang
 
 @dataclass(frozen=True)
 class Place:
-    """Sites that the data cannot tell apart, the one that an amendment uses first; `column` is its input's. `other` are
-    those of them where the same is done by an effort of another course: a law may be short in the one and long in the
-    other (the command of a valve, and what flows through it). So is an input, whose laws are told of it; where it
-    enters in proportion they read `only` the input, all other laws being the same in the balance. What changes no state
-    is a `reading`: that is off there, or its sensor, which is the same. One of a family of places (elements of an
-    array) has another with the columns of `every` one, where the same law holds in all."""
+    """Sites that the data cannot tell apart, the one that an amendment uses first; `columns` is its input's. `other`
+    are those of them where the same is done by an effort of another course: a law may be short in the one and long in
+    the other (the command of a valve, and what flows through it). So is an input, whose laws are told of it; where it
+    enters in proportion they read `only` the input, all other laws being the same in the balance. What changes no
+    state is a `reading`: that is off there, or its sensor, which is the same. A family of places (elements of an
+    array), where the same law holds in all, is a place of its own with the `columns` of them all."""
 
     location: str
     sites: tuple[Site, ...]
-    column: int
+    columns: tuple[int, ...]
     unit: str
     other: tuple[Place, ...] = ()
     only: str = ""
     reading: bool = False
-    every: tuple[int, ...] = ()
 
     def named(self, location: str) -> bool:
         """Whether a law at this place may have that location."""
