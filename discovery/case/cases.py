@@ -1,4 +1,5 @@
-"""A recording case: one folder with `case.toml` and its CSV recordings, read into SI units."""
+"""A recording case: one folder with `case.toml` and its CSV recordings, read into the units of the model: SI where its
+variables declare no others."""
 
 from __future__ import annotations
 
@@ -18,36 +19,16 @@ from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.case_keys import GREATEST, KeyProblem, check, with_dots
 from lacuna.discovery.case.case_model import CaseModel, case_model, written_values
 from lacuna.discovery.case.noise import Noise
+from lacuna.discovery.case.problem import CaseError
+from lacuna.discovery.case.signals import Signal, in_unit, signal_of
 from lacuna.given import toml_of
-from lacuna.recorded_units import ZERO_CELSIUS, UnitError, to_si
 
 DEFAULT_UNCERTAINTY = 0.05  # believed relative 1-sigma of a parameter that case.toml does not mention
 
 
-class CaseError(Exception):
-    """A case that cannot be read: the message names the file and, where there is one, the column and the line."""
-
-    user_error = True
-
-
-@dataclass(frozen=True)
-class Signal:
-    """One column: what it records and in which unit; times `scale` and plus `offset` it is in SI."""
-
-    column: str
-    role: str  # input | output
-    variable: str
-    unit: str
-    si_unit: str
-    scale: float
-    interpolation: str = "linear"
-    noise_std: float | None = None  # SI; None where case.toml does not give it
-    offset: float = 0.0  # of a column in degrees Celsius that records a variable in kelvin
-
-
 @dataclass
 class Recording:
-    """A file, or a part of one between gaps: `time` (n,) in s and each signal's samples (n,) in SI, NaN where missing.
+    """A file, or a part of one between gaps: `time` (n,) in s and each signal's samples (n,), NaN where missing.
 
     `file` and `piece` stay where a first share of it is taken (whose name says which). Of what comes `after_gap` no
     state is known at the first sample. `drives` has the times and samples (m,) of inputs by which a run is driven,
@@ -170,7 +151,7 @@ def load(folder: str | Path, libraries: Sequence[str | Path] = ()) -> Case:
     folder = Path(folder)
     path = folder / "case.toml"
     raw = _read(path)
-    signals = {column: _signal(path, column, table) for column, table in raw["signals"].items()}
+    signals = {column: signal_of(path, column, table) for column, table in raw["signals"].items()}
     if not any(s.role == "output" for s in signals.values()):
         raise CaseError(f'{path}: no signal has role = "output", so there is nothing to compare with')
     names = {key: raw["recordings"][key] for key in ("fit", "validate")}
@@ -188,7 +169,7 @@ def load(folder: str | Path, libraries: Sequence[str | Path] = ()) -> Case:
         own=_own(path, raw.get("recording", {}), [*names["fit"], *names["validate"]]),
         limits=_limits(path, raw.get("limits", {}), signals),
     )
-    case.signals = signals = _in_kelvin(case)
+    case.signals = signals = _as_modelled(case)
     own_model = (case.found.file,) if case.found and case.found.file else ()
     case.files = (path, *own_model, *(folder / name for name in (*names["fit"], *names["validate"])))
     case.fit = [read_recording(folder / name, signals) for name in names["fit"]]
@@ -243,28 +224,11 @@ def _limits(path: Path, tables: dict, signals: dict[str, Signal]) -> dict[str, L
     return {column: Limit(**_floats(table)) for column, table in tables.items()}
 
 
-def _signal(path: Path, column: str, table: dict) -> Signal:
-    try:
-        scale, si_unit = to_si(table["unit"])
-    except UnitError as error:
-        raise CaseError(f"{path}: [signals.{column}] {error}") from error
-    noise = table.get("noise_std")
-    return Signal(
-        column, table["role"], table.get("variable", column), table["unit"], si_unit, scale,
-        table.get("interpolation", "linear"), None if noise is None else float(noise) * scale,
-    )  # fmt: skip
-
-
-def _in_kelvin(case: Case) -> dict[str, Signal]:
-    """The signals; columns in degrees Celsius that record variables in kelvin are read as kelvin."""
-    if all(s.si_unit != "degC" for s in case.signals.values()):
-        return case.signals
+def _as_modelled(case: Case) -> dict[str, Signal]:
+    """The signals in the units of the variables that they record."""
     variables = flatten(case.library(), case.base, units="warn").variables
-    kelvin = {n for n, v in variables.items() if v.unit == "K"}
-    return {
-        c: replace(s, si_unit="K", offset=ZERO_CELSIUS) if s.si_unit == "degC" and s.variable in kelvin else s
-        for c, s in case.signals.items()
-    }
+    units = {c: variables[s.variable].unit for c, s in case.signals.items() if s.variable in variables}
+    return {c: in_unit(s, units[c]) if units.get(c) else s for c, s in case.signals.items()}
 
 
 def read_recording(path: Path, signals: dict[str, Signal]) -> Recording:

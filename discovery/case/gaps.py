@@ -13,7 +13,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from lacuna.discovery.case.cases import Case, Recording, Signal
+from lacuna.discovery.case.cases import Case, Recording
+from lacuna.discovery.case.signals import Signal
 
 GAP = 5.0  # a pause longer than this many intervals of a signal is a gap: an odd sample may be lost
 MIN_SAMPLES = 50  # fewer say nothing of noise

@@ -11,9 +11,10 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from lacuna.discovery.case.cases import Case, Recording, Signal
+from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.case.gaps import GAP, MIN_SAMPLES, gaps
 from lacuna.discovery.case.noise import level, quantum
+from lacuna.discovery.case.signals import Signal
 
 FROZEN_RUN = 25  # equal samples in a row that noise above the resolution cannot give
 AT_REST = 8.0  # noise levels around zero, within which a signal that comes to rest, or leaves it, may be

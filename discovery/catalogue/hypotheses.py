@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from itertools import product
 
-from lacuna.discovery.case.cases import Case, Signal
+from lacuna.discovery.case.cases import Case
+from lacuna.discovery.case.signals import Signal
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.catalogue import Effect
@@ -155,7 +156,7 @@ def _on_sensors(case: Case, structure: Structure, effect: Effect) -> list[Attach
             effect, _component(effect, "_".join([s.column, *beside])), f"sensor:{s.column}", variable=s.variable,
             signals=signals, values=values,
         )
-        for s in case.outputs if effect.unit in ("", s.si_unit) and s.variable not in forces
+        for s in case.outputs if effect.unit in ("", s.model_unit) and s.variable not in forces
         for beside, signals in _recorded_beside(case, s, effect) for values in _intervals(case, effect, finer=False)
     ]  # fmt: skip
 
@@ -167,7 +168,7 @@ def _recorded_beside(
     recorded."""
     if not effect.signals:
         return [([], ())]
-    others = [s for s in case.outputs if s.si_unit == sensor.si_unit and s.variable != sensor.variable]
+    others = [s for s in case.outputs if s.model_unit == sensor.model_unit and s.variable != sensor.variable]
     return [([s.column], tuple((name, s.variable) for name in effect.signals)) for s in others]
 
 

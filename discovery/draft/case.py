@@ -13,11 +13,12 @@ from lacuna.analysis.recording.heads import Head
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.library.search_path import search_path, split_name
 from lacuna.discovery.case import noise
-from lacuna.discovery.case.cases import CaseError
+from lacuna.discovery.case.problem import CaseError
+from lacuna.discovery.case.signals import in_unit, signal_of
 from lacuna.discovery.draft.match import Match, Target, matched
 from lacuna.discovery.draft.recorded import Recording, parted, read_recording, write_recorded
 from lacuna.discovery.draft.write import Column, Draft, case_toml
-from lacuna.recorded_units import ZERO_CELSIUS, to_si
+from lacuna.recorded_units import ZERO_CELSIUS
 from lacuna.runtime import Model
 from lacuna.written import whole_files
 
@@ -165,7 +166,10 @@ def _at_rest(model: Model, outputs: Iterable[Match], recorded: Sequence[Recordin
     for match in outputs:
         k = recorded[0].heads.index(match.head)
         level = noise.estimate([r.columns[k] for r in recorded]).std
-        start = model.variables[match.target.name].start / to_si(match.head.unit or "1")[0]
+        variable = model.variables[match.target.name]
+        column = signal_of(Path("case.toml"), match.head.name, {"role": "output", "unit": match.head.unit or "1"})
+        column = in_unit(column, variable.unit)
+        start = (variable.start - column.offset) / column.scale
         if any(not abs(r.columns[k][0] - start) <= AT_REST * level for r in recorded):
             return False
     return True

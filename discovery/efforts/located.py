@@ -90,12 +90,14 @@ class Locator:
         return Piece(along, data, self.noise, self._start(recording, along.read.shape[2]))
 
     def _unknown_starts(self) -> list[Free]:
-        """States that nobody knows at the first sample: as parameters, which may be anywhere within their size. Those
-        of pieces stay where they were fitted: an effort puts a piece right with what it does first."""
+        """States that nobody knows at the first sample: as parameters, which may be anywhere within their size, or as
+        far as they were fitted from where they were sought. Those of pieces stay where they were fitted: an effort puts
+        a piece right with what it does first."""
         if any(r.after_gap for r in self.case.fit):
             return []
         unknown = (f for f in self.base.estimate.free if is_start(f.name) and not f.sigma)
-        return [replace(f, centre=self.point[f.name]) for f in unknown if self._state(f.name) is not None]
+        found = [(f, self.point[f.name]) for f in unknown if self._state(f.name) is not None]
+        return [replace(f, centre=x, scale=max(f.scale, abs(x - f.centre))) for f, x in found]
 
     def _state(self, start: str) -> tuple[int, int] | None:
         """Number and sense of the state whose start value has this name; None where the linear model has none such."""

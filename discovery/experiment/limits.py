@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lacuna.discovery.case.cases import Case, Limit, Recording, Signal
+from lacuna.discovery.case.cases import Case, Limit, Recording
+from lacuna.discovery.case.signals import Signal
 
 ALIKE = 0.95  # correlation from which one input is the derivative of another
 

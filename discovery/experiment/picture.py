@@ -19,12 +19,12 @@ def picture(case: Case, proposal: Proposal) -> Figure:
     keep = slice(None, None, max(1, len(time) // POINTS))
     for ax, signal in zip(axes, inputs, strict=False):
         ax.plot(time[keep], proposal.waveform.columns[signal.column][keep], "0.3", lw=1)
-        ax.set_ylabel(f"{signal.column} / {signal.si_unit}")
+        ax.set_ylabel(f"{signal.column} / {signal.model_unit}")
     first, rival = proposal.predictions[0], proposal.predictions[proposal.hardest]
     ax = axes[-2]
     ax.plot(time[keep], first[proposal.column][keep], "C0", lw=1.2, label=proposal.rivals[0].label)
     ax.plot(time[keep], rival[proposal.column][keep], "C1--", lw=1.2, label=proposal.rivals[proposal.hardest].label)
-    ax.set_ylabel(f"{proposal.column} / {case.signals[proposal.column].si_unit}")
+    ax.set_ylabel(f"{proposal.column} / {case.signals[proposal.column].model_unit}")
     figure.legend(loc="outside upper left", fontsize="small")
     ax = axes[-1]
     for k, signal in enumerate(case.outputs):

@@ -95,7 +95,7 @@ def _unit(result: Explanation, finding: Finding, name: str) -> str:
     """A parameter's unit; what a sensor adds to its signal is in the signal's."""
     attachment = finding.ranked.attachment
     if attachment.variable and name == "offset":
-        return next(s.si_unit for s in result.case.outputs if s.variable == attachment.variable)
+        return next(s.model_unit for s in result.case.outputs if s.variable == attachment.variable)
     return attachment.effect.parameter(name).unit
 
 

@@ -38,7 +38,7 @@ def courses(case: Case, recording: Recording, curves: list[Curve], noise: Mappin
         if signal.column in noise:
             reach = HALF_WIDTH * noise[signal.column]
             beside.axhspan(-reach, reach, color="0.85", zorder=0, label="noise, 95 %")
-        ax.set_ylabel(f"{signal.column} / {signal.si_unit}")
+        ax.set_ylabel(f"{signal.column} / {signal.model_unit}")
     figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside upper left", ncols=4, fontsize="small")
     axes[0, 1].set_title("measured minus simulated; grey: noise, 95 %", fontsize="small")
     for ax in axes[-1]:

@@ -7,7 +7,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from lacuna.discovery.case.cases import Recording, Signal
+from lacuna.discovery.case.cases import Recording
+from lacuna.discovery.case.signals import Signal
 from lacuna.discovery.efforts.laws.screening import SAME
 from lacuna.discovery.explanation.explanation import Explanation
 from lacuna.discovery.fit.fit import Fit

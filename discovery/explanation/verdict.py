@@ -132,7 +132,7 @@ def _doubt(result: Explanation) -> tuple[str, str] | None:
         signal, offset = error
         result.findings[0] = replace(first, instrument=signal.column)
         reason = (
-            f"{_told(first.ranked)} does what an offset of {offset:.3g} {signal.si_unit} in the recorded "
+            f"{_told(first.ranked)} does what an offset of {offset:.3g} {signal.model_unit} in the recorded "
             f"{signal.column} would do: physics or an instrument"
         )
         return reason, f"record {signal.column} by a second instrument, or where it is known to be zero"

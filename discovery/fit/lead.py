@@ -18,9 +18,10 @@ from itertools import chain
 
 import numpy as np
 
-from lacuna.discovery.case.cases import Case, CaseError, Recording
+from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.case.gaps import JOINED, MIN_SAMPLES, in_pieces
 from lacuna.discovery.case.noise import Noise
+from lacuna.discovery.case.problem import CaseError
 from lacuna.discovery.case.thinning import MOST
 from lacuna.discovery.case.values import is_start, state_of
 from lacuna.discovery.fit.evidence import LEFT, is_noise, nearly_noise, outside_belief

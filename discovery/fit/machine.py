@@ -13,8 +13,10 @@ import numpy as np
 from lacuna.codegen.cache import CompilerError
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.errors import Diagnostic
-from lacuna.discovery.case.cases import Case, CaseError, Recording, Signal
+from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.case.noise import Noise
+from lacuna.discovery.case.problem import CaseError
+from lacuna.discovery.case.signals import Signal
 from lacuna.discovery.case.values import is_start, start_name, values_in
 from lacuna.discovery.catalogue.amend import Amendment, probe_name, tracker_name
 from lacuna.discovery.catalogue.searched import believed_aliases, write_source
@@ -61,7 +63,7 @@ class Machine:
             if variable is None:
                 kind = "input" if signal.role == "input" else "variable"
                 raise CaseError(f"{where} model {self.case.model} has no {kind} `{signal.variable}`")
-            if not same_unit(variable.unit, signal.si_unit):
+            if not same_unit(variable.unit, signal.model_unit):
                 raise CaseError(
                     f"{where} unit {signal.unit} does not fit {signal.variable}, which is in {variable.unit}"
                 )

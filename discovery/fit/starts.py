@@ -24,7 +24,7 @@ from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.fit.objective import Objective, noise_of
 from lacuna.discovery.fit.solver.free import Free
 from lacuna.discovery.fit.solver.least_squares import Problem, solve
-from lacuna.runtime import Variable
+from lacuna.runtime import SimulationError, Variable
 
 LOWER_SHARE = 0.02  # of its believed value, below which no positive parameter is tried
 STEP = 1e-3  # of what a state changes by, for differences
@@ -61,7 +61,23 @@ def uncertain_starts(machine: Machine, recording: Recording, given: Mapping[str,
     """The start values of a recording to be fitted, beside those that are given."""
     unfitted = machine.unfitted_states(given, recording)
     noise = noise_of(machine.case) if unfitted else {}
-    return as_known_to(machine, [_start(machine, s, sample, recording, noise) for s, sample in unfitted.items()])
+    found = [_start(machine, s, sample, recording, noise) for s, sample in unfitted.items()]
+    hidden = [s for s in unfitted if machine.recorded(s) is None and s in machine.model.variables]
+    return as_known_to(machine, _sized(machine, recording, given, found, hidden))
+
+
+def _sized(
+    machine: Machine, recording: Recording, given: Mapping[str, float], starts: list[Free], hidden: list[str]
+) -> list[Free]:  # fmt: skip
+    """The starts, those of `hidden` states in units of what these change by on a run from here."""
+    if not hidden:
+        return starts
+    try:
+        courses = machine.trajectory(dict(given) | {f.name: f.centre for f in starts}, recording, hidden)
+    except SimulationError:
+        return starts
+    reach = {start_name(s, recording): float(np.ptp(course)) for s, course in courses.items()}
+    return [replace(f, scale=reach.get(f.name) or f.scale) for f in starts]
 
 
 def _start(
@@ -73,8 +89,9 @@ def _start(
         return Free(name, sample, std, sigma=std, step=1.0)
     seen = recording.columns[column] if column else np.zeros(0)
     seen = seen[np.isfinite(seen)]
-    guess = float(seen[0]) if len(seen) else 0.0
-    size = float(np.ptp(seen)) if len(seen) else machine.model.variables[state].nominal
+    told = machine.model.variables[state]
+    guess = float(seen[0]) if len(seen) else told.start
+    size = float(np.ptp(seen)) if len(seen) else abs(guess) or told.nominal
     return Free(name, guess, size or 1.0, step=STEP)
 
 

@@ -134,7 +134,7 @@ def _sensor(case: Case, screen: Screen, k: int) -> PlaceEffort:
         parts.append(float(own @ own))
         start += size * len(case.outputs)
     share = sum(parts) / screen.norm**2
-    return PlaceEffort(f"sensor:{column}", "sensor error", case.outputs[k].si_unit, share)
+    return PlaceEffort(f"sensor:{column}", "sensor error", case.outputs[k].model_unit, share)
 
 
 def _organised(best: PlaceEffort, base: Fit, case: Case) -> tuple[Organiser, np.ndarray, np.ndarray]:

@@ -18,7 +18,7 @@ from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.fit.fit import Fit, fit, linearised
 from lacuna.discovery.fit.machine import Machine, try_machine
 from lacuna.discovery.fit.objective import Objective
-from lacuna.discovery.fit.solver.free import Free
+from lacuna.discovery.fit.solver.free import Free, pulls
 from lacuna.discovery.fit.starts import in_doubt
 from lacuna.discovery.naming.comparison import Progress, Ranked
 from lacuna.discovery.naming.screen import Candidate
@@ -51,14 +51,16 @@ def _start(case: Case, base: Fit, candidate: Candidate) -> dict[str, float]:
 
 
 def nearest(case: Case, base: Fit, candidate: Candidate, *starts: dict[str, float]) -> dict[str, float]:
-    """Of these starts the one where the candidate misses the data by least; the first where it runs from none."""
+    """Of these starts the one where the candidate misses the data, and leaves beliefs, by least; the first where it
+    runs from none: a base without what is missing may have gone where no machine is."""
     objective = Objective(candidate.machine, case.fit, base.noise)
-    weights = objective.weights(base.level)
+    weights, believed = objective.weights(base.level), base.estimate.free
 
     def missed(start: dict[str, float]) -> float:
-        residual = objective.weighted(start | candidate.fixed, weights)
+        residual, full = objective.weighted(start | candidate.fixed, weights), base.point | start
+        leaves = pulls(believed, np.array([full[f.name] for f in believed]))
         with np.errstate(over="ignore"):  # a run that goes away misses by any number
-            return float("inf") if residual is None else float(residual @ residual)
+            return float("inf") if residual is None else float(residual @ residual + leaves @ leaves)
 
     return min(starts, key=missed)
 

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from lacuna.discovery.case.cases import Case, CaseError, Recording
+from lacuna.discovery.case.cases import Case, Recording
+from lacuna.discovery.case.problem import CaseError
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.fit.fit import nrmse, residuals_of
 from lacuna.discovery.fit.machine import Machine

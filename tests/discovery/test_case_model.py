@@ -15,7 +15,8 @@ import lacuna
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.errors import Diagnostic
 from lacuna.discovery.case import case_keys
-from lacuna.discovery.case.cases import CaseError, load
+from lacuna.discovery.case.cases import load
+from lacuna.discovery.case.problem import CaseError
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.explain import explain, judge_written, write_amended

@@ -9,7 +9,11 @@ import shutil
 import numpy as np
 import pytest
 
-from lacuna.discovery.case.cases import CaseError, load
+from lacuna.discovery.case.cases import load
+from lacuna.discovery.case.problem import CaseError
+from lacuna.discovery.catalogue.amend import Amendment
+from lacuna.discovery.catalogue.searched import believed_structure
+from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.steps import fitted
 from lacuna.recorded_units import UnitError, to_si
 
@@ -85,7 +89,7 @@ def test_degrees_celsius_are_read_as_the_kelvin_of_the_variable(tmp_path: Path) 
     files = '[recordings]\nfit = ["r.csv"]\nvalidate = ["r2.csv"]\n'
     (tmp_path / "case.toml").write_text('model = "Plate.mo"\n' + signal.format("T") + signal.format("C") + files)
     case = load(tmp_path)
-    assert (case.signals["T"].si_unit, case.signals["C"].si_unit) == ("K", "degC")
+    assert (case.signals["T"].model_unit, case.signals["C"].model_unit) == ("K", "degC")
     np.testing.assert_allclose(case.fit[0].columns["T"], [293.15, 300.0, np.nan])
     np.testing.assert_allclose(case.fit[0].columns["C"], [20, 30, 40])
     assert case.signals["T"].noise_std == 0.5
@@ -118,3 +122,37 @@ def test_a_head_that_says_another_unit_than_the_description_is_refused(consisten
                 load(tmp_path / "case")
         else:
             load(tmp_path / "case")
+
+
+TANK = """model Tank "An accumulator, in the units of its makers"
+  parameter Real k(unit="l/(s.bar)", min=0) = 2;
+  parameter Real C(unit="l/bar", min=0) = 4;
+  Real p(unit="bar", start=1, fixed=true);
+  Real T(unit="degC", start=20, fixed=true);
+  Real x(unit="deg") = p*30*one;
+  constant Real one(unit="deg/bar") = 1;
+  constant Real rate(unit="1/s") = 1;
+  input Real q(unit="l/s");
+equation
+  C*der(p) = q - k*p;
+  der(T) = -T*rate;
+end Tank;
+"""
+
+
+def test_columns_come_in_the_units_that_the_model_declares(tmp_path: Path) -> None:
+    """A model in bar, litres and degrees Celsius, recorded in pascal, cubic metres and kelvin, or as it is."""
+    (tmp_path / "Tank.mo").write_text(TANK)
+    (tmp_path / "r1.csv").write_text("time,q,p,T,x\n0,0.002,150000,293.15,0.5\n1,0.001,50000,273.15,0.25\n")
+    signals = [("q", "input", "m3/s"), ("p", "output", "Pa"), ("T", "output", "K"), ("x", "output", "rad")]
+    tables = [f'[signals.{c}]\nrole = "{r}"\nvariable = "{c}"\nunit = "{u}"\n' for c, r, u in signals]
+    tables[1] += "noise_std = 1000\n"
+    text = 'model = "Tank.mo"\n' + "".join(tables) + '[recordings]\nfit = ["r1.csv"]\nvalidate = []\n'
+    (tmp_path / "case.toml").write_text(text)
+    case = load(tmp_path)
+    told = {c: list(v) for c, v in case.fit[0].columns.items()}
+    assert told["q"] == pytest.approx([2, 1]) and told["p"] == pytest.approx([1.5, 0.5])
+    assert told["T"] == pytest.approx([20, 0]) and told["x"] == pytest.approx([0.5 * 180 / np.pi, 45 / np.pi])
+    assert [case.signals[c].model_unit for c in "qpTx"] == ["l/s", "bar", "degC", "deg"]
+    assert case.signals["p"].noise_std == pytest.approx(0.01)
+    Machine(case, Amendment(believed_structure(case, case.library())))  # refuses units that do not fit

@@ -13,7 +13,8 @@ import pytest
 import lacuna
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.library.classes import Library
-from lacuna.discovery.case.cases import CaseError, Limit, load
+from lacuna.discovery.case.cases import Limit, load
+from lacuna.discovery.case.problem import CaseError
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
 from lacuna.discovery.experiment.files import write_next

@@ -9,7 +9,7 @@ import pytest
 
 import lacuna
 from lacuna.diagnoses import Judged
-from lacuna.discovery.case.cases import CaseError
+from lacuna.discovery.case.problem import CaseError
 
 from .recorded import TANK
 

@@ -16,7 +16,8 @@ from scipy.signal import lfilter
 
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery import semantic_check
-from lacuna.discovery.case.cases import Case, CaseError, Recording, load
+from lacuna.discovery.case.cases import Case, Recording, load
+from lacuna.discovery.case.problem import CaseError
 from lacuna.discovery.case.recordings_check import Problem, check_case
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.places import read
@@ -149,7 +150,7 @@ def test_a_machine_faster_than_believed_shifts_no_column(
 ) -> None:
     """It advances every signal that it moves, though one hardly shows it and another most."""
     case = load(consistent_case)
-    case.signals["w"] = replace(case.signals["theta"], column="w", variable="w", unit="rad/s", si_unit="rad/s")
+    case.signals["w"] = replace(case.signals["theta"], column="w", variable="w", unit="rad/s", model_unit="rad/s")
     for recording in case.fit + case.validate:
         recording.columns["w"] = np.gradient(recording.columns["theta"], recording.interval)
     machine = Machine(case, Amendment(read(Library(), case.model)))

@@ -11,7 +11,7 @@ import pytest
 from lacuna.codegen.compile import compile_model
 from lacuna.codegen.flatten import flatten
 from lacuna.codegen.library.classes import Library
-from lacuna.discovery.case.cases import Signal
+from lacuna.discovery.case.signals import Signal
 from lacuna.discovery.catalogue import catalogue, places
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.attachment import Attachment

@@ -22,7 +22,8 @@ from lacuna.codegen.library.classes import Library
 from lacuna.codegen.symbolic.expr import var
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.units.inference import UnitInference, of_variable
-from lacuna.discovery.case.cases import Case, CaseError
+from lacuna.discovery.case.cases import Case
+from lacuna.discovery.case.problem import CaseError
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.searched import write_source
 from lacuna.discovery.efforts.latent.along import Along

@@ -15,7 +15,9 @@ import numpy as np
 
 from lacuna.codegen.errors import Diagnostic
 from lacuna.codegen.library.classes import Library
-from lacuna.discovery.case.cases import Case, CaseError, Signal
+from lacuna.discovery.case.cases import Case
+from lacuna.discovery.case.problem import CaseError
+from lacuna.discovery.case.signals import Signal
 from lacuna.discovery.efforts.find import TRIED, Found, add_laws, places_of, simplest
 from lacuna.discovery.efforts.instruments import NATS
 from lacuna.discovery.efforts.latent.numeric import NotNumeric

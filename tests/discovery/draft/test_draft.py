@@ -11,7 +11,8 @@ from lacuna.analysis.recording.channel import RecordingError
 from lacuna.analysis.recording.formats import read_recorded
 from lacuna.analysis.recording.heads import read_head
 from lacuna.analysis.recording.text import read_text
-from lacuna.discovery.case.cases import CaseError, load
+from lacuna.discovery.case.cases import load
+from lacuna.discovery.case.problem import CaseError
 from lacuna.discovery.draft.case import new_case
 from lacuna.discovery.draft.match import Target, matched
 
