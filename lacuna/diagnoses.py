@@ -222,8 +222,8 @@ class Case:
     @names_missing_packages
     def judge(self, model: str | Path, *, out: str | Path | None = None, progress: Progress | None = None) -> Judged:
         """How well does a model file, as written, simulate the recordings that nothing was fitted to?"""
-        from lacuna.discovery.case.cases import CaseError
         from lacuna.discovery.case.gaps import before_gaps
+        from lacuna.discovery.case.problem import CaseError
         from lacuna.discovery.case.recordings_check import UNDRIVEN
         from lacuna.discovery.catalogue.amend import Amendment
         from lacuna.discovery.catalogue.searched import believed_structure

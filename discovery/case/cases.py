@@ -22,6 +22,7 @@ from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.case.problem import CaseError
 from lacuna.discovery.case.signals import Signal, in_unit, signal_of
 from lacuna.given import toml_of
+from lacuna.runtime import RecordedInput
 
 DEFAULT_UNCERTAINTY = 0.05  # believed relative 1-sigma of a parameter that case.toml does not mention
 
@@ -49,6 +50,14 @@ class Recording:
     def drive(self, column: str) -> tuple[np.ndarray, np.ndarray]:
         """Times (m,), in s, and samples (m,) of an input by which a run is driven."""
         return self.drives.get(column, (self.time, self.columns[column]))
+
+    def played(self, signal: Signal) -> RecordedInput:
+        """An input as a run is driven by it."""
+        time, values = self.drive(signal.column)
+        good = np.isfinite(values)
+        if not good.all():  # else the samples themselves: every model of a case shares them
+            time, values = time[good], values[good]
+        return RecordedInput(time, values, signal.interpolation)
 
     def redriven(self, name: str, changes: Mapping[str, Callable[[np.ndarray], np.ndarray]]) -> Recording:
         """The recording with other samples of some inputs, under a name of its own, by which machines

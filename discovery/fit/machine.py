@@ -16,7 +16,6 @@ from lacuna.codegen.errors import Diagnostic
 from lacuna.discovery.case.cases import Case, Recording
 from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.case.problem import CaseError
-from lacuna.discovery.case.signals import Signal
 from lacuna.discovery.case.values import is_start, start_name, values_in
 from lacuna.discovery.catalogue.amend import Amendment, probe_name, tracker_name
 from lacuna.discovery.catalogue.searched import believed_aliases, write_source
@@ -211,7 +210,7 @@ class Machine:
         with self._lock:
             found = self._inputs.get(recording.name)
             if found is None:
-                found = {s.variable: _recorded(s, recording) for s in self.case.inputs}
+                found = {s.variable: recording.played(s) for s in self.case.inputs}
                 for tracker, motion in zip(self._trackers(), self.motions(), strict=True):
                     angle, speed = motion.of(recording)
                     found[f"{tracker}_phi"] = RecordedInput(recording.time, angle)
@@ -277,14 +276,6 @@ def _differ(
     """The largest RMS difference of an output of a recording, in units of its noise."""
     pairs = [(a[c] - b[c]) / n.std for a, b in zip(one, other, strict=True) for c, n in noise.items()]
     return max(float(np.sqrt(np.mean(p**2))) for p in pairs)
-
-
-def _recorded(signal: Signal, recording: Recording) -> RecordedInput:
-    time, values = recording.drive(signal.column)
-    good = np.isfinite(values)
-    if good.all():  # the samples themselves: every model of a case shares them
-        return RecordedInput(time, values, signal.interpolation)
-    return RecordedInput(time[good], values[good], signal.interpolation)
 
 
 def richer(case: Case, amendment: Amendment, base: Machine) -> Machine:

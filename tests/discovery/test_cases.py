@@ -143,11 +143,12 @@ end Tank;
 def test_columns_come_in_the_units_that_the_model_declares(tmp_path: Path) -> None:
     """A model in bar, litres and degrees Celsius, recorded in pascal, cubic metres and kelvin, or as it is."""
     (tmp_path / "Tank.mo").write_text(TANK)
-    (tmp_path / "r1.csv").write_text("time,q,p,T,x\n0,0.002,150000,293.15,0.5\n1,0.001,50000,273.15,0.25\n")
+    for name in ("r1.csv", "r2.csv"):
+        (tmp_path / name).write_text("time,q,p,T,x\n0,0.002,150000,293.15,0.5\n1,0.001,50000,273.15,0.25\n")
     signals = [("q", "input", "m3/s"), ("p", "output", "Pa"), ("T", "output", "K"), ("x", "output", "rad")]
     tables = [f'[signals.{c}]\nrole = "{r}"\nvariable = "{c}"\nunit = "{u}"\n' for c, r, u in signals]
     tables[1] += "noise_std = 1000\n"
-    text = 'model = "Tank.mo"\n' + "".join(tables) + '[recordings]\nfit = ["r1.csv"]\nvalidate = []\n'
+    text = 'model = "Tank.mo"\n' + "".join(tables) + '[recordings]\nfit = ["r1.csv"]\nvalidate = ["r2.csv"]\n'
     (tmp_path / "case.toml").write_text(text)
     case = load(tmp_path)
     told = {c: list(v) for c, v in case.fit[0].columns.items()}
