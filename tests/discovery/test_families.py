@@ -9,9 +9,11 @@ import pytest
 
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.case.cases import load
+from lacuna.discovery.efforts.find import places_of
 from lacuna.discovery.efforts.places.families import families, is_shared, meant
 from lacuna.discovery.efforts.places.reading import read
 from lacuna.discovery.explain import explain, write_amended
+from lacuna.discovery.steps import fitted
 
 TANKS = """model Tanks "Three in a row, each of which leaks"
   parameter Integer n = 3;
@@ -56,7 +58,12 @@ LEAK = 0.006  # m3/s for each m^2 of level squared
 @pytest.fixture(scope="module")
 def leaking(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Recordings of tanks each of which loses LEAK h^2."""
-    folder, random = tmp_path_factory.mktemp("tanks"), np.random.default_rng(7)
+    return recorded(tmp_path_factory.mktemp("tanks"))
+
+
+def recorded(folder: Path, bent: float = 0.0, leaks: int = 3) -> Path:
+    """A case of tanks of which the last so many leak, where the first gauge shows h + bent h^2."""
+    random = np.random.default_rng(7)
     (folder / "Tanks.mo").write_text(TANKS)
     (folder / "case.toml").write_text(CASE)
     for name in ("r1", "r2", "r3", "r4"):
@@ -64,16 +71,16 @@ def leaking(tmp_path_factory: pytest.TempPathFactory) -> Path:
         h, rows = np.full(3, 0.5), []
         for k, q in enumerate(feed):
             noise = random.normal(0, 0.002, 2)
-            rows.append(f"{k},{q:.6g},{h[0] + noise[0]:.7g},{h[2] + noise[1]:.7g}")
+            rows.append(f"{k},{q:.6g},{h[0] + bent * h[0] ** 2 + noise[0]:.7g},{h[2] + noise[1]:.7g}")
             for _ in range(20):  # explicit midpoint
-                half = h + 0.025 * _rates(h, q)
-                h = h + 0.05 * _rates(half, q)
+                half = h + 0.025 * _rates(h, q, leaks)
+                h = h + 0.05 * _rates(half, q, leaks)
         (folder / f"{name}.csv").write_text("\n".join(["time,q,h1,h3", *rows, ""]))
     return folder
 
 
-def _rates(h: np.ndarray, q: float) -> np.ndarray:
-    return (np.array([q, *(0.02 * h[:2])]) - 0.02 * h - LEAK * h**2) / 0.5
+def _rates(h: np.ndarray, q: float, leaks: int) -> np.ndarray:
+    return (np.array([q, *(0.02 * h[:2])]) - 0.02 * h - LEAK * h**2 * (np.arange(3) >= 3 - leaks)) / 0.5
 
 
 def test_one_law_is_found_in_all_elements_of_an_array(leaking: Path, tmp_path: Path) -> None:
@@ -90,6 +97,24 @@ def test_one_law_is_found_in_all_elements_of_an_array(leaking: Path, tmp_path: P
     assert "k*h[i]) + missing_1[i];" in text
     assert "missing_1 = {law_h.effort, law_h_2.effort, law_h_3.effort};" in text
     assert "law_h_3(x1=h[3], c_1=law_h.c_1)" in text
+
+
+@pytest.mark.parametrize(("leaks", "places"), [(3, ["h[:]"]), (1, ["h[2]", "h[3]"])])
+def test_an_effort_in_every_element_is_weighed_beside_one_in_any(tmp_path: Path, leaks: int, places: list[str]) -> None:
+    """What is missing in the last of three may as well be so before it, where nothing is recorded."""
+    told = fitted(load(recorded(tmp_path, leaks=leaks)), lambda text: None)
+    found = places_of(told.case, told.amendment, told.base, told.case.library())
+    assert found.sites[0].location in places
+
+
+def test_a_law_in_every_element_is_found_beside_a_gauge_that_bends(tmp_path: Path) -> None:
+    found = explain(load(recorded(tmp_path, bent=0.3)))
+    assert found.verdict == "missing_physics", found.reason
+    told = {f.ranked.attachment.location: f.ranked.attachment for f in found.findings}
+    assert list(told) == ["h[:]", "sensor:h1"]
+    law, (variable,) = told["h[:]"], told["h[:]"].law.references()
+    level, law_at = np.linspace(0.3, 1.5, 7), found.final.point[law.full_name("c_1")]
+    assert law_at * (level / variable.size) ** 2 == pytest.approx(-LEAK * level**2, rel=0.1)
 
 
 def test_elements_of_an_array_are_a_family(tmp_path: Path) -> None:
