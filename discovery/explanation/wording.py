@@ -31,6 +31,7 @@ FORMS = {
     "end_stop": "an end stop",
     "overflow": "an overflow",
     "rate_limit": "a limit of the rate",
+    "saturation": "a saturation",
 }
 HALF_WIDTH = 1.96  # standard deviations: half of a 95 % interval
 

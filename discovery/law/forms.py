@@ -2,8 +2,8 @@
 
 Units tell the domain (Paynter 1961: effort, flow and their integrals); sources of the forms: radiation Stefan 1879,
 natural convection Churchill and Chu 1975, dry friction Coulomb 1785 and Stribeck 1902, drag Newton 1687, leakage
-Hagen-Poiseuille and Torricelli, losses of pipes Darcy 1857, weirs Poleni 1717, diode Shockley 1949, relaxation Maxwell
-1867.
+Hagen-Poiseuille and Torricelli, losses of pipes Darcy 1857, weirs Poleni 1717, diode Shockley 1949, saturation
+Langmuir 1918, relaxation Maxwell 1867.
 
 A law that was picked among many has to pay for the pick: the length of its name in a two-part code (Rissanen 1978), in
 which known forms have short names.
@@ -65,6 +65,7 @@ FORMS = (
     Form("rate_limit", r"^bounded\(X, ", ANY, ANY),
     Form("motor.saturation", r"^\(X/\(1 \+ \S+Y\^2\) - X\)$", VOLTAGE, ("A/s",)),
     Form("motor.saturation", r"^\(1/\(1 \+ \S+X\^2\) - 1\)$", ("V.s/rad", "N.m/A", "H"), CURRENT),
+    Form("saturation", r"^\(X/\(1 \+ \S+abs\(X\)\) - X\)$", ANY, ANY),
     Form("motor.heating", r"^X\*lag\(X\^2, ", VOLTAGE, CURRENT),
     Form("load.power", r"^1/X$", CURRENT, VOLTAGE),
     Form("clamp", BEYOND, CURRENT, VOLTAGE),

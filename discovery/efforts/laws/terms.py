@@ -94,7 +94,17 @@ def _of_one_sign(v: Variable, away: bool) -> list[Group]:
         Group((f"({x} + {{q}} - abs({x} - {{q}}))",), (Shape("q", "1", q, -0.99, 0.99, (), 0.25),))
         for q in (0.25, 0.5, 0.75)
     ]  # up to a limit: what a dead zone loses, what a stop leaves
-    return [Group((x,)), *power, *bend, *ends]
+    return [Group((x,)), *power, *bend, *ends, *_yielding(v)]
+
+
+def _yielding(v: Variable) -> list[Group]:
+    """What grows less and less: sites that fill up, a rubber that softens, a core near its knee."""
+    return [
+        Group(
+            (f"({v.scaled}/(1 + {{q}}*abs{v.scaled}) - {v.scaled})",), (Shape("q", "1", q, 0.01, 100.0, (), 0.9 * q),)
+        )
+        for q in (0.5, 5.0)
+    ]
 
 
 def _exponential(exponent: str, factor: str = "") -> list[Group]:
@@ -132,7 +142,7 @@ def _alone(v: Variable) -> list[Group]:
         for q in (1 / 16, 0.25, 0.5, 0.75)
     ]  # up to a limit either way
     plain = [Group((x,)), Group((f"abs{x}",)), Group((f"{x}^2",)), Group((v.dry,))]
-    return [*plain, *power, *bend, *reach, *ends, stribeck(v)]
+    return [*plain, *power, *bend, *reach, *ends, *_yielding(v), stribeck(v)]
 
 
 def _contacts(v: Variable, rate: Variable, both: bool) -> list[Group]:
