@@ -125,7 +125,7 @@ def _mends(
     before = misses(measured, simulated)
     if misses(measured / factor, simulated) < before:
         return True
-    return any(misses(measured, put_right(s.column)) < before for s in machine.case.inputs)
+    return any(misses(measured, put_right(s.column)) < before for s in machine.case.inputs if not s.counts)
 
 
 def _driven(machine: Machine) -> str:

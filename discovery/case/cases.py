@@ -20,7 +20,7 @@ from lacuna.discovery.case.case_keys import GREATEST, KeyProblem, check, with_do
 from lacuna.discovery.case.case_model import CaseModel, case_model, written_values
 from lacuna.discovery.case.noise import Noise
 from lacuna.discovery.case.problem import CaseError
-from lacuna.discovery.case.signals import Signal, in_unit, signal_of
+from lacuna.discovery.case.signals import Signal, of_variable, signal_of
 from lacuna.given import toml_of
 from lacuna.runtime import RecordedInput
 
@@ -234,10 +234,10 @@ def _limits(path: Path, tables: dict, signals: dict[str, Signal]) -> dict[str, L
 
 
 def _as_modelled(case: Case) -> dict[str, Signal]:
-    """The signals in the units of the variables that they record."""
+    """The signals in the units, and of the types, of the variables that they record."""
     variables = flatten(case.library(), case.base, units="warn").variables
-    units = {c: variables[s.variable].unit for c, s in case.signals.items() if s.variable in variables}
-    return {c: in_unit(s, units[c]) if units.get(c) else s for c, s in case.signals.items()}
+    known = {c: variables[s.variable] for c, s in case.signals.items() if s.variable in variables}
+    return {c: of_variable(s, known[c].unit, known[c].type) if c in known else s for c, s in case.signals.items()}
 
 
 def read_recording(path: Path, signals: dict[str, Signal]) -> Recording:

@@ -22,6 +22,7 @@ class Signal:
     interpolation: str = "linear"
     noise_std: float | None = None  # in the model's unit; None where case.toml does not give it
     offset: float = 0.0  # between degrees Celsius and kelvin
+    counts: bool = False  # of a Boolean or an Integer: there is nothing between its values
 
 
 def signal_of(path: Path, column: str, table: dict) -> Signal:
@@ -35,6 +36,13 @@ def signal_of(path: Path, column: str, table: dict) -> Signal:
         column, table["role"], table.get("variable", column), table["unit"], si, scale,
         table.get("interpolation", "linear"), None if noise is None else float(noise) * scale,
     )  # fmt: skip
+
+
+def of_variable(signal: Signal, unit: str, type_: str) -> Signal:
+    """A column in SI as one of its variable: in the unit that this declares, and held where there is nothing between
+    its values."""
+    told = in_unit(signal, unit) if unit else signal
+    return told if type_ == "Real" else replace(told, counts=True, interpolation="hold")
 
 
 def in_unit(signal: Signal, declared: str) -> Signal:

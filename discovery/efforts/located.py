@@ -64,8 +64,12 @@ class Locator:
         self.free = [f for f in base.estimate.free if f.name in opened.linear.parameters] + self._unknown_starts()
         self.noise = np.array([base.noise[s.column].std for s in case.outputs])
         self.sigma = np.array([f.sigma or f.scale for f in self.free])
-        self.pieces = [self.piece(self.point, r) for r in case.fit]
-        self.places = opened.places(self.pieces[0].along)
+        self.sums: dict[int, tuple[int, ...]] = {}  # columns in which one course acts at all places of a family
+        pieces = [self.piece(self.point, r) for r in case.fit]
+        self.places = opened.places(pieces[0].along)
+        families = [p.columns for p in self.places if len(p.columns) > 1]
+        self.sums = dict(enumerate(families, pieces[0].along.drive.shape[2]))
+        self.pieces = [replace(p, along=p.along.with_sums(families)) for p in pieces]
         self.null = -np.inf  # log evidence of no effort at all, once places are ranked
         self._chosen: dict[int, tuple[Latent, np.ndarray]] = {}
         self._weighed: tuple[Colour | None, list[Site]] | None = None
@@ -76,8 +80,12 @@ class Locator:
     ) -> Piece:
         """The linear model about a run from `point` with efforts (column, course), and what is left for them."""
         opened, time = self.opened, recording.time
-        drive = {opened.linear.inputs[column]: RecordedInput(time, course, "hold") for column, course in efforts}
-        along = opened.linear.along(point, recording, drive)
+        acting: dict[int, np.ndarray | float] = {}
+        for column, course in efforts:
+            for own in self.sums.get(column, (column,)):
+                acting[own] = acting.get(own, 0.0) + course
+        drive = {opened.linear.inputs[column]: RecordedInput(time, course, "hold") for column, course in acting.items()}
+        along = opened.linear.along(point, recording, drive).with_sums([*self.sums.values()])
         left = np.stack(
             [recording.columns[c] - opened.linear.of(v, along) for c, v in opened.machine.columns.items()], 1
         )
@@ -167,8 +175,9 @@ class Locator:
             if size == 0:  # nothing of it is recorded
                 continue
             unit = misfit / size
-            rows += [(place.columns, -1, s * unit, t * longest) for s in SIZES for t in TIMES]
-            owners += [("effort", number)] * (len(SIZES) * len(TIMES))
+            for columns in (place.columns, *((k,) for k, own in self.sums.items() if own == place.columns)):
+                rows += [(columns, -1, s * unit, t * longest) for s in SIZES for t in TIMES]
+                owners += [("effort", number)] * (len(SIZES) * len(TIMES))
         for number in range(len(self.case.outputs)):
             rows += [((), number, s * misfit * self.noise[number], t * longest) for s in SIZES for t in TIMES]
             owners += [("sensor", number)] * (len(SIZES) * len(TIMES))

@@ -14,12 +14,14 @@ ALIKE = 0.95  # correlation from which one input is the derivative of another
 
 @dataclass(frozen=True)
 class Range:
-    """An input's least and greatest value and its fastest change per second, SI; `start` is where it begins."""
+    """An input's least and greatest value and its fastest change per second, in the model's unit; `start` is where it
+    begins. One that `counts` has whole values only."""
 
     low: float
     high: float
     rate: float
     start: float
+    counts: bool = False
 
     @property
     def moves(self) -> bool:
@@ -41,7 +43,7 @@ def _range(case: Case, signal: Signal) -> Range:
     first = longest(case).columns[signal.column]
     start = float(first[np.flatnonzero(np.isfinite(first))[0]])
     rate = max(rates) if limit.rate is None else limit.rate
-    return Range(low, max(low, high), rate, float(np.clip(start, low, high)))
+    return Range(low, max(low, high), rate, float(np.clip(start, low, high)), signal.counts)
 
 
 def longest(case: Case) -> Recording:

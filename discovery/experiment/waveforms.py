@@ -152,7 +152,7 @@ def _as_slow_as(column: str, of: Range, ranges: Mapping[str, Range], bound: Mapp
 
 
 def _led(unit: np.ndarray, of: Range, time: np.ndarray) -> np.ndarray:
-    """The course over the range, from the start on, changing no faster than it may."""
+    """The course over the range, from the start on, changing no faster than it may; the nearest whole values of one that counts."""
     wanted = 0.5 * (of.low + of.high) + 0.5 * (of.high - of.low) * unit
     step = of.rate * float(time[1] - time[0])
     result = np.empty_like(wanted)
@@ -160,7 +160,7 @@ def _led(unit: np.ndarray, of: Range, time: np.ndarray) -> np.ndarray:
     for k, goal in enumerate(wanted):
         here = here if k == 0 else here + float(np.clip(goal - here, -step, step))
         result[k] = here
-    return result
+    return np.round(result) if of.counts else result
 
 
 def _derive(one: Waveform, column: str, bound: Mapping[str, str]) -> None:

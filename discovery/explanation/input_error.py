@@ -27,7 +27,7 @@ def offset_instead(result: Explanation) -> tuple[Signal, float] | None:
     if before is None or after is None:
         return None
     own = after - before
-    for signal in result.case.inputs:
+    for signal in (s for s in result.case.inputs if not s.counts):
         column = signal.column
         largest = max(float(np.nanmax(np.abs(r.columns[column]))) for r in recordings)
         shift = STEP * largest

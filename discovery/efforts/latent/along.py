@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -28,6 +29,16 @@ class Along:
     def __post_init__(self) -> None:
         for name in ("time", "step", "drive", "read", "feed"):  # as the library reads them
             setattr(self, name, np.ascontiguousarray(getattr(self, name), dtype=float))
+
+    def with_sums(self, sums: Sequence[Sequence[int]]) -> Along:
+        """The same with further columns, each of which acts in several inputs at once."""
+        if not sums:
+            return self
+        drive, feed = (
+            np.concatenate([a, *(a[:, :, list(own)].sum(axis=2, keepdims=True) for own in sums)], axis=2)
+            for a in (self.drive, self.feed)
+        )
+        return replace(self, drive=drive, feed=feed)
 
     def model(self, *statistics: np.ndarray) -> CLinearModel:
         """The same for the library's filters, with the standard deviations of noise (y,) and first states (x,) where

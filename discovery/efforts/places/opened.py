@@ -104,7 +104,8 @@ class Opened:
         location = name.rpartition(".")[0] or name
         order = sorted(group, key=lambda k: (not _touches(self.sites[k], location), ORDER[self.sites[k].kind]))
         chosen = order[0]
-        if (own := self._of_several(order)) is not None:
+        several = np.count_nonzero(strength[: len(states)]) > 1
+        if (own := self._of_several(order) or (several and self._sent_to(order))):
             location = own
         sites, reading = tuple(self.sites[k] for k in order), changed is not states
         place = Place(location, sites, (chosen,), self._unit(chosen), reading=reading)
@@ -120,6 +121,12 @@ class Opened:
         if any(s.kind not in ("branch", "parameter", "input") and s.instance not in past for s in sites):
             return None
         return next((s.label for s in sites if s.label in past), sites[0].label)
+
+    def _sent_to(self, order: list[int]) -> str:
+        """The component that a signal goes into, where what it sends is all that is told there; "" where it is not."""
+        sites = [self.sites[k] for k in order]
+        into = sites[0].into if all(s.kind == "signal" for s in sites) else ""
+        return into.rpartition(".")[0] or into
 
     def _quantity(self, place: Place, k: int, proportional: bool) -> Place:
         """A place by another one of its sites."""
