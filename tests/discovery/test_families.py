@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+import shutil
 
 import numpy as np
 import pytest
@@ -25,6 +26,25 @@ equation
   for i in 1:n loop
     A*der(h[i]) = (if i == 1 then q else k*h[max(i - 1, 1)]) - k*h[i];
   end for;
+end Tanks;
+"""
+APART = """model Tanks "The same, each an instance of its class"
+  model Tank
+    parameter Real A(unit="m2", min=0) = 0.5;
+    parameter Real k(unit="m2/s", min=0) = 0.02;
+    input Real feed(unit="m3/s");
+    Real drain(unit="m3/s");
+    Real h(unit="m", start=0.5, fixed=true);
+  equation
+    A*der(h) = feed - drain;
+    drain = k*h;
+  end Tank;
+  parameter Real A(unit="m2", min=0) = 0.5;
+  parameter Real k(unit="m2/s", min=0) = 0.02;
+  input Real q(unit="m3/s");
+  Tank upper(A=A, k=k, feed=q);
+  Tank middle(A=A, k=k, feed=upper.drain);
+  Tank lower(A=A, k=k, feed=middle.drain);
 end Tanks;
 """
 CASE = """model = "Tanks.mo"
@@ -99,6 +119,24 @@ def test_one_law_is_found_in_all_elements_of_an_array(leaking: Path, tmp_path: P
     assert "law_h_3(x1=h[3], c_1=law_h.c_1)" in text
 
 
+def test_one_law_is_found_in_all_instances_of_a_class(leaking: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "apart"
+    shutil.copytree(leaking, folder)
+    (folder / "Tanks.mo").write_text(APART)
+    case = (folder / "case.toml").read_text()
+    (folder / "case.toml").write_text(case.replace('"h[1]"', '"upper.h"').replace('"h[3]"', '"lower.h"'))
+    found = explain(load(folder))
+    assert found.verdict == "missing_physics", found.reason
+    (finding,) = found.findings
+    attachment = finding.ranked.attachment
+    assert attachment.location == "upper, middle, lower"
+    (variable,) = attachment.law.references()
+    law = found.final.point[attachment.full_name("c_1")]
+    assert variable.name == "upper.h" and law / variable.size**2 == pytest.approx(-LEAK, rel=0.03)
+    text = write_amended(found, tmp_path).read_text()
+    assert "c_1=law_upper_middle_lower.c_1" in text and "x1=lower.h" in text.replace(" ", "")
+
+
 @pytest.mark.parametrize(("leaks", "places"), [(3, ["h[:]"]), (1, ["h[2]", "h[3]"])])
 def test_an_effort_in_every_element_is_weighed_beside_one_in_any(tmp_path: Path, leaks: int, places: list[str]) -> None:
     """What is missing in the last of three may as well be so before it, where nothing is recorded."""
@@ -127,5 +165,8 @@ def test_elements_of_an_array_are_a_family(tmp_path: Path) -> None:
 def test_names_of_one_element_are_those_of_another() -> None:
     assert meant("cell[2].gas.T", "cell[2]", "cell[3]") == "cell[3].gas.T"
     assert meant("der(h[1])", "der(h[1])", "der(h[12])") == "der(h[12])"
-    assert not is_shared("h[2]", "der(h[1])")
-    assert is_shared("q", "der(h[1])")
+    assert not is_shared("h[2]", ["der(h[1])", "der(h[2])"])
+    assert is_shared("q", ["der(h[1])", "der(h[2])"])
+    assert meant("der(left.arm.w)", "left.arm", "right.arm") == "der(right.arm.w)"
+    assert meant("left.armature.i", "left.arm", "right.arm") == "left.armature.i"
+    assert not is_shared("right.arm.w", ["left.arm", "right.arm"]) and is_shared("u", ["left.arm", "right.arm"])

@@ -63,7 +63,7 @@ def _of_all(along: Along, members: Sequence[str]) -> Along:
     first, *others = members
     shared = {
         n: v for n, v in along.values.items()
-        if is_shared(n, first) and all(meant(n, first, other) in along.values for other in others)
+        if is_shared(n, members) and all(meant(n, first, other) in along.values for other in others)
     }  # fmt: skip
     return replace(along, values=shared)
 
