@@ -93,6 +93,13 @@ def add_laws(
             found.short = _terms(proposal) == 1
 
 
+def alike_first(found: Found) -> int:
+    """How many of the places to be tried an effort of any course does not tell from the best one: of two equations of
+    one component a law may be short in the one and long in the other."""
+    efforts = simplest(found.sites)
+    return sum(alike(site, efforts[0]) for site in efforts[:TRIED])
+
+
 def alike(site: Site, best: Site) -> bool:
     """Whether an effort at a place leaves hardly more than at another one, whatever the nats between them: to first
     order about a run far from the data these tell apart what laws do not."""

@@ -152,7 +152,8 @@ def _as_slow_as(column: str, of: Range, ranges: Mapping[str, Range], bound: Mapp
 
 
 def _led(unit: np.ndarray, of: Range, time: np.ndarray) -> np.ndarray:
-    """The course over the range, from the start on, changing no faster than it may; the nearest whole values of one that counts."""
+    """The course over the range, from the start on, changing no faster than it may; of one that counts the nearest
+    whole values."""
     wanted = 0.5 * (of.low + of.high) + 0.5 * (of.high - of.low) * unit
     step = of.rate * float(time[1] - time[0])
     result = np.empty_like(wanted)

@@ -13,7 +13,7 @@ import numpy as np
 
 from lacuna.codegen.library.classes import Library
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
-from lacuna.discovery.efforts.find import WORTH, Found, add_laws, places_of
+from lacuna.discovery.efforts.find import WORTH, Found, add_laws, alike_first, places_of
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.fit.evidence import FAR, like_noise, nearly_noise, within_instruments
 from lacuna.discovery.law.beyond import margin
@@ -75,7 +75,7 @@ def explain_open(
         return
     found = places or places_of(search.case, unbegun.amendment, unbegun.fit, library, progress)
     located(found)
-    add_laws(found, search.case, unbegun.amendment, unbegun.fit, progress, most=1)
+    add_laws(found, search.case, unbegun.amendment, unbegun.fit, progress, most=alike_first(found))
     if explained:
         if found.short:
             _take(search, unbegun, found, progress)

@@ -105,7 +105,7 @@ class Opened:
         order = sorted(group, key=lambda k: (not _touches(self.sites[k], location), ORDER[self.sites[k].kind]))
         chosen = order[0]
         several = np.count_nonzero(strength[: len(states)]) > 1
-        if (own := self._of_several(order) or (several and self._sent_to(order))):
+        if own := self._of_several(order) or (several and self._sent_to(order)):
             location = own
         sites, reading = tuple(self.sites[k] for k in order), changed is not states
         place = Place(location, sites, (chosen,), self._unit(chosen), reading=reading)
