@@ -102,11 +102,12 @@ def _one_by_one(
     add_laws(found, search.case, unbegun.amendment, unbegun.fit, progress)
     taken = bool(found.laws) and _take(search, unbegun, found, progress)
     physics = any(not f.ranked.attachment.variable for f in search.findings) and not search.amendment.trackers
-    whole = bool(search.findings) and within_instruments(search.fit) and not (taken and found.single)
+    long = taken and not found.short and bool(found.single)
+    whole = bool(search.findings) and within_instruments(search.fit) and not long
     two = None if whole or pair is None else _two(unbegun, found, pair, progress)
     if taken or physics:
         go_on(search, library, progress)
-    if taken and found.single:
+    if long:
         apart(search, unbegun, found.single[0], library, progress)
     if two is not None:
         take_if_less(search, two, unbegun.fit)
@@ -141,7 +142,7 @@ def _pair(search: Search, found: Found, progress: Progress) -> tuple[Place, Plac
 
 def _is_left(search: Search, found: Found) -> bool:
     """Whether what the search has found leaves more than noise, and so does a short law at the best place."""
-    short = bool(found.laws) and not found.single and within_instruments(found.laws[0].fit)
+    short = bool(found.laws) and found.short and within_instruments(found.laws[0].fit)
     return not short and not within_instruments(search.fit)
 
 
