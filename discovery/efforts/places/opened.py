@@ -38,6 +38,7 @@ from lacuna.discovery.fit.machine import Machine, richer
 from lacuna.units import Unit
 
 RENAMES = "it only gives a name to what is recorded: an error there is its sensor's"
+BALANCES = ("node", "equation", "branch", "edge")  # kinds of places in one balance, or between two
 ALIKE = 1e-5  # of a direction, by which two places may differ: rounding of the linearisation
 
 
@@ -55,10 +56,8 @@ class Opened:
         """Places that have an effect, those alike put together: by what they do where both do something (what varies as
         a coefficient of a force that is off does nothing)."""
         effect = self._effect(along)
-        strength = np.sqrt(np.sum(effect**2, axis=1))
-        unit = effect / np.maximum(strength[:, None], 1e-300)
         groups: list[list[int]] = []
-        acting = strength.max(axis=0) > 0
+        acting = np.abs(effect).max(axis=(0, 1)) > 0
         read = effect[:, : len(self.linear.states)].any(axis=(0, 1))
         for k in np.flatnonzero(acting & ~read):
             if renames(self.sites[k]):
@@ -66,24 +65,26 @@ class Opened:
                 self.closed.append((self.sites[k].label, RENAMES))
         for k in np.flatnonzero(acting):
             for group in groups:
-                both = (strength[:, k] > 0) & (strength[:, group[0]] > 0)
-                cosine = np.abs(np.sum(unit[both, :, k] * unit[both, :, group[0]], axis=1))
-                if both.any() and np.mean(1.0 - cosine) < ALIKE:
+                if _is_same(effect[:, :, k], effect[:, :, group[0]]):
                     group.append(k)
                     break
             else:
                 groups.append([k])
         found = told_apart([self._place(group, effect) for group in groups])
-        return self._with_families(found, groups)
+        return self._with_families(found, groups, effect)
 
-    def _with_families(self, places: list[Place], groups: list[list[int]]) -> list[Place]:
+    def _with_families(self, places: list[Place], groups: list[list[int]], effect: np.ndarray) -> list[Place]:
         """The places and the families that they are of; of those whose members are the same places, the one that has
-        the name of these, or is nearest to a balance."""
+        the name of these, or is nearest to a balance. What one course in all of them does may be what an effort in one
+        balance does, whose own place that is."""
         of = {k: n for n, group in enumerate(groups) for k in group}
         wholes: dict[frozenset[int], Place] = {}
         for site, columns in sorted(families(self.sites, sorted(of)), key=lambda f: ORDER[f[0].parts[0].kind]):
             members = frozenset(of[k] for k in columns)
-            whole = Place(site.label, (site,), columns, self._unit(columns[0]))
+            sum_of = effect[:, :, list(columns)].sum(axis=2)
+            ones = (g[0] for g in groups if any(self.sites[k].kind in BALANCES for k in g))
+            own = not any(_is_same(sum_of, effect[:, :, k]) for k in ones)
+            whole = Place(site.label, (site,), columns, self._unit(columns[0]), as_one=own)
             if members not in wholes or site.members[0] == places[of[columns[0]]].location:
                 wholes[members] = whole
         return [*places, *wholes.values()]
@@ -137,6 +138,14 @@ class Opened:
 
     def _unit(self, number: int) -> str:
         return unit_of(self.sites[number], self.believed)
+
+
+def _is_same(one: np.ndarray, other: np.ndarray) -> bool:
+    """Whether two efforts do the same (n, x + y), but for their size, where both do something."""
+    sizes = np.linalg.norm(one, axis=1), np.linalg.norm(other, axis=1)
+    both = (sizes[0] > 0) & (sizes[1] > 0)
+    cosine = np.abs(np.sum(one[both] * other[both], axis=1)) / (sizes[0][both] * sizes[1][both])
+    return bool(both.any() and np.mean(1.0 - cosine) < ALIKE)
 
 
 def unit_of(site: Site, prepared: Prepared) -> str:

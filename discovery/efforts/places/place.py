@@ -17,7 +17,8 @@ class Place:
     the other (the command of a valve, and what flows through it). So is an input, whose laws are told of it; where it
     enters in proportion they read `only` the input, all other laws being the same in the balance. What changes no
     state is a `reading`: that is off there, or its sensor, which is the same. A family of places (elements of an
-    array), where the same law holds in all, is a place of its own with the `columns` of them all."""
+    array), where the same law holds in all, is a place of its own with the `columns` of them all; one course in all
+    of them may be what none of the others is (`as_one`)."""
 
     location: str
     sites: tuple[Site, ...]
@@ -26,6 +27,7 @@ class Place:
     other: tuple[Place, ...] = ()
     only: str = ""
     reading: bool = False
+    as_one: bool = False
 
     def named(self, location: str) -> bool:
         """Whether a law at this place may have that location."""
