@@ -28,7 +28,7 @@ from lacuna.discovery.fit.lead import joined
 from lacuna.discovery.law.empirical_law import race, simplified, unfitted, varied
 from lacuna.discovery.law.law_screen import Proposal
 from lacuna.discovery.naming.candidate_fit import SMALL_STEP, nearest
-from lacuna.discovery.naming.comparison import score
+from lacuna.discovery.naming.comparison import TIE, score
 from lacuna.discovery.naming.race import NEAR
 from lacuna.discovery.naming.screen import Candidate
 from lacuna.runtime import SimulationError
@@ -252,7 +252,10 @@ def _terms(proposal: Proposal) -> int:
 
 
 def _best(fitted: list[Proposal], base: Fit) -> Proposal | None:
+    """The best law; of those that the data does not tell from it the best of the fewest numbers."""
     if not fitted:
         return None
     correlation = min((p.candidate.fit for p in fitted), key=lambda f: f.deviance()).correlation()
-    return min(fitted, key=lambda p: score(p.candidate, base, correlation))
+    scores = {id(p): score(p.candidate, base, correlation) for p in fitted}
+    untold = [p for p in fitted if scores[id(p)] < min(scores.values()) + TIE]
+    return min(untold, key=lambda p: (len(p.candidate.free), scores[id(p)]))
