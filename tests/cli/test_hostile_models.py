@@ -64,6 +64,20 @@ def test_an_integer_beyond_what_is_exact_ends_the_run(tmp_path: Path) -> None:
     assert (status, "2^53" in said) == (1, True), said
 
 
+@pytest.mark.parametrize(
+    "declared",
+    [
+        "parameter Integer n = 9007199254740991; Integer i = n + 2;",
+        "Integer k = if time < 0.5 then 1 else 94906267; Integer i = k*94906266 - k;",
+        "Integer i(start=9007199254740990, fixed=true); equation when time > 0.5 then i = pre(i) + 3; end when;",
+    ],
+)
+def test_an_integer_that_is_rounded_to_2_53_ends_the_run(tmp_path: Path, declared: str) -> None:
+    """2^53 + 1 is 2^53 in a double, which passed for exact."""
+    status, said = simulated(tmp_path, f"model M {declared} end M;")
+    assert (status, "2^53" in said) == (1, True), said
+
+
 F = "function f input Integer k; output Real y; algorithm y := 0; if k*k + 1 > k*k then y := 1; end if; end f; "
 
 
