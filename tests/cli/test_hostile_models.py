@@ -224,3 +224,12 @@ def test_want_of_memory_is_said_in_a_sentence(tmp_path: Path, monkeypatch: pytes
     monkeypatch.setattr("lacuna.load", refuse)
     status, said = simulated(tmp_path, "model M Real x = time; end M;")
     assert (status, said.strip()) == (1, "error: there is not enough memory for this")
+
+
+@pytest.mark.parametrize("command", [["simulate"], ["check"], ["fmu"], ["list", "models"], ["forecast"]])
+def test_a_link_to_itself_is_named(tmp_path: Path, command: list[str]) -> None:
+    """pathlib makes a RuntimeError of it, which was told as a fault of ours."""
+    link = tmp_path / "loop.mo"
+    link.symlink_to(link)
+    result = CliRunner().invoke(app, [*command, str(link)])
+    assert result.exit_code == 1 and "loop.mo: a symbolic link that leads to itself" in result.output
