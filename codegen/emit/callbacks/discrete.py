@@ -164,7 +164,7 @@ class Discrete:
         body = Body(self._names, self._storage.frozen)
         for k, r in self._timed():
             g, slope = body.value(sub(r.left, r.right)), body.value(r.slope)
-            body.line(f"m->rel[{k}] = (unsigned char)mdl_time_relation({g}, {slope}, t);")
+            body.line(f"m->rel[{k}] = (unsigned char)mdl_time_relation(m, {g}, {slope}, t);")
         return function(TIME_RELATIONS, body)
 
     def next_time_event(self) -> str:

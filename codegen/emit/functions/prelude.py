@@ -36,10 +36,11 @@ static int mdl_enter(const mdl_data *m, long bytes) {{
 }}"""
 
 _TIME = """\
-/* Value of a time relation just after t: g is left minus right at t, slope its derivative. */
-static int mdl_time_relation(double g, double slope, double t) {
+/* Value of a time relation just after t, while the initial equations are solved at t: g is left minus right at t, slope
+ * its derivative. */
+static int mdl_time_relation(const mdl_data *m, double g, double slope, double t) {
   const double tolerance = 4e-15 * fabs(t) * fabs(slope);
-  return slope > 0.0 ? g >= -tolerance : g > tolerance;
+  return slope > 0.0 && !m->initial ? g >= -tolerance : g > tolerance;
 }"""
 
 _NEXT = """\
