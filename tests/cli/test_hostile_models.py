@@ -50,6 +50,7 @@ def simulated(folder: Path, text: str, *options: str) -> tuple[int, str]:
 def test_a_function_ends(tmp_path: Path, body: str, argument: str, reason: str) -> None:
     status, said = simulated(tmp_path, RECURSIVE.format(body=body, argument=argument))
     assert (status, reason in said) == (1, True), said
+    assert "model.mo:" in said and "in: function M." in said  # no place was told
 
 
 def test_functions_that_call_each_other_give_their_value(tmp_path: Path) -> None:

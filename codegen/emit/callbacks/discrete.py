@@ -10,7 +10,7 @@ from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.relations import Relation
 from lacuna.codegen.emit.callbacks.asserts import assert_index, of_parameters, write_assert
 from lacuna.codegen.emit.callbacks.continuous import function
-from lacuna.codegen.emit.functions.function_body import ROUNDS
+from lacuna.codegen.emit.functions.endless import ROUNDS
 from lacuna.codegen.emit.text.body import Body
 from lacuna.codegen.emit.text.names import Names
 from lacuna.codegen.emit.text.steps import comment, place
