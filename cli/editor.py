@@ -23,9 +23,18 @@ def lsp(library: Libraries = None) -> None:
         raise typer.Exit(1) from None
 
 
+def _named(given: str) -> Path:
+    """An empty name, as of a variable that a shell has not set, is no folder: Python takes it for the one of work."""
+    if not given:
+        raise typer.BadParameter("an empty name is no file and no folder; the present folder is called `.`")
+    return Path(given)
+
+
 @answered
 def format(
-    files: Annotated[list[Path], typer.Argument(help="Files of Modelica, or folders of them")],
+    files: Annotated[
+        list[Path], typer.Argument(parser=_named, metavar="FILES...", help="Files of Modelica, or folders of them")
+    ],
     check: Annotated[bool, typer.Option("--check", help="Write nothing; status 1 where a file would change")] = False,
 ) -> Answer:
     """Format Modelica files in place: indentation by nesting and empty lines, nothing that has a meaning."""

@@ -190,7 +190,7 @@ def _simulated(
     from lacuna.analysis.comparison.foreign import simulate_fmu
 
     end = model.stop_time if stop is None else stop
-    names = {name for name, v in model.variables.items() if v.type == "Real" and not v.is_parameter}
+    names = {name for name, v in model.variables.items() if not v.is_parameter}
     return simulate_fmu(
         file, names, {name: v.unit for name, v in model.variables.items()},
         model.start_time, end, model.interval or (end - model.start_time) / POINTS,

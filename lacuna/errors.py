@@ -14,7 +14,12 @@ class UserError(Exception):
 def is_user_error(error: BaseException) -> bool:
     """Whether the message is all that a user needs: refusals of any stage, files that cannot be read, a model or file
     that is larger than the memory."""
-    return isinstance(error, OSError | MemoryError) or bool(getattr(error, "user_error", False))
+    return isinstance(error, OSError | MemoryError) or bool(getattr(error, "user_error", _leads_nowhere(error)))
+
+
+def _leads_nowhere(error: BaseException) -> bool:
+    """Of a symbolic link that leads to itself pathlib makes a RuntimeError up to Python 3.12."""
+    return isinstance(error, RuntimeError) and str(error).startswith("Symlink loop from ")
 
 
 def message_of(error: BaseException) -> str:
@@ -24,6 +29,8 @@ def message_of(error: BaseException) -> str:
     if isinstance(error, MemoryError):
         return f"error: there is not enough memory for this{f': {error}' if str(error) else ''}"
     text = str(error)
+    if _leads_nowhere(error):
+        return f"error: {text.removeprefix('Symlink loop from ').strip(chr(39))}: a symbolic link that leads to itself"
     return text if "error[" in text.splitlines()[0] or text.startswith("error") else f"error: {text}"
 
 

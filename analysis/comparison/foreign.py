@@ -13,6 +13,8 @@ from lacuna import runtime
 from lacuna.analysis.errors import AnalysisError
 from lacuna.recorded_units import UnitError, factor_into, to_si
 
+_NO_NUMBERS = ("String", "Binary", "Clock")
+
 
 def simulate_fmu(
     path: Path,
@@ -25,7 +27,8 @@ def simulate_fmu(
     parameters: Mapping[str, float],
     inputs: Mapping[str, runtime.RecordedInput | float],
 ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """Time (s, [rows]) and each Real variable of the FMU that is in `names`, [rows], in its unit in `units`.
+    """Time (s, [rows]) and each number of the FMU, an Integer or a Boolean, too, that is in `names`, [rows], in its
+    unit in `units`.
 
     Model exchange by CVODE where the FMU has it, else co-simulation. `parameters` and `inputs` that the FMU does not
     have, or has in another unit, are refused. Its binary is run: use FMUs of those you trust.
@@ -39,7 +42,7 @@ def simulate_fmu(
     except Exception as error:
         raise AnalysisError(f"{path} is no FMU that can be read: {error}") from None
     theirs = _by_name(description.modelVariables)
-    outputs = [n for n, place in theirs.items() if n in names and place.variable.type in ("Real", "Float64")]
+    outputs = [n for n, place in theirs.items() if n in names and place.variable.type not in _NO_NUMBERS]
     if not outputs:
         raise AnalysisError(f"{path} and the model have no variable of the same name")
     unknown = [n for n in (*parameters, *inputs) if n not in theirs]

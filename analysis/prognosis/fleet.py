@@ -84,6 +84,7 @@ def _check(name, unit, actuator, use, severity, low, high, event) -> None:
             (~np.isfinite(use) | (use < 0), f"{unit} must be a finite number from 0 on"),
             (np.isinf(severity), "severity is not finite"),
             (~np.isnan(severity) & ~((low <= severity) & (severity <= high)), "severity lies outside its own interval"),
+            (np.isnan(severity) & ~(np.isnan(low) & np.isnan(high)), "low and high without their severity"),
             (~np.isin(event, ("", "replaced")), "event is neither empty nor 'replaced'"),
         ]:
             if wrong.any():

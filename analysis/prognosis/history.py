@@ -197,6 +197,8 @@ class _Reader:
             if not low <= severity <= high:
                 raise self.error(f"severity {severity:g} lies outside its own interval {low:g} to {high:g}")
             return [(fault, severity, low, high, "")]
+        if not (math.isnan(self.value("low")) and math.isnan(self.value("high"))):
+            raise self.error("low and high without their severity; a row without a test leaves all three empty")
         if diagnosis := self.text("diagnosis"):
             if diagnosed is None:
                 raise self.error(f"{diagnosis} cannot be read here: `lacuna forecast` reads diagnoses, with --limit")

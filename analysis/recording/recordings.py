@@ -133,6 +133,7 @@ def check_phases(recording: Recording, starts: np.ndarray, rate: float) -> None:
     recorded_times = np.arange(recording.currents.shape[1]) / recording.sampling_rate
     measured = np.array([np.interp(times, recorded_times, current) for current in recording.currents])
     starts = starts / np.linalg.norm(starts, axis=(1, 2), keepdims=True)
+    measured /= np.abs(measured).max() or 1.0  # before its square: of 1e200 A that has no number
     measured /= np.linalg.norm(measured) or 1.0
     channels = range(len(measured))
     likeness = {

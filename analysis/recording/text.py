@@ -89,7 +89,7 @@ def read_text(path: Path) -> TextTable:
     written = text.splitlines()
     instants_of = _instants(path, written)
     lines = instants_of.lines
-    separator, decimal = _marks(path, lines)
+    separator, decimal = _marks(path, lines, written)
     first = _first_row_of_numbers(lines, separator, decimal)
     above = [_fields(line, separator) for line in written[:first]]
     width = len(_fields(lines[first], separator))
@@ -207,7 +207,7 @@ def _is_row_of_numbers(fields: list[str], decimal: str) -> bool:
     return len(fields) > 1 and any(fields) and all(_NUMBER[decimal].fullmatch(f) for f in fields)
 
 
-def _marks(path: Path, lines: list[str]) -> tuple[str, str]:
+def _marks(path: Path, lines: list[str], written: list[str]) -> tuple[str, str]:
     """The separator and the decimal mark under which most of the first lines are rows of numbers."""
     best, most = ("", ""), 0
     for decimal in ".,":
@@ -218,19 +218,20 @@ def _marks(path: Path, lines: list[str]) -> tuple[str, str]:
             if rows > most:
                 best, most = (separator, decimal), rows
     if not most:
-        raise RecordingError(f"{path}: no row of numbers in its first {_SAMPLE} lines{_nearest_to_one(lines)}")
+        raise RecordingError(f"{path}: no row of numbers in its first {_SAMPLE} lines{_nearest_to_one(lines, written)}")
     return best
 
 
-def _nearest_to_one(lines: list[str]) -> str:
-    """The line with the most numbers, and what in it is none."""
+def _nearest_to_one(lines: list[str], written: list[str]) -> str:
+    """The line with the most numbers, and what in it is none, as it is written."""
     best, most = "; is it a recording?", 0
     for number, line in enumerate(lines[:_SAMPLE], 1):
         for decimal, separator in product(".,", _SEPARATORS):
             fields = _fields(line, separator) if separator != decimal else []
-            strange = [field for field in fields if not _NUMBER[decimal].fullmatch(field)]
+            strange = [k for k, field in enumerate(fields) if not _NUMBER[decimal].fullmatch(field)]
             if strange and len(fields) - len(strange) > most:
-                best, most = f": in line {number} `{strange[0][:40]}` is none", len(fields) - len(strange)
+                field = (*_fields(written[number - 1], separator)[strange[0] :], fields[strange[0]])[0]
+                best, most = f": in line {number} `{field[:40]}` is none", len(fields) - len(strange)
     return best
 
 

@@ -229,7 +229,20 @@ def _refuse_own_value(s: flat.Statement) -> None:
         raise Diagnostic("S013", f"the equation of {name} in a when-clause holds {name} itself", s.span, hint)
 
 
+def _refuse_two_equations(body: list[flat.Statement]) -> None:
+    """Raises S011 for a variable that two equations of one branch give a value: nothing says which holds (8.3.5)."""
+    first: dict[str, flat.Statement] = {}
+    for s in body:
+        for name in assigned([s]):
+            if name in first:
+                hint = "leave one, or use if or elsewhen"
+                raise Diagnostic("S011", f"{name} is assigned twice", s.span, hint, [(first[name].span, "first here")])
+            first[name] = s
+
+
 def sorted_body(body: list[flat.Statement]) -> list[flat.Statement]:
+    """The equations of one branch in the order of their dependencies."""
+    _refuse_two_equations(body)
     writer = {n: k for k, s in enumerate(body) for n in assigned([s])}
     needs = [
         sorted({writer[str(n.value)] for e in expressions([s]) for n in leaves(e) if n.op == "var"

@@ -14,9 +14,10 @@ from lacuna.codegen.emit.callbacks.equations import EquationTable
 from lacuna.codegen.emit.callbacks.large import Large
 from lacuna.codegen.emit.callbacks.tables import Tables
 from lacuna.codegen.emit.derivatives.tangents import Tangents
+from lacuna.codegen.emit.functions.endless import calls
 from lacuna.codegen.emit.functions.foreign import foreign_texts
 from lacuna.codegen.emit.functions.prelude import helpers
-from lacuna.codegen.emit.functions.user_functions import calls, user_functions
+from lacuna.codegen.emit.functions.user_functions import user_functions
 from lacuna.codegen.emit.text.c_text import SourceNames, c_comment, c_string
 from lacuna.codegen.emit.text.expression import number
 from lacuna.codegen.emit.text.names import Names

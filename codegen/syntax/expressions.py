@@ -11,6 +11,7 @@ from lacuna.codegen.syntax.arguments import ArgumentParser
 from lacuna.codegen.syntax.lexer import string_value
 
 LONGEST_INTEGER = 18  # digits: what 64 bits hold
+LARGEST_INTEGER = 2**53 - 1  # from 2^53 on a double does not tell all apart
 _RELATIONS = ("<", "<=", ">", ">=", "==", "<>")
 _ADDITIVE = ("+", "-", ".+", ".-")
 _MULTIPLICATIVE = ("*", "/", ".*", "./")
@@ -136,6 +137,9 @@ class ExpressionParser(ArgumentParser):
             if len(word) > LONGEST_INTEGER:
                 hint = "Integers have 32 bits in most tools; write a Real, such as 1e20"
                 raise Diagnostic("P030", f"an Integer of {len(word)} digits", self.span(at), hint)
+            if int(word) > LARGEST_INTEGER:
+                hint = "an Integer is exact up to 2^53 - 1; write a Real, such as 1e16"
+                raise Diagnostic("P030", f"the Integer {word} is beyond 2^53 - 1", self.span(at), hint)
             return int(word)
         if isinf(value := float(word)):
             raise Diagnostic(

@@ -30,10 +30,10 @@ typedef enum {
   MDL_FAILURE_DOMAIN,    /* argument outside a function's domain: sqrt, log, asin, division by zero ... */
   MDL_FAILURE_ASSERT,    /* assert(..., level = error) violated; `equation` indexes `asserts` */
   MDL_FAILURE_BOUND,     /* a parameter outside its min/max; `variable` says which */
-  MDL_FAILURE_LOOP,      /* a function ran too long: loops and calls inside each other */
-  MDL_FAILURE_STACK,     /* functions called each other too deep, or hold arrays too large for the stack */
+  MDL_FAILURE_LOOP,      /* a function ran too long: loops and calls inside each other; `equation` as of an assert */
+  MDL_FAILURE_STACK,     /* functions called each other too deep, or their arrays are too large; `equation` likewise */
   MDL_FAILURE_FOREIGN,   /* external C called ModelicaError, which has told why */
-  MDL_FAILURE_INEXACT    /* Integers are compared of which one is a product beyond 2^53 */
+  MDL_FAILURE_INEXACT    /* Integers are compared of which one is a product of 2^53 or more */
 } mdl_failure_kind;
 
 typedef struct {

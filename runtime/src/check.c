@@ -36,8 +36,8 @@ static rt_status check_guards(rt_session *s) {
 
 static const double no_boolean = -1; /* what generated code gives a Boolean without a value */
 
-/* An Integer that grew beyond what is exact, as by overflow in other tools; a Boolean without a value: an element of an
- * array by a subscript outside of it. */
+/* An Integer that grew to where not all are exact, as by overflow in other tools; a Boolean without a value: an element
+ * of an array by a subscript outside of it. */
 static rt_status check_integers(rt_session *s) {
   for (int i = 0; i < s->d->n_d; i++) {
     bool nothing = s->data.d[i] == no_boolean;
@@ -49,7 +49,7 @@ static rt_status check_integers(rt_session *s) {
     if (nothing) continue;
     if (row >= 0 && s->d->variables[row].type == MDL_INTEGER)
       return rt_fail(s, RT_DOMAIN, s->t, row, NULL,
-                     "at time %.9g s the Integer %s is %.17g: beyond 2^53 not all are told apart", s->t,
+                     "at time %.9g s the Integer %s is %.17g: from 2^53 on not all are told apart", s->t,
                      s->d->variables[row].name, s->data.d[i]);
   }
   return RT_OK;
@@ -65,7 +65,7 @@ static rt_status check_discrete(rt_session *s) {
   if (row >= 0 && s->d->variables[row].type == MDL_INTEGER && isnan(s->data.d[i]))
     return rt_fail(
         s, RT_DOMAIN, s->t, row, NULL,
-        "at time %.9g s the Integer %s has no value: a product on the way to it is beyond 2^53, where not all "
+        "at time %.9g s the Integer %s has no value: a product on the way to it reaches 2^53, from where not all "
         "are told apart, or a divisor is zero",
         s->t, name);
   return rt_fail(s, RT_NONFINITE, s->t, row, NULL, "at time %.9g s the discrete variable %s is %.9g", s->t, name,

@@ -50,7 +50,7 @@ static const char *describe(mdl_failure_kind kind) {
   case MDL_FAILURE_FOREIGN:
     return "external C ended in an error, which it told above";
   case MDL_FAILURE_INEXACT:
-    return "a product of Integers is compared, and is beyond 2^53, where not all are told apart";
+    return "a product of Integers is compared, and reaches 2^53, from where not all are told apart";
   case MDL_FAILURE_NONE:
     break;
   }
@@ -126,6 +126,12 @@ static rt_status fail_assert(rt_session *s, double time, const mdl_assert *rule)
   return RT_ASSERT;
 }
 
+/* A call that does not end, told at its function. */
+static rt_status fail_endless(rt_session *s, double time, const char *doing, const mdl_equation *function) {
+  mdl_failure_kind kind = s->data.failure.kind;
+  return rt_fail(s, status_of(kind), time, -1, function, "%s at time %.9g s: %s", doing, time, describe(kind));
+}
+
 /* Row of the variable that an equation of the explicit form is solved for, -1 where it is none. */
 static int unknown_of(const rt_session *s, int equation) {
   for (int k = 0; k < s->d->n_computed; k++) {
@@ -140,8 +146,9 @@ static int unknown_of(const rt_session *s, int equation) {
 rt_status rt_fail_model(rt_session *s, double time, const char *doing) {
   const mdl_descriptor *d = s->d;
   const mdl_failure *f = &s->data.failure;
-  bool is_assert = f->kind == MDL_FAILURE_ASSERT;
-  bool placed = f->equation >= 0 && f->equation < (is_assert ? d->n_asserts : d->n_equations);
+  bool is_assert = f->kind == MDL_FAILURE_ASSERT, endless = f->kind == MDL_FAILURE_LOOP || f->kind == MDL_FAILURE_STACK;
+  bool placed = f->equation >= 0 && f->equation < (is_assert || endless ? d->n_asserts : d->n_equations);
+  if (endless && placed) return fail_endless(s, time, doing, &d->asserts[f->equation].source);
   if (is_assert && placed) return fail_assert(s, time, &d->asserts[f->equation]);
   const mdl_equation *where = placed && !is_assert ? &d->equations[f->equation] : NULL;
   int variable = f->kind == MDL_FAILURE_SINGULAR && placed ? unknown_of(s, f->equation) : f->variable;

@@ -170,7 +170,7 @@ static inline double rt_max(double a, double b) {
   return a > b ? a : b;
 }
 
-#define RT_LARGEST_INTEGER 9007199254740992.0 /* beyond, a double would round an Integer unseen */
+#define RT_LARGEST_INTEGER 0x1.fffffffffffffp52 /* 2^53 - 1: what is 2^53 may be 2^53 + 1, rounded unseen */
 
 /* A value that a variable of this type can have, finite for sure. */
 static inline bool rt_has_type(const mdl_variable *v, double value) {

@@ -25,7 +25,7 @@ void rt_session_declared(rt_session *s) {
 static rt_status refuse_type(rt_session *s, int row, double t, const char *what, double value) {
   const mdl_variable *v = &s->d->variables[row];
   return rt_fail(s, RT_ARGUMENT, t, row, NULL, "%s %s cannot be %.17g: it is %s", what, v->name, value,
-                 v->type == MDL_BOOLEAN ? "Boolean (0 or 1)" : "of whole numbers up to 2^53");
+                 v->type == MDL_BOOLEAN ? "Boolean (0 or 1)" : "of whole numbers below 2^53");
 }
 
 rt_status rt_session_parameters(rt_session *s, int n, const int *variables, const double *values) {

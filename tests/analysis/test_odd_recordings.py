@@ -96,6 +96,7 @@ def test_a_column_that_counts_the_rows_is_left_out_with_a_word(tmp_path: Path) -
         ("time,u\n0;1\n1,2\n2,3\n", ":2: 1 fields where the header has 2"),
         ("time,u\n24:00:01,1\n", ":2: `24:00:01` is no instant"),
         ("time,on\n0,true\n", "line 2 `true` is none"),
+        ("time,u\n11:59:59 AM,1\n12:00:00 PM,2\n", "line 2 `11:59:59 AM` is none"),  # it was -1000000000 AM
         (",time,u\n7,0.0,1\n8,0.1,2\n", "column 1 has no name"),
         ("time,u\n0,1\n1,2\nEnd of file\n", ":4: 1 fields"),
         ("time,u,n\nERR,1,1\n0.1,2,3\n", ":2: no row of units and none of numbers: `ERR` is in neither"),

@@ -50,6 +50,7 @@ def simulated(folder: Path, text: str, *options: str) -> tuple[int, str]:
 def test_a_function_ends(tmp_path: Path, body: str, argument: str, reason: str) -> None:
     status, said = simulated(tmp_path, RECURSIVE.format(body=body, argument=argument))
     assert (status, reason in said) == (1, True), said
+    assert "model.mo:" in said and "in: function M." in said  # no place was told
 
 
 def test_functions_that_call_each_other_give_their_value(tmp_path: Path) -> None:
@@ -61,6 +62,20 @@ def test_functions_that_call_each_other_give_their_value(tmp_path: Path) -> None
 def test_an_integer_beyond_what_is_exact_ends_the_run(tmp_path: Path) -> None:
     text = "model M Integer i(start=1, fixed=true); equation when sample(0, 0.01) then i = pre(i)*10; end when; end M;"
     status, said = simulated(tmp_path, text)
+    assert (status, "2^53" in said) == (1, True), said
+
+
+@pytest.mark.parametrize(
+    "declared",
+    [
+        "parameter Integer n = 9007199254740991; Integer i = n + 2;",
+        "Integer k = if time < 0.5 then 1 else 94906267; Integer i = k*94906266 - k;",
+        "Integer i(start=9007199254740990, fixed=true); equation when time > 0.5 then i = pre(i) + 3; end when;",
+    ],
+)
+def test_an_integer_that_is_rounded_to_2_53_ends_the_run(tmp_path: Path, declared: str) -> None:
+    """2^53 + 1 is 2^53 in a double, which passed for exact."""
+    status, said = simulated(tmp_path, f"model M {declared} end M;")
     assert (status, "2^53" in said) == (1, True), said
 
 
@@ -210,3 +225,12 @@ def test_want_of_memory_is_said_in_a_sentence(tmp_path: Path, monkeypatch: pytes
     monkeypatch.setattr("lacuna.load", refuse)
     status, said = simulated(tmp_path, "model M Real x = time; end M;")
     assert (status, said.strip()) == (1, "error: there is not enough memory for this")
+
+
+@pytest.mark.parametrize("command", [["simulate"], ["check"], ["fmu"], ["list", "models"], ["forecast"]])
+def test_a_link_to_itself_is_named(tmp_path: Path, command: list[str]) -> None:
+    """pathlib makes a RuntimeError of it, which was told as a fault of ours."""
+    link = tmp_path / "loop.mo"
+    link.symlink_to(link)
+    result = CliRunner().invoke(app, [*command, str(link)])
+    assert result.exit_code == 1 and "loop.mo: a symbolic link that leads to itself" in result.output

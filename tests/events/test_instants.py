@@ -51,3 +51,35 @@ def test_each_of_two_instants_that_nearly_meet_happens_once(text: str, counts: d
     assert {name: int(result[name][-1]) for name in counts} == counts
     if "next" in result.model.variables:
         assert result["ticks"][-1] == pytest.approx(result["next"][-1] / (result["next"][0]) - 1, abs=1e-6)
+
+
+AT_THE_START = """model AtTheStart "Relations of time whose instant is the start"
+  Boolean after = time > {T}, from = time >= {T}, until = time <= {T};
+  Boolean first(start = false, fixed = true);
+  Integer count(start = 0, fixed = true), beside(start = 0, fixed = true);
+equation
+  when initial() then
+    first = time > {T};
+  end when;
+  when {{after, not until, time > {T}}} then
+    count = pre(count) + 1;
+  end when;
+  when from then
+    beside = pre(beside) + 1;
+  end when;
+end AtTheStart;
+"""
+
+
+@pytest.mark.parametrize("start", [0.0, 0.3, -2.0])
+@pytest.mark.parametrize("solver", ["ida", "dopri5", "rk4"])
+def test_time_is_not_after_the_start_at_the_start(start: float, solver: str, tmp_path: Path) -> None:
+    """`time > T` held at T already where the run began there, so that no when-clause saw it become true."""
+    path = tmp_path / "AtTheStart.mo"
+    path.write_text(AT_THE_START.format(T=start))
+    model = Model(compile_model(str(path)).path)
+    step = {"step": 0.1} if solver == "rk4" else {}
+    result = simulate(model, start=start, stop=start + 1, interval=0.1, events=False, solver=solver, **step)
+    assert result.complete, result.failure
+    assert (result["first"][-1], result["beside"][-1]) == (0, 0)
+    assert result["after"][-1] == 1 and result["count"][-1] == 1

@@ -163,3 +163,20 @@ def test_an_fmu_in_other_units_is_compared_in_the_models(tmp_path: Path) -> None
         lacuna.compare_with_file(tmp_path / "ampere" / "M.mo", tmp_path / "M.fmu")
     with pytest.raises(Exception, match="has a, which the comparison sets, in another unit"):
         lacuna.compare_with_file(tmp_path / "ours" / "M.mo", tmp_path / "M.fmu", parameters={"a": 3.0})
+
+
+def test_integers_and_booleans_of_an_fmu_are_compared(tmp_path: Path) -> None:
+    """They were left out without a word: one that counts otherwise agreed."""
+    text = (
+        "model Counter Integer n(start=0, fixed=true); Boolean odd = mod(n, 2) == 1; equation"
+        " when sample(0.05, 0.1) then n = pre(n) + {0}; end when; end Counter;"
+    )
+    for folder, step in (("ours", 1), ("theirs", 2)):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "Counter.mo").write_text(text.format(step))
+    for version in ("2.0", "3.0"):
+        for folder, beyond in (("ours", []), ("theirs", ["n", "odd"])):
+            fmu = tmp_path / folder / "Counter.fmu"
+            lacuna.export_fmu(tmp_path / folder / "Counter.mo", fmu, version=version)
+            found = lacuna.compare_with_file(tmp_path / "ours" / "Counter.mo", fmu)
+            assert sorted(row[0] for row in found.rows) == ["n", "odd"] and found.beyond == beyond

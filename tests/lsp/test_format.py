@@ -115,3 +115,12 @@ def test_a_folder_is_formatted_beside_what_cannot_be(tmp_path: Path) -> None:
     assert (tmp_path / "C.mo").read_text() == "model C\n  Real x = 1;\nend C;\n"
     assert "A.mo: not a text in UTF-8" in result.output and "B.mo:1:" in result.output
     assert "left as they are: 2 of 3 files" in result.output
+
+
+def test_an_empty_name_is_not_the_present_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As of a variable that the shell has not set: every file below the present folder was formatted."""
+    (tmp_path / "C.mo").write_text("model C\nReal x = 1;\nend C;\n")
+    monkeypatch.chdir(tmp_path)
+    result = CliRunner().invoke(app, ["format", ""])
+    assert result.exit_code == 2 and "an empty name" in result.output
+    assert (tmp_path / "C.mo").read_text() == "model C\nReal x = 1;\nend C;\n"

@@ -6,6 +6,7 @@ from lacuna.codegen import flat
 from lacuna.codegen.dae.events import DiscreteEquation
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.storage import Storage
+from lacuna.codegen.emit.functions.endless import end_of, may_not_end
 from lacuna.codegen.emit.text.body import Body
 from lacuna.codegen.emit.text.expression import is_doubtful
 from lacuna.codegen.symbolic.expr import RELATIONS, Expr, walk
@@ -14,8 +15,12 @@ from lacuna.codegen.symbolic.rewrite import all_statements
 
 
 def all_asserts(p: Prepared) -> list[flat.Assert]:
-    """Asserts in the order of the descriptor: those of the model, of its when clauses, of its functions."""
-    return [*_errors(p.model.asserts), *_event_asserts(p), *_inside([f.body for f in p.model.functions.values()])]
+    """Asserts in the order of the descriptor: those of the model, of its when clauses, of its functions, and that calls
+    of these end."""
+    functions = p.model.functions
+    inside = _inside([f.body for f in functions.values()])
+    ends = [end_of(f) for f in functions.values() if may_not_end(f, functions)]
+    return [*_errors(p.model.asserts), *_event_asserts(p), *inside, *ends]
 
 
 def assert_index(p: Prepared, s: flat.Assert) -> int:

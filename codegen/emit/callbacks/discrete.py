@@ -10,7 +10,7 @@ from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.relations import Relation
 from lacuna.codegen.emit.callbacks.asserts import assert_index, of_parameters, write_assert
 from lacuna.codegen.emit.callbacks.continuous import function
-from lacuna.codegen.emit.functions.function_body import ROUNDS
+from lacuna.codegen.emit.functions.endless import ROUNDS
 from lacuna.codegen.emit.text.body import Body
 from lacuna.codegen.emit.text.names import Names
 from lacuna.codegen.emit.text.steps import comment, place
@@ -164,7 +164,7 @@ class Discrete:
         body = Body(self._names, self._storage.frozen)
         for k, r in self._timed():
             g, slope = body.value(sub(r.left, r.right)), body.value(r.slope)
-            body.line(f"m->rel[{k}] = (unsigned char)mdl_time_relation({g}, {slope}, t);")
+            body.line(f"m->rel[{k}] = (unsigned char)mdl_time_relation(m, {g}, {slope}, t);")
         return function(TIME_RELATIONS, body)
 
     def next_time_event(self) -> str:

@@ -8,6 +8,7 @@ import math
 import re
 
 from lacuna.codegen import flat
+from lacuna.codegen.emit.functions.endless import ROUNDS, end_of, frame, may_not_end
 from lacuna.codegen.emit.functions.foreign import foreign_lines
 from lacuna.codegen.emit.text.c_text import c_comment
 from lacuna.codegen.emit.text.expression import function_name, lower_powers, to_c
@@ -18,12 +19,7 @@ from lacuna.codegen.symbolic.expr import BOOLEAN, TRUE, Expr, is_const
 from lacuna.codegen.symbolic.expr import nothing as no_value
 from lacuna.codegen.symbolic.function_tangent import by_name
 from lacuna.codegen.symbolic.leaves import leaves
-from lacuna.codegen.symbolic.rewrite import all_statements, expressions
-
-ROUNDS = 10_000_000  # of all loops and calls inside one call from an equation: a tenth of a second
-STACK = 1 << 21  # bytes: a quarter of what a thread has on Linux, since _FRAME is a guess
-_FRAME = 512  # bytes of a call beside its locals: return address, saved registers, temporaries
-_LARGE = 4096  # bytes that no chain of functions without recursion makes dangerous
+from lacuna.codegen.symbolic.rewrite import expressions
 
 
 class FunctionBody:
@@ -33,11 +29,10 @@ class FunctionBody:
         functions: dict[str, flat.Function],
         names: Names,
         assert_index: Callable[[flat.Assert], int],
-        recursive: bool,
     ):
         self._assert_index = assert_index
-        self._frame = _FRAME + 8 * sum(math.prod(shape) for shape in f.shapes.values())
-        self._guarded = recursive or self._frame > _LARGE or any(map(_loops, all_statements(f.body)))
+        self._frame, self._guarded = frame(f), may_not_end(f, functions)
+        self._end = assert_index(end_of(f)) if self._guarded else -1
         self._f, self._functions, self._tables = f, functions, names
         self._names = Names(f.shapes)
         self._lines: list[str] = []
@@ -48,7 +43,7 @@ class FunctionBody:
         f = self._f
         read = {leaf.value for e in (*f.defaults.values(), *expressions(f.body)) for leaf in leaves(e)}
         if self._guarded:
-            self._line(f"if (!mdl_enter(m, {self._frame})) {{ {self._refuse()} }}")
+            self._line(f"if (!mdl_enter(m, {self._frame}, {self._end})) {{ {self._refuse()} }}")
         for name in f.shapes:
             if name not in f.inputs:
                 self._declare(name)
@@ -136,7 +131,7 @@ class FunctionBody:
         self._line("}")
 
     def _round(self) -> str:
-        return f"if (++((mdl_data *)m)->rounds > {ROUNDS}) {{ {self._fail('LOOP')} }}"
+        return f"if (++((mdl_data *)m)->rounds > {ROUNDS}) {{ {self._fail('LOOP', self._end)} }}"
 
     def _statement(self, s: flat.Statement) -> None:
         match s:
@@ -262,10 +257,6 @@ class FunctionBody:
         same = [tuple(i.value for i in e.args[1:]) if e.op == "call" and e.args[0] is first.args[0] else None
                 for e in n.args]  # fmt: skip
         return self.c_name(name) if same == list(every) else None
-
-
-def _loops(s: flat.Statement) -> bool:
-    return isinstance(s, flat.For | flat.While)
 
 
 def _nothing(f: flat.Function, name: str) -> str:

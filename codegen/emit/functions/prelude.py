@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from lacuna.codegen.emit.functions.function_body import ROUNDS, STACK
+from lacuna.codegen.emit.functions.endless import ROUNDS, STACK
 from lacuna.codegen.emit.functions.linear import FACTOR, LEAST, SOLVES, SUBSTITUTE
 from lacuna.codegen.emit.functions.newton import NEWTON
 from lacuna.codegen.emit.functions.random_numbers import NATIVE, WORDS
@@ -26,20 +26,21 @@ static inline int mdl_index(const mdl_data *m, double subscript, int size) {
 
 _ENTER = f"""\
 /* A function begins, with about so many bytes on the stack: not below what the stack bears, nor without end. */
-static int mdl_enter(const mdl_data *m, long bytes) {{
+static int mdl_enter(const mdl_data *m, long bytes, int end) {{
   mdl_data *own = (mdl_data *)m;
   if (own->stack == 0) own->rounds = 0;
-  if (own->stack + bytes > {STACK}) return !mdl_fail(own, MDL_FAILURE_STACK, -1, (double)own->stack);
-  if (++own->rounds > {ROUNDS}) return !mdl_fail(own, MDL_FAILURE_LOOP, -1, (double)own->rounds);
+  if (own->stack + bytes > {STACK}) return !mdl_fail(own, MDL_FAILURE_STACK, end, (double)own->stack);
+  if (++own->rounds > {ROUNDS}) return !mdl_fail(own, MDL_FAILURE_LOOP, end, (double)own->rounds);
   own->stack += bytes;
   return 1;
 }}"""
 
 _TIME = """\
-/* Value of a time relation just after t: g is left minus right at t, slope its derivative. */
-static int mdl_time_relation(double g, double slope, double t) {
+/* Value of a time relation just after t, while the initial equations are solved at t: g is left minus right at t, slope
+ * its derivative. */
+static int mdl_time_relation(const mdl_data *m, double g, double slope, double t) {
   const double tolerance = 4e-15 * fabs(t) * fabs(slope);
-  return slope > 0.0 ? g >= -tolerance : g > tolerance;
+  return slope > 0.0 && !m->initial ? g >= -tolerance : g > tolerance;
 }"""
 
 _NEXT = """\

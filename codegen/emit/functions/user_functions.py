@@ -10,12 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from lacuna.codegen import flat
+from lacuna.codegen.emit.functions.endless import calls_of, is_recursive
 from lacuna.codegen.emit.functions.function_body import FunctionBody, declarations, returns_value
 from lacuna.codegen.emit.text.expression import function_name
 from lacuna.codegen.emit.text.names import Names
-from lacuna.codegen.symbolic.expr import BUILTINS, Expr, walk
 from lacuna.codegen.symbolic.function_tangent import by_name
-from lacuna.codegen.symbolic.rewrite import all_statements, expressions
 
 
 def user_functions(
@@ -35,48 +34,23 @@ def user_functions(
         if name not in written:
             written[name] = ""
             begun.append(f)
-            for inner, inner_value in _calls_of(f):
+            for inner, inner_value in calls_of(f):
                 visit(inner, inner_value)
             del written[name]
-            written[name] = FunctionBody(f, functions, names, assert_index, _is_recursive(f, functions)).write()
+            written[name] = FunctionBody(f, functions, names, assert_index).write()
         if as_value and not returns_value(f) and name not in values:
             values[name] = _first_result(f)
 
     for name in called:
         visit(name, True)
     bodies = [*written.values(), *values.values()]
-    ahead = [_prototype(body) for body in bodies] if any(_is_recursive(f, functions) for f in begun) else []
+    ahead = [_prototype(body) for body in bodies] if any(is_recursive(f, functions) for f in begun) else []
     return "\n\n".join([*(["\n".join(ahead)] if ahead else []), *bodies])
-
-
-def calls(roots: Iterable[Expr]) -> list[str]:
-    """Names of the functions of the model that occur in expressions, in order."""
-    found = (str(n.value) for root in roots for n in walk(root) if n.op == "call")
-    return list(dict.fromkeys(name for name in found if name not in BUILTINS and name != "[]"))
-
-
-def _calls_of(f: flat.Function) -> list[tuple[str, bool]]:
-    """(name, whether in an expression) of the functions that `f` calls."""
-    whole = [s.value for s in all_statements(f.body) if isinstance(s, flat.AssignCall)]
-    inside = [e for e in (*f.defaults.values(), *expressions(f.body)) if e not in whole]
-    inside += [a for call in whole for a in call.args]
-    return [(str(call.value), False) for call in whole] + [(name, True) for name in calls(inside)]
 
 
 def _prototype(body: str) -> str:
     """The declaration of a function that is called before it is defined."""
     return next(line for line in body.splitlines() if line.startswith("static ")).removesuffix(" {") + ";"
-
-
-def _is_recursive(f: flat.Function, functions: dict[str, flat.Function]) -> bool:
-    """Whether calls lead from the function to itself."""
-    waiting, seen = [name for name, _ in _calls_of(f)], set[str]()
-    while waiting:
-        name = waiting.pop()
-        if name not in seen:
-            seen.add(name)
-            waiting += [inner for inner, _ in _calls_of(by_name(functions, name))]
-    return f.name in seen
 
 
 def _first_result(f: flat.Function) -> str:

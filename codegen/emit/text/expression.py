@@ -34,10 +34,10 @@ HELPERS = {
     "mdl_mod": "static inline double mdl_mod(double a, double b) { return a - floor(a / b) * b; }",
     "mdl_rem": "static inline double mdl_rem(double a, double b) { return a - trunc(a / b) * b; }",
     "mdl_div": "static inline double mdl_div(double a, double b) { return trunc(a / b); }",
-    # of Integers: no number where the product is beyond 2^53 and may not be exact, so that nothing is made of it
+    # of Integers: no number where the product reaches 2^53 and may not be exact, so that nothing is made of it
     "mdl_times": "static inline double mdl_times(double a, double b) {\n"
     "  const double product = a * b;\n"
-    "  return fabs(product) > 0x1p53 ? NAN : product;\n}",
+    "  return fabs(product) >= 0x1p53 ? NAN : product;\n}",
     # of sides that hold such a product: noted as a failure where one of them is no number
     "mdl_compared": "static inline int mdl_compared(const mdl_data *m, double a, double b, int holds) {\n"
     "  if (a != a || b != b) (void)mdl_fail((mdl_data *)m, MDL_FAILURE_INEXACT, -1, 0.0);\n"

@@ -39,8 +39,8 @@ def time_derivative(e: Expr, scope: Scope, span: Span) -> Expr:
             raise Diagnostic("R054", f"the derivative of the discrete {leaf.value}", span, hint)
         return ex.der(leaf) if kind == "continuous" else ex.ZERO
 
-    if e.op == "var" and e.type != ex.REAL:
-        raise Diagnostic("R054", f"the derivative of the {e.type} {e.value}", span, "only Reals have derivatives")
+    if e.type != ex.REAL and e.op != "const":
+        raise Diagnostic("R054", f"the derivative of the {e.type} {ex.to_text(e)}", span, "only Reals have derivatives")
     return Differentiator(seed, rules=scope.context.derivatives)(e)
 
 

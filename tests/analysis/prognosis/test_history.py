@@ -109,3 +109,10 @@ def test_hours_and_cycles_that_do_not_go_together_are_a_doubt(tmp_path):
     assert "are units mixed" in h.doubts[0]
     (fine,) = read_histories(written(tmp_path, table(use, [2 * n for n in use])), unit="hours")
     assert fine.unit == "hours" and not fine.doubts
+
+
+@pytest.mark.parametrize("severity", ["", "nan"])
+def test_an_interval_without_its_severity_is_refused(tmp_path, severity):
+    """The test was left out without a word."""
+    with pytest.raises(AnalysisError, match=r"history.csv:4: low and high without their severity"):
+        read_histories(written(tmp_path, GOOD.replace("A,15,0.03,", f"A,15,{severity},")))

@@ -54,6 +54,16 @@ CASES = {
         "model Twice\n  Integer n(start=0); Real x(start=0);\nequation\n  when x > 1 then n = 1; end when;\n"
         "  when x > 2 then n = 2; end when;\n  der(x) = 1;\nend Twice;",
     ),
+    "assigned twice in one when-clause": (
+        "S011", 6, "x[1] is assigned twice",
+        "model Twice\n  Real x[2](each start=0);\nequation\n  when time > 1 then\n    x = {1, 2};\n    x[1] = 3;\n"
+        "  end when;\nend Twice;",
+    ),
+    "assigned twice by a loop": (
+        "S011", 4, "n is assigned twice",
+        "model Twice\n  Integer n(start=0);\nequation\n  when time > 1 then for i in 1:2 loop n = i; end for; "
+        "end when;\nend Twice;",
+    ),
     "discrete loop without pre": (
         "S013", 4, "depend on each other in a loop: a, b",
         "model Loop\n  Boolean a; Boolean b; Real x(start=0);\nequation\n"

@@ -320,10 +320,11 @@ static void mdl_newton_step(mdl_newton *s, const double *step, int singular) {
   else if (small) s->phase = MDL_SOLVED;
 }
 
-/* Value of a time relation just after t: g is left minus right at t, slope its derivative. */
-static int mdl_time_relation(double g, double slope, double t) {
+/* Value of a time relation just after t, while the initial equations are solved at t: g is left minus right at t, slope
+ * its derivative. */
+static int mdl_time_relation(const mdl_data *m, double g, double slope, double t) {
   const double tolerance = 4e-15 * fabs(t) * fabs(slope);
-  return slope > 0.0 ? g >= -tolerance : g > tolerance;
+  return slope > 0.0 && !m->initial ? g >= -tolerance : g > tolerance;
 }
 
 /* The earlier of `next` and the instant after t at which a time relation switches: half the tolerance of its value is
@@ -459,7 +460,7 @@ static int mdl_roots(mdl_data *m, double t, const double *x, const double *xdot,
 
 static int mdl_time_relations(mdl_data *m, double t) {
   const double T = m->p[5];
-  m->rel[0] = (unsigned char)mdl_time_relation(T - t, -1.0, t);
+  m->rel[0] = (unsigned char)mdl_time_relation(m, T - t, -1.0, t);
   return 0;
 }
 

@@ -1,0 +1,57 @@
+"""Which functions of a model may run for long or take much of the stack, how far, and where that is told."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+import math
+
+from lacuna.codegen import flat
+from lacuna.codegen.symbolic.expr import BUILTINS, TRUE, Expr, walk
+from lacuna.codegen.symbolic.function_tangent import by_name
+from lacuna.codegen.symbolic.rewrite import all_statements, expressions
+
+ROUNDS = 10_000_000  # of all loops and calls inside one call from an equation: a tenth of a second
+STACK = 1 << 21  # bytes: a quarter of what a thread has on Linux, since _FRAME is a guess
+_FRAME = 512  # bytes of a call beside its locals: return address, saved registers, temporaries
+_LARGE = 4096  # bytes that no chain of functions without recursion makes dangerous
+
+
+def frame(f: flat.Function) -> int:
+    """Bytes of a call on the stack, about."""
+    return _FRAME + 8 * sum(math.prod(shape) for shape in f.shapes.values())
+
+
+def may_not_end(f: flat.Function, functions: dict[str, flat.Function]) -> bool:
+    """Whether a call may take long, or much of the stack: it is counted."""
+    loops = any(isinstance(s, flat.For | flat.While) for s in all_statements(f.body))
+    return loops or frame(f) > _LARGE or is_recursive(f, functions)
+
+
+def end_of(f: flat.Function) -> flat.Assert:
+    """That a call ends, as a row of the table of asserts: where one that does not is told."""
+    return flat.Assert(TRUE, f"function {f.name}", f.span)
+
+
+def calls(roots: Iterable[Expr]) -> list[str]:
+    """Names of the functions of the model that occur in expressions, in order."""
+    found = (str(n.value) for root in roots for n in walk(root) if n.op == "call")
+    return list(dict.fromkeys(name for name in found if name not in BUILTINS and name != "[]"))
+
+
+def calls_of(f: flat.Function) -> list[tuple[str, bool]]:
+    """(name, whether in an expression) of the functions that `f` calls."""
+    whole = [s.value for s in all_statements(f.body) if isinstance(s, flat.AssignCall)]
+    inside = [e for e in (*f.defaults.values(), *expressions(f.body)) if e not in whole]
+    inside += [a for call in whole for a in call.args]
+    return [(str(call.value), False) for call in whole] + [(name, True) for name in calls(inside)]
+
+
+def is_recursive(f: flat.Function, functions: dict[str, flat.Function]) -> bool:
+    """Whether calls lead from the function to itself."""
+    waiting, seen = [name for name, _ in calls_of(f)], set[str]()
+    while waiting:
+        name = waiting.pop()
+        if name not in seen:
+            seen.add(name)
+            waiting += [inner for inner, _ in calls_of(by_name(functions, name))]
+    return f.name in seen
