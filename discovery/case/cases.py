@@ -234,9 +234,14 @@ def _limits(path: Path, tables: dict, signals: dict[str, Signal]) -> dict[str, L
 
 
 def _as_modelled(case: Case) -> dict[str, Signal]:
-    """The signals in the units, and of the types, of the variables that they record."""
+    """The signals in the units, and of the types, of the variables that they record. Raises CaseError for an output
+    of a Boolean or an Integer: its error is no number with a spread."""
     variables = flatten(case.library(), case.base, units="warn").variables
     known = {c: variables[s.variable] for c, s in case.signals.items() if s.variable in variables}
+    for column, variable in known.items():
+        if variable.type != "Real" and case.signals[column].role == "output":
+            where = f"{case.folder / 'case.toml'}: [signals.{column}]"
+            raise CaseError(f"{where} {variable.name} is {variable.type}: only Reals are compared; leave it out")
     return {c: of_variable(s, known[c].unit, known[c].type) if c in known else s for c, s in case.signals.items()}
 
 

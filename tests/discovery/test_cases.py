@@ -13,6 +13,8 @@ from lacuna.discovery.case.cases import load
 from lacuna.discovery.case.problem import CaseError
 from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.searched import believed_structure
+from lacuna.discovery.experiment.limits import ranges
+from lacuna.discovery.experiment.waveforms import waveforms
 from lacuna.discovery.fit.machine import Machine
 from lacuna.discovery.steps import fitted
 from lacuna.recorded_units import UnitError, to_si
@@ -157,3 +159,48 @@ def test_columns_come_in_the_units_that_the_model_declares(tmp_path: Path) -> No
     assert [case.signals[c].model_unit for c in "qpTx"] == ["l/s", "bar", "degC", "deg"]
     assert case.signals["p"].noise_std == pytest.approx(0.01)
     Machine(case, Amendment(believed_structure(case, case.library())))  # refuses units that do not fit
+
+
+SWITCHED = """model Heater "With a switch"
+  input Boolean on;
+  Real T(unit="K", start=293, fixed=true);
+  Boolean hot = T > 310;
+equation
+  100*der(T) = (if on then 50 else 0) - (T - 293);
+end Heater;
+"""
+SWITCHED_CASE = """model = "Heater.mo"
+[signals.on]
+role = "input"
+variable = "on"
+unit = "1"
+[signals.{column}]
+role = "output"
+variable = "{column}"
+unit = "{unit}"
+[recordings]
+fit = ["r1.csv"]
+validate = ["r2.csv"]
+"""
+
+
+def switched(folder: Path, column: str, unit: str) -> Path:
+    (folder / "Heater.mo").write_text(SWITCHED)
+    (folder / "case.toml").write_text(SWITCHED_CASE.format(column=column, unit=unit))
+    for name in ("r1.csv", "r2.csv"):
+        (folder / name).write_text(f"time,on,{column}\n0,1,293\n1,0,293.5\n2,1,293.4\n")
+    return folder
+
+
+def test_a_switch_is_held_and_moved_by_no_part(tmp_path: Path) -> None:
+    """Whatever case.toml says of it, there is nothing between its values; a proposed course has whole ones."""
+    case = load(switched(tmp_path, "T", "K"))
+    switch = case.signals["on"]
+    assert switch.counts and switch.interpolation == "hold" and not case.signals["T"].counts
+    drawn = waveforms(case, ranges(case), seed=3)
+    assert drawn and all(set(np.unique(one.columns["on"])) <= {0.0, 1.0} for one in drawn)
+
+
+def test_an_output_that_counts_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(CaseError, match=r"\[signals.hot\] hot is Boolean: only Reals are compared; leave it out"):
+        load(switched(tmp_path, "hot", "1"))
