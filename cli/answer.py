@@ -3,8 +3,8 @@ status 1; a traceback is for our own mistakes only."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 import functools
 import inspect
@@ -12,6 +12,7 @@ import json as json_text
 import math
 import os
 from pathlib import Path
+import signal
 import sys
 import tempfile
 import traceback
@@ -51,7 +52,8 @@ def answered(command: Callable[..., Answer]) -> Callable[..., None]:
         try:
             answer = command(*args, **kwargs)
             answer.warnings += lacuna.record_making([str(context.info_name), *_words(context)], answer.written)
-            _print(answer, json, quiet)
+            with _read_by_others():
+                _print(answer, json, quiet)
         except KeyboardInterrupt:
             typer.echo("interrupted", err=True)
             raise typer.Exit(130) from None
@@ -109,6 +111,17 @@ def _unexpected(error: Exception) -> NoReturn:
     typer.echo(f"error: this is a fault of Lacuna ({type(error).__name__}), not yours: please report it", err=True)
     typer.echo(f"details: {where}", err=True)
     raise typer.Exit(70) from None
+
+
+@contextmanager
+def _read_by_others() -> Iterator[None]:
+    """Whoever reads the answer may leave before its end, as `head` does: that is no error of the command, whose files
+    are written; its status is that of programs which a closed pipe ends."""
+    try:
+        yield
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what is still to be flushed
+        raise typer.Exit(128 + signal.SIGPIPE) from None
 
 
 def _print(answer: Answer, json: bool, quiet: bool) -> None:

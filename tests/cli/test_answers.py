@@ -66,3 +66,13 @@ def test_an_output_that_takes_nothing_is_one_line_and_a_status(tmp_path: Path, w
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)
     said = "Bad file descriptor" if closed else "No space left on device"
     assert (done.returncode, done.stderr.count("\n")) == (1, 1) and said in done.stderr, done.stderr
+
+
+def test_a_reader_that_leaves_is_no_error(tmp_path: Path) -> None:
+    """As `lacuna ... | head -1`: nothing is said, the status is that of programs which a closed pipe ends."""
+    (tmp_path / "M.mo").write_text("model M Real x = time; end M;")
+    command = [sys.executable, "-m", "lacuna.cli.main", "check", "M.mo"]
+    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as begun:
+        begun.stdout.close()
+        said = begun.stderr.read()
+        assert (begun.wait(timeout=60), said) == (128 + signal.SIGPIPE, "")
