@@ -69,7 +69,7 @@ class Table:
 
 
 _PARAMETERS = Table(
-    "believed values, in SI; they replace the model's defaults", each=Key(NUMBER, "value", "the model's default"),
+    "believed values, in the model's units; they replace its defaults", each=Key(NUMBER, "value", "the model's default"),
     entry="parameter",
 )  # fmt: skip
 _UNCERTAINTY = Table(
@@ -79,7 +79,7 @@ _UNCERTAINTY = Table(
 )  # fmt: skip
 _INITIAL = Table(
     "states at the first sample", entry="state", each=Key(
-        START, 'value in SI, "recorded" (the first sample, within its noise) or "unknown" (fitted)',
+        START, 'value in the unit of the state, "recorded" (the first sample, within its noise) or "unknown" (fitted)',
         "at rest at the model's start value"),
 )  # fmt: skip
 
@@ -140,8 +140,8 @@ CASE = Table(
             each=Table(
                 "one input",
                 {
-                    "min": Key(NUMBER, "least value, in SI", "what was recorded"),
-                    "max": Key(NUMBER, "greatest value, in SI", "what was recorded"),
+                    "min": Key(NUMBER, "least value, in the unit of its variable", "what was recorded"),
+                    "max": Key(NUMBER, "greatest value, in the unit of its variable", "what was recorded"),
                     "rate": Key(POSITIVE, "fastest change, per second", "what was recorded"),
                 },
             ),
