@@ -69,7 +69,8 @@ class Table:
 
 
 _PARAMETERS = Table(
-    "believed values, in the model's units; they replace its defaults", each=Key(NUMBER, "value", "the model's default"),
+    "believed values, in the model's units; they replace its defaults",
+    each=Key(NUMBER, "value", "the model's default"),
     entry="parameter",
 )  # fmt: skip
 _UNCERTAINTY = Table(
