@@ -183,6 +183,8 @@ def _law_at(
         if best is not None and not settled(best.candidate.fit):
             near = _near(tried, best, base)
             best = _best([best, *(v for law in near for v in _varied(case, amendment, base, law))], base)
+        if best is not None and len(best.law.groups) > 1:
+            best = _shortest([p for p in tried if len(p.law.groups) > 1], best, base)
         single = best if best is None or len(best.law.groups) == 1 else single
         if best is not None and settled(best.candidate.fit):
             break
@@ -252,10 +254,17 @@ def _terms(proposal: Proposal) -> int:
 
 
 def _best(fitted: list[Proposal], base: Fit) -> Proposal | None:
-    """The best law; of those that the data does not tell from it the best of the fewest numbers."""
-    if not fitted:
-        return None
+    return min(fitted, key=_scorer(fitted, base)) if fitted else None
+
+
+def _shortest(fitted: list[Proposal], best: Proposal, base: Fit) -> Proposal:
+    """Of laws that the data does not tell from the best one the best of the fewest numbers."""
+    scored = _scorer([*fitted, best], base)
+    untold = [p for p in (*fitted, best) if scored(p) < scored(best) + TIE]
+    return min(untold, key=lambda p: (len(p.candidate.free), scored(p)))
+
+
+def _scorer(fitted: list[Proposal], base: Fit) -> Callable[[Proposal], float]:
+    """Deviance and price of a law, samples discounted alike."""
     correlation = min((p.candidate.fit for p in fitted), key=lambda f: f.deviance()).correlation()
-    scores = {id(p): score(p.candidate, base, correlation) for p in fitted}
-    untold = [p for p in fitted if scores[id(p)] < min(scores.values()) + TIE]
-    return min(untold, key=lambda p: (len(p.candidate.free), scores[id(p)]))
+    return lambda p: score(p.candidate, base, correlation)

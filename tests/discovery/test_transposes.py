@@ -14,7 +14,8 @@ from lacuna.discovery.efforts.places.sites import Site as Place
 from lacuna.discovery.law.law import Site
 from lacuna.discovery.law.law_terms import Group, Variable
 
-from .test_efforts import DATA, LATENT, TWO, piece
+from .test_efforts import DATA
+from .test_latent import LATENT, TWO, piece
 
 
 @pytest.mark.parametrize("latent", [LATENT, TWO], ids=["white", "beside another effort"])
