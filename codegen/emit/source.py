@@ -6,7 +6,7 @@ from lacuna.codegen import flat
 from lacuna.codegen.dae.events import DiscreteEquation, reads_arrival
 from lacuna.codegen.dae.operators.transports import OPERATOR
 from lacuna.codegen.dae.prepared import Prepared
-from lacuna.codegen.emit.callbacks.asserts import assert_index
+from lacuna.codegen.emit.callbacks.asserts import assert_rows
 from lacuna.codegen.emit.callbacks.checks import Checks
 from lacuna.codegen.emit.callbacks.continuous import Continuous
 from lacuna.codegen.emit.callbacks.discrete import Discrete
@@ -64,7 +64,7 @@ def generate(prepared: Prepared, sensitivities: bool = False) -> str:
         functions += [*tangents.functions(), tangents.table(everything)]
         everything += tangents.gradients.coefficients()
     code = "\n\n".join(functions)
-    called = user_functions(model.functions, calls(everything), names, lambda a: assert_index(prepared, a))
+    called = user_functions(model.functions, calls(everything), names, assert_rows(prepared))
     code = "\n\n".join(filter(None, [called, code]))
     tables_text = "\n".join(constant_table(name, e) for e, name in names.tables.items())
     arrays, counts = _arrays(tables, checks, discrete.messages)

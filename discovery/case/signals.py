@@ -41,13 +41,13 @@ def signal_of(path: Path, column: str, table: dict) -> Signal:
 def of_variable(signal: Signal, unit: str, type_: str) -> Signal:
     """A column in SI as one of its variable: in the unit that this declares, and held where there is nothing between
     its values."""
-    told = in_unit(signal, unit) if unit else signal
+    told = in_unit(signal, unit)
     return told if type_ == "Real" else replace(told, counts=True, interpolation="hold")
 
 
 def in_unit(signal: Signal, declared: str) -> Signal:
     """A column in SI as one in the unit that its variable declares (bar, mm, degC); as it is where that is another
-    quantity, which is said where the model is compiled."""
+    quantity, which is said where the model is compiled, or the variable declares none."""
     if (signal.model_unit, declared) in (("degC", "K"), ("K", "degC")):
         return replace(signal, model_unit=declared, offset=ZERO_CELSIUS if declared == "K" else -ZERO_CELSIUS)
     try:

@@ -189,7 +189,8 @@ class Locator:
         return Latent(column, np.array(sensor), np.array(size), np.array(time), colour), [*owners, ("none", 0)]
 
     def _answer(self, piece: Piece, place: Place) -> np.ndarray:
-        """(n, y) outputs to an effort of one at a place; in units of power at all places of a family."""
+        """(n, y) outputs to an effort of one at a place, to first order; of a family the root of what the squares of
+        its members' add up to."""
         each = piece.along.response(np.array(place.columns), np.ones((len(piece.along.time), len(place.columns))))
         return np.sqrt(np.sum(each**2, axis=2))
 

@@ -84,7 +84,7 @@ def equation_of(result: Explanation, finding: Finding) -> str:
 
 
 def at(location: str) -> str:
-    """Where something is, in words: at one place, or at every element of an array."""
+    """Where something is, in words: at one place, at every element of an array, or at each of several instances."""
     if ", " in location:
         return f"at each of {location}"
     return f"at every {location}" if "[:]" in location else f"at {location}"

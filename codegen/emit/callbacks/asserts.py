@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from lacuna.codegen import flat
 from lacuna.codegen.dae.events import DiscreteEquation
 from lacuna.codegen.dae.prepared import Prepared
@@ -9,6 +11,7 @@ from lacuna.codegen.dae.storage import Storage
 from lacuna.codegen.emit.functions.endless import end_of, may_not_end
 from lacuna.codegen.emit.text.body import Body
 from lacuna.codegen.emit.text.expression import is_doubtful
+from lacuna.codegen.errors import Span
 from lacuna.codegen.symbolic.expr import RELATIONS, Expr, walk
 from lacuna.codegen.symbolic.leaves import leaves
 from lacuna.codegen.symbolic.rewrite import all_statements
@@ -23,9 +26,12 @@ def all_asserts(p: Prepared) -> list[flat.Assert]:
     return [*_errors(p.model.asserts), *_event_asserts(p), *inside, *ends]
 
 
-def assert_index(p: Prepared, s: flat.Assert) -> int:
-    """Row of an assert in the table."""
-    return next(k for k, a in enumerate(all_asserts(p)) if (a.span, a.origin) == (s.span, s.origin))
+def assert_rows(p: Prepared) -> Callable[[flat.Assert], int]:
+    """What gives the row of an assert in the table."""
+    rows: dict[tuple[Span, str], int] = {}
+    for k, a in enumerate(all_asserts(p)):
+        rows.setdefault((a.span, a.origin), k)
+    return lambda s: rows[s.span, s.origin]
 
 
 def of_parameters(p: Prepared) -> list[tuple[int, flat.Assert]]:

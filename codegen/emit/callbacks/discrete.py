@@ -8,7 +8,7 @@ from lacuna.codegen import flat
 from lacuna.codegen.dae.events import DiscreteEquation, targets
 from lacuna.codegen.dae.prepared import Prepared
 from lacuna.codegen.dae.relations import Relation
-from lacuna.codegen.emit.callbacks.asserts import assert_index, of_parameters, write_assert
+from lacuna.codegen.emit.callbacks.asserts import assert_rows, of_parameters, write_assert
 from lacuna.codegen.emit.callbacks.continuous import function
 from lacuna.codegen.emit.functions.endless import ROUNDS
 from lacuna.codegen.emit.text.body import Body
@@ -34,6 +34,7 @@ class Discrete:
 
     def __init__(self, prepared: Prepared, names: Names, rows: dict[str, int]):
         self._p, self._names, self._rows = prepared, names, rows
+        self._row_of = assert_rows(prepared)
         self._storage = prepared.storage
         self.messages: list[str] = []
         self.when_count = self.loop_count = 0
@@ -116,7 +117,7 @@ class Discrete:
     def _assert(self, s: flat.Assert) -> None:
         if s.level != "error":
             return
-        write_assert(self._body, s.condition, assert_index(self._p, s))
+        write_assert(self._body, s.condition, self._row_of(s))
 
     def _branches(self, branches: Sequence[tuple[str, Sequence[flat.Statement]]]) -> None:
         """if (c1) {...} else if (c2) {...} ..."""

@@ -25,27 +25,26 @@ def user_functions(
 ) -> str:
     """C of the functions `called` in expressions and of those that they call, callees first. `assert_index` gives the
     row of an assert in the model's table."""
-    written: dict[str, str] = {}
-    values: dict[str, str] = {}
+    written: dict[tuple[str, bool], str] = {}  # of each its body, and its first result as a value where that is wanted
     begun: list[flat.Function] = []
 
     def visit(name: str, as_value: bool) -> None:
         f = by_name(functions, name)
-        if name not in written:
-            written[name] = ""
+        body = name, False
+        if body not in written:
+            written[body] = ""
             begun.append(f)
             for inner, inner_value in calls_of(f):
                 visit(inner, inner_value)
-            del written[name]
-            written[name] = FunctionBody(f, functions, names, assert_index).write()
-        if as_value and not returns_value(f) and name not in values:
-            values[name] = _first_result(f)
+            del written[body]
+            written[body] = FunctionBody(f, functions, names, assert_index).write()
+        if as_value and not returns_value(f) and (name, True) not in written:
+            written[name, True] = _first_result(f)
 
     for name in called:
         visit(name, True)
-    bodies = [*written.values(), *values.values()]
-    ahead = [_prototype(body) for body in bodies] if any(is_recursive(f, functions) for f in begun) else []
-    return "\n\n".join([*(["\n".join(ahead)] if ahead else []), *bodies])
+    ahead = [_prototype(body) for body in written.values()] if any(is_recursive(f, functions) for f in begun) else []
+    return "\n\n".join([*(["\n".join(ahead)] if ahead else []), *written.values()])
 
 
 def _prototype(body: str) -> str:

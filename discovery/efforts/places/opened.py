@@ -56,6 +56,7 @@ class Opened:
         """Places that have an effect, those alike put together: by what they do where both do something (what varies as
         a coefficient of a force that is off does nothing)."""
         effect = self._effect(along)
+        direction = _directions(effect)
         groups: list[list[int]] = []
         acting = np.abs(effect).max(axis=(0, 1)) > 0
         read = effect[:, : len(self.linear.states)].any(axis=(0, 1))
@@ -65,7 +66,7 @@ class Opened:
                 self.closed.append((self.sites[k].label, RENAMES))
         for k in np.flatnonzero(acting):
             for group in groups:
-                if _is_same(effect[:, :, k], effect[:, :, group[0]]):
+                if _is_same(direction[:, :, k], direction[:, :, group[0]]):
                     group.append(k)
                     break
             else:
@@ -79,11 +80,11 @@ class Opened:
         balance does, whose own place that is."""
         of = {k: n for n, group in enumerate(groups) for k in group}
         wholes: dict[frozenset[int], Place] = {}
+        direction = _directions(effect[:, :, [g[0] for g in groups if any(self.sites[k].kind in BALANCES for k in g)]])
         for site, columns in sorted(families(self.sites, sorted(of)), key=lambda f: ORDER[f[0].parts[0].kind]):
             members = frozenset(of[k] for k in columns)
-            sum_of = effect[:, :, list(columns)].sum(axis=2)
-            ones = (g[0] for g in groups if any(self.sites[k].kind in BALANCES for k in g))
-            own = not any(_is_same(sum_of, effect[:, :, k]) for k in ones)
+            sum_of = _directions(effect[:, :, list(columns)].sum(axis=2))
+            own = not any(_is_same(sum_of, one) for one in np.moveaxis(direction, 2, 0))
             whole = Place(site.label, (site,), columns, self._unit(columns[0]), as_one=own)
             if members not in wholes or site.members[0] == places[of[columns[0]]].location:
                 wholes[members] = whole
@@ -140,11 +141,15 @@ class Opened:
         return unit_of(self.sites[number], self.believed)
 
 
+def _directions(effect: np.ndarray) -> np.ndarray:
+    """What efforts do (n, x + y, ...) at each sample, of length one; zero where they do nothing."""
+    return effect / np.maximum(np.linalg.norm(effect, axis=1, keepdims=True), 1e-300)
+
+
 def _is_same(one: np.ndarray, other: np.ndarray) -> bool:
-    """Whether two efforts do the same (n, x + y), but for their size, where both do something."""
-    sizes = np.linalg.norm(one, axis=1), np.linalg.norm(other, axis=1)
-    both = (sizes[0] > 0) & (sizes[1] > 0)
-    cosine = np.abs(np.sum(one[both] * other[both], axis=1)) / (sizes[0][both] * sizes[1][both])
+    """Whether two efforts act in the same direction (n, x + y), where both do something."""
+    both = one.any(axis=1) & other.any(axis=1)
+    cosine = np.abs(np.sum(one[both] * other[both], axis=1))
     return bool(both.any() and np.mean(1.0 - cosine) < ALIKE)
 
 

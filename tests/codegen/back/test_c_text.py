@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import math
 from pathlib import Path
 import re
 import subprocess
@@ -100,3 +101,25 @@ def test_a_helper_brings_nothing_that_it_does_not_use(name: str) -> None:
     called = {other for other in defined if text.count(f"{other}(") > 1}
     own = set(re.findall(r"^static [^(;]*?\b(mdl_\w+)\(", _HELPERS[name], re.MULTILINE))
     assert set(defined) <= called | own
+
+
+NESTED = """model Nested
+  function slope input Real x; output Real y; algorithm
+    y := 0;
+    for i in 1:2 loop assert(y < 1e9, "large"); y := y + x/i; end for;
+  end slope;
+  function rate input Real x; output Real y; algorithm
+    y := slope(x)*0.5;
+    assert(y < 1e9, "large");
+    for i in 1:2 loop y := y + x/i; end for;
+  end rate;
+  Real x(start=1, fixed=true);
+equation
+  der(x) = -rate(x);
+end Nested;"""
+
+
+def test_the_first_result_of_a_derivative_is_there_for_functions_that_call_it(tmp_path: Path) -> None:
+    """It was defined after them, and the compiler refused the model. rate is 2.25 x, so x = exp(-2.25 t)."""
+    model = Model(compile_model(write_model(tmp_path, NESTED), cache_directory=str(tmp_path)).path)
+    assert simulate(model, stop=1.0, rtol=1e-9)["x"][-1] == pytest.approx(math.exp(-2.25), rel=1e-7)
