@@ -96,7 +96,7 @@ class _Writer:
         """Modifications that give components what is added in them; that of the class itself is equated."""
         given = []
         for added in self.edits.values():
-            steps = [step.component for step in added.site.way if step.component]
+            steps = [c for step in added.site.way if step.component for c in step.component.split(".")]
             if steps:
                 given.append(f"{'('.join(steps)}({added.variable}={added.value()}{')' * len(steps)}")
             else:

@@ -35,6 +35,7 @@ from lacuna.codegen.flatten.names.modifiers import (
     refuse_each,
     weakened,
     within_array,
+    within_element,
     without_attributes,
     without_removed,
 )
@@ -172,7 +173,7 @@ class Instance:
         scope = Scope(self.context, element.cls, self)
         redeclared = element.modifier is not None and isinstance(element.modifier.redeclare, ast.Component)
         own = own_modifier(element, scope, redeclared)
-        modifier = without_removed(merge(element.modifier, own) or own)
+        modifier = without_removed(merge(within_element(element.modifier), own) or own)
         if declaration.outer and not declaration.inner:
             check_outer(declaration, element.modifier)
             return self._outer(declaration, scope)

@@ -24,6 +24,7 @@ class Modifier:
     children: dict[str, Modifier] = field(default_factory=dict)
     redeclare: ast.Component | ast.Class | None = None
     redeclared_in: Scope | None = None  # the scope a redeclaration is written in
+    redeclared_each: bool = False  # in every element of an array
     replaced: tuple[Modifier, ...] = ()  # redeclarations further inside, which this one stands in place of
     tree: ast.Modification | None = None  # as written
     weak: bool = False  # of a part of a component that is bound as a whole from further outside
@@ -38,7 +39,7 @@ class Modifier:
         """One of its own, with the same children; many are made, and `dataclasses.replace` takes ten times as long."""
         return Modifier(
             self.span, self.value, self.scope, self.each, self.final, self.children, self.redeclare,
-            self.redeclared_in, self.replaced, self.tree, self.weak, self.index, self.in_array,
+            self.redeclared_in, self.redeclared_each, self.replaced, self.tree, self.weak, self.index, self.in_array,
         )  # fmt: skip
 
 
@@ -50,6 +51,7 @@ def from_tree(tree: ast.Modification, scope: Scope, each: bool = False, final: b
         child.span = argument.span
         child.redeclare, child.tree = argument.redeclare, argument.modification
         child.redeclared_in = scope if argument.redeclare is not None else None
+        child.redeclared_each = argument.each and argument.redeclare is not None
         present = result.children.get(argument.name)
         if present is not None:
             if (present.value is not None and child.value is not None) or child.redeclare or present.redeclare:
@@ -81,6 +83,7 @@ def merge(outer: Modifier | None, inner: Modifier | None) -> Modifier | None:
         error = Diagnostic("R031", "this is final and cannot be modified", outer.span, "remove the modification")
         error.notes.append((inner.span, "made final here"))
         raise error
+    outer, inner = (_parts_for_each(m) if m.each and not (outer.each and inner.each) else m for m in (outer, inner))
     source = outer if outer.value is not None else inner
     again = outer.redeclare is not None and inner.redeclare is not None
     if again and not inner.redeclare.replaceable:
@@ -96,11 +99,27 @@ def merge(outer: Modifier | None, inner: Modifier | None) -> Modifier | None:
         result.index = outer.index or inner.index
     chosen = outer if outer.redeclare is not None else inner
     result.redeclare, result.redeclared_in = chosen.redeclare, chosen.redeclared_in
+    result.redeclared_each = chosen.redeclared_each
     result.replaced = outer.replaced + ((inner,) if again else ()) + inner.replaced
     result.span = outer.span
     for name, child in outer.children.items():
         result.children[name] = merge(child, result.children.get(name))
     return result
+
+
+def _parts_for_each(modifier: Modifier) -> Modifier:
+    """A modifier for each element, to be merged with one that is not: each of its parts says so itself."""
+    made = modifier.copy()
+    made.each = modifier.value is not None
+    made.children = {
+        n: replace(c, each=True, redeclared_each=c.redeclare is not None) for n, c in modifier.children.items()
+    }
+    return made
+
+
+def within_element(modifier: Modifier | None) -> Modifier | None:
+    """A modifier as it is met inside of an element of an array, for each of which it is."""
+    return replace(modifier, each=False) if modifier is not None and modifier.each and modifier.in_array else modifier
 
 
 def _inner_children(outer: Modifier, inner: Modifier, again: bool) -> dict[str, Modifier]:
@@ -135,7 +154,7 @@ def within_array(modifier: Modifier) -> Modifier:
     """A modifier of an array of components, all its parts marked as such. Raises R038 for a redeclaration that would be
     split among the elements (7.2.5)."""
     for name, child in modifier.children.items():
-        if child.redeclare is not None and not child.each and not modifier.each:
+        if child.redeclare is not None and not (child.each or child.redeclared_each or modifier.each):
             raise Diagnostic("R038", f"{name} is redeclared in an array", child.span, "write: redeclare each ...")
     marked = modifier.copy()
     marked.in_array = True

@@ -53,13 +53,14 @@ def _copy(cls: ast.Class, edits: list[Edit]) -> str:
     for way, site, variable in edits:
         if way:
             step, *rest = way
-            name = f"{step.cls.name}_{step.component or 'inherited'}"
+            name = f"{step.cls.name}_{step.component.replace('.', '_') or 'inherited'}"
             copy = inner.setdefault(_at(step.span, starts), (step.cls, name, []))
             copy[2].append((tuple(rest), site, variable))
         else:
             changes += _added(site, variable, cls, text, starts)
+    begins = [_at(c.type.span, starts) for c in cls.components] + [_at(e.base.span, starts) for e in cls.extends]
     for at, (of, name, own) in inner.items():
-        line = text.rfind("\n", 0, at) + 1
+        line = text.rfind("\n", 0, max(b for b in begins if b <= at)) + 1
         changes.append((line, False, _renamed(of, _copy(of, own), name), line))
         changes.append((at, False, name, re.compile(r"[\w.']+").match(text, at).end()))
     return _class_text(cls, text, starts, [*_seen(cls, text, starts), *changes])

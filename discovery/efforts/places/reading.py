@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 import re
 
+from lacuna.codegen.errors import Span
 from lacuna.codegen.flatten.classes.inheritance import written
 from lacuna.codegen.flatten.classes.instance import ArrayNode, Instance, Node
 from lacuna.codegen.flatten.classes.types import resolve_type
@@ -28,7 +29,7 @@ ALGORITHM = "it is a statement of an algorithm that other statements follow"
 DEFINITION = "it only says that one variable is the rate of another"
 MANY = f"it is one of more than {MOST}"
 LIBRARY = "its class, of a library, is made of components: only its ports are open"
-REDECLARED = "its class is another one than its declaration names"
+ELSEWHERE = "its class is named in a text that is not of the model"
 
 Way = tuple[Step, ...]
 
@@ -50,10 +51,11 @@ class _Reading:
         self.found: list[Site] = []
         self.closed: list[tuple[str, str]] = []
         self.joined = Joined(top.cls)
+        self.bases: dict[str, dict[ast.Class, Way]] = {}  # of each component on the way
 
     def enter(self, node: Instance, way: Way) -> None:
         """Read a component's equations and connections, at the end of this way, and those inside."""
-        bases = _bases(node, self.top.cls)
+        bases = self.bases[node.name] = _bases(node, self.top.cls)
         self.joined.ways[node.name] = way
         prefix = f"{node.name}: " if node.name else ""
         states = _states(section for section, _ in node.sections)
@@ -71,11 +73,11 @@ class _Reading:
                 else:
                     self.closed.append((prefix + item.text, f"the equation stands in {owner.path}"))
         for name in node.elements:
-            self._inside(node, name, way, bases)
+            self._inside(node, name)
 
-    def _inside(self, node: Instance, name: str, way: Way, bases: dict[ast.Class, Way]) -> None:
+    def _inside(self, node: Instance, name: str) -> None:
         """Go on into a component, or into each of an array."""
-        child, element = node.child(name), node.elements[name]
+        child = node.child(name)
         parts = child.items if isinstance(child, ArrayNode) else [child]
         if not parts or not _is_made_of(parts[0]) or child.name != node.path_of(name):
             return
@@ -83,26 +85,46 @@ class _Reading:
         if not _is_own(cls, self.top.cls):
             if any(isinstance(i, ast.Connect) for section, _ in parts[0].sections for i in _flat(section.items)):
                 self.closed.append((child.name, LIBRARY))
-        elif element.cls not in bases or any(p.cls is not cls for p in parts) or not _is_declared(node, name, cls):
-            self.closed.append((child.name, REDECLARED))
+        elif (named := self._named(node, name)) is None or {
+            c.origin or c for c in (named[1], *(p.cls for p in parts))
+        } != {cls.origin or cls}:
+            self.closed.append((child.name, ELSEWHERE))
         elif len(parts) > MOST:
             self.closed.append((child.name, MANY))
         else:
             shape = child.shape if isinstance(child, ArrayNode) else ()
             for part, index in zip(parts, indices(tuple(shape)), strict=True):
-                step = Step(cls, element.declaration.type.span, name, tuple(index), tuple(shape))
-                self.enter(part, (*way, *bases[element.cls], step))
+                self.enter(part, _onward(*named, name, tuple(index), tuple(shape)))
+
+    def _named(self, node: Instance, name: str) -> tuple[Way, ast.Class, Span, Way] | None:
+        """Where the class of a component is named, in its declaration or in a modification that redeclares it: (way to
+        the class in whose text that is, class, where it is named there, way on from there to `node`). None where that
+        text is not one of the user's own."""
+        element = node.elements[name]
+        declaration, scope = element.declaration, Scope(node.context, element.cls, node)
+        if element.modifier is not None and isinstance(element.modifier.redeclare, ast.Component):
+            declaration, scope = element.modifier.redeclare, element.modifier.redeclared_in
+        owner, way = scope.instance.name if scope.instance else None, self.joined.ways[node.name]
+        above = self.joined.ways.get(owner, ())
+        if scope.cls not in self.bases.get(owner, {}) or way[: len(above)] != above:
+            return None
+        cls = resolve_type(declaration.type, scope).cls
+        return (*above, *self.bases[owner][scope.cls]), cls, declaration.type.span, way[len(above) :]
 
 
 def _is_made_of(node: Node | None) -> bool:
     return isinstance(node, Instance) and node.cls.kind in ("model", "block", "class")
 
 
-def _is_declared(node: Instance, name: str, cls: ast.Class) -> bool:
-    """Whether a component's class is the one that its declaration names: none that is redeclared."""
-    declaration = node.elements[name].declaration
-    scope = Scope(node.context, node.elements[name].cls, node)
-    return declaration.redeclares is False and resolve_type(declaration.type, scope).cls is cls
+def _onward(
+    text: Way, cls: ast.Class, span: Span, between: Way, name: str, index: tuple[int, ...], shape: tuple[int, ...]
+) -> Way:
+    """The way to the class in whose text a component's class is named, and from there to an element of it at once, past
+    the components in between."""
+    passed = [step for step in between if step.component]
+    component = ".".join([*(step.component for step in passed), name])
+    element, size = (sum(of, ()) for of in ([s.element for s in passed], [s.shape for s in passed]))
+    return (*text, Step(cls, span, component, (*element, *index), (*size, *shape)))
 
 
 def _equations(section: ast.Section) -> list[ast.Item]:

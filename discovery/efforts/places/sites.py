@@ -35,7 +35,7 @@ class Port:
 @dataclass(frozen=True)
 class Step:
     """From a class to one that it is made of, which it names at `span`: a base, or the class of a `component`, of an
-    array of these that of one `element`."""
+    array of these that of one `element`; of one further inside, where its modification redeclares that."""
 
     cls: ast.Class
     span: Span
