@@ -24,7 +24,9 @@ def compare(
     against: Annotated[
         Path | None, typer.Option(help="A recording (time and full names as heads) or an .fmu of another tool")
     ] = None,
-    tolerance: Annotated[float, typer.Option(help="Largest deviation from the file, of a signal's magnitude")] = 1e-3,
+    tolerance: Annotated[
+        float, typer.Option(min=0, help="Largest deviation from the file, of a signal's magnitude")
+    ] = 1e-3,
     only: Annotated[list[str] | None, typer.Option(help="Only this scenario; repeat for more")] = None,
     scenarios: Annotated[Path | None, typer.Option(help="Scenarios of your own, a TOML file")] = None,
     step: Annotated[list[float] | None, typer.Option(help="Fixed steps to try on MODEL, s; repeat for more")] = None,

@@ -242,6 +242,7 @@ NUMBERS = [
     (["forecast", "h.csv", "--risk", "1e999"], "no finite number"),
     (["sweep", "--points", "9" * 20], "is not within 1 and 2147483647"),
     (["sweep", "--chunk", "0"], "0 is not within 1 and"),
+    (["compare", "Actuators.EccentricBldc", "--tolerance", "-1"], "-1 is not within 0 and"),
     (["sweep", "--points", "1_000"], "no whole number"),
     (["maps", "--jobs", "9" * 5000], "no whole number"),
     (["assess", "test.csv", "--cycles", "1_0"], "no finite number"),

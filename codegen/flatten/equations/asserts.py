@@ -25,7 +25,7 @@ def lower_assert(call: ast.Call, scope: Scope) -> flat.Assert:
     condition = lower_scalar(arguments["condition"], scope, BOOLEAN)
     level = _level(arguments["level"], scope) if "level" in arguments else "error"
     message = ""
-    if condition is not TRUE:  # else nobody reads it (8.3.7)
+    if condition is not TRUE or isinstance(arguments["message"], ast.Literal):  # else nobody reads it (8.3.7)
         message = lower(arguments["message"], replace(scope, message=True, conditional=True))
     if isinstance(message, ChosenText):
         message = " or ".join(dict.fromkeys(text for _, text in message.alternatives))
