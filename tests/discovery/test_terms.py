@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from lacuna.codegen.syntax.classes import parse
 from lacuna.discovery.efforts.latent.along import Along
 from lacuna.discovery.efforts.laws import screening
 from lacuna.discovery.efforts.laws.terms import counts, groups
@@ -75,6 +76,29 @@ def test_every_term_can_be_evaluated_and_is_counted_by_how_many_variables_it_has
     one, several = counts(kept, every)
     assert one + several == len({g.texts for g in every})
     assert several == len({g.texts for g in every if sum(f"{v.local}_ref" in g.texts[0] for v in kept) == 2})
+
+
+def test_every_term_is_modelica() -> None:
+    """What cannot be translated would be left out as if it could not be simulated."""
+    kept = [
+        Variable("x1", "s", "m", "state", 0.5, rate="x2"),
+        Variable("x2", "der(s)", "m/s", "state", 0.1, sticks=True),
+        Variable("x3", "der(der(s))", "m/s2", "rate", 2.0),
+        Variable("x4", "open", "1", "algebraic", 1.0, switch=True),
+        Variable("x5", "u", "V", "input", 24.0),
+        Variable("x6", "phi", "rad", "state", 40.0),
+        Variable("x7", "chamber", "K", "recording", 300.0),
+        Variable("x8", "der(s)", "m/s", "unheld", 0.2),
+        Variable("x9", "T", "K", "apart", 20.0, minus="chamber"),
+        Variable("x10", "p", "Pa", "above", 1e5),
+    ]
+    place = Site(Place("equation", "m*der(v) = F"), "v", "N", tuple(kept))
+    both = {v.local: (-1.0, 1.0) for v in kept}
+    one = {v.local: (0.2, 1.0) for v in kept}
+    every = {g.texts: g for ranges in (both, one) for g in groups(kept, ranges, 0.05, 10.0)}
+    for group in every.values():
+        parse(attach(Law(place, (group,))).definition, f"{group.texts}.mo")
+    assert {v.local for v in kept} == {v.local for v in kept for texts in every if f"{v.local}_ref" in texts[0]}
 
 
 def test_a_stop_springs_and_damps_from_where_it_is_met_and_play_does_neither_within() -> None:

@@ -130,8 +130,7 @@ def _alone(v: Variable) -> list[Group]:
         Group((f"tanh({{q}}*{x})",), (Shape("q", "1", q, 0.5, 5e3, (), 0.8 * q),)) for q in (3.0, 15.0, 75.0, 375.0)
     ]
     ends = [
-        Group((f"(abs({side}{x} - {{q}}) + {side}{x} - {{q}})",), (Shape("q", "1", q, -0.99, 0.99, (), 0.25),))
-        for side in ("", "-") for q in (0.0, 0.5)
+        Group((beyond,), (Shape("q", "1", q, -0.99, 0.99, (), 0.25),)) for beyond in _beyond(x) for q in (0.0, 0.5)
     ]  # fmt: skip
     ends += [
         Group((f"({x} - 0.5*abs({x} + {{q}}) + 0.5*abs({x} - {{q}}))",), (Shape("q", "1", q, 0.01, 0.99, (), 0.25),))
@@ -145,11 +144,17 @@ def _alone(v: Variable) -> list[Group]:
     return [*plain, *power, *bend, *reach, *ends, *_yielding(v), stribeck(v)]
 
 
+def _beyond(x: str) -> tuple[str, str]:
+    """Twice what goes beyond a level upwards, and downwards."""
+    return f"(abs({x} - {{q}}) + {x} - {{q}})", f"(abs(-{x} - {{q}}) - {x} - {{q}})"
+
+
 def _contacts(v: Variable, rate: Variable, both: bool) -> list[Group]:
     """Stops that spring and damp, from where they are met, on one side or on `both`; and play, in which neither a
     spring nor its damper acts."""
     x, y = v.scaled, rate.scaled
-    pairs = [(f"(abs({s}{x} - {{q}}) + {s}{x} - {{q}})", f"{y}*(1 + sign({s}{x} - {{q}}))") for s in ("", "-")]
+    touching = (f"{y}*(1 + sign({s}{x} - {{q}}))" for s in ("", "-"))
+    pairs = list(zip(_beyond(x), touching, strict=True))
     result = [Group(texts, (Shape("q", "1", q, -0.99, 0.99, (), 0.25),)) for texts in pairs for q in (-0.5, 0.0, 0.5)]
     if not both:
         return result
