@@ -1,22 +1,24 @@
 """External objects of the library: tables, made when a model is translated, looked up by functions at run time.
 
 Our own implementations of what Modelica.Blocks.Types.ExternalCombi* and Modelica.Blocks.Tables.Internal declare as
-external C. Values that a table is made of become structural.
+external C. Values that a table is made of become structural, but those that follow scalar parameters, as in
+`[0, Tc; 50, Tc + d]`, and that the table is linear in: these may be set, and fitted, as any parameter.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
-import itertools
+from dataclasses import dataclass
 
 from lacuna.codegen.errors import Diagnostic, Span
-from lacuna.codegen.flatten.expressions.constants import known
+from lacuna.codegen.flatten.expressions.constants import is_known, known, variability
 from lacuna.codegen.flatten.functions.kept.code import run_or_emit
 from lacuna.codegen.flatten.functions.library.data_files import locate
 from lacuna.codegen.flatten.functions.library.tables import lookup
 from lacuna.codegen.flatten.functions.library.tables import polynomials as pp
 from lacuna.codegen.flatten.functions.library.tables.files import FileError, read_matrix
+from lacuna.codegen.flatten.functions.library.tables.table import Piece, Table
+from lacuna.codegen.flatten.names.context import Context
 from lacuna.codegen.flatten.names.scope import Scope
 from lacuna.codegen.flatten.names.values import Array, ExternalValue, Value, scalars
 from lacuna.codegen.symbolic import expr as ex
@@ -24,7 +26,6 @@ from lacuna.codegen.symbolic.expr import Expr
 from lacuna.codegen.syntax import ast
 
 Handler = Callable[[list[Value], "ExternalCall"], list[Value]]
-ALWAYS, AT_JUMPS, NO_EVENTS = range(1, 4)  # Modelica.Blocks.Types.TimeEvents
 
 
 @dataclass(frozen=True)
@@ -34,50 +35,6 @@ class ExternalCall:
     cls: ast.Class
     scope: Scope  # of the call
     span: Span
-
-
-@dataclass(frozen=True, eq=False)
-class Table:
-    rows: list[list[float]]
-    columns: list[int]  # from 1
-    smoothness: int
-    extrapolation: int
-    start: float = 0.0
-    shift: float = 0.0
-    events: int = NO_EVENTS
-    pieces: dict[int, list[pp.Row]] = field(default_factory=dict)
-
-    @property
-    def abscissa(self) -> list[float]:
-        return [row[0] for row in self.rows]
-
-    def column(self, number: int, span: Span) -> list[pp.Row]:
-        """Output `number`, from 1, as a piecewise polynomial."""
-        if number not in self.pieces:
-            if not 1 <= number <= len(self.columns):
-                message = f"column {number} of a table with {len(self.columns)} columns"
-                raise Diagnostic("F043", message, span, "the columns to look up are chosen by `columns`")
-            y = [row[self.columns[number - 1] - 1] for row in self.rows]
-            try:
-                self.pieces[number] = pp.piecewise(self.abscissa, y, self.smoothness, self.extrapolation)
-            except pp.TableError as reason:
-                raise Diagnostic("F043", str(reason), span, "the first column of a table ascends") from None
-        return self.pieces[number]
-
-    @property
-    def period(self) -> float:
-        x = self.abscissa
-        return x[-1] - x[0] if self.extrapolation == pp.PERIODIC and len(x) > 1 else 0.0
-
-    def instants(self) -> list[float]:
-        """Times of events in the time of the table: of jumps, of every point, or none."""
-        x = self.abscissa
-        found = sorted(set(x)) if self.events == ALWAYS else []
-        if self.events == AT_JUMPS:
-            found = [a for a, b in itertools.pairwise(x) if a == b]
-        if self.period and self.events != NO_EVENTS:
-            found = sorted({t for t in found if t < x[-1]} | {x[0]})
-        return found
 
 
 def _numbers(value: Value, call: ExternalCall, what: str) -> list[float]:
@@ -97,8 +54,24 @@ def _real(value: Value, call: ExternalCall, what: str) -> float:
     return float(_numbers(value, call, what)[0])
 
 
-def _matrix(file: Value, name: Value, table: Value, rest: list[Value], call: ExternalCall) -> list[list[float]]:
-    """The data of a table: of a file where one is named, else as given."""
+def _follows(e: Expr, context: Context) -> bool:
+    """Whether a value of a table is or depends on scalar parameters; elements of matrices are the table itself."""
+    while e.op == "var" and str(e.value) in context.scalars:
+        leaf, position = context.scalars[str(e.value)]
+        if leaf.variability != "parameter" or leaf.is_free or not leaf.shape:
+            break
+        bound = leaf.element(leaf.binding(), position)
+        if bound is None:
+            return False
+        e = bound
+    return variability(e, context) == "parameter" and is_known(e, context)
+
+
+def _matrix(
+    file: Value, name: Value, table: Value, rest: list[Value], call: ExternalCall, linear: bool = False
+) -> list[list[float | Expr]]:
+    """The data of a table: of a file where one is named, else as given; where it is `linear` in it, values that follow
+    parameters as they are."""
     if not isinstance(file, str) or not isinstance(name, str):
         raise Diagnostic("R062", "the names of file and table are Strings", call.span, "give two Strings")
     if file not in ("", "NoName"):
@@ -108,8 +81,14 @@ def _matrix(file: Value, name: Value, table: Value, rest: list[Value], call: Ext
         raise Diagnostic("F043", f"the table {name} would come from a function of the C program", call.span, hint)
     if not isinstance(table, Array) or len(table.shape) != 2 or 0 in table.shape:
         raise Diagnostic("F043", "a table without data", call.span, "give a matrix, or a file and a name")
-    numbers = [float(n) for n in _numbers(table, call, "the data of a table")]
-    width = table.shape[1]
+    width, context = table.shape[1], call.scope.context
+    free = [
+        k for k, e in enumerate(table.items) if linear and k % width and isinstance(e, Expr) and _follows(e, context)
+    ]
+    fixed = Array(table.shape, tuple(ex.const(0.0) if k in free else e for k, e in enumerate(table.items)))
+    numbers: list[float | Expr] = [float(n) for n in _numbers(fixed, call, "the data of a table")]
+    for k in free:
+        numbers[k] = table.items[k]
     return [numbers[k : k + width] for k in range(0, len(numbers), width)]
 
 
@@ -145,15 +124,15 @@ def _checked(table: Table, call: ExternalCall) -> list[Value]:
 
 def _table_1d(a: list[Value], call: ExternalCall) -> list[Value]:
     """(fileName, tableName, table, rows, columns, columns[:], count, smoothness, extrapolation, verbose, ...)"""
-    rows = _matrix(a[0], a[1], a[2], a[9:], call)
     kinds = (integer(a[7], call, "smoothness"), integer(a[8], call, "extrapolation"))
+    rows = _matrix(a[0], a[1], a[2], a[9:], call, kinds[0] in (pp.LINEAR, pp.CONSTANT))
     return _checked(Table(rows, _columns(a[5], rows, call), *kinds), call)
 
 
 def _time_table(a: list[Value], call: ExternalCall) -> list[Value]:
     """(file, name, table, rows, columns, start, columns[:], count, smoothness, extrapolation, shift, events, ...)"""
-    rows = _matrix(a[0], a[1], a[2], a[12:], call)
     smoothness, extrapolation = integer(a[8], call, "smoothness"), integer(a[9], call, "extrapolation")
+    rows = _matrix(a[0], a[1], a[2], a[12:], call, smoothness in (pp.LINEAR, pp.CONSTANT))
     start, shift = _real(a[5], call, "the start of a table"), _real(a[10], call, "the shift of a table")
     events = integer(a[11], call, "timeEvents")
     columns = _columns(a[6], rows, call)
@@ -183,11 +162,11 @@ def _table(value: Value, call: ExternalCall) -> Table:
     return value.data
 
 
-def vector(values: list[float]) -> Array:
-    return Array((len(values),), tuple(ex.const(float(v)) for v in values))
+def vector(values: list[float] | list[float | Expr]) -> Array:
+    return Array((len(values),), tuple(v if isinstance(v, Expr) else ex.const(float(v)) for v in values))
 
 
-def _pieces(rows: list[pp.Row]) -> dict[str, Value]:
+def _pieces(rows: list[Piece]) -> dict[str, Value]:
     flat = [value for row in rows for value in row[1:]]
     return {"x": vector([row[0] for row in rows]), "c": Array((len(rows), 4), vector(flat).items)}
 
