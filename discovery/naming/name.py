@@ -34,6 +34,7 @@ from lacuna.discovery.naming.race import (
     ROUNDS,
     akin,
     at_first,
+    beside_whole,
     best_starts,
     first_round,
     leading,
@@ -42,6 +43,7 @@ from lacuna.discovery.naming.race import (
     run_round,
     stands_out,
     still_in,
+    whole_of,
 )
 from lacuna.discovery.naming.restarts import begin_again
 from lacuna.discovery.naming.screen import Candidate, Screen, prepare, telling_recordings
@@ -240,7 +242,21 @@ class Contest:
         if self.fitted:
             self._fit(outdone(self.candidates, self.fitted))
             self._fit(relatives(self.candidates, self.fitted, self.best()))
+            self._step_whole()
             begin_again(self.case, self.base, list(self.fitted.values()), self.progress)
+
+    def _step_whole(self) -> None:
+        """The best hypothesis with other whole numbers, as far as each step fits better."""
+        tried: list[dict[str, float]] = []
+        while not is_noise((best := self.best()).fit):
+            tried.append(whole_of(best))
+            near = [c for c in beside_whole(best) if whole_of(c) not in tried]
+            found = run_round(near, partial(fit_candidate, self.case, self.base, *ROUNDS[-1][:2], self.progress))
+            better = min(found, key=lambda c: c.fit.deviance(), default=best)
+            if better.fit.deviance() >= best.fit.deviance():
+                return
+            tried += [whole_of(c) for c in near if c is not better]
+            self.fitted[best.attachment.label] = better
 
 
 def _ranked(fitted: dict[str, Candidate], base: Fit) -> tuple[list[Ranked], dict[str, float]]:

@@ -150,6 +150,21 @@ def _enriched(candidate: Candidate, best: Candidate) -> Candidate:
     return replace(candidate, start=start)
 
 
+def whole_of(candidate: Candidate) -> dict[str, float]:
+    """The whole numbers of a hypothesis, by their full names: no fit moves them."""
+    names = [candidate.attachment.full_name(n) for n in candidate.attachment.effect.whole]
+    return {n: candidate.fixed[n] for n in names if n in candidate.fixed}
+
+
+def beside_whole(best: Candidate) -> list[Candidate]:
+    """A fitted hypothesis with one of its whole numbers one less or more, from where it is: starts have gaps."""
+    attachment, whole = best.attachment, whole_of(best)
+    lower = {attachment.full_name(p.name): p.lower for p in attachment.effect.parameters}
+    steps = [{n: v + step} for n, v in whole.items() for step in (-1.0, 1.0) if v + step >= lower[n]]
+    start = {n: v for n, v in best.fit.point.items() if n not in best.fixed}
+    return [replace(best, fixed=best.fixed | step, start=start, shift={}, fit=None) for step in steps]
+
+
 def best_starts(candidates: list[Candidate]) -> list[Candidate]:
     """Of candidates in order, the first of each attachment."""
     first: dict[str, Candidate] = {}

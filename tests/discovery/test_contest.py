@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from lacuna.codegen.library.classes import Library
@@ -23,8 +24,10 @@ from lacuna.discovery.naming.name import Contest
 from lacuna.discovery.naming.race import outdone
 from lacuna.discovery.naming.screen import Screen, prepare
 from lacuna.discovery.naming.search import Search
+from lacuna.discovery.steps import fitted
 
 from .conftest import BELIEVED, attachment, conceal
+from .recorded import concealed, record
 
 
 @pytest.fixture(scope="module")
@@ -117,3 +120,66 @@ def test_a_contest_whose_leaders_go_astray_is_left_and_can_be_resumed(case: Case
     assert search.lost() and search.left is not None and not search.namings
     search.resume(lambda text: None)
     assert search.left is None and len(search.namings) == 1
+
+
+ARM = """model Arm "It swings by a fraction of a turn"
+  parameter Real J(unit="kg.m2", min=0) = 0.01;
+  parameter Real c(unit="N.m/rad", min=0) = 1.0;
+  parameter Real d(unit="N.m.s/rad", min=0) = 0.02;
+  input Real u(unit="N.m");
+  Lacuna.Components.Mechanics.TorqueSource motor(u=u);
+  Lacuna.Components.Mechanics.Inertia arm(J=J, phi(start=0, fixed=true), w(start=0, fixed=true));
+  Lacuna.Components.Mechanics.SpringDamper spring(c=c, d=d);
+  Lacuna.Components.Mechanics.Fixed fixed;
+  MORE
+equation
+  connect(motor.flange, arm.flange_a);
+  connect(arm.flange_b, spring.flange_a);
+  connect(spring.flange_b, fixed.flange);
+  JOINED
+end Arm;
+"""
+ARM_CASE = """title = "arm"
+model = "Arm.mo"
+source = "synthetic"
+[parameters]
+J = 0.01
+c = 1.0
+d = 0.02
+[uncertainty]
+J = 0.05
+c = 0.1
+d = 0.3
+[signals.u]
+role = "input"
+variable = "u"
+unit = "N.m"
+[signals.phi]
+role = "output"
+variable = "arm.phi"
+unit = "rad"
+noise_std = 1e-3
+[recordings]
+fit = ["r1.csv", "r2.csv"]
+validate = ["r3.csv"]
+"""
+
+
+def test_whole_numbers_that_no_start_has_are_stepped_to(tmp_path: Path) -> None:
+    """Cogging of 22 periods a turn, felt within a fraction of one: starts are at 21 and 24."""
+    effect = "Lacuna.Effects.CoggingTorque cogging(amplitude=0.04, periods=22, phase=0.7);"
+    concealing = ARM.replace("MORE", effect).replace("JOINED", "connect(cogging.flange, arm.flange_a);")
+    folder, machine = concealed(tmp_path, "Arm", concealing, ARM.replace("MORE", "").replace("JOINED", ""), ARM_CASE)
+    time, random = np.arange(2000) * 5e-3, np.random.default_rng(3)
+    for k in (1, 2, 3):
+        u = 0.6 * np.sin(1.1 * k * time) + 0.2 * np.sin(4.3 * time + k)
+        errors = {"phi": 1e-3 * random.normal(size=len(time))}
+        record(folder / f"r{k}.csv", machine, time, {"u": u}, {"phi": "arm.phi"}, errors)
+    start = fitted(load(folder), lambda text: None)
+    case, base, library = start.case, start.base, start.case.library()
+    every = enumerate_attachments(case, start.amendment.structure, catalogue.read(library), start.amendment)
+    cogging = next(a for a in every if a.effect.name == "CoggingTorque")
+    assert 22.0 not in cogging.effect.starts["periods"]
+    best = Contest(case, base, start.amendment, [cogging], lambda text: None).naming().best
+    assert best.fit.point[cogging.full_name("periods")] == 22.0
+    assert best.fit.point[cogging.full_name("amplitude")] == pytest.approx(0.04, rel=0.02)
