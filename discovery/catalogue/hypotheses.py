@@ -164,12 +164,14 @@ def _on_sensors(case: Case, structure: Structure, effect: Effect) -> list[Attach
 def _recorded_beside(
     case: Case, sensor: Signal, effect: Effect
 ) -> list[tuple[list[str], tuple[tuple[str, str], ...]]]:  # fmt: skip
-    """(columns, the effect's inputs) of what an error of a sensor may be of: each other variable of its unit that is
-    recorded."""
+    """(columns, the effect's inputs) of what an error of a sensor may be of: each other output of its unit, or, where
+    the effect asks for a unit, each other variable of that which is recorded."""
     if not effect.signals:
         return [([], ())]
-    others = [s for s in case.outputs if s.model_unit == sensor.model_unit and s.variable != sensor.variable]
-    return [([s.column], tuple((name, s.variable) for name in effect.signals)) for s in others]
+    ((name, asked),) = effect.signals.items()
+    every, unit = (case.outputs, sensor.model_unit) if asked == "recorded" else (case.signals.values(), asked)
+    others = [s for s in every if s.model_unit == unit and s.variable != sensor.variable]
+    return [([s.column], ((name, s.variable),)) for s in others]
 
 
 _PLACES = {

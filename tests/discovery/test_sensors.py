@@ -16,6 +16,7 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.hypotheses import enumerate_attachments
 from lacuna.discovery.explain import explain
 
+from .recorded import concealed, record
 from .test_efforts import BELIEVED, cascade
 
 CART = """model Cart "On a rail, drawn by a force"
@@ -129,6 +130,78 @@ def test_a_sensor_that_shows_a_part_of_another_ones_quantity(tmp_path: Path) -> 
     attachment = finding.ranked.attachment
     assert (attachment.effect.identifier, attachment.location) == ("sensor.crosstalk", "sensor:lower")
     assert found.final.point[attachment.full_name("share")] == pytest.approx(0.05, rel=0.05)
+
+
+WARM_TANK = """model Tank "What flows out is thinner when it is warm"
+  parameter Real A(unit="m2", min=0) = 0.01;
+  parameter Real k(unit="m2/s", min=0) = 3e-4;
+  input Real q(unit="m3/s");
+  input Real T(unit="K");
+  Real h(unit="m", start=0.2, fixed=true);
+  Real out(unit="m3/s");
+  SHOWN
+equation
+  out = k*h*(1 + 0.01*(T - 293));
+  A*der(h) = q - out;
+end Tank;
+"""
+WARM_CASE = """model = "Tank.mo"
+[parameters]
+A = 0.01
+k = 3e-4
+[uncertainty]
+A = 0.05
+k = 0.1
+[signals.q]
+role = "input"
+variable = "q"
+unit = "m3/s"
+[signals.T]
+role = "input"
+variable = "T"
+unit = "K"
+[signals.h]
+role = "output"
+variable = "h"
+unit = "m"
+noise_std = 0.0005
+[signals.out]
+role = "output"
+variable = "out"
+unit = "m3/s"
+noise_std = 1e-7
+[recordings]
+fit = ["r1.csv", "r2.csv"]
+validate = ["r3.csv"]
+"""
+
+
+@pytest.mark.parametrize(
+    ("shown", "effect", "slope"),
+    [
+        ("out*(1 + 0.002*(T - 293))", "SensorSpanOverTemperature", 0.002),
+        ("out + 4e-8*(T - 293)", "SensorZeroOverTemperature", 4e-8),
+    ],
+)
+def test_a_sensor_whose_scale_or_zero_follows_a_temperature(
+    tmp_path: Path, shown: str, effect: str, slope: float
+) -> None:
+    machine = WARM_TANK.replace("SHOWN", f'Real shown(unit="m3/s") = {shown};')
+    folder, tank = concealed(tmp_path, "Tank", machine, WARM_TANK.replace("SHOWN", ""), WARM_CASE)
+    time, random = np.arange(400) * 1.0, np.random.default_rng(5)
+    for k in (1, 2, 3):
+        inputs = {
+            "q": 6e-5 * (1 + 0.8 * np.sign(np.sin(0.05 * k * time + k))),
+            "T": 293 + 12 * np.sin(0.021 * time + 2 * k),
+        }
+        errors = {"h": 5e-4 * random.normal(size=len(time)), "out": 1e-7 * random.normal(size=len(time))}
+        record(folder / f"r{k}.csv", tank, time, inputs, {"h": "h", "out": "shown"}, errors)
+    found = explain(load(folder))
+    assert found.verdict == "missing_physics", found.reason
+    (finding,) = found.findings
+    attachment = finding.ranked.attachment
+    assert (attachment.effect.name, attachment.location) == (effect, "sensor:out")
+    assert found.final.point[attachment.full_name("slope")] == pytest.approx(slope, rel=0.05)
 
 
 def test_errors_that_are_of_several_other_sensors_have_names_of_their_own(tmp_path: Path) -> None:

@@ -1,0 +1,12 @@
+within Lacuna.Effects;
+block SensorZeroOverTemperature "Sensor whose zero follows a recorded temperature"
+  extends Lacuna.Interfaces.SISO;
+  Lacuna.Interfaces.RealInput temperature(unit="K") "Of what is around the sensor";
+  parameter Real offset = 0 "Reading at zero, at zero temperature";
+  parameter Real slope = 0 "Of the zero over the temperature, per kelvin";
+equation
+  y = u + offset + slope*temperature;
+  annotation(__Lacuna(effect="sensor.temperature", attaches="sensor", neutral(offset=0, slope=0), signals(temperature="K"),
+    signature="difference in one signal in proportion to a temperature",
+    excitation="several temperatures", reference="IEC 60770-1"));
+end SensorZeroOverTemperature;
