@@ -44,7 +44,10 @@ def main() -> int:
         if time.monotonic() > end:
             return "left for the next call"
         if not (out / "truth" / f"{name}.toml").exists():
-            generate(next(c for c in cases if c[0] == name), out)
+            try:
+                generate(next(c for c in cases if c[0] == name), out)
+            except ValueError as reason:
+                return f"cannot be drawn: {reason}"
         if arguments.prepare:
             return "prepared"
         if tool_hash() != version:
