@@ -17,7 +17,7 @@ from lacuna.discovery.efforts.find import WORTH, Found, add_laws, alike_first, p
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.fit.evidence import FAR, like_noise, nearly_noise, within_instruments
 from lacuna.discovery.law.beyond import margin
-from lacuna.discovery.law.together.pairs import Place, is_short, paired, two_places
+from lacuna.discovery.law.together.pairs import Place, is_family, is_short, paired, two_places
 from lacuna.discovery.law.together.several import among_sensors, apart, go_on, simplify, take_if_less
 from lacuna.discovery.law.together.unheard import beside_error, to_be_left_out
 from lacuna.discovery.naming.comparison import (
@@ -121,7 +121,8 @@ def _beside_error(
     if not found.sites or not _is_left(search, found):
         return False
     told = pair[1].log if pair else found.null + max(s.gain for s in found.sites)
-    sensor = to_be_left_out(found, told, progress)
+    several = pair is None or any(is_family(p.site) for p in pair)
+    sensor = to_be_left_out(found, told, progress, lambda site: several or not is_family(site))
     trial = sensor and beside_error(unbegun, sensor, library, progress)
     return trial is not None and take_if_less(search, trial, unbegun.fit) and within_instruments(search.fit)
 

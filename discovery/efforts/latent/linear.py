@@ -12,6 +12,8 @@ from contextlib import suppress
 from functools import cached_property
 
 import numpy as np
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import maximum_bipartite_matching
 
 from lacuna.codegen import flat
 from lacuna.codegen.compile import translate
@@ -84,7 +86,7 @@ class Linear:
             right = [table(self._by_state, states, course, block), table(self._by_column, columns, course, block)]
             right = np.concatenate(right, axis=2)
             answer = -np.linalg.solve(matrix, right)
-            answer[:, :, acting] = _without_rounding(answer[:, :, acting], matrix, right[:, :, acting])
+            answer[:, :, acting] = _without_rounding(answer[:, :, acting], matrix, right[:, :, acting]) * self._reached
             answering |= np.any(answer[:, :, acting] != 0, axis=0)
             answers[block] = answer[:, self._told]
             read[block], feed[block] = self._outputs(answer)
@@ -117,6 +119,23 @@ class Linear:
         """Unknowns whose answers are kept: the rates, and what sampled controllers read."""
         read = read_at_ticks(self.prepared) if self.memory else set()
         return [k for k, u in enumerate(self.unknowns) if k < len(self.states) or _named(u) in read]
+
+    @cached_property
+    def _reached(self) -> np.ndarray:
+        """(u, inputs): which unknowns an input can change at once at all, by what stands in which row: with a row
+        assigned to each unknown, it follows the others that stand there. Elsewhere an answer is rounding."""
+        stands = np.zeros((len(self.unknowns), len(self.unknowns)), bool)
+        enters = np.zeros((len(self.unknowns), len(self.inputs)), bool)
+        for r, (unknowns, columns) in enumerate(zip(self._by_unknown, self._by_column, strict=True)):
+            stands[r, list(unknowns)] = True
+            enters[r, [c for c in columns if c < len(self.inputs)]] = True
+        row_of = maximum_bipartite_matching(csr_matrix(stands), perm_type="row")  # of each unknown
+        if np.any(row_of < 0):
+            raise NotNumeric("its equations cannot be assigned to its unknowns")
+        reached, follows = enters[row_of], csr_matrix(stands[row_of], dtype=np.int32)
+        while np.any(further := (follows @ reached.astype(np.int32) > 0) & ~reached):
+            reached |= further
+        return reached
 
     def _kept(self, name: str) -> str:
         return self.prepared.aliases.get(name, (name, 1))[0]

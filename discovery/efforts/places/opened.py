@@ -54,7 +54,8 @@ class Opened:
 
     def places(self, along: Along) -> list[Place]:
         """Places that have an effect, those alike put together: by what they do where both do something (what varies as
-        a coefficient of a force that is off does nothing)."""
+        a coefficient of a force that is off does nothing). First of those alike the one that changes least at once: its
+        law may be of what the others change (friction in proportion to the force of a gas, in their sum)."""
         effect = self._effect(along)
         direction = _directions(effect)
         groups: list[list[int]] = []
@@ -71,6 +72,8 @@ class Opened:
                     break
             else:
                 groups.append([k])
+        answer = np.count_nonzero(along.answering, axis=0)  # unknowns that each changes at once
+        groups = [sorted(group, key=lambda k: answer[k]) for group in groups]
         found = told_apart([self._place(group, effect) for group in groups])
         return self._with_families(found, groups, effect)
 

@@ -18,7 +18,7 @@ from lacuna.discovery.efforts.instruments import NATS
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
 from lacuna.discovery.efforts.laws.screening import proposals
 from lacuna.discovery.efforts.located import Locator, Site
-from lacuna.discovery.fit.evidence import nearly_noise, pays
+from lacuna.discovery.fit.evidence import LEFT, nearly_noise, pays
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.law.empirical_law import fitted_law, simplified, unmoved
 from lacuna.discovery.law.law import component_of
@@ -105,15 +105,40 @@ def is_short(finding: Finding) -> bool:
 
 
 def paired(found: Found, progress: Progress) -> tuple[Place, Place] | None:
-    """The two places whose efforts together have the most evidence; None where one has as much."""
+    """The two places whose efforts together have the most evidence; None where one has as much. A family has an effort
+    in each of its members: where two places outside of families leave as little, the two it is."""
     sites = simplest(found.sites)
+    best = _paired(found, sites, progress)
+    alone = [s for s in sites if not is_family(s)]
+    if best is None or not alone or not any(is_family(p.site) for p in best):
+        return best
+    fewer = _paired(found, alone, progress, lambda site: not is_family(site))
+    return fewer if fewer is not None and _left(found, fewer) <= LEFT**2 * _left(found, best) else best
+
+
+def is_family(site: Site) -> bool:
+    """Whether a place is several at once, with an effort of its own in each."""
+    return site.place is not None and bool(site.place.sites[0].members)
+
+
+def _left(found: Found, pair: tuple[Place, Place]) -> float:
+    """Share of the misfit that efforts at both places leave."""
+    one, two = pair
+    alone = next(s for s in found.sites if s.location == one.site.location)
+    return (1.0 - alone.explains) * (1.0 - two.site.explains)
+
+
+def _paired(
+    found: Found, sites: list[Site], progress: Progress, among: Callable[[Site], bool] = lambda site: True
+) -> tuple[Place, Place] | None:
+    """The best of these places, and the best beside it, in turn until none moves."""
     if not sites:
         return None
     one = Place(found.locator, sites[0], sites)
     known: set[str] = set()
     while True:
         progress(f"locating beside {one.site.location}")
-        two = _beside(found.locator, one)
+        two = _beside(found.locator, one, among)
         if two is None or two.site.gain < NATS:
             return None
         if two.site.location in known:
@@ -122,10 +147,10 @@ def paired(found: Found, progress: Progress) -> tuple[Place, Place] | None:
         one = two
 
 
-def _beside(locator: Locator, place: Place) -> Place | None:
-    """The best place beside an effort at another one."""
+def _beside(locator: Locator, place: Place, among: Callable[[Site], bool]) -> Place | None:
+    """The best place of some beside an effort at another one."""
     there = locator.beside(place.locator, place.site)
-    sites = simplest([s for s in there.ranked() if s.location != place.site.location])
+    sites = [s for s in simplest([s for s in there.ranked() if s.location != place.site.location]) if among(s)]
     return Place(there, sites[0], sites) if sites else None
 
 

@@ -21,6 +21,7 @@ from lacuna.discovery.case.signals import Signal
 from lacuna.discovery.efforts.find import TRIED, Found, add_laws, places_of, simplest
 from lacuna.discovery.efforts.instruments import NATS
 from lacuna.discovery.efforts.latent.numeric import NotNumeric
+from lacuna.discovery.efforts.located import Site
 from lacuna.discovery.fit.evidence import pays, within_instruments
 from lacuna.discovery.fit.fit import Fit
 from lacuna.discovery.fit.lead import fit_believed
@@ -39,9 +40,12 @@ from lacuna.runtime import SimulationError
 Progress = Callable[[str], None]
 
 
-def to_be_left_out(found: Found, told: float, progress: Progress) -> Signal | None:
-    """Of the sensors whose errors explain most by themselves, the one of which an error beside an effort at a place has
-    the most log evidence, if that is more than what was `told`; None where there is none, or no other sensor."""
+def to_be_left_out(
+    found: Found, told: float, progress: Progress, among: Callable[[Site], bool] = lambda site: True
+) -> Signal | None:
+    """Of the sensors whose errors explain most by themselves, the one of which an error beside an effort at one of some
+    places has the most log evidence, if that is more than what was `told`; None where there is none, or no other
+    sensor."""
     locator = found.locator
     sensors = [s for s in found.sites if s.place is None and s.gain > NATS]
     if locator is None or len(locator.case.outputs) < 2:
@@ -51,7 +55,7 @@ def to_be_left_out(found: Found, told: float, progress: Progress) -> Signal | No
         progress(f"locating beside {site.location}")
         try:
             there = locator.beside(locator, site)
-            efforts = simplest(there.ranked())
+            efforts = [s for s in simplest(there.ranked()) if among(s)]
         except (NotNumeric, SimulationError, np.linalg.LinAlgError):
             continue
         log = there.null + efforts[0].gain if efforts else -np.inf
