@@ -41,6 +41,7 @@ class Variable:
     final: bool = False
     free: bool = False  # a parameter that the initial system is to find: it stands still after the start
     evaluated: bool = False  # a structural parameter: its value is part of the structure, not changeable
+    hidden: bool = False  # protected in a component: the model does not see it, nor does one that extends that
 
 
 @dataclass

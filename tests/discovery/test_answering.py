@@ -84,3 +84,28 @@ def test_a_law_may_be_of_what_stands_upstream_of_the_effort(tmp_path: Path) -> N
     assert changed == {"f", "der(w)", "der(v)"}
     regression, _ = offered_at(locator, site.place, locator.guided(site))
     assert {"gas", "vy", "y"} <= {v.reading for v in regression.place.variables}
+
+
+def test_what_is_protected_in_a_component_is_no_variable_of_a_law(tmp_path: Path) -> None:
+    """No amended model could read it."""
+    protected = (
+        LEG.replace("model Leg", "model Strut").replace("end Leg;", "end Strut;").replace("  input Real u", "  Real u")
+    )
+    protected = protected.replace("  Real gas", "protected\n  Real gas")
+    outer = 'model Leg\n  input Real u(unit="N");\n  Strut strut(u=u);\nend Leg;\n'
+    case = CASE.replace('"Leg.mo"', '"Leg.mo:Leg"').replace('"y"\nunit', '"strut.y"\nunit')
+    case = case.replace('"upper"\nunit', '"strut.upper"\nunit').replace("\nd = ", '\n"strut.d" = ')
+    case = case.replace("\nM = ", '\n"strut.M" = ').replace("\nm = ", '\n"strut.m" = ')
+    text = protected.replace("RUBS", "") + outer
+    folder, machine = concealed(tmp_path, "Leg", text, text, case, cls="Leg")
+    time = np.arange(300) * 5e-3
+    for k in (1, 2, 3):
+        u = 9000 * np.sin(3.0 * k * time) + 6000
+        record(folder / f"r{k}.csv", machine, time, {"u": u}, {"y": "strut.y", "upper": "strut.upper"},
+               {n: 1e-4 * np.cos(np.arange(300) + k) for n in ("y", "upper")})  # fmt: skip
+    start = fitted(load(folder), lambda text: None)
+    found = places_of(start.case, start.amendment, start.base, start.case.library())
+    site = next(s for s in found.sites if s.place is not None)
+    regression, _ = offered_at(found.locator, site.place, found.locator.guided(site))
+    read = {v.reading for v in regression.place.variables}
+    assert "strut.y" in read and not any("strut.gas" in r or "strut.f" in r for r in read)

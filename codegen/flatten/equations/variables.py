@@ -80,6 +80,15 @@ def _note_places(leaf: Leaf, name: str) -> None:
     places |= {(name, key): child.span for key, child in leaf.modifier.children.items()}
 
 
+def _is_hidden(leaf: Leaf) -> bool:
+    declaration, owner = leaf.declaration, leaf.instance
+    while owner is not None and owner.name and declaration is not None:
+        if declaration.protected:
+            return True
+        declaration, owner = owner.declaration, owner.parent
+    return False
+
+
 def _variable(leaf: Leaf, position: int, attributes: dict[str, Expr | str]) -> flat.Variable:
     context, span, name = leaf.instance.context, leaf.span, leaf.names[position]
     result = flat.Variable(
@@ -91,6 +100,7 @@ def _variable(leaf: Leaf, position: int, attributes: dict[str, Expr | str]) -> f
         fixed=leaf.fixed[position],
         final=leaf.modifier.final,
         evaluated=leaf.is_structural and not leaf.is_free and _is_evaluated(leaf.declaration.annotation),
+        hidden=_is_hidden(leaf),
     )
     for key in _NUMERIC:
         if key in attributes:

@@ -230,3 +230,13 @@ def test_independent_findings_come_together(tmp_path: Path) -> None:
         flatten_text(tmp_path, text)
     codes = [refused.value.code, *(other.code for other in refused.value.others)]
     assert codes == ["R002", "R036", "R002", "R020"]
+
+
+def test_what_is_protected_in_components_is_hidden_and_what_is_in_the_model_itself_is_not(tmp_path: Path) -> None:
+    text = """
+    model Inner Real seen = time; protected Real kept = 2*time; end Inner;
+    model Middle Inner open; Inner all[2]; protected Inner shut; end Middle;
+    model M Middle part; protected Middle own; Real plain = time; end M;"""
+    hidden = {name for name, v in flatten_text(tmp_path, text).variables.items() if v.hidden}
+    inside = {"open.kept", "all[1].kept", "all[2].kept", "shut.seen", "shut.kept"}
+    assert hidden == {f"{middle}.{name}" for middle in ("part", "own") for name in inside}
