@@ -58,11 +58,12 @@ class _Recording:
 
 
 class _Case:
-    """What the enumeration asks of a case: its outputs and the interval of its samples."""
+    """What the enumeration asks of a case: what it records and the interval of its samples."""
 
     def __init__(self, bench: str) -> None:
         self.fit = [_Recording()]
         self.outputs = [Signal(n, "output", n, u, u, 1.0) for n, u in OUTPUTS[bench].items()]
+        self.signals = {s.column: s for s in self.outputs}
 
 
 @pytest.fixture(scope="module")
