@@ -77,10 +77,11 @@ def _value_of(name: str, context: Context, span: Span, what: str) -> Expr:
             value = leaf.element(leaf.attribute("start"), position)
         if value is None:
             raise Diagnostic("F023", f"{what} needs a value of {name}", leaf.span, "give it one: = ...")
-        result = evaluate(value, context, leaf.span, name)
-        if leaf.primitive != ex.REAL and result.type != leaf.primitive:
-            raise Diagnostic("R024", f"{name} is {leaf.primitive}, its value {result.type}", leaf.span,
-                             f"give it a {leaf.primitive}")  # fmt: skip
+        result = evaluate(value, context, leaf.span, name) if isinstance(value, Expr) else None
+        kind = "String" if result is None else result.type
+        if result is None or kind != leaf.primitive != ex.REAL:
+            raise Diagnostic("R024", f"{name} is {leaf.primitive}, its value {kind}", leaf.span,
+                             f"give it a value of type {leaf.primitive}")  # fmt: skip
     finally:
         context.evaluating.pop()
     context.constants[name] = result
