@@ -169,7 +169,8 @@ def _anywhere(result: Explanation) -> list[str]:
     parts.append(_PLACES.format(more=len(result.opened.sites) - len(sites)))
     if closed := result.opened.closed:
         rows = "".join(f"<li>{escape(label)}: {escape(why)}</li>" for label, why in closed)
-        parts.append(f"<details><summary>{len(closed)} places were not looked at</summary><ul>{rows}</ul></details>")
+        count = "1 place was" if len(closed) == 1 else f"{len(closed)} places were"
+        parts.append(f"<details><summary>{count} not looked at</summary><ul>{rows}</ul></details>")
     return parts
 
 

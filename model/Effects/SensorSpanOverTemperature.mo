@@ -1,5 +1,5 @@
 within Lacuna.Effects;
-block SensorSpanOverTemperature "Sensor whose scale follows a recorded temperature"
+block SensorSpanOverTemperature "Scale error of a sensor that follows a recorded temperature"
   extends Lacuna.Interfaces.SISO;
   Lacuna.Interfaces.RealInput temperature(unit="K") "Of what is around the sensor";
   parameter Real gain = 1 "Scale at zero temperature";

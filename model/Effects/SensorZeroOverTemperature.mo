@@ -1,5 +1,5 @@
 within Lacuna.Effects;
-block SensorZeroOverTemperature "Sensor whose zero follows a recorded temperature"
+block SensorZeroOverTemperature "Zero error of a sensor that follows a recorded temperature"
   extends Lacuna.Interfaces.SISO;
   Lacuna.Interfaces.RealInput temperature(unit="K") "Of what is around the sensor";
   parameter Real offset = 0 "Reading at zero, at zero temperature";
