@@ -79,11 +79,18 @@ def factor_into(declared: str, si: str) -> float:
     if not declared:
         return 1.0
     unit = parse_unit(declared)
-    if _zeros_differ(declared, si) or unit.exponents != parse_unit(si.replace("ohm", "Ohm")).exponents:
+    if _zeros_differ(declared, si) or not same_dimension(declared, si):
         raise UnitError(f"{si} is no {declared}")
     if _cycles_for_angle(declared, si):
         raise UnitError(f"2 pi lie between them (turns a second are rev/s): {si} is no {declared}")
     return 1.0 / (unit.factor or 1.0)
+
+
+def same_dimension(one: str, other: str) -> bool:
+    """Whether two units, as models declare or columns are brought to, are of one quantity; degC counts as K. Raises
+    ValueError for what is no unit."""
+    first, second = (parse_unit(unit.replace("ohm", "Ohm")) for unit in (one, other))
+    return first.exponents == second.exponents
 
 
 def same_unit(model: str, column: str) -> bool:

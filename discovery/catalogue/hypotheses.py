@@ -10,6 +10,7 @@ from lacuna.discovery.catalogue.amend import Amendment
 from lacuna.discovery.catalogue.attachment import Attachment
 from lacuna.discovery.catalogue.catalogue import Effect
 from lacuna.discovery.catalogue.places import Line, Shaft, Structure
+from lacuna.recorded_units import same_dimension
 
 FINER = 4  # times, that an effect which samples inside a loop may do so between the recordings' samples
 
@@ -165,13 +166,15 @@ def _recorded_beside(
     case: Case, sensor: Signal, effect: Effect
 ) -> list[tuple[list[str], tuple[tuple[str, str], ...]]]:  # fmt: skip
     """(columns, the effect's inputs) of what an error of a sensor may be of: each other output of its unit, or, where
-    the effect asks for a unit, each other variable of that which is recorded."""
+    the effect names a unit, each other variable of that quantity which is recorded."""
     if not effect.signals:
         return [([], ())]
     ((name, asked),) = effect.signals.items()
-    every, unit = (case.outputs, sensor.model_unit) if asked == "recorded" else (case.signals.values(), asked)
-    others = [s for s in every if s.model_unit == unit and s.variable != sensor.variable]
-    return [([s.column], ((name, s.variable),)) for s in others]
+    if asked == "recorded":
+        alike = [s for s in case.outputs if s.model_unit == sensor.model_unit]
+    else:
+        alike = [s for s in case.signals.values() if same_dimension(s.model_unit, asked)]
+    return [([s.column], ((name, s.variable),)) for s in alike if s.variable != sensor.variable]
 
 
 _PLACES = {

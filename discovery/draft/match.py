@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import re
 
 from lacuna.analysis.recording.heads import Head
-from lacuna.recorded_units import to_si
+from lacuna.recorded_units import same_dimension, to_si
 from lacuna.suggest import distance
-from lacuna.units import parse_unit
 
 
 @dataclass(frozen=True)
@@ -60,7 +59,7 @@ SAME_NAME = 2.0  # the names are the same, whatever the case; above it only what
 
 def likeness(head: Head, target: Target) -> float:
     """0 where the units contradict; 2 and more for the same name, 1 to 2 for a like one, below 1 for the unit alone."""
-    if head.unit is not None and not _same_dimension(head.unit, target.unit):
+    if head.unit is not None and not _may_be(head.unit, target.unit):
         return 0.0
     # Of two alike the outer one, nearer to what an engineer instruments; inputs before what follows from them.
     tie = 0.1 / (1 + target.name.count(".")) + (0.05 if target.is_input else 0.0)
@@ -91,11 +90,11 @@ def _said(head: Head, target: Target) -> float:
     return 0.8 if names and all(n in words for n in names) else 0.0
 
 
-def _same_dimension(recorded: str, declared: str) -> bool:
+def _may_be(recorded: str, declared: str) -> bool:
     if not declared:
         return True  # a variable without unit makes no claim
     _, si = to_si(recorded)
     try:
-        return parse_unit(si.replace("ohm", "Ohm")).exponents == parse_unit(declared).exponents
+        return same_dimension(si, declared)
     except ValueError:
         return True

@@ -1,9 +1,9 @@
 within Lacuna.Effects;
 block SensorZeroOverTemperature "Zero error of a sensor that follows a recorded temperature"
   extends Lacuna.Interfaces.SISO;
-  Lacuna.Interfaces.RealInput temperature(unit="K") "Of what is around the sensor";
+  Lacuna.Interfaces.RealInput temperature "Of what is around the sensor, in the unit of the model";
   parameter Real offset = 0 "Reading at zero, at zero temperature";
-  parameter Real slope = 0 "Of the zero over the temperature, per kelvin";
+  parameter Real slope = 0 "Of the zero over the temperature, per kelvin where the model has kelvin";
 equation
   y = u + offset + slope*temperature;
   annotation(__Lacuna(effect="sensor.temperature", attaches="sensor", neutral(offset=0, slope=0), signals(temperature="K"),

@@ -13,8 +13,8 @@ beside a device that is moved), <code>sensor</code> (<code>u</code>, <code>y</co
 has).</li>
 <li><code>signals(u=\"motor\")</code>: what drives an input of the effect: the torque of the <code>motor</code>, the
 <code>transmitted</code> torque, the <code>inertia</code> of the shaft; of a sensor each other <code>recorded</code>
-output of its unit, or each recorded variable of the unit that is named; <code>summed(x=\"y\")</code>: input <code>x</code> takes the sum of variable
-<code>y</code> over the phases.</li>
+output of its unit, or each recorded variable of the quantity of the unit that is named; <code>summed(x=\"y\")</code>: input
+<code>x</code> takes the sum of variable <code>y</code> over the phases.</li>
 <li><code>neutral(p=value)</code>: value of the parameter at which the effect vanishes, if there is one.</li>
 <li><code>starts(p={...})</code>: values from which a fit starts; <code>relative(p=\"x\")</code>: in units of the greatest
 value that variable <code>x</code> of the component takes (on their own side of zero, where they begin on both); of a

@@ -177,22 +177,30 @@ validate = ["r3.csv"]
 
 
 @pytest.mark.parametrize(
-    ("shown", "effect", "slope"),
+    ("shown", "effect", "slope", "unit"),
     [
-        ("out*(1 + 0.002*(T - 293))", "SensorSpanOverTemperature", 0.002),
-        ("out + 4e-8*(T - 293)", "SensorZeroOverTemperature", 4e-8),
+        ("out*(1 + 0.002*(T - 293))", "SensorSpanOverTemperature", 0.002, "K"),
+        ("out*(1 + 0.002*(T - 293))", "SensorSpanOverTemperature", 0.002, "degC"),
+        ("out + 4e-8*(T - 293)", "SensorZeroOverTemperature", 4e-8, "K"),
+        ("out + 4e-8*(T - 293)", "SensorZeroOverTemperature", 4e-8, "degC"),
     ],
 )
 def test_a_sensor_whose_scale_or_zero_follows_a_temperature(
-    tmp_path: Path, shown: str, effect: str, slope: float
+    tmp_path: Path, shown: str, effect: str, slope: float, unit: str
 ) -> None:
+    """In kelvin, and the same machine in degrees Celsius, whose 20 are taken for 293."""
     machine = WARM_TANK.replace("SHOWN", f'Real shown(unit="m3/s") = {shown};')
-    folder, tank = concealed(tmp_path, "Tank", machine, WARM_TANK.replace("SHOWN", ""), WARM_CASE)
+    zero = {"K": 293, "degC": 20}[unit]
+    machine, believed, told = (
+        text.replace("293", str(zero)).replace('"K"', f'"{unit}"')
+        for text in (machine, WARM_TANK.replace("SHOWN", ""), WARM_CASE)
+    )
+    folder, tank = concealed(tmp_path, "Tank", machine, believed, told)
     time, random = np.arange(400) * 1.0, np.random.default_rng(5)
     for k in (1, 2, 3):
         inputs = {
             "q": 6e-5 * (1 + 0.8 * np.sign(np.sin(0.05 * k * time + k))),
-            "T": 293 + 12 * np.sin(0.021 * time + 2 * k),
+            "T": zero + 12 * np.sin(0.021 * time + 2 * k),
         }
         errors = {"h": 5e-4 * random.normal(size=len(time)), "out": 1e-7 * random.normal(size=len(time))}
         record(folder / f"r{k}.csv", tank, time, inputs, {"h": "h", "out": "shown"}, errors)

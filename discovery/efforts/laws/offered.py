@@ -27,8 +27,7 @@ def offered_at(locator: Locator, place: Place, guided: Guided) -> tuple[Regressi
     along, members = [p.along for p in guided.pieces], place.sites[0].members
     answering = _answering(locator, along[0], place.columns[0])
     added, known = locator.base.machine.amendment.adds, locator.base.machine.model.variables
-    hidden = {n for n, v in locator.opened.believed.declared.variables.items() if v.hidden}
-    hidden |= {f"der({n})" for n in hidden}
+    hidden = locator.opened.hidden
     near = re.sub(r"^der\((.*)\)$", r"\1", members[0]) if members else place.location
     seen = [_of_all(a, members) for a in along] if members else along
     found = variables(seen, near, known, locator.opened.linear.states, answering, lambda n: added(n) or n in hidden)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -51,6 +52,12 @@ class Opened:
     sites: list[Site]
     closed: list[tuple[str, str]]
     believed: Prepared  # without inputs, whose equations are as they were written
+
+    @cached_property
+    def hidden(self) -> frozenset[str]:
+        """Variables and rates that no amended model can read: what is protected in components."""
+        names = [n for n, v in self.believed.declared.variables.items() if v.hidden]
+        return frozenset([*names, *(f"der({n})" for n in names)])
 
     def places(self, along: Along) -> list[Place]:
         """Places that have an effect, those alike put together: by what they do where both do something (what varies as

@@ -8,7 +8,6 @@ from dataclasses import replace
 from pathlib import Path
 import re
 
-from lacuna.codegen.errors import Span
 from lacuna.codegen.flatten.classes.inheritance import written
 from lacuna.codegen.flatten.classes.instance import ArrayNode, Instance, Node
 from lacuna.codegen.flatten.classes.types import resolve_type
@@ -81,25 +80,26 @@ class _Reading:
         parts = child.items if isinstance(child, ArrayNode) else [child]
         if not parts or not _is_made_of(parts[0]) or child.name != node.path_of(name):
             return
-        cls = parts[0].cls
-        if not _is_own(cls, self.top.cls):
+        if not _is_own(parts[0].cls, self.top.cls):
             if any(isinstance(i, ast.Connect) for section, _ in parts[0].sections for i in _flat(section.items)):
                 self.closed.append((child.name, LIBRARY))
-        elif (named := self._named(node, name)) is None or {
-            c.origin or c for c in (named[1], *(p.cls for p in parts))
-        } != {cls.origin or cls}:
+        elif (named := self._named(node, name)) is None or any(
+            _as_written(p.cls) is not _as_written(named[1].cls) for p in parts
+        ):
             self.closed.append((child.name, ELSEWHERE))
         elif len(parts) > MOST:
             self.closed.append((child.name, MANY))
         else:
-            shape = child.shape if isinstance(child, ArrayNode) else ()
-            for part, index in zip(parts, indices(tuple(shape)), strict=True):
-                self.enter(part, _onward(*named, name, tuple(index), tuple(shape)))
+            way, step = named
+            shape = tuple(child.shape) if isinstance(child, ArrayNode) else ()
+            for part, index in zip(parts, indices(shape), strict=True):
+                one = replace(step, element=(*step.element, *index), shape=(*step.shape, *shape))
+                self.enter(part, (*way, one))
 
-    def _named(self, node: Instance, name: str) -> tuple[Way, ast.Class, Span, Way] | None:
-        """Where the class of a component is named, in its declaration or in a modification that redeclares it: (way to
-        the class in whose text that is, class, where it is named there, way on from there to `node`). None where that
-        text is not one of the user's own."""
+    def _named(self, node: Instance, name: str) -> tuple[Way, Step] | None:
+        """(way to the class in whose text the class of a component is named, in its declaration or in a modification
+        that redeclares it; the step from there to the component, past those in between). None where that text is not
+        one of the user's own."""
         element = node.elements[name]
         declaration, scope = element.declaration, Scope(node.context, element.cls, node)
         if element.modifier is not None and isinstance(element.modifier.redeclare, ast.Component):
@@ -108,23 +108,20 @@ class _Reading:
         above = self.joined.ways.get(owner, ())
         if scope.cls not in self.bases.get(owner, {}) or way[: len(above)] != above:
             return None
-        cls = resolve_type(declaration.type, scope).cls
-        return (*above, *self.bases[owner][scope.cls]), cls, declaration.type.span, way[len(above) :]
+        between = [step for step in way[len(above) :] if step.component]
+        cls, component = resolve_type(declaration.type, scope).cls, [*(step.component for step in between), name]
+        element, shape = (sum(of, ()) for of in ([s.element for s in between], [s.shape for s in between]))
+        step = Step(cls, declaration.type.span, ".".join(component), element, shape)
+        return (*above, *self.bases[owner][scope.cls]), step
+
+
+def _as_written(cls: ast.Class) -> ast.Class:
+    """A class whatever is redeclared in it: its text is the same."""
+    return cls.origin or cls
 
 
 def _is_made_of(node: Node | None) -> bool:
     return isinstance(node, Instance) and node.cls.kind in ("model", "block", "class")
-
-
-def _onward(
-    text: Way, cls: ast.Class, span: Span, between: Way, name: str, index: tuple[int, ...], shape: tuple[int, ...]
-) -> Way:
-    """The way to the class in whose text a component's class is named, and from there to an element of it at once, past
-    the components in between."""
-    passed = [step for step in between if step.component]
-    component = ".".join([*(step.component for step in passed), name])
-    element, size = (sum(of, ()) for of in ([s.element for s in passed], [s.shape for s in passed]))
-    return (*text, Step(cls, span, component, (*element, *index), (*size, *shape)))
 
 
 def _equations(section: ast.Section) -> list[ast.Item]:
